@@ -1,0 +1,184 @@
+"""Compiled kernels, cached on disk under a name made from the package's own sources.
+
+Numba recompiles a function when the file it stands in changes, but not when a function it calls
+from another file does: it would answer with yesterday's code. Here any change to any source of the
+package, to Numba or to NumPy leads to another cache folder.
+"""
+
+import contextlib
+import functools
+import hashlib
+import os
+import pickle
+import re
+import secrets
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, TypeVar, overload
+
+import llvmlite.binding
+import numba
+import numpy as np
+from numba.core import caching
+
+_PACKAGE = Path(__file__).parent
+_KEPT_DAYS = 30
+_DIGEST_BYTES = 32
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@functools.cache
+def source_hash(root: Path = _PACKAGE) -> str:
+    """Return a hash of every Python source under a folder, of Numba, NumPy and this processor."""
+    digest = hashlib.sha256()
+    for part in (numba.__version__, np.__version__, llvmlite.binding.get_host_cpu_name()):
+        digest.update(part.encode() + b"\0")
+    for path in sorted(root.rglob("*.py")):
+        content = path.read_bytes()
+        digest.update(f"{path.relative_to(root).as_posix()}\0{len(content)}\0".encode() + content)
+    return digest.hexdigest()[:16]
+
+
+def cache_folder(name: str) -> Path | None:
+    """Return a writable folder for things that can be made again, or None where there is none.
+
+    It stands in ``asperity/<name>`` under the folder the environment variable ``ASPERITY_CACHE``
+    names, else under ``XDG_CACHE_HOME``, else under ``~/.cache``.
+    """
+    base = os.environ.get("ASPERITY_CACHE") or os.environ.get("XDG_CACHE_HOME")
+    try:
+        folder = (Path(base) if base else Path.home() / ".cache") / "asperity" / name
+        folder.mkdir(parents=True, exist_ok=True)
+        # Permission bits do not tell about read-only file systems, so write and see.
+        probe = folder / f".probe-{secrets.token_hex(6)}"
+        probe.touch()
+        probe.unlink()
+    except (OSError, RuntimeError, ValueError):
+        return None
+    return folder.absolute()
+
+
+@functools.cache
+def _kernel_folder(base: str | None, xdg: str | None, version: str) -> Path | None:
+    # The arguments are what the answer depends on; they make it once per process and setting.
+    folder = cache_folder(f"kernels/{version}")
+    if folder is not None:
+        with contextlib.suppress(OSError):
+            os.utime(folder)
+            _remove_old(folder.parent, keep=folder)
+    return folder
+
+
+def _remove_old(kernels: Path, *, keep: Path) -> None:
+    oldest = time.time() - _KEPT_DAYS * 86400
+    for folder in kernels.iterdir():
+        is_ours = re.fullmatch(r"[0-9a-f]{16}", folder.name) and folder != keep
+        if is_ours and folder.stat().st_mtime < oldest:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+class _DigestedFile(caching.IndexDataCacheFile):  # type: ignore[misc]
+    """Machine code with a digest behind it, since a damaged file may load and answer wrongly."""
+
+    def _dump(self, obj: object) -> bytes:
+        data: bytes = super()._dump(obj)
+        return data + hashlib.sha256(data).digest()
+
+    def _load_data(self, name: str) -> Any:
+        stored = Path(self._data_path(name)).read_bytes()
+        data, digest = stored[:-_DIGEST_BYTES], stored[-_DIGEST_BYTES:]
+        if hashlib.sha256(data).digest() != digest:
+            raise pickle.UnpicklingError(f"{name} is damaged")
+        return pickle.loads(data)
+
+
+class _FolderImpl(caching.CompileResultCacheImpl):  # type: ignore[misc]
+    # Otherwise Numba may fall back to writing next to the sources.
+    _locator_classes = [caching.UserProvidedCacheLocator]
+
+
+class _ForgivingCache(caching.FunctionCache):  # type: ignore[misc]
+    """A cache whose trouble costs a compilation and never an exception."""
+
+    _impl_class = _FolderImpl
+
+    def __init__(self, py_func: Callable[..., Any]) -> None:
+        super().__init__(py_func)
+        self._cache_file = _DigestedFile(
+            cache_path=self._cache_path,
+            filename_base=self._impl.filename_base,
+            source_stamp=self._impl.locator.get_source_stamp(),
+        )
+
+    def load_overload(self, sig: object, target_context: object) -> Any:
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:
+            # What a damaged file raises depends on the byte: unpickling can raise anything.
+            with contextlib.suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, sig: object, data: object) -> None:
+        with contextlib.suppress(OSError, EOFError, pickle.PickleError):
+            super().save_overload(sig, data)
+
+
+@contextlib.contextmanager
+def _numba_cache_in(folder: Path) -> Iterator[None]:
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)
+    try:
+        yield
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+def _enable_cache(dispatcher: Any) -> None:
+    environment = os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME")
+    folder = _kernel_folder(*environment, source_hash())
+    if folder is None:
+        return
+    # RuntimeError: a function without a source file, such as one typed at a prompt.
+    with _numba_cache_in(folder), contextlib.suppress(OSError, RuntimeError):
+        dispatcher._cache = _ForgivingCache(dispatcher.py_func)
+
+
+@overload
+def kernel(function: F, /) -> F: ...
+@overload
+def kernel(*, fastmath: bool | set[str] = ..., inline: str = ...) -> Callable[[F], F]: ...
+def kernel(
+    function: F | None = None, /, *, fastmath: bool | set[str] = False, inline: str = "never"
+) -> F | Callable[[F], F]:
+    """Compile a function of floats and arrays, without the interpreter's lock.
+
+    A division by zero follows the floating-point rules instead of raising.
+
+    Parameters
+    ----------
+    function : callable
+        The function; left out when the decorator is given options.
+    fastmath : bool or set of str
+        Floating-point rules that may be broken for speed, as in :func:`numba.njit`.
+    inline : {'never', 'always'}
+        Whether the function is copied into its callers, as in :func:`numba.njit`.
+
+    Returns
+    -------
+    callable
+        The compiled function, cached on disk where there is a writable folder.
+    """
+
+    def decorate(plain: F) -> F:
+        options: dict[str, Any] = {"fastmath": fastmath, "inline": inline}
+        dispatcher: Any = numba.njit(nogil=True, error_model="numpy", **options)(plain)
+        if not numba.config.DISABLE_JIT:
+            _enable_cache(dispatcher)
+        compiled: F = dispatcher
+        return compiled
+
+    return decorate if function is None else decorate(function)

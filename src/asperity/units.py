@@ -1,0 +1,265 @@
+"""Units at the edge: text with a unit comes in, floats in SI go on.
+
+Inside the package every quantity is a plain float in SI units; an angle is in radians and a
+frequency in cycles per second. Angles have a dimension of their own here, so that ``45 deg`` is
+not taken for a ratio, nor ``4 kHz`` for an angular speed.
+"""
+
+import dataclasses
+import functools
+import math
+import numbers
+import re
+import typing
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from asperity.errors import InputError
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel, GetCoreSchemaHandler, ValidationInfo
+    from pydantic_core import CoreSchema
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?(?![0-9.])")
+_UNIT = re.compile(r"[A-Za-z\u00b5\u03bc\u00b0%\u00b7\u00b2\u00b3*/^() 0-9-]{0,60}")
+_PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
+
+# A list of our own, because the one that ships with pint has no dimension for the angle, and
+# takes ten times as long to load.
+_DEFINITIONS = """
+pico- = 1e-12 = p-
+nano- = 1e-9 = n-
+micro- = 1e-6 = \u00b5- = \u03bc- = u-
+milli- = 1e-3 = m-
+centi- = 1e-2 = c-
+deci- = 1e-1 = d-
+hecto- = 1e2 = h-
+kilo- = 1e3 = k-
+mega- = 1e6 = M-
+giga- = 1e9 = G-
+meter = [length] = m = metre
+second = [time] = s = sec
+gram = [mass] = g
+kelvin = [temperature]; offset: 0 = K
+ampere = [current] = A
+radian = [angle] = rad
+percent = 0.01 = %
+degree = 3.14159265358979323846264338327950288 / 180 * radian = deg = \u00b0
+arcminute = degree / 60 = arcmin
+turn = 360 * degree = rev = revolution
+minute = 60 * second = min
+hour = 60 * minute = h
+hertz = 1 / second = Hz
+rpm = turn / minute
+newton = kilogram * meter / second ** 2 = N
+newton_meter = newton * meter = Nm
+pascal = newton / meter ** 2 = Pa
+bar = 1e5 * pascal
+joule = newton * meter = J
+watt = joule / second = W
+volt = watt / ampere = V
+ohm = volt / ampere
+farad = ampere * second / volt = F
+tonne = 1000 * kilogram = t
+liter = 1e-3 * meter ** 3 = l = L
+poise = 0.1 * pascal * second = P
+stokes = 1e-4 * meter ** 2 / second = St
+degree_Celsius = kelvin; offset: 273.15 = \u00b0C = degC
+standard_gravity = 9.80665 * meter / second ** 2 = g_n
+inch = 0.0254 * meter = in
+foot = 12 * inch = ft
+pound = 0.45359237 * kilogram = lb
+pound_force = pound * standard_gravity = lbf
+psi = pound_force / inch ** 2
+horsepower = 550 * foot * pound_force / second = hp
+"""
+
+
+@functools.cache
+def _registry() -> Any:
+    from decimal import Decimal
+
+    import pint
+
+    # Decimals make the result the float nearest to what was written: 1 us is 1e-6 exactly.
+    registry: Any = pint.UnitRegistry(None, non_int_type=Decimal)
+    registry.load_definitions(_DEFINITIONS.splitlines())
+    registry._build_cache()
+    return registry
+
+
+def split_unit(text: str) -> tuple[str, str] | None:
+    """Split ``"0.5 mm/s"`` into ``("0.5", "mm/s")``; None if it does not begin with a number."""
+    text = text.strip()
+    number = _NUMBER.match(text)
+    return (number.group(), text[number.end() :].strip()) if number else None
+
+
+@functools.lru_cache(maxsize=512)
+def _convert(number: str, given: str, unit: str) -> float:
+    from decimal import Decimal
+
+    import pint
+
+    if not _UNIT.fullmatch(given):
+        raise InputError(f"{given!r} is not a unit")
+    text = _PLAIN_POWER.sub(r"**\1", given.replace("\u00b0C", "degC"))
+    registry = _registry()
+    try:
+        quantity = registry.Quantity(Decimal(number), registry.parse_units(text))
+        return float(quantity.to(unit).magnitude)
+    except pint.DimensionalityError:
+        raise InputError(f"{given!r} does not convert to {unit or 'a plain number'}") from None
+    except Exception:
+        # pint hands the text to a tokenizer and an expression parser, each with errors of its own.
+        raise InputError(f"{given!r} is not a unit") from None
+
+
+def _from_text(text: str, unit: str, bare: str | None) -> float:
+    parts = split_unit(text)
+    if parts is None:
+        raise InputError(f"{text!r} is not a number{' with a unit' if unit else ''}")
+    number, given = parts
+    if given or not unit:
+        return _convert(number, given, unit) if given else float(number)
+    if bare is None or bare == "refuse":
+        raise InputError(f"{text!r} has no unit; give one that converts to {unit}")
+    return _convert(number, bare, unit)
+
+
+def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
+    """Return a quantity as a float in SI units.
+
+    Parameters
+    ----------
+    value : str or float
+        Text such as ``"0.5 mm/s"``, or a number.
+    unit : str
+        SI unit of the result: ``"m/s"``; ``"rad"`` for an angle, ``"Hz"`` for cycles per second,
+        ``"K"`` for an absolute temperature, ``""`` for a ratio.
+    bare : str, optional
+        What a number without unit means: SI (None, numbers only: text still needs its unit),
+        a quantity in this unit, or a mistake (``"refuse"``). A ratio is always a bare number.
+
+    Raises
+    ------
+    InputError
+        Wrong dimension, unknown unit, not a number, not finite.
+
+    Examples
+    --------
+    >>> to_si("0.5 mm/s", "m/s")
+    0.0005
+    >>> to_si(180, "rad", bare="deg")
+    3.141592653589793
+    """
+    if isinstance(value, str):
+        result = _from_text(value, unit, bare)
+    elif isinstance(value, numbers.Real) and not isinstance(value, bool):
+        try:
+            result = float(value)
+        except OverflowError:
+            raise InputError(f"{str(value)[:20]}... is too large") from None
+        if unit and bare == "refuse":
+            raise InputError(f"{value!r} has no unit; give one that converts to {unit}")
+        if unit and bare is not None and math.isfinite(result):
+            result = _from_text(repr(result), unit, bare)
+    else:
+        raise InputError(f"{value!r} is not a number{' with a unit' if unit else ''}")
+    if not math.isfinite(result):
+        raise InputError(f"{value!r} is not finite")
+    # Without the sign of a negative zero, equal cases have equal text and so equal cache entries.
+    return result + 0.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Quantity:
+    """Annotation that makes a float field of a pydantic model a quantity with a unit.
+
+    The model takes text with a unit or a number in SI units. With ``{"text_only": True}`` as
+    validation context a quantity that has a unit must be text; a ratio may always be a number.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit of the stored float; ``""`` for a ratio.
+    what : str
+        The quantity with its article, as it reads in a message.
+    example : str
+        A value that would be right.
+    gt, ge, lt, le : float, optional
+        Bounds in SI units: above, at least, below, at most.
+
+    Examples
+    --------
+    >>> from typing import Annotated
+    >>> Velocity = Annotated[float, Quantity("m/s", gt=0)]
+    """
+
+    unit: str
+    what: str = "a velocity"
+    example: str = "0.5 mm/s"
+    gt: float | None = None
+    ge: float | None = None
+    lt: float | None = None
+    le: float | None = None
+
+    def expected(self) -> str:
+        """Return what a right value is, as the end of a message."""
+        return f"it must be {self.what} such as " + (
+            f"'{self.example}'" if self.unit else self.example
+        )
+
+    def bounds(self) -> str:
+        """Return the bounds, as the end of a message."""
+        limits = {"above": self.gt, "at least": self.ge, "below": self.lt, "at most": self.le}
+        given = {word: limit for word, limit in limits.items() if limit is not None}
+        if given == {"above": 0}:
+            return "it must be positive"
+        if given == {"at least": 0}:
+            return "it must be zero or positive"
+        texts = [f"{word} {limit:g} {self.unit}".strip() for word, limit in given.items()]
+        return f"it must be {' and '.join(texts)}"
+
+    def check(self, value: object, *, text_only: bool = False) -> float:
+        """Return the value in SI units, or raise InputError saying what it must be."""
+        try:
+            result = to_si(value, self.unit, bare="refuse" if text_only else None)
+        except InputError:
+            raise InputError(self.expected()) from None
+        if (
+            (self.gt is not None and not result > self.gt)
+            or (self.ge is not None and not result >= self.ge)
+            or (self.lt is not None and not result < self.lt)
+            or (self.le is not None and not result <= self.le)
+        ):
+            raise InputError(self.bounds())
+        return result
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: "GetCoreSchemaHandler"
+    ) -> "CoreSchema":
+        from pydantic_core import core_schema
+
+        def validate(value: object, info: "ValidationInfo[Any]") -> float:
+            return self.check(value, text_only=bool(info.context and info.context.get("text_only")))
+
+        return core_schema.with_info_plain_validator_function(validate)
+
+
+def _quantities(annotation: Any) -> Iterator[Quantity]:
+    if isinstance(annotation, Quantity):
+        yield annotation
+    for part in typing.get_args(annotation):
+        yield from _quantities(part)
+
+
+@functools.cache
+def unit_of(model: "type[BaseModel]", field: str) -> str | None:
+    """Return the SI unit of a field of a model; None for an unknown field or one without."""
+    info = model.model_fields.get(field)
+    if info is None:
+        return None
+    found = [item for item in info.metadata if isinstance(item, Quantity)]
+    found += _quantities(info.annotation)
+    return found[0].unit if found else None
