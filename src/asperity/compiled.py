@@ -80,7 +80,7 @@ def _remove_old(kernels: Path, *, keep: Path) -> None:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-class _DigestedFile(caching.IndexDataCacheFile):  # type: ignore[misc]
+class _DigestedFile(caching.IndexDataCacheFile):
     """Machine code with a digest behind it, since a damaged file may load and answer wrongly."""
 
     def _dump(self, obj: object) -> bytes:
@@ -95,12 +95,12 @@ class _DigestedFile(caching.IndexDataCacheFile):  # type: ignore[misc]
         return pickle.loads(data)
 
 
-class _FolderImpl(caching.CompileResultCacheImpl):  # type: ignore[misc]
+class _FolderImpl(caching.CompileResultCacheImpl):
     # Otherwise Numba may fall back to writing next to the sources.
-    _locator_classes = [caching.UserProvidedCacheLocator]
+    _locator_classes = (caching.UserProvidedCacheLocator,)
 
 
-class _ForgivingCache(caching.FunctionCache):  # type: ignore[misc]
+class _ForgivingCache(caching.FunctionCache):
     """A cache whose trouble costs a compilation and never an exception."""
 
     _impl_class = _FolderImpl

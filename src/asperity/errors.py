@@ -55,6 +55,13 @@ def choices(known: Iterable[str]) -> str:
     return ", ".join(f"'{word}'" for word in known)
 
 
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """Return `` (did you mean 'x'?)`` if a known word is near, else nothing."""
+    lowered = {name.lower(): name for name in known}
+    near = difflib.get_close_matches(word.lower(), lowered, n=1)
+    return f" (did you mean '{lowered[near[0]]}'?)" if near else ""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return the end of a message about an unknown word.
 
@@ -71,8 +78,4 @@ def nearest(word: str, known: Iterable[str]) -> str:
         `` (did you mean 'x'?)``, or everything that is allowed where nothing is near.
     """
     allowed = list(known)
-    lowered = {name.lower(): name for name in allowed}
-    near = difflib.get_close_matches(word.lower(), lowered, n=1)
-    if near:
-        return f" (did you mean '{lowered[near[0]]}'?)"
-    return f" (allowed: {choices(allowed)})" if allowed else ""
+    return suggestion(word, allowed) or (f" (allowed: {choices(allowed)})" if allowed else "")

@@ -153,9 +153,11 @@ def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
     >>> to_si(180, "rad", bare="deg")
     3.141592653589793
     """
+    if isinstance(value, bool) or not isinstance(value, str | numbers.Real):
+        raise InputError(f"{value!r} is not a number{' with a unit' if unit else ''}")
     if isinstance(value, str):
         result = _from_text(value, unit, bare)
-    elif isinstance(value, numbers.Real) and not isinstance(value, bool):
+    else:
         try:
             result = float(value)
         except OverflowError:
@@ -164,8 +166,6 @@ def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
             raise InputError(f"{value!r} has no unit; give one that converts to {unit}")
         if unit and bare is not None and math.isfinite(result):
             result = _from_text(repr(result), unit, bare)
-    else:
-        raise InputError(f"{value!r} is not a number{' with a unit' if unit else ''}")
     if not math.isfinite(result):
         raise InputError(f"{value!r} is not finite")
     # Without the sign of a negative zero, equal cases have equal text and so equal cache entries.
@@ -255,11 +255,17 @@ def _quantities(annotation: Any) -> Iterator[Quantity]:
 
 
 @functools.cache
-def unit_of(model: "type[BaseModel]", field: str) -> str | None:
-    """Return the SI unit of a field of a model; None for an unknown field or one without."""
+def quantity_of(model: "type[BaseModel]", field: str) -> Quantity | None:
+    """Return the quantity a field of a model is; None for an unknown field or one without."""
     info = model.model_fields.get(field)
     if info is None:
         return None
     found = [item for item in info.metadata if isinstance(item, Quantity)]
     found += _quantities(info.annotation)
-    return found[0].unit if found else None
+    return found[0] if found else None
+
+
+def unit_of(model: "type[BaseModel]", field: str) -> str | None:
+    """Return the SI unit of a field of a model; None for an unknown field or one without."""
+    quantity = quantity_of(model, field)
+    return quantity.unit if quantity else None

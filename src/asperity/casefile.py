@@ -1,0 +1,366 @@
+"""Case files: TOML tables with units as text, read and validated into frozen tables in SI."""
+
+import dataclasses
+import hashlib
+import json
+import numbers
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, ClassVar, Self, TypeVar, overload
+
+import pydantic
+from pydantic_core import ErrorDetails
+
+from asperity.errors import InputError, choices, nearest, suggestion
+from asperity.units import quantity_of, split_unit
+
+Raw = dict[str, dict[str, Any]]
+
+_TEXT_ONLY = {"text_only": True}
+_KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
+
+
+def _shown(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+class Table(pydantic.BaseModel):
+    """Base of the tables of a case file: frozen, no unknown keys, InputError in one line.
+
+    A subclass names its table in `table`. Keys that are forms of the same thing stand together in
+    `alternatives` (at most one is given) or `required_alternatives` (exactly one), and default to
+    None. A check over several keys is a ``model_validator(mode="after")`` that raises ValueError
+    with a whole sentence beginning with ``table.key``. A file name is a field of type
+    :class:`pathlib.Path`, so that :meth:`Case.canonical` follows the file's content.
+    """
+
+    model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
+
+    table: ClassVar[str] = ""
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
+
+    def __init__(self, /, **data: Any) -> None:
+        try:
+            super().__init__(**data)
+        except pydantic.ValidationError as error:
+            raise InputError(self._one_line(error)) from None
+
+    # Pydantic would otherwise take the constructor for part of the validation and lose the
+    # context that says whether bare numbers are allowed.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    @classmethod
+    def model_validate(cls, obj: Any, **options: Any) -> Self:
+        """Validate a mapping of keys to values; raises InputError."""
+        try:
+            return super().model_validate(obj, **options)
+        except pydantic.ValidationError as error:
+            raise InputError(cls._one_line(error)) from None
+
+    @pydantic.model_validator(mode="after")
+    def _one_form(self) -> Self:
+        for group in (*self.alternatives, *self.required_alternatives):
+            given = [f"{self.table}.{key}" for key in group if getattr(self, key) is not None]
+            if len(given) > 1:
+                raise ValueError(f"{' and '.join(given)} are given; keep one of them")
+            if not given and group in self.required_alternatives:
+                raise ValueError(
+                    f"{self.table}.{group[0]} is missing; give one of {choices(group)}"
+                )
+        return self
+
+    @classmethod
+    def _one_line(cls, error: pydantic.ValidationError) -> str:
+        details = error.errors(include_url=False)
+        # A misspelt key also makes the right one missing; the misspelling is the news.
+        first = min(details, key=lambda detail: detail["type"] != "extra_forbidden")
+        return " ".join(cls._sentence(first).split())
+
+    @classmethod
+    def _sentence(cls, detail: ErrorDetails) -> str:
+        cause = detail.get("ctx", {}).get("error")
+        reason = str(cause) if cause is not None else detail["msg"]
+        if not detail["loc"]:
+            return reason
+        field = str(detail["loc"][0])
+        key = f"{cls.table}.{field}"
+        if reason.startswith(f"{key} "):
+            return reason
+        if detail["type"] == "extra_forbidden":
+            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.model_fields)}"
+        if detail["type"] == "missing":
+            quantity = quantity_of(cls, field)
+            return f"{key} is missing" + (f"; {quantity.expected()}" if quantity else "")
+        given = detail["input"]
+        if detail["type"] == "literal_error":
+            allowed = detail["ctx"]["expected"].replace(" or ", ", ")
+            words = re.findall(r"'([^']*)'", allowed)
+            hint = suggestion(given, words) if isinstance(given, str) else ""
+            reason = f"it must be one of {allowed}{hint}"
+        elif cause is None:
+            reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
+        return f"{key} is {_shown(given)}; {reason}"
+
+
+T = TypeVar("T", bound=Table)
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """A validated case.
+
+    Attributes
+    ----------
+    source : str
+        The file or shipped case it was read from, as given.
+    folder : pathlib.Path
+        Where relative file names inside the case start.
+    tables : dict of str to Table
+        The validated tables, in SI.
+    raw : dict of str to dict
+        The same as they would be written in a case file.
+    known : mapping of str to type of Table
+        Every table a case file may have.
+    settings : dict of str to str
+        The setting that gave a ``table.key``, for those that did not come from the file.
+    """
+
+    source: str
+    folder: Path
+    tables: dict[str, Table]
+    raw: Raw
+    known: Mapping[str, type[Table]] = dataclasses.field(repr=False)
+    settings: dict[str, str] = dataclasses.field(default_factory=dict)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.tables
+
+    def __getitem__(self, name: str) -> Table:
+        return self.require(name)
+
+    @overload
+    def require(self, table: str) -> Table: ...
+    @overload
+    def require(self, table: type[T]) -> T: ...
+    def require(self, table: str | type[T]) -> Table | T:
+        """Return a table by name or class; raises InputError if the case does not have it."""
+        name = table if isinstance(table, str) else table.table
+        if name not in self.tables:
+            raise InputError(f"{self.source}: the table [{name}] is missing; add it")
+        return self.tables[name]
+
+    def replace(self, settings: Iterable[str]) -> "Case":
+        """Return the case with ``table.key=value`` settings applied, all validated afterwards."""
+        raw = {name: dict(entries) for name, entries in self.raw.items()}
+        given = dict(self.settings)
+        for setting in settings:
+            given[_apply(raw, setting, self.known)] = " ".join(setting.split())
+        tables = _validate(raw, self.known, self.source, given)
+        return dataclasses.replace(self, tables=tables, raw=raw, settings=given)
+
+    def replace_values(self, values: Mapping[str, object]) -> "Case":
+        """Return the case with values of ``table.key`` replaced, quantities as numbers in SI.
+
+        This is the fast way for many cases: only the tables concerned are validated. None removes
+        a key; one form of the same thing replaces another.
+        """
+        changed: dict[str, dict[str, Any]] = {}
+        raw = dict(self.raw)
+        for path, value in values.items():
+            name, _, key = path.partition(".")
+            model = _known_table(name, self.known, self.source)
+            if name not in changed:
+                old = self.tables.get(name)
+                changed[name] = {k: getattr(old, k) for k in old.model_fields_set} if old else {}
+                raw[name] = dict(raw.get(name, {}))
+            for entries, entry in (
+                (changed[name], value),
+                (raw[name], _as_text(model, key, value)),
+            ):
+                for other in _same_thing(model, key):
+                    entries.pop(other, None)
+                if value is not None:
+                    entries[key] = entry
+        tables = dict(self.tables)
+        for name, entries in changed.items():
+            try:
+                tables[name] = self.known[name].model_validate(entries)
+            except InputError as error:
+                raise InputError(f"{self.source}: {error}") from None
+        return dataclasses.replace(self, tables=tables, raw=raw)
+
+    def canonical(self) -> str:
+        """Return all values in SI, and the content of the files they name, as one fixed text.
+
+        Cases that calculate the same have the same text, however they are written.
+        """
+        dumped = {name: table.model_dump(mode="json") for name, table in self.tables.items()}
+        for name, table in self.tables.items():
+            for key, value in table:
+                if isinstance(value, Path) and (self.folder / value).is_file():
+                    content = (self.folder / value).read_bytes()
+                    dumped[name][key] = f"sha256:{hashlib.sha256(content).hexdigest()}"
+        return json.dumps(dumped, sort_keys=True, allow_nan=False)
+
+
+def shipped_cases() -> dict[str, Path]:
+    """Return the files of the cases that ship, by name."""
+    package = Path(__file__).parent
+    # In an editable checkout the folder stands at the root, beside `src`.
+    folders = [package / "cases", package.parents[1] / "cases"]
+    folder = next((folder for folder in folders if folder.is_dir()), folders[0])
+    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def describe(path: str | os.PathLike[str]) -> str:
+    """Return the comment in the first line of a case file."""
+    first, _, _ = _read_text(str(path), Path(path)).partition("\n")
+    return first.removeprefix("#").strip() if first.startswith("#") else ""
+
+
+def read_case(
+    name_or_path: str | os.PathLike[str],
+    tables: Mapping[str, type[Table]],
+    settings: Sequence[str] = (),
+) -> Case:
+    """Read and validate a case file.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+        A TOML file, or the name of a case that ships.
+    tables : mapping of str to type of Table
+        Every table a case file may have; all that are present are validated.
+    settings : sequence of str
+        ``table.key=value`` to add or replace. A bare number takes the unit of the text it
+        replaces; for an angle without one it is in degrees.
+
+    Raises
+    ------
+    InputError
+        One line that names the file or setting, the key, the value and what is allowed.
+    """
+    source = str(name_or_path)
+    path = Path(source)
+    shipped = shipped_cases()
+    if source in shipped and not path.is_file():
+        path = shipped[source]
+    raw = _parse(source, _read_text(source, path))
+    case = Case(source, path.parent.absolute(), {}, raw, tables)
+    return case.replace(settings)
+
+
+def _read_text(source: str, path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        known = nearest(Path(source).name.removesuffix(".toml"), shipped_cases())
+        raise InputError(f"{source} is neither a file nor a case that ships{known}") from None
+    except IsADirectoryError:
+        raise InputError(f"{source or _shown(source)} is a folder; give a case file") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{source}: byte {error.start} is not UTF-8; save it as UTF-8") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"{_shown(source)} cannot be read: {reason.lower()}") from None
+
+
+def _parse(source: str, text: str) -> Raw:
+    try:
+        raw = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        last = f"(at line {len(text.splitlines())}, the last one)"
+        reason = str(error).replace("(at end of document)", last)
+        raise InputError(f"{source}: not valid TOML: {reason}") from None
+    except RecursionError:
+        raise InputError(f"{source}: not a case file: its values are nested too deeply") from None
+    for name, entries in raw.items():
+        if isinstance(entries, list):
+            raise InputError(f"{source}: [{name}] is given as a list; write it once, as [{name}]")
+        if not isinstance(entries, dict):
+            raise InputError(
+                f"{source}: {name} stands outside a table; put it below a heading such as [slider]"
+            )
+    return raw
+
+
+def _validate(
+    raw: Raw, known: Mapping[str, type[Table]], source: str, settings: Mapping[str, str]
+) -> dict[str, Table]:
+    tables = {}
+    for name, entries in raw.items():
+        model = _known_table(name, known, source)
+        try:
+            tables[name] = model.model_validate(entries, context=_TEXT_ONLY)
+        except InputError as error:
+            key = _KEY.match(str(error))
+            setting = settings.get(key.group()) if key else None
+            origin = source if setting is None else f"--set {setting}"
+            raise InputError(f"{origin}: {error}") from None
+    return tables
+
+
+def _known_table(name: str, known: Mapping[str, type[Table]], origin: str) -> type[Table]:
+    if name not in known:
+        raise InputError(f"{origin}: [{name}] is not a table of a case file{nearest(name, known)}")
+    return known[name]
+
+
+def _same_thing(model: type[Table], key: str) -> set[str]:
+    groups = (*model.alternatives, *model.required_alternatives)
+    return {key}.union(*(group for group in groups if key in group))
+
+
+def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
+    path, equals, text = setting.partition("=")
+    parts = _KEY.fullmatch(path.strip())
+    if not equals or not parts:
+        raise InputError(f"--set {setting}: it must be table.key=value, as in friction.mu=0.1")
+    name, key = parts.groups()
+    model = _known_table(name, known, f"--set {setting}")
+    entries = raw.setdefault(name, {})
+    value = _with_unit(model, key, _toml_value(text.strip()), entries.get(key), setting)
+    for other in _same_thing(model, key):
+        entries.pop(other, None)
+    entries[key] = value
+    return f"{name}.{key}"
+
+
+def _toml_value(text: str) -> Any:
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text
+    return parsed["value"] if len(parsed) == 1 else text
+
+
+def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str) -> Any:
+    quantity = quantity_of(model, key)
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    parts = (
+        (repr(value), "") if is_number else split_unit(value) if isinstance(value, str) else None
+    )
+    if not (quantity and quantity.unit and parts and not parts[1]):
+        return value
+    replaced = split_unit(old) if isinstance(old, str) else None
+    unit = (replaced and replaced[1]) or ("deg" if quantity.unit == "rad" else "")
+    if not unit:
+        path = f"{model.table}.{key}"
+        raise InputError(
+            f"--set {setting}: {path} is {parts[0]} without a unit; {quantity.expected()}"
+        )
+    return f"{parts[0]} {unit}"
+
+
+def _as_text(model: type[Table], key: str, value: object) -> object:
+    quantity = quantity_of(model, key)
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        return value
+    if quantity:
+        return f"{float(value)!r} {quantity.unit}" if quantity.unit else float(value)
+    return value
