@@ -1,0 +1,57 @@
+# The first interpreter that runs and is new enough; or make PYTHON=/path/to/python3.11
+ifndef PYTHON
+PYTHON := $(firstword $(foreach python,python3.11 python3 python3.12 python3.13 python3.14,\
+  $(shell $(python) -c 'import sys; sys.version_info >= (3, 11) and print("$(python)")' 2>/dev/null)))
+endif
+
+BIN := .venv/bin
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+PYTEST_OPTIONS ?= -n auto
+
+.PHONY: run test lint types floors docs examples bench clean
+
+run: .venv/.runtime
+	$(BIN)/asperity thesis
+
+test: .venv/.dev
+	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
+
+lint: .venv/.dev
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+
+types: .venv/.dev
+	$(BIN)/mypy
+
+floors: .venv/.dev
+	$(BIN)/lint-imports
+
+docs: .venv/.dev
+	$(BIN)/sphinx-build -W --keep-going -q docs docs/_build/html
+
+examples: .venv/.dev
+	@for file in $(wildcard examples/*.py); do \
+	  echo "$$file"; MPLBACKEND=Agg $(BIN)/python "$$file" || exit 1; \
+	done
+
+bench: .venv/.dev
+	@for file in $(wildcard benchmarks/*.py); do \
+	  echo "$$file"; $(BIN)/python "$$file" || exit 1; \
+	done
+
+clean:
+	rm -rf .venv out dist build docs/_build docs/api docs/gallery docs/sg_execution_times.rst
+	rm -rf .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+
+.venv/bin/python:
+	@test -n "$(PYTHON)" && $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "asperity needs Python 3.11 or later; name one: make PYTHON=/path/to/python3.11"; exit 1; }
+	$(PYTHON) -m venv .venv
+
+.venv/.runtime: pyproject.toml constraints.txt | .venv/bin/python
+	$(INSTALL) -e .
+	@touch $@
+
+.venv/.dev: pyproject.toml constraints.txt | .venv/bin/python
+	$(INSTALL) -e '.[dev]'
+	@touch $@ .venv/.runtime

@@ -1,0 +1,34 @@
+"""Configuration of the documentation."""
+
+import asperity
+
+project = "asperity"
+author = "the asperity authors"
+project_copyright = "2026, the asperity authors"
+version = release = asperity.__version__
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+]
+templates_path = ["_templates"]
+exclude_patterns = ["_build"]
+
+autosummary_generate = True
+autodoc_typehints = "none"
+numpydoc_show_class_members = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py$",
+    "abort_on_example_error": True,
+    "within_subsection_order": "FileNameSortKey",
+    "show_memory": False,
+}
+
+html_theme = "alabaster"
+html_theme_options = {"description": "Vibration and friction between sliding surfaces"}
