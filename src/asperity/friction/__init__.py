@@ -1,0 +1,7 @@
+"""Friction laws: Coulomb, Dahl with any exponent, LuGre; one update for bodies and for contact."""
+
+from asperity.friction.dahl import LAWS, SPLIT, UNSPLIT, VECTOR
+from asperity.friction.parameters import Friction
+from asperity.friction.tangent import update
+
+__all__ = ["LAWS", "SPLIT", "UNSPLIT", "VECTOR", "Friction", "update"]

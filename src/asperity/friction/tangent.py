@@ -1,0 +1,223 @@
+"""The friction update with its consistent tangent: what an implicit contact solver calls.
+
+The same update serves the sliding body (which needs the deflection alone, `dahl.advance`) and a
+finite element contact (which needs the derivative by the slip increments as well).
+"""
+
+import math
+
+from asperity.compiled import kernel
+from asperity.friction.dahl import (
+    _TINY,
+    SPLIT,
+    VECTOR,
+    _closed_form,
+    _half_step,
+    _midpoint,
+    rate_along,
+    relaxation,
+    remaining_distance,
+    saturation,
+)
+
+
+@kernel
+def _relaxation_slope(decay):
+    """Derivative of ``(1 - exp(-A))/A`` by ``A``."""
+    if decay < 1e-4:
+        return -0.5 + decay * (1.0 / 3.0 - decay * 0.125)
+    return (math.exp(-decay) * (decay + 1.0) - 1.0) / (decay * decay)
+
+
+@kernel
+def _term_slope(ex, ey, tx, ty, share, share_slope, dx, dy, tdx, tdy, exponent):
+    """Derivative of one term ``c_i(e.D) |e.D|`` along a change of ``e``, ``|s|`` and ``D``."""
+    along = ex * dx + ey * dy
+    sign = 1.0 if along >= 0.0 else -1.0
+    factor, factor_slope = saturation(share, along, exponent)
+    along_slope = tx * dx + ty * dy + ex * tdx + ey * tdy
+    if factor_slope * share_slope == 0.0:
+        # An infinite slope of c_i at the limit (i < 1) must not meet a zero change.
+        return factor * sign * along_slope
+    return factor * sign * along_slope + factor_slope * share_slope * abs(along)
+
+
+@kernel
+def _rate_slope(
+    ex, ey, tx, ty, share, share_slope,
+    d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
+):  # fmt: skip
+    """Derivative of `dahl.rate_along` along a change of the asperity and of both slip parts."""
+    if law == SPLIT:
+        return _term_slope(
+            ex, ey, tx, ty, share, share_slope, d1x, d1y, t1x, t1y, exponent
+        ) + _term_slope(ex, ey, tx, ty, share, share_slope, d2x, d2y, t2x, t2y, exponent)
+    return _term_slope(
+        ex, ey, tx, ty, share, share_slope, d1x + d2x, d1y + d2y, t1x + t2x, t1y + t2y, exponent
+    )
+
+
+@kernel
+def _midpoint_slope(
+    sx, sy, d1x, d1y, d2x, d2y, exponent, law, t1x, t1y, t2x, t2y
+):  # fmt: skip
+    """Derivative of `dahl._midpoint` for the slip changing by ``(t1, t2)``."""
+    dx = d1x + d2x
+    dy = d1y + d2y
+    tx = t1x + t2x
+    ty = t1y + t2y
+    size = math.sqrt(sx * sx + sy * sy)
+    rate = 0.0
+    rate_t = 0.0
+    if size > _TINY:
+        ex = sx / size
+        ey = sy / size
+        share = min(size, 1.0)
+        rate = rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law)
+        rate_t = _rate_slope(
+            ex, ey, 0.0, 0.0, share, 0.0,
+            d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
+        )  # fmt: skip
+    hx, hy, scale = _half_step(sx, sy, dx, dy, rate)
+    x = 0.5 * rate
+    x_t = 0.5 * rate_t
+    growth = 1.0 + x * (0.5 + x * (1.0 / 6.0))
+    growth_t = (0.5 + x * (1.0 / 3.0)) * x_t
+    hx_t = 0.5 * (growth * tx + growth_t * dx)
+    hy_t = 0.5 * (growth * ty + growth_t * dy)
+    half = math.sqrt(hx * hx + hy * hy)
+    rate = 0.0
+    rate_t = 0.0
+    if half > _TINY:
+        ex = hx / half
+        ey = hy / half
+        half_t = ex * hx_t + ey * hy_t
+        ex_t = (hx_t - ex * half_t) / half
+        ey_t = (hy_t - ey * half_t) / half
+        share = half / scale
+        share_t = (half_t - share * (growth * x_t + x * growth_t)) / scale
+        if share >= 1.0:
+            share = 1.0
+            share_t = 0.0
+        rate = rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law)
+        rate_t = _rate_slope(
+            ex, ey, ex_t, ey_t, share, share_t,
+            d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
+        )  # fmt: skip
+    decay, gain = relaxation(rate)
+    gain_t = _relaxation_slope(rate) * rate_t
+    sx1 = sx * decay + dx * gain
+    sy1 = sy * decay + dy * gain
+    sx1_t = -sx * decay * rate_t + tx * gain + dx * gain_t
+    sy1_t = -sy * decay * rate_t + ty * gain + dy * gain_t
+    most = max(1.0, size)
+    size1 = math.sqrt(sx1 * sx1 + sy1 * sy1)
+    if size1 > most:
+        ex = sx1 / size1
+        ey = sy1 / size1
+        along = ex * sx1_t + ey * sy1_t
+        sx1_t = (sx1_t - ex * along) * most / size1
+        sy1_t = (sy1_t - ey * along) * most / size1
+    return sx1_t, sy1_t
+
+
+@kernel
+def _closed_form_tangent(sx, sy, dx, dy, exponent):
+    """Derivative of `dahl._closed_form` by the slip, row by row."""
+    length = math.sqrt(dx * dx + dy * dy)
+    if length <= 1e-12:
+        if length <= _TINY:
+            # Without a slip there is no direction: the elastic answer, the mean over directions
+            # of the one-sided ones to first order in s for exponent 1.
+            return 1.0, 0.0, 0.0, 1.0
+        if exponent == 1.0:
+            nx = dx / length
+            ny = dy / length
+            return 1.0 - sx * nx, -sx * ny, -sy * nx, 1.0 - sy * ny
+    nx = dx / length
+    ny = dy / length
+    wx = nx - sx
+    wy = ny - sy
+    rho = math.sqrt(wx * wx + wy * wy)
+    left = 0.0
+    left_rho = 0.0
+    speed = 0.0
+    if rho > _TINY:
+        phi = remaining_distance(rho, length, exponent)
+        left = phi / rho
+        if phi > 0.0:
+            speed = (phi / rho) ** exponent * rho ** (exponent - 1.0)
+            left_rho = ((phi / rho) ** exponent - left) / rho
+    # P = I - n n^T;  T = (1-g)/L P + (phi^i/rho) w n^T - (dg/drho)/(L rho) w (P w)^T
+    pxx = 1.0 - nx * nx
+    pxy = -nx * ny
+    pyy = 1.0 - ny * ny
+    qx = pxx * wx + pxy * wy
+    qy = pxy * wx + pyy * wy
+    turn = (1.0 - left) / length
+    bend = left_rho / (length * rho) if rho > _TINY else 0.0
+    return (
+        turn * pxx + speed * wx * nx - bend * wx * qx,
+        turn * pxy + speed * wx * ny - bend * wx * qy,
+        turn * pxy + speed * wy * nx - bend * wy * qx,
+        turn * pyy + speed * wy * ny - bend * wy * qy,
+    )
+
+
+@kernel
+def update(deflection, slip_1, slip_2, limit, exponent, law):
+    r"""One friction update of Dahl's law in two dimensions, with its consistent tangent.
+
+    Trial and committed state are separate: nothing is stored, the caller commits the deflection
+    it accepts.
+
+    Parameters
+    ----------
+    deflection : tuple of 2 floats
+        Committed asperity deflection :math:`s` at the start of the step, m.
+    slip_1, slip_2 : tuple of 2 floats
+        The two parts of the slip increment over the step, m. Only law ``split`` tells them apart:
+        part 1 is the body's motion with the base's x motion in it, part 2 the transferred y motion.
+    limit : float
+        Deflection at full friction :math:`s_{max} > 0`, m (LuGre: :math:`g(|v|)/k_t`).
+    exponent : float
+        Dahl's exponent :math:`i \ge 0`.
+    law : int
+        `SPLIT`, `UNSPLIT` or `VECTOR`.
+
+    Returns
+    -------
+    deflection : tuple of 2 floats
+        Trial deflection at the end of the step, m.
+    share : tuple of 2 floats
+        :math:`s / s_{max}`: the friction force over :math:`\mu F_N`, the stress over
+        :math:`\mu p`; so :math:`\partial\tau/\partial p = \mu` times it.
+    tangent : tuple of 2 tuples of 4 floats
+        :math:`\partial s_1/\partial D_1` and :math:`\partial s_1/\partial D_2`, each
+        ``(xx, xy, yx, yy)``, dimensionless; times :math:`\mu p / s_{max}` the stress stiffness.
+        One-sided at kinks (a reversal of the slip along the asperity, the limit).
+
+    Notes
+    -----
+    Thesis (17), (44)-(59) in the limit of small steps. ``vector`` is exact for slip of constant
+    direction and passive for any size of slip; the others are exponential midpoint steps.
+    """
+    sx = deflection[0] / limit
+    sy = deflection[1] / limit
+    d1x = slip_1[0] / limit
+    d1y = slip_1[1] / limit
+    d2x = slip_2[0] / limit
+    d2y = slip_2[1] / limit
+    if law == VECTOR:
+        share = _closed_form(sx, sy, d1x + d2x, d1y + d2y, exponent)
+        tangent_1 = _closed_form_tangent(sx, sy, d1x + d2x, d1y + d2y, exponent)
+        tangent_2 = tangent_1
+    else:
+        share = _midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        xx, yx = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 1.0, 0.0, 0.0, 0.0)
+        xy, yy = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 1.0, 0.0, 0.0)
+        tangent_1 = (xx, xy, yx, yy)
+        xx, yx = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 1.0, 0.0)
+        xy, yy = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 1.0)
+        tangent_2 = (xx, xy, yx, yy)
+    return (share[0] * limit, share[1] * limit), share, (tangent_1, tangent_2)

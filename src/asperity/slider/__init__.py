@@ -1,0 +1,1 @@
+"""A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms."""

@@ -1,0 +1,288 @@
+"""Marching a body through time: windows, means, the power ledger and the history."""
+
+import math
+import time
+
+import numpy as np
+
+from asperity.errors import ConvergenceError, InputError
+from asperity.slider import kernels as k
+from asperity.slider import model as m
+from asperity.slider.model import FloatArray, Model
+from asperity.slider.result import History, PowerLedger, SlideResult, finite, mean_pair
+from asperity.slider.two_phase import march_two_phase
+
+_RECORDS = 4000
+_TAIL_CYCLES = 4
+_TAIL_RECORDS = 4000
+_BLOCK = 1024
+_NO_TABLE = np.zeros(2)
+
+
+class Timetable:
+    """Steps of a march: how many, and where its window and its finely recorded tail begin."""
+
+    def __init__(self, model: Model) -> None:
+        self.step = model.step / model.substeps
+        self.steps = round(model.duration / self.step)
+        duration = self.steps * self.step
+        if model.vibrates:
+            available = _share(duration - model.start)
+            self.cycles = math.floor(min(model.window, available) * model.frequency + 1e-9)
+            if self.cycles < 1:
+                raise InputError(
+                    f"solve.duration is {duration:g} s; with the vibration of "
+                    f"{model.frequency:g} Hz from {model.start:g} s on it must be at least "
+                    f"{model.start + 1.5 / model.frequency:.3g} s"
+                )
+            window = round(self.cycles / (model.frequency * self.step))
+            tail = _TAIL_CYCLES / model.frequency
+        else:
+            self.cycles = 0
+            window = round(min(model.window, _share(duration)) / self.step)
+            tail = 0.0
+        if self.steps < 8 or window < 2:
+            raise InputError(
+                f"solve.duration is {model.duration:g} s; it must be at least 8 steps of "
+                f"{self.step:g} s"
+            )
+        self.window = min(window, self.steps)
+        self.window_start = self.steps - self.window
+        self.middle = self.window_start + self.window // 2
+        self.tail = min(round(tail / self.step), self.window // 2, _TAIL_RECORDS)
+
+
+def _share(span: float) -> float:
+    return m._WINDOW_SHARE * max(span, 0.0)
+
+
+class _Walk:
+    """State, sums and recorded rows of one march as it goes on."""
+
+    def __init__(self, model: Model, table: Timetable) -> None:
+        self.model = model
+        self.table = table
+        self.p = model.parameters(table.step)
+        self.state = np.zeros(k.STATE)
+        self.sums = np.zeros(k.SUMS)
+        self.sums[k.BREAKAWAY] = -1.0
+        self.done = 0
+        self.rows: list[FloatArray] = []
+        self.at: list[FloatArray] = []
+        self.two_phase = model.solve.scheme == "two-phase"
+        self.cycles_per_step = model.frequency * table.step
+        self.start_cycles = model.frequency * model.start
+        if model.shape is not None:
+            self.wave = model.shape.kernel_arguments()
+        else:
+            self.wave = (0, 0.0, _NO_TABLE)
+        k.clear(self.sums)
+        first = np.empty(1)
+        self._fill(first)
+        if not self.two_phase:
+            k.prime(self.state, self.p, first, m.MODELS[model.friction.model], self._law)
+        else:
+            self.extra = np.array([1.0, 0.0, 0.0])
+            if self.p[m.RIGID]:
+                self.state[k.WX] = self.p[m.DRIVE]
+
+    @property
+    def _law(self) -> int:
+        return self.model.friction.law_code
+
+    def _fill(self, room: FloatArray) -> None:
+        k.fill_increments(*self.wave, self._cycles(), self.cycles_per_step, room)
+
+    def _cycles(self) -> float:
+        return self.done * self.cycles_per_step - self.start_cycles
+
+    def energies(self) -> tuple[float, float]:
+        """Energies at the present node, see `energies`."""
+        return energies(self.state, self.p, elastic=self.model.friction.model != "coulomb")
+
+    def to(self, target: int, stride: int) -> None:
+        """March to a step, recording every ``stride`` steps and at the end."""
+        records, rest = divmod(target - self.done, stride)
+        for count, length in ((records, stride), (1 if rest else 0, rest)):
+            if count == 0:
+                continue
+            history = np.empty((count, k.STATE))
+            room = np.empty(length + 1)
+            if self.two_phase:
+                march_two_phase(
+                    self.state, self.extra, self.sums, self.p, *self.wave, self._cycles(),
+                    self.cycles_per_step, count, length, room, history, self.model.on_body,
+                )  # fmt: skip
+            else:
+                k.march_recorded(
+                    self.state, self.sums, self.p, *self.wave, self._cycles(),
+                    self.cycles_per_step, count, length, room, history,
+                    m.MODELS[self.model.friction.model], self._law,
+                )  # fmt: skip
+            self.rows.append(history)
+            self.at.append(self.done + length * np.arange(1, count + 1))
+            self.done += count * length
+        if not finite(self.state):
+            raise ConvergenceError(
+                f"the march left the finite numbers before {self.done * self.table.step:g} s; "
+                "give a smaller solve.step",
+                reached={"time_s": self.done * self.table.step},
+            )
+
+
+def march(model: Model, *, history: bool = True) -> SlideResult:
+    """Integrate a sliding body from rest over the case's duration.
+
+    Parameters
+    ----------
+    model : Model
+        The body; ``model.solve.scheme`` selects the integrator.
+    history : bool
+        Whether to keep motion and forces over time (a few thousand rows at any length).
+
+    Raises
+    ------
+    InputError
+        The step is too coarse for the waveform, or the duration too short.
+    ConvergenceError
+        The two-phase scheme became unstable.
+    """
+    began = time.perf_counter()
+    table = Timetable(model)
+    walk = _Walk(model, table)
+    stride = max(1, table.steps // _RECORDS) if history else _BLOCK
+    walk.to(table.window_start, stride)
+    start = walk.energies()
+    k.clear(walk.sums)
+    walk.to(table.middle, stride)
+    first_half = walk.sums.copy()
+    k.clear(walk.sums)
+    if history:
+        walk.to(table.steps - table.tail, stride)
+    walk.to(table.steps, 1 if history else stride)
+    second_half = walk.sums.copy()
+    sums = first_half + second_half
+    sums[k.MAX_FX] = max(first_half[k.MAX_FX], second_half[k.MAX_FX])
+    sums[k.MIN_FX] = min(first_half[k.MIN_FX], second_half[k.MIN_FX])
+    sums[k.MAX_FY] = max(first_half[k.MAX_FY], second_half[k.MAX_FY])
+    end = walk.energies()
+    halves = [s[k.SUM_FD] / s[k.STEPS] for s in (first_half, second_half)]
+    breakaway = second_half[k.BREAKAWAY]
+    return summarise(
+        model, table.step, sums, start, end,
+        residual=abs(float(halves[1] - halves[0])),
+        breakaway_time=float(breakaway) * table.step if breakaway >= 0.0 else None,
+        steps=table.steps,
+        cycles=table.cycles,
+        history=_history(model, table.step, walk) if history else None,
+        notes=_notes(model),
+        substeps=model.substeps,
+        seconds=time.perf_counter() - began,
+    )  # fmt: skip
+
+
+def _notes(model: Model) -> tuple[str, ...]:
+    notes = []
+    if model.substeps > 1:
+        notes.append(
+            f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
+            f"must not exceed {m._SLIP_BOUND:g} max_deflection, nor the step {m._RING_BOUND:g} "
+            "over the body's angular frequency on its asperities"
+        )
+    return tuple(notes)
+
+
+def energies(state: FloatArray, p: FloatArray, *, elastic: bool) -> tuple[float, float]:
+    r"""Mechanical and elastic energy over :math:`\mu F_N \ell`, matching the trapezoidal sums.
+
+    Mechanical: kinetic and in the drive spring; elastic: in the asperities. The lateral kinetic
+    energy counts with the share of the lateral motion the contact sees: where that is not all of
+    it (vibration of the body with eta_y < 1), the rest of the force on the body has no
+    counterpart in the contact.
+    """
+    total = 0.5 * p[m.KAPPA] * state[k.STRETCH] ** 2
+    if p[m.GIVE_X] > 0.0:
+        give = p[m.GIVE_X] * 2.0 / (1.0 + p[m.KEEP])
+        before = state[k.WX] - give * (state[k.FD] - state[k.FX])
+        total += 0.5 * state[k.WX] * before / give
+    if p[m.GIVE_Y] > 0.0:
+        before = state[k.WY] + p[m.GIVE_Y] * state[k.FY]
+        total += 0.5 * (p[m.OWN_1] + p[m.OWN_2]) * state[k.WY] * before / p[m.GIVE_Y]
+    bristle = 0.5 * (state[k.SX] ** 2 + state[k.SY] ** 2) if elastic else 0.0
+    return float(total), float(bristle)
+
+
+def summarise(
+    model: Model,
+    step: float,
+    sums: FloatArray,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    *,
+    residual: float,
+    steps: int,
+    cycles: int,
+    seconds: float,
+    breakaway_time: float | None = None,
+    history: History | None = None,
+    notes: tuple[str, ...] = (),
+    substeps: int = 1,
+) -> SlideResult:
+    """Turn the sums over a window, and the energies at its ends, into a result in SI."""
+    count = sums[k.STEPS]
+    force = model.full_friction
+    return SlideResult(
+        model=model,
+        ratio=float(sums[k.SUM_FD] / count),
+        drive_force=float(sums[k.SUM_FD] / count * force),
+        friction_mean=mean_pair(sums[k.SUM_FX] / count, sums[k.SUM_FY] / count, force),
+        friction_max=mean_pair(sums[k.MAX_FX], sums[k.MAX_FY], force),
+        friction_min=mean_pair(sums[k.MIN_FX], -sums[k.MAX_FY], force),
+        breakaway_time=breakaway_time,
+        ledger=_ledger(model, step, sums, end[0] - start[0], end[1] - start[1]),
+        residual=residual,
+        steps=steps,
+        cycles=cycles,
+        seconds=seconds,
+        substeps=substeps,
+        history=history,
+        notes=notes,
+    )
+
+
+def _ledger(
+    model: Model, step: float, sums: FloatArray, mechanical: float, elastic: float
+) -> PowerLedger:
+    p = model.parameters(step)
+    length = model.length(step)
+    watts = model.full_friction * length / (float(sums[k.STEPS]) * step)
+    vibration = -(p[m.BASE_X] * sums[k.SUM_VX] + p[m.BASE_Y] * sums[k.SUM_VY])
+    whole = model.amplitude * model.unit_direction[1] / length
+    whole = -whole if model.on_body else whole
+    return PowerLedger(
+        drive=float(watts * p[m.DRIVE] * sums[k.SUM_FD]),
+        vibration=float(watts * vibration),
+        friction=float(watts * (sums[k.SUM_SLIP] - elastic)),
+        damping=float(watts * sums[k.SUM_DRAG]),
+        stored=float(watts * (mechanical + elastic)),
+        untransferred=float(
+            -watts * (1.0 - model.friction.transfer) * whole * sums[k.SUM_VY]
+        ),
+    )
+
+
+def _history(model: Model, step: float, walk: _Walk) -> History:
+    rows = np.concatenate(walk.rows)
+    at = np.concatenate(walk.at) * step
+    length = model.length(step)
+    force = model.full_friction
+    drive = model.slider.drive_velocity
+    x = drive * at - rows[:, k.STRETCH] * length
+    return History(
+        time=at,
+        drive_force=rows[:, k.FD] * force,
+        friction=rows[:, [k.FX, k.FY]] * force,
+        deflection=rows[:, [k.SX, k.SY]] * length,
+        position=np.stack([x, rows[:, k.Y] * length], axis=1),
+        velocity=rows[:, [k.WX, k.WY]] * (length / step),
+    )

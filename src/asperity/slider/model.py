@@ -1,0 +1,266 @@
+r"""A sliding body made ready to be solved: one object with everything in SI, and its scaled form.
+
+The kernels work in units of :math:`\ell` (the deflection limit :math:`s_{max}`; for Coulomb
+friction the drive's way in a step), of the time step and of :math:`\mu F_N`, so that a state is of
+order one whatever the contact.
+"""
+
+import dataclasses
+import functools
+import math
+from typing import Self
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.casefile import Case
+from asperity.errors import InputError
+from asperity.friction import Friction
+from asperity.slider.parameters import Slider, Solve
+from asperity.vibration import Shape, Vibration
+
+FloatArray = npt.NDArray[np.float64]
+
+COULOMB = 0
+DAHL = 1
+LUGRE = 2
+MODELS = {"coulomb": COULOMB, "dahl": DAHL, "lugre": LUGRE}
+
+# Places in the parameter vector of the kernels (scaled, see above).
+DRIVE = 0  # drive velocity
+KAPPA = 1  # drive stiffness
+CHI = 2  # drive damping
+KEEP = 3  # what the damped drive leaves of a velocity
+GIVE_X = 4  # velocity change a full friction force makes, along the drive (damping included)
+GIVE_Y = 5  # across
+BASE_X = 6  # amplitude of the base's motion, as the contact sees it
+BASE_Y = 7
+OWN_1 = 8  # share of the body's lateral motion in the first slip part
+OWN_2 = 9  # and in the second
+EXPONENT = 10
+RATE_DAMPING = 11  # LuGre's damping of the deflection's rate
+SLIP_DAMPING = 12  # LuGre's viscous damping
+STATIC_RATIO = 13
+STRIBECK = 14
+RIGID = 15
+PARAMETERS = 16
+
+_LEAST_STEPS_A_CYCLE = 16
+_STEPS_A_CYCLE = 500
+_WINDOW = 0.4
+_WINDOW_RINGS = 20
+_WINDOW_SHARE = 0.75
+_SLIP_BOUND = 0.5
+_RING_BOUND = 0.25
+_TWO_PHASE_BOUND = 2.0
+_MOST_SUBSTEPS = 1000
+
+
+@dataclasses.dataclass(frozen=True)
+class Model:
+    """A body pulled over a vibrating base.
+
+    Attributes
+    ----------
+    slider, friction, solve : Slider, Friction, Solve
+        The tables of the case.
+    vibration : Vibration or None
+        None: the base is at rest.
+    shape : Shape or None
+        The vibration's waveform.
+    """
+
+    slider: Slider
+    friction: Friction
+    vibration: Vibration | None = None
+    solve: Solve = dataclasses.field(default_factory=Solve)
+    shape: Shape | None = None
+
+    def __post_init__(self) -> None:
+        if self.vibration is not None and self.shape is None:
+            object.__setattr__(self, "shape", self.vibration.shape())
+        if self.solve.scheme == "two-phase" and (
+            self.friction.model != "dahl" or self.friction.law != "split"
+        ):
+            raise InputError(
+                "solve.scheme is 'two-phase', which exists for friction.model 'dahl' with "
+                f"friction.law 'split' only; they are '{self.friction.model}' and "
+                f"'{self.friction.law}'"
+            )
+        if self.solve.scheme == "two-phase" and self.friction.exponent < 1.0:
+            raise InputError(
+                f"friction.exponent is {self.friction.exponent:g}; the two-phase scheme needs 1 or "
+                "more (below, it never saturates or overshoots the limit): use solve.scheme "
+                "'exponential'"
+            )
+
+    @classmethod
+    def from_case(cls, case: Case) -> Self:
+        """Gather the tables of a case; [vibration] and [solve] may be missing."""
+        vibration = case.require(Vibration) if Vibration.table in case else None
+        shape = vibration.shape(case.folder) if vibration is not None else None
+        solve = case.require(Solve) if Solve.table in case else Solve()
+        return cls(case.require(Slider), case.require(Friction), vibration, solve, shape)
+
+    @property
+    def full_friction(self) -> float:
+        r""":math:`\mu F_N`, N: the drive force without vibration."""
+        return self.friction.mu * self.slider.normal_force
+
+    @property
+    def vibrates(self) -> bool:
+        """Whether anything is shaken."""
+        return self.shape is not None and self.peak_velocity > 0.0
+
+    @functools.cached_property
+    def frequency(self) -> float:
+        """Vibration frequency, Hz; 0 without vibration."""
+        return self.shape.frequency if self.shape is not None else 0.0
+
+    @functools.cached_property
+    def peak_velocity(self) -> float:
+        """v_a, m/s; 0 without vibration."""
+        if self.vibration is None or self.shape is None:
+            return 0.0
+        return self.vibration.velocity(self.shape, self.slider.drive_velocity)
+
+    @functools.cached_property
+    def amplitude(self) -> float:
+        """u_a, m; 0 without vibration."""
+        if self.vibration is None or self.shape is None:
+            return 0.0
+        return self.vibration.displacement(self.shape, self.slider.drive_velocity)
+
+    @property
+    def start(self) -> float:
+        """Start of the vibration, s."""
+        return self.vibration.start if self.vibration is not None else 0.0
+
+    @property
+    def direction(self) -> float:
+        """Angle between vibration and drive, rad."""
+        return self.vibration.direction if self.vibration is not None else 0.0
+
+    @property
+    def unit_direction(self) -> tuple[float, float]:
+        """Direction of the vibration, exact at the quarter turns."""
+        turns = self.direction / (0.5 * math.pi)
+        quarter = round(turns)
+        if abs(turns - quarter) < 1e-12:
+            exact = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+            return exact[quarter % 4]
+        return math.cos(self.direction), math.sin(self.direction)
+
+    @property
+    def on_body(self) -> bool:
+        """Whether the body, not the base, is shaken."""
+        return self.vibration is not None and self.vibration.applied_to == "body"
+
+    @property
+    def ring_period(self) -> float:
+        """Period in which the body rings on its drive, s; 0 for a rigid drive."""
+        if self.slider.drive_stiffness is None or self.slider.mass is None:
+            return 0.0
+        return 2.0 * math.pi * math.sqrt(self.slider.mass / self.slider.drive_stiffness)
+
+    @property
+    def window(self) -> float:
+        """Length the means are taken over, s, before it is cut to whole cycles."""
+        return max(_WINDOW, _WINDOW_RINGS * self.ring_period)
+
+    @property
+    def duration(self) -> float:
+        """Simulated time, s."""
+        if self.solve.duration is not None:
+            return self.solve.duration
+        return self.start + 2.0 * self.window
+
+    @functools.cached_property
+    def step(self) -> float:
+        """Time step as asked for, s; refused if it is too coarse for the waveform."""
+        given = self.solve.step
+        if not self.vibrates:
+            return given if given is not None else 1e-6
+        if given is None:
+            return 1.0 / (_STEPS_A_CYCLE * self.frequency)
+        most = 1.0 / (_LEAST_STEPS_A_CYCLE * self.frequency)
+        # A step that resolves a sine 16 times resolves a square wave's flank at least 4 times.
+        if self.shape is not None and self.shape.rise > 0.0:
+            most = min(most, self.shape.rise / self.frequency / 4.0)
+        if given > most * (1.0 + 1e-9):
+            raise InputError(
+                f"solve.step is {given:g} s, too coarse for the vibration of {self.frequency:g} Hz;"
+                f" it must be at most {most:.3g} s"
+            )
+        return given
+
+    @functools.cached_property
+    def substeps(self) -> int:
+        """Parts each step is divided into so that `march` stays below its own bounds.
+
+        The bounds: the slip in a part at most half the deflection limit, and a part at most a
+        quarter of the reciprocal of the body's angular frequency on asperities and drive. The
+        two-phase scheme is not divided, but refused where it is unstable.
+        """
+        if self.friction.model == "coulomb":
+            return 1
+        limit = self.friction.deflection_limit(self.slider.normal_force)
+        slip = (self.slider.drive_velocity + self.peak_velocity) * self.step / limit
+        if self.solve.scheme == "two-phase":
+            if slip > _TWO_PHASE_BOUND:
+                raise InputError(
+                    f"solve.step is {self.step:g} s; the two-phase scheme is unstable where the "
+                    f"slip in a step exceeds {_TWO_PHASE_BOUND:g} max_deflection, so it must be at "
+                    f"most {self.step * _TWO_PHASE_BOUND / slip:.3g} s here"
+                )
+            return 1
+        needed = slip / _SLIP_BOUND
+        if self.slider.mass is not None and (not self.slider.rigid or self.slider.free):
+            stiffness = self.friction.stiffness(self.slider.normal_force)
+            stiffness *= max(1.0, self.friction.exponent * 2.0 ** (self.friction.exponent - 1.0))
+            stiffness += self.slider.drive_stiffness or 0.0
+            needed = max(
+                needed, self.step * math.sqrt(stiffness / self.slider.mass) / _RING_BOUND
+            )
+        parts = max(1, math.ceil(needed * (1.0 - 1e-9)))
+        if parts > _MOST_SUBSTEPS:
+            raise InputError(
+                f"solve.step is {self.step:g} s; the march would have to divide it by {parts}, "
+                f"more than {_MOST_SUBSTEPS}: give a step of at most "
+                f"{self.step * _MOST_SUBSTEPS / parts:.3g} s"
+            )
+        return parts
+
+    def length(self, step: float) -> float:
+        """Unit of length of the scaled problem, m."""
+        if self.friction.model == "coulomb":
+            return self.slider.drive_velocity * step
+        return self.friction.deflection_limit(self.slider.normal_force)
+
+    def parameters(self, step: float) -> FloatArray:
+        """Parameter vector of the kernels for a time step in s."""
+        slider, friction = self.slider, self.friction
+        length = self.length(step)
+        force = self.full_friction
+        p = np.zeros(PARAMETERS)
+        p[DRIVE] = slider.drive_velocity * step / length
+        p[RIGID] = float(slider.rigid)
+        give = step * step * force / (slider.mass * length) if slider.mass is not None else 0.0
+        p[KEEP] = 1.0
+        if slider.drive_stiffness is not None:
+            p[KAPPA] = slider.drive_stiffness * length / force
+            p[CHI] = slider.drive_damping * length / (step * force)
+            p[KEEP] = (1.0 - 0.5 * give * p[CHI]) / (1.0 + 0.5 * give * p[CHI])
+            p[GIVE_X] = give / (1.0 + 0.5 * give * p[CHI])
+        p[GIVE_Y] = give if slider.free else 0.0
+        cos, sin = self.unit_direction
+        sign = -1.0 if self.on_body else 1.0
+        p[BASE_X] = sign * self.amplitude * cos / length
+        p[BASE_Y] = sign * friction.transfer * self.amplitude * sin / length
+        p[OWN_1], p[OWN_2] = (0.0, friction.transfer) if self.on_body else (1.0, 0.0)
+        p[EXPONENT] = friction.exponent
+        p[RATE_DAMPING] = friction.contact_damping * length / (step * force)
+        p[SLIP_DAMPING] = friction.viscous_damping * length / (step * force)
+        p[STATIC_RATIO] = (friction.static_mu or friction.mu) / friction.mu
+        p[STRIBECK] = friction.stribeck_velocity * step / length
+        return p

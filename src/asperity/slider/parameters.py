@@ -1,0 +1,110 @@
+"""The `[slider]` and `[solve]` tables: the body, its drive, and how to find the answer."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import model_validator
+
+from asperity.casefile import Table
+from asperity.errors import InputError
+from asperity.units import Quantity
+
+
+class Slider(Table):
+    """A body pulled over a base.
+
+    Parameters
+    ----------
+    drive_velocity : float or str
+        v_d > 0, m/s.
+    normal_force : float or str
+        F_N, N.
+    drive_stiffness : float or str, optional
+        k_d, N/m; left out: a rigid drive, the body moves at v_d.
+    drive_damping : float or str
+        h_d, N s/m, parallel to the stiffness.
+    mass : float or str, optional
+        m, kg; needed with a drive stiffness, or for a body that moves sideways.
+    lateral : {'free', 'guided'}, optional
+        Whether the body can move sideways. Left out: free if it has a mass.
+    """
+
+    table: ClassVar[str] = "slider"
+
+    drive_velocity: Annotated[float, Quantity("m/s", what="a velocity", example="0.5 mm/s")]
+    normal_force: Annotated[float, Quantity("N", what="a force", example="55 N", gt=0)]
+    drive_stiffness: (
+        Annotated[float, Quantity("N/m", what="a stiffness", example="96068 N/m", gt=0)] | None
+    ) = None
+    drive_damping: Annotated[
+        float, Quantity("N s/m", what="a damping", example="10 N s/m", ge=0)
+    ] = 0.0
+    mass: Annotated[float, Quantity("kg", what="a mass", example="0.5 kg", gt=0)] | None = None
+    lateral: Literal["free", "guided"] | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Slider":
+        if self.drive_velocity <= 0.0:
+            raise InputError(
+                f"slider.drive_velocity is {self.drive_velocity:g} m/s; it must be positive "
+                "(to reverse the drive, turn vibration.direction by 180 deg instead)"
+            )
+        if self.drive_stiffness is None:
+            if self.drive_damping > 0.0:
+                raise InputError(
+                    "slider.drive_damping is given without slider.drive_stiffness; a rigid drive "
+                    "has none"
+                )
+            if self.mass is None and self.lateral == "free":
+                raise InputError(
+                    "slider.lateral is 'free', which needs slider.mass; give a mass or guide the "
+                    "body"
+                )
+        elif self.mass is None:
+            raise InputError(
+                "slider.mass is missing; a drive with stiffness needs it (leave "
+                "slider.drive_stiffness out for a rigid drive)"
+            )
+        return self
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the drive is rigid."""
+        return self.drive_stiffness is None
+
+    @property
+    def free(self) -> bool:
+        """Whether the body moves sideways."""
+        return self.mass is not None and self.lateral != "guided"
+
+
+class Solve(Table):
+    """How the answer is found.
+
+    Parameters
+    ----------
+    method : {'march', 'periodic', 'homogenised'}
+        Time integration; the periodic state by shooting; the tabulated cycle-mean law.
+    scheme : {'exponential', 'two-phase'}
+        Exponential midpoint (default), or the thesis's explicit scheme (with ``march`` and law
+        ``split`` only).
+    step : float or str, optional
+        Time step, s. Left out: 1/500 of a vibration period, at most 1 us where there is none.
+    duration : float or str, optional
+        Simulated time, s. Left out: enough for two windows after the start of the vibration.
+    """
+
+    table: ClassVar[str] = "solve"
+
+    method: Literal["march", "periodic", "homogenised"] = "march"
+    scheme: Literal["exponential", "two-phase"] = "exponential"
+    step: Annotated[float, Quantity("s", what="a time", example="1 us", gt=0)] | None = None
+    duration: Annotated[float, Quantity("s", what="a time", example="1 s", gt=0)] | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Solve":
+        if self.scheme == "two-phase" and self.method != "march":
+            raise InputError(
+                f"solve.scheme is 'two-phase', which goes with solve.method 'march' only; the "
+                f"method is '{self.method}'"
+            )
+        return self

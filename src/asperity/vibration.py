@@ -1,0 +1,314 @@
+r"""Vibration imposed in the plane of contact: waveform, amplitude, direction, start.
+
+The waveform names the displacement :math:`u(t)`. Its phase is counted from the start of the
+vibration, where the displacement is zero and rising (sine, triangle, square).
+
+========== ================================= =====================================
+waveform   displacement                      peak velocity :math:`v_a`
+========== ================================= =====================================
+sine       :math:`u_a \sin 2\pi f t`         :math:`2\pi f u_a`; thesis (12)
+triangle   straight flanks                   :math:`4 f u_a`
+square     dwell at :math:`\pm u_a`, flanks  :math:`2 u_a / t_r`
+           of duration ``rise_time``
+sampled    periodic cubic spline through     the spline's
+           the samples, mean removed,
+           half its range taken as 1
+========== ================================= =====================================
+"""
+
+import csv
+import functools
+import math
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import model_validator
+
+from asperity.casefile import Table
+from asperity.compiled import kernel
+from asperity.errors import InputError
+from asperity.units import Quantity
+
+SINE = 0
+TRIANGLE = 1
+SQUARE = 2
+SAMPLED = 3
+_CODES = {"sine": SINE, "triangle": TRIANGLE, "square": SQUARE, "sampled": SAMPLED}
+_TABLE_POINTS = 8192
+_NO_TABLE = np.zeros(2)
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@kernel
+def unit_displacement(waveform, cycles, rise, table):
+    """Displacement over its amplitude at a phase in cycles; at rest before the start.
+
+    ``rise`` is the square wave's rise time in cycles, ``table`` one closed period of a sampled one.
+    """
+    if cycles <= 0.0:
+        return table[0]
+    phase = cycles - math.floor(cycles)
+    if waveform == SINE:
+        return math.sin(2.0 * math.pi * phase)
+    if waveform == SAMPLED:
+        place = phase * (table.size - 1)
+        index = min(int(place), table.size - 2)
+        return table[index] + (place - index) * (table[index + 1] - table[index])
+    # Distance in phase from the nearest zero crossing, signed as the displacement is.
+    if phase < 0.25:
+        distance = phase
+    elif phase < 0.75:
+        distance = 0.5 - phase
+    else:
+        distance = phase - 1.0
+    if waveform == TRIANGLE:
+        return 4.0 * distance
+    return max(-1.0, min(1.0, 2.0 * distance / rise))
+
+
+@kernel
+def fill_increments(waveform, rise, table, first_cycles, cycles_per_step, increments):
+    """Write the unit displacement's increments over consecutive steps into ``increments``."""
+    last = unit_displacement(waveform, first_cycles, rise, table)
+    for n in range(increments.size):
+        here = unit_displacement(
+            waveform, first_cycles + (n + 1) * cycles_per_step, rise, table
+        )
+        increments[n] = here - last
+        last = here
+
+
+class Vibration(Table):
+    """In-plane vibration of the base or of the body.
+
+    Parameters
+    ----------
+    waveform : {'sine', 'triangle', 'square', 'sampled'}
+        Shape of the displacement.
+    frequency : float or str, optional
+        Hz. Left out, a sampled waveform takes the period of its samples.
+    velocity_ratio : float, optional
+        Peak velocity over drive velocity, k = v_a/v_d. Exactly one of the three amplitudes.
+    velocity_amplitude : float or str, optional
+        Peak velocity v_a, m/s.
+    displacement_amplitude : float or str, optional
+        Displacement amplitude u_a, m.
+    direction : float or str
+        Angle theta between vibration and drive, rad; 0 longitudinal, 90 deg transverse.
+    applied_to : {'base', 'body'}
+        What is shaken. A body's prescribed motion is added to its own; its inertia is not
+        charged to the drive.
+    start : float or str
+        Time at which it begins, s; the phase is counted from here.
+    rise_time : float or str, optional
+        Duration of a flank of the square wave, s.
+    samples : path, optional
+        CSV file of a sampled waveform: time in s, displacement in m (any scale), one period with
+        the last row repeating the first displacement.
+    """
+
+    table: ClassVar[str] = "vibration"
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("velocity_ratio", "velocity_amplitude", "displacement_amplitude"),
+    )
+    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("velocity_ratio", "velocity_amplitude", "displacement_amplitude"),
+    )
+
+    waveform: Literal["sine", "triangle", "square", "sampled"] = "sine"
+    frequency: (
+        Annotated[float, Quantity("Hz", what="a frequency", example="4 kHz", gt=0)] | None
+    ) = None
+    velocity_ratio: (
+        Annotated[float, Quantity("", what="a ratio", example="6.0", ge=0)] | None
+    ) = None
+    velocity_amplitude: (
+        Annotated[float, Quantity("m/s", what="a velocity", example="3 mm/s", ge=0)] | None
+    ) = None
+    displacement_amplitude: (
+        Annotated[float, Quantity("m", what="a displacement", example="0.2 um", ge=0)] | None
+    ) = None
+    direction: Annotated[float, Quantity("rad", what="an angle", example="45 deg")] = 0.0
+    applied_to: Literal["base", "body"] = "base"
+    start: Annotated[float, Quantity("s", what="a time", example="0.14 s", ge=0)] = 0.0
+    rise_time: (
+        Annotated[float, Quantity("s", what="a time", example="10 us", gt=0)] | None
+    ) = None
+    samples: Path | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Vibration":
+        if self.waveform == "sampled" and self.samples is None:
+            raise InputError(
+                "vibration.samples is missing; a sampled waveform needs a CSV file with time and "
+                "displacement of one period"
+            )
+        if self.waveform != "sampled" and self.samples is not None:
+            raise InputError(
+                f"vibration.samples is given, but vibration.waveform is '{self.waveform}'; set it "
+                "to 'sampled' or leave the samples out"
+            )
+        if self.frequency is None and self.waveform != "sampled":
+            raise InputError("vibration.frequency is missing; give one such as '4 kHz'")
+        if self.waveform == "square":
+            if self.rise_time is None:
+                raise InputError(
+                    "vibration.rise_time is missing; a square wave needs the duration of its "
+                    "flanks, such as '10 us'"
+                )
+            if self.frequency is not None and self.rise_time * self.frequency > 0.5:
+                raise InputError(
+                    f"vibration.rise_time is {self.rise_time:g} s; it must not exceed half a "
+                    f"period, {0.5 / self.frequency:g} s"
+                )
+        elif self.rise_time is not None:
+            raise InputError(
+                f"vibration.rise_time is for a square wave; the waveform is '{self.waveform}'"
+            )
+        return self
+
+    def shape(self, folder: Path | None = None) -> "Shape":
+        """Waveform made ready for the kernels; ``folder`` is where a samples file is looked for."""
+        if self.waveform == "sampled":
+            if self.samples is None:
+                raise InputError("vibration.samples is missing")
+            path = (folder or Path()) / self.samples
+            try:
+                stamp = path.stat().st_mtime_ns
+            except OSError:
+                stamp = 0
+            shape = _sampled(path, stamp)
+            if self.frequency is None:
+                return shape
+            if abs(shape.frequency / self.frequency - 1.0) > 0.01:
+                raise InputError(
+                    f"vibration.frequency is {self.frequency:g} Hz, but the samples in "
+                    f"{path.name} span a period of {1 / shape.frequency:g} s "
+                    f"({shape.frequency:g} Hz); leave the frequency out or make them agree"
+                )
+            return shape
+        frequency = self.frequency or 0.0
+        if self.waveform == "sine":
+            return Shape(SINE, frequency, 2.0 * math.pi, 0.0, _NO_TABLE)
+        if self.waveform == "triangle":
+            return Shape(TRIANGLE, frequency, 4.0, 0.0, _NO_TABLE)
+        rise = (self.rise_time or 0.0) * frequency
+        return Shape(SQUARE, frequency, 2.0 / rise, rise, _NO_TABLE)
+
+    def displacement(self, shape: "Shape", drive_velocity: float) -> float:
+        """Displacement amplitude u_a, m."""
+        if self.displacement_amplitude is not None:
+            return self.displacement_amplitude
+        return self.velocity(shape, drive_velocity) / (shape.steepness * shape.frequency)
+
+    def velocity(self, shape: "Shape", drive_velocity: float) -> float:
+        """Peak velocity v_a, m/s."""
+        if self.displacement_amplitude is not None:
+            return self.displacement_amplitude * shape.steepness * shape.frequency
+        if self.velocity_amplitude is not None:
+            return self.velocity_amplitude
+        return (self.velocity_ratio or 0.0) * abs(drive_velocity)
+
+
+class Shape:
+    """A waveform as the kernels see it.
+
+    Attributes
+    ----------
+    code : int
+        `SINE`, `TRIANGLE`, `SQUARE` or `SAMPLED`.
+    frequency : float
+        Hz.
+    steepness : float
+        Peak velocity over (amplitude times frequency).
+    rise : float
+        Rise time of a square wave in cycles.
+    table : ndarray
+        One closed period of a sampled wave, unit amplitude.
+    """
+
+    def __init__(
+        self, code: int, frequency: float, steepness: float, rise: float, table: FloatArray
+    ) -> None:
+        self.code = code
+        self.frequency = frequency
+        self.steepness = steepness
+        self.rise = rise
+        self.table = table
+
+    def increments(self, first_cycles: float, cycles_per_step: float, steps: int) -> FloatArray:
+        """Increments of the unit displacement over ``steps`` steps."""
+        out = np.empty(steps)
+        fill_increments(self.code, self.rise, self.table, first_cycles, cycles_per_step, out)
+        return out
+
+    def kernel_arguments(self) -> tuple[Any, ...]:
+        """Leading arguments of `fill_increments`."""
+        return self.code, self.rise, self.table
+
+
+@functools.lru_cache(maxsize=32)
+def _sampled(path: Path, stamp: int) -> Shape:
+    """Read and check a samples file; cached by its time of change."""
+    time, value = _read_samples(path)
+    name = f"vibration.samples: {path.name}"
+    steps = np.diff(time)
+    if np.any(steps <= 0.0):
+        row = int(np.argmax(steps <= 0.0)) + 2
+        raise InputError(f"{name}: time does not increase at sample {row}; sort the samples")
+    if steps.max() > 5.0 * np.median(steps):
+        row = int(np.argmax(steps)) + 1
+        raise InputError(
+            f"{name}: a gap of {steps.max():g} s after sample {row}, where the samples are "
+            f"{np.median(steps):g} s apart; fill it"
+        )
+    span = value.max() - value.min()
+    if span <= 0.0:
+        raise InputError(f"{name}: the displacement does not change")
+    if abs(value[-1] - value[0]) > 0.02 * span:
+        raise InputError(
+            f"{name}: the last displacement, {value[-1]:g}, must repeat the first, {value[0]:g}, "
+            "to close the period"
+        )
+    from scipy.interpolate import CubicSpline
+
+    value[-1] = value[0]
+    period = float(time[-1] - time[0])
+    spline = CubicSpline((time - time[0]) / period, value, bc_type="periodic")
+    phase = np.linspace(0.0, 1.0, _TABLE_POINTS + 1)
+    table = spline(phase)
+    table -= table[:-1].mean()
+    half_range = 0.5 * (table.max() - table.min())
+    steepness = float(np.abs(spline(phase, 1)).max() / half_range)
+    return Shape(SAMPLED, 1.0 / period, steepness, 0.0, np.ascontiguousarray(table / half_range))
+
+
+def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
+    name = f"vibration.samples: {path.name}"
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{name} cannot be read: {reason}") from None
+    pairs: list[tuple[float, float]] = []
+    for number, row in enumerate(rows, start=1):
+        try:
+            pair = float(row[0]), float(row[1])
+        except (ValueError, IndexError):
+            if number == 1 and len(row) >= 2:
+                continue
+            raise InputError(
+                f"{name}: row {number} is {','.join(row)!r}; it must hold two numbers: time in s, "
+                "displacement in m"
+            ) from None
+        if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
+            raise InputError(f"{name}: row {number} is {','.join(row)!r}; fill the gap")
+        pairs.append(pair)
+    if len(pairs) < 8:
+        raise InputError(f"{name} holds {len(pairs)} samples; a period needs at least 8")
+    data = np.array(pairs)
+    return data[:, 0], data[:, 1]
