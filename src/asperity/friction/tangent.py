@@ -69,7 +69,7 @@ def _midpoint_slope(
     size = math.sqrt(sx * sx + sy * sy)
     rate = 0.0
     rate_t = 0.0
-    if size > _TINY:
+    if exponent != 1.0 and size > _TINY:
         ex = sx / size
         ey = sy / size
         share = min(size, 1.0)
@@ -79,12 +79,9 @@ def _midpoint_slope(
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
     hx, hy, scale = _half_step(sx, sy, dx, dy, rate)
-    x = 0.5 * rate
-    x_t = 0.5 * rate_t
-    growth = 1.0 + x * (0.5 + x * (1.0 / 6.0))
-    growth_t = (0.5 + x * (1.0 / 3.0)) * x_t
-    hx_t = 0.5 * (growth * tx + growth_t * dx)
-    hy_t = 0.5 * (growth * ty + growth_t * dy)
+    scale_t = 0.5 * rate_t
+    hx_t = 0.5 * tx
+    hy_t = 0.5 * ty
     half = math.sqrt(hx * hx + hy * hy)
     rate = 0.0
     rate_t = 0.0
@@ -95,7 +92,7 @@ def _midpoint_slope(
         ex_t = (hx_t - ex * half_t) / half
         ey_t = (hy_t - ey * half_t) / half
         share = half / scale
-        share_t = (half_t - share * (growth * x_t + x * growth_t)) / scale
+        share_t = (half_t - share * scale_t) / scale
         if share >= 1.0:
             share = 1.0
             share_t = 0.0
