@@ -19,6 +19,7 @@ exclude_patterns = ["_build"]
 
 autosummary_generate = True
 autodoc_typehints = "none"
+autodoc_default_options = {"exclude-members": "model_config"}
 numpydoc_show_class_members = False
 
 sphinx_gallery_conf = {

@@ -75,7 +75,7 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
 
 
 def write_dataset(dataset: "xarray.Dataset", path: str | os.PathLike[str]) -> Path:
-    """Write a labelled result as netCDF-4, atomically.
+    """Write a labelled result as netCDF-4, atomically, numbers with a checksum.
 
     Raises
     ------
@@ -88,10 +88,16 @@ def write_dataset(dataset: "xarray.Dataset", path: str | os.PathLike[str]) -> Pa
         missing = [label for label in ("units", "long_name") if label not in variable.attrs]
         if missing:
             raise ValueError(f"{name} has no {' and no '.join(missing)}; every variable needs both")
+    checked = {
+        name: {"fletcher32": True}
+        for name, variable in dataset.variables.items()
+        if variable.ndim and variable.size and variable.dtype.kind in "biuf"
+    }
     # Encoded in memory: on a full disk the HDF5 library leaves a file open that it can neither
     # flush nor close.
     return write_atomically(
-        path, lambda target: target.write_bytes(dataset.to_netcdf(engine="h5netcdf"))
+        path,
+        lambda target: target.write_bytes(dataset.to_netcdf(engine="h5netcdf", encoding=checked)),
     )
 
 
@@ -103,9 +109,13 @@ def read_dataset(path: str | os.PathLike[str]) -> "xarray.Dataset":
     StorageError
         There is no such file, or it is not netCDF or damaged.
     """
+    import h5py
     import xarray
 
     try:
+        # Met by a file it cannot open, the netCDF reader complains once more when it is collected.
+        with h5py.File(path) as file:
+            dict(file.attrs)
         # Left as floats: a duration in seconds is a number here, not a calendar's time difference.
         return xarray.load_dataset(
             path, engine="h5netcdf", decode_times=False, decode_timedelta=False

@@ -1,0 +1,193 @@
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+
+from asperity.compiled import cache_folder, kernel, source_hash
+
+PROGRAM = """
+import json, sys
+from asperity import compiled
+from pathlib import Path
+package = Path(sys.argv[1])
+original = compiled.source_hash
+compiled.source_hash = lambda: original(package)
+sys.path.insert(0, str(package.parent))
+from fake.outer import outer
+value = outer(2.0)
+stats = outer.stats
+print(json.dumps([value, sum(stats.cache_hits.values()), stats.cache_path]))
+"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    """A package of two modules, one calling the other."""
+    folder = tmp_path / "fake"
+    folder.mkdir()
+    (folder / "__init__.py").touch()
+    (folder / "inner.py").write_text(
+        "from asperity.compiled import kernel\n@kernel\ndef inner(x):\n    return x + 1.0\n"
+    )
+    (folder / "outer.py").write_text(
+        "from asperity.compiled import kernel\nfrom fake.inner import inner\n"
+        "@kernel\ndef outer(x):\n    return inner(x) * 10.0\n"
+    )
+    return folder
+
+
+@pytest.fixture
+def run(package, tmp_path):
+    """Call ``outer(2)`` in a fresh process; returns value, cache hits and cache folder."""
+
+    def call(cache=tmp_path / "cache"):
+        done = subprocess.run(
+            [sys.executable, "-W", "error", "-c", PROGRAM, str(package)],
+            env={**os.environ, "ASPERITY_CACHE": str(cache)},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        assert done.stderr == ""
+        return json.loads(done.stdout)
+
+    return call
+
+
+def test_a_second_process_finds_the_kernel_in_the_cache(run, tmp_path):
+    first, hits, folder = run()
+    assert (first, hits) == (30.0, 0)
+    assert Path(folder).is_relative_to(tmp_path / "cache" / "asperity" / "kernels")
+    assert run() == [30.0, 1, folder]
+
+
+def test_a_change_in_a_called_module_gives_the_new_answer(run, package):
+    run()
+    inner = package / "inner.py"
+    inner.write_text(inner.read_text().replace("1.0", "2.0"))
+    assert run()[:2] == [40.0, 0]
+
+
+@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda content: b"",
+        lambda content: b"garbage",
+        lambda content: content[: len(content) // 2],
+        lambda content: content[:1000] + bytes([content[1000] ^ 0xFF]) + content[1001:],
+    ],
+    ids=["empty", "garbage", "half", "one byte"],
+)
+def test_a_damaged_cache_file_costs_a_compilation_and_is_repaired(run, tmp_path, suffix, damage):
+    run()
+    files = list((tmp_path / "cache").rglob(f"*outer*.{suffix}"))
+    assert files
+    for file in files:
+        content = file.read_bytes()
+        file.write_bytes(damage(content) if len(content) > 1000 else content[: len(content) // 2])
+    assert run()[:2] == [30.0, 0]
+    assert run()[:2] == [30.0, 1]
+
+
+def test_without_a_writable_folder_kernels_work_uncached(run, tmp_path):
+    (tmp_path / "file").touch()
+    assert run(tmp_path / "file") == [30.0, 0, None]
+
+
+def test_a_failed_save_is_ignored(monkeypatch, tmp_path):
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+
+    @kernel
+    def double(x):
+        return 2.0 * x
+
+    def full(name, data):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(double._cache._cache_file, "_save_data", full)
+    assert double(3.0) == 6.0
+
+
+def test_a_kernel_keeps_its_options_docstring_and_numbas_settings():
+    folder_before = numba.config.CACHE_DIR
+
+    @kernel(fastmath=True, inline="always")
+    def inverse(x):
+        """Return 1/x."""
+        return 1.0 / x
+
+    assert inverse.__doc__ == "Return 1/x."
+    assert inverse.targetoptions["fastmath"] is True
+    assert inverse.targetoptions["nogil"] is True
+    assert folder_before == numba.config.CACHE_DIR
+    assert np.isinf(inverse(0.0))
+
+
+def test_a_function_without_a_file_is_compiled_uncached():
+    space = {}
+    exec("def double(x):\n    return 2 * x", space)
+    assert kernel(space["double"])(3) == 6
+
+
+def test_the_hash_follows_content_names_and_nothing_else(package):
+    fresh = source_hash.__wrapped__
+    before = fresh(package)
+    (package / "notes.txt").write_text("not a source")
+    assert fresh(package) == before
+    (package / "inner.py").rename(package / "other.py")
+    assert fresh(package) != before
+    assert len(before) == 16
+
+
+def test_the_hash_takes_less_than_20_ms():
+    def seconds():
+        start = time.perf_counter()
+        source_hash.__wrapped__()
+        return time.perf_counter() - start
+
+    assert min(seconds() for _ in range(5)) < 0.02
+
+
+def test_cache_folders_stand_under_the_folder_that_the_environment_names(monkeypatch, tmp_path):
+    monkeypatch.delenv("ASPERITY_CACHE", raising=False)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    assert cache_folder("sweeps") == tmp_path / "home" / ".cache" / "asperity" / "sweeps"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
+    assert cache_folder("sweeps") == tmp_path / "xdg" / "asperity" / "sweeps"
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "own"))
+    folder = cache_folder("sweeps")
+    assert folder == tmp_path / "own" / "asperity" / "sweeps"
+    assert not list(folder.iterdir())
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "file"))
+    assert cache_folder("sweeps") is None
+
+
+def test_folders_of_old_sources_go_after_a_month(monkeypatch, tmp_path):
+    kernels = tmp_path / "asperity" / "kernels"
+    old, recent, other = kernels / ("a" * 16), kernels / ("b" * 16), kernels / "something else"
+    for folder in (old, recent, other):
+        folder.mkdir(parents=True)
+    month_ago = time.time() - 31 * 86400
+    for folder in (old, other):
+        os.utime(folder, (month_ago, month_ago))
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+
+    @kernel
+    def double(x):
+        return 2.0 * x
+
+    assert {folder.name for folder in kernels.iterdir()} == {
+        recent.name,
+        other.name,
+        source_hash(),
+    }

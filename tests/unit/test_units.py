@@ -1,0 +1,164 @@
+import math
+import subprocess
+import sys
+from typing import Annotated
+
+import numpy as np
+import pydantic
+import pytest
+
+from asperity.errors import InputError
+from asperity.units import Quantity, quantity_of, split_unit, to_si, unit_of
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "expected"),
+    [
+        ("0.5 mm/s", "m/s", 0.5e-3),
+        ("1.8 m/h", "m/s", 0.5e-3),
+        ("4 kHz", "Hz", 4000.0),
+        ("96068 N/m", "N/m", 96068.0),
+        ("80 MN/m", "N/m", 80e6),
+        ("0 N s/m", "N s/m", 0.0),
+        ("68.75 nm", "m", 6.875e-8),
+        ("1 us", "s", 1e-6),
+        ("1 \u00b5s", "s", 1e-6),
+        ("1\u03bcs", "s", 1e-6),
+        ("20 degC", "K", 293.15),
+        ("20 \u00b0C", "K", 293.15),
+        ("270 deg", "rad", 1.5 * math.pi),
+        ("45\u00b0", "rad", 0.25 * math.pi),
+        ("60 rpm", "rad/s", 2 * math.pi),
+        ("4394 Nm/rad", "N m/rad", 4394.0),
+        ("194.3 N/mm2", "Pa", 194.3e6),
+        ("194.3 N/mm^2", "Pa", 194.3e6),
+        ("50 cSt", "m^2/s", 50e-6),
+        ("1e-3 m", "m", 1e-3),
+        ("-.5 m", "m", -0.5),
+        ("71 %", "", 0.71),
+        ("0.71", "", 0.71),
+    ],
+)
+def test_text_becomes_the_nearest_float_in_si(text, unit, expected):
+    assert to_si(text, unit) == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "unit"),
+    [
+        ("4 kHz", "rad"),
+        ("4 kHz", "rad/s"),
+        ("60 rpm", "Hz"),
+        ("45 deg", ""),
+        ("3", "rad"),
+        ("3", "m"),
+        ("4 kN", "Hz"),
+        ("1 N m", "N"),
+        ("0.5 mm/z", "m/s"),
+        ("0,5 mm/s", "m/s"),
+        ("1.2.3 m", "m"),
+        ("1_000 m", "m"),
+        ("3 4 m", "m"),
+        ("nan m", "m"),
+        ("inf m", "m"),
+        ("1e9999 m", "m"),
+        ("m", "m"),
+        ("", "m"),
+        ("", ""),
+        ("9 m**9**9**9", "m"),
+        ("1 m/0", "m"),
+        ("1 ((m", "m"),
+        ("__import__('os')", "m"),
+        (math.nan, "m"),
+        (-math.inf, ""),
+        (10**400, "m"),
+        (True, ""),
+        (np.True_, ""),
+        (None, "m"),
+        ([1.0], "m"),
+        (1 + 2j, ""),
+    ],
+)
+def test_what_is_no_such_quantity_is_refused_in_one_line(value, unit):
+    with pytest.raises(InputError) as raised:
+        to_si(value, unit)
+    assert "\n" not in str(raised.value)
+
+
+def test_a_bare_number_is_si_or_refused_or_in_the_unit_named():
+    assert to_si(3, "m") == 3.0
+    assert to_si(np.float32(0.5), "m") == 0.5
+    assert to_si(180, "rad", bare="deg") == math.pi
+    assert to_si("180", "rad", bare="deg") == math.pi
+    assert to_si("1 rad", "rad", bare="deg") == 1.0
+    assert to_si(0.71, "", bare="refuse") == 0.71
+    with pytest.raises(InputError, match="has no unit"):
+        to_si(3, "m", bare="refuse")
+    with pytest.raises(InputError, match="has no unit"):
+        to_si("3", "m", bare="refuse")
+
+
+def test_zero_has_no_sign():
+    assert math.copysign(1.0, to_si("-0 m/s", "m/s")) == 1.0
+
+
+def test_a_number_is_split_from_its_unit():
+    assert split_unit(" 0.5mm/s ") == ("0.5", "mm/s")
+    assert split_unit("12") == ("12", "")
+    assert split_unit("fast") is None
+
+
+def test_importing_units_does_not_load_pint():
+    code = "import sys, asperity.units; sys.exit('pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+class Model(pydantic.BaseModel):
+    speed: Annotated[float, Quantity("m/s", gt=0)]
+    angle: Annotated[float, Quantity("rad", "an angle", "45 deg")] | None = None
+    share: Annotated[float, Quantity("", "a share", "0.71", ge=0, le=1)] = 1.0
+    name: str = ""
+
+
+def test_a_field_takes_text_with_a_unit_or_si():
+    assert Model(speed="2 mm/s").speed == 2e-3
+    assert Model(speed=2).speed == 2.0
+    assert Model(speed=1, angle="90 deg").angle == math.pi / 2
+    assert Model(speed=1, angle=None).angle is None
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "message"),
+    [
+        ("speed", "4 kHz", "it must be a velocity such as '0.5 mm/s'"),
+        ("speed", True, "it must be a velocity such as '0.5 mm/s'"),
+        ("speed", "-1 m/s", "it must be positive"),
+        ("angle", "90", "it must be an angle such as '45 deg'"),
+        ("share", "x", "it must be a share such as 0.71"),
+        ("share", 1.5, "it must be at least 0 and at most 1"),
+    ],
+)
+def test_a_field_says_what_it_must_be(field, value, message):
+    with pytest.raises(pydantic.ValidationError) as raised:
+        Model(**{"speed": 1.0, field: value})
+    assert str(raised.value.errors()[0]["ctx"]["error"]) == message
+
+
+def test_a_bound_says_its_unit():
+    assert Quantity("m", lt=0.5).bounds() == "it must be below 0.5 m"
+    assert Quantity("m", ge=0).bounds() == "it must be zero or positive"
+
+
+def test_only_text_is_taken_where_the_context_says_so():
+    context = {"text_only": True}
+    given = {"speed": "1 m/s", "share": 0.5}
+    assert Model.model_validate(given, context=context).share == 0.5
+    with pytest.raises(pydantic.ValidationError):
+        Model.model_validate({"speed": 1.0}, context=context)
+
+
+def test_the_unit_of_a_field_can_be_asked():
+    assert [unit_of(Model, field) for field in ("speed", "angle", "share")] == ["m/s", "rad", ""]
+    assert unit_of(Model, "name") is None
+    assert unit_of(Model, "nothing") is None
+    assert quantity_of(Model, "angle") == Quantity("rad", "an angle", "45 deg")
