@@ -75,24 +75,29 @@ def test_a_change_in_a_called_module_gives_the_new_answer(run, package):
     assert run()[:2] == [40.0, 0]
 
 
-@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
+def half(content):
+    return content[: len(content) // 2]
+
+
+def one_byte_changed(content):
+    middle = len(content) // 2
+    return content[:middle] + bytes([content[middle] ^ 0xFF]) + content[middle + 1 :]
+
+
 @pytest.mark.parametrize(
-    "damage",
+    ("suffix", "damage"),
     [
-        lambda content: b"",
-        lambda content: b"garbage",
-        lambda content: content[: len(content) // 2],
-        lambda content: content[:1000] + bytes([content[1000] ^ 0xFF]) + content[1001:],
+        ("nbi", lambda content: b"garbage"),
+        ("nbi", half),
+        ("nbc", lambda content: b""),
+        ("nbc", half),
+        ("nbc", one_byte_changed),
     ],
-    ids=["empty", "garbage", "half", "one byte"],
 )
 def test_a_damaged_cache_file_costs_a_compilation_and_is_repaired(run, tmp_path, suffix, damage):
     run()
-    files = list((tmp_path / "cache").rglob(f"*outer*.{suffix}"))
-    assert files
-    for file in files:
-        content = file.read_bytes()
-        file.write_bytes(damage(content) if len(content) > 1000 else content[: len(content) // 2])
+    (file,) = (tmp_path / "cache").rglob(f"outer.outer*.{suffix}")
+    file.write_bytes(damage(file.read_bytes()))
     assert run()[:2] == [30.0, 0]
     assert run()[:2] == [30.0, 1]
 
