@@ -1,4 +1,4 @@
-r"""Thirty-two bodies marched side by side: Dahl friction with exponent 1, one vector lane a case.
+r"""Thirty-two bodies marched side by side: Dahl friction with exponent 1 on an undamped drive, a lane each.
 
 Same equations and units as `asperity.slider.kernels`, laid out for vector instructions. Why it
 looks the way it does: all numbers of a batch stand in ONE buffer at offsets known to the compiler
@@ -19,11 +19,11 @@ LANES = 32
 # Rows of the buffer.
 (
     STRETCH, WX, WY, SX, SY,
-    DRIVE, KAPPA, DRAG, CHI, KEEP, GIVE_X, GIVE_Y, BASE_X, BASE_Y,
-    SUM_FREE, SUM_FX, SUM_FY, SUM_VX, SUM_VY, SUM_SLIP, SUM_Z, SUM_ZZ,
+    DRIVE, KAPPA, GIVE_X, GIVE_Y, BASE_X, BASE_Y,
+    SUM_FREE, SUM_FX, SUM_FY, SUM_VX, SUM_VY, SUM_SLIP,
     MAX_FX, MIN_FX, MAX_FY, WAITING, WAITED,
     ROWS,
-) = range(28)  # fmt: skip
+) = range(23)  # fmt: skip
 
 BLOCK = 64  # steps whose increments are made at a time: 16 kB, they stay in the first cache
 
@@ -113,9 +113,8 @@ def _make_block(law: int, window: bool) -> Any:
                     back = inverse_root(over if over > 0.0 else 0.0)
                     sx1 *= back
                     sy1 *= back
-                free = b[KAPPA * LANES + j] * stretch + b[DRAG * LANES + j]
-                wx1 = b[KEEP * LANES + j] * wx + b[GIVE_X * LANES + j] * (free - sx1)
-                b[WX * LANES + j] = wx1
+                free = b[KAPPA * LANES + j] * stretch
+                b[WX * LANES + j] = wx + b[GIVE_X * LANES + j] * (free - sx1)
                 b[WY * LANES + j] = wy - b[GIVE_Y * LANES + j] * sy1
                 b[STRETCH * LANES + j] = stretch
                 b[SX * LANES + j] = sx1
@@ -139,8 +138,7 @@ def _make_block(law: int, window: bool) -> Any:
                 else:
                     waiting = b[WAITING * LANES + j]
                     b[WAITED * LANES + j] += waiting
-                    drag = b[CHI * LANES + j] * 0.5 * (wx + wx1)
-                    b[WAITING * LANES + j] = waiting if free - drag < 1.0 else 0.0
+                    b[WAITING * LANES + j] = waiting if free < 1.0 else 0.0
 
     return block
 

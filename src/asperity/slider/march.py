@@ -153,6 +153,7 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
     stride = max(1, table.steps // _RECORDS) if history else _BLOCK
     walk.to(table.window_start, stride)
     start = walk.energies()
+    breakaway = walk.sums[k.BREAKAWAY]
     k.clear(walk.sums)
     walk.to(table.middle, stride)
     first_half = walk.sums.copy()
@@ -167,7 +168,6 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
     sums[k.MAX_FY] = max(first_half[k.MAX_FY], second_half[k.MAX_FY])
     end = walk.energies()
     halves = [s[k.SUM_FD] / s[k.STEPS] for s in (first_half, second_half)]
-    breakaway = second_half[k.BREAKAWAY]
     return summarise(
         model, table.step, sums, start, end,
         residual=abs(float(halves[1] - halves[0])),
@@ -175,13 +175,14 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
         steps=table.steps,
         cycles=table.cycles,
         history=_history(model, table.step, walk) if history else None,
-        notes=_notes(model),
+        notes=march_notes(model),
         substeps=model.substeps,
         seconds=time.perf_counter() - began,
     )  # fmt: skip
 
 
-def _notes(model: Model) -> tuple[str, ...]:
+def march_notes(model: Model) -> tuple[str, ...]:
+    """What a reader of a march's numbers should know."""
     notes = []
     if model.substeps > 1:
         notes.append(

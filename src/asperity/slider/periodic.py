@@ -1,0 +1,115 @@
+"""The periodic state of a sliding body, without marching through the transient."""
+
+import math
+import time
+
+import numpy as np
+
+from asperity.errors import ConvergenceError
+from asperity.slider import kernels as k
+from asperity.slider import model as m
+from asperity.slider.march import energies, summarise
+from asperity.slider.model import FloatArray, Model
+from asperity.slider.result import History, SlideResult
+from asperity.slider.shooting import _GOOD_ENOUGH, shoot
+
+_LEAST_STEPS = 256
+_REST_STEPS = 64
+_UNSTABLE = 1.0 + 1e-3
+
+
+def cycle_steps(model: Model) -> int:
+    """Steps a cycle is divided into: at least 256, a multiple of 4 to meet the waveform's kinks."""
+    if not model.vibrates:
+        return _REST_STEPS
+    asked = model.substeps / (model.frequency * model.step)
+    return 4 * math.ceil(max(asked * (1.0 - 1e-9), _LEAST_STEPS) / 4)
+
+
+def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
+    """Find the state that repeats itself every vibration cycle.
+
+    Parameters
+    ----------
+    model : Model
+        The body. Start, duration and breakaway have no meaning here.
+    history : bool
+        Whether to keep motion and forces over one cycle.
+
+    Raises
+    ------
+    ConvergenceError
+        No state repeats within 1e-9 (a body that sticks and slips at a rate of its own, say).
+    """
+    began = time.perf_counter()
+    steps = cycle_steps(model)
+    step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
+    p = model.parameters(step)
+    increments = np.zeros(steps + 1)
+    if model.shape is not None and model.vibrates:
+        # One cycle late, so that the wave's rest before its start is not met.
+        increments = model.shape.increments(1.0, 1.0 / steps, steps + 1)
+    state = np.zeros(k.STATE)
+    sums = np.zeros(k.SUMS)
+    jacobian = np.zeros((5, 5))
+    law = model.friction.law_code
+    code = m.MODELS[model.friction.model]
+    residual, cycles, unknowns = shoot(state, p, increments, steps, code, law, sums, jacobian)
+    if not residual <= _GOOD_ENOUGH:
+        raise ConvergenceError(
+            f"no periodic state found: after {cycles} cycles the state still changes by "
+            f"{residual:.2g} a cycle (1e-9 is asked for); solve.method 'march' shows what it does",
+            reached={"residual": float(residual), "cycles": float(cycles)},
+        )
+    elastic = model.friction.model != "coulomb"
+    end = energies(state, p, elastic=elastic)
+    notes: tuple[str, ...] = ()
+    growth = _growth(jacobian[:unknowns, :unknowns])
+    if growth > _UNSTABLE:
+        notes = (
+            f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
+        )
+    return summarise(
+        model, step, sums, end, end,
+        residual=float(residual),
+        steps=int(cycles) * steps,
+        cycles=int(cycles),
+        seconds=time.perf_counter() - began,
+        substeps=model.substeps,
+        notes=notes,
+        history=_one_cycle(model, step, steps, state, p, increments) if history else None,
+    )  # fmt: skip
+
+
+def _growth(jacobian: FloatArray) -> float:
+    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken."""
+    if jacobian.size == 0 or not np.any(jacobian):
+        return 0.0
+    return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
+
+
+def _one_cycle(
+    model: Model, step: float, steps: int, state: FloatArray, p: FloatArray, increments: FloatArray
+) -> History:
+    rows = np.empty((steps, k.STATE))
+    here = state.copy()
+    here[k.Y] = 0.0
+    sums = np.zeros(k.SUMS)
+    code = m.MODELS[model.friction.model]
+    for n in range(steps):
+        k.march_block(here, sums, p, increments[n : n + 2], 1, code, model.friction.law_code)
+        rows[n] = here
+    time_ = step * np.arange(1, steps + 1)
+    length = model.length(step)
+    drive = model.slider.drive_velocity
+    force = model.full_friction
+    return History(
+        time=time_,
+        drive_force=rows[:, k.FD] * force,
+        friction=rows[:, [k.FX, k.FY]] * force,
+        deflection=rows[:, [k.SX, k.SY]] * length,
+        position=np.stack(
+            [drive * time_ - rows[:, k.STRETCH] * length, rows[:, k.Y] * length], axis=1
+        ),
+        velocity=rows[:, [k.WX, k.WY]] * (length / step),
+    )
