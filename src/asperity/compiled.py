@@ -16,7 +16,7 @@ import shutil
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, TypeVar, overload
+from typing import Any, overload
 
 import llvmlite.binding
 import numba
@@ -27,7 +27,8 @@ _PACKAGE = Path(__file__).parent
 _KEPT_DAYS = 30
 _DIGEST_BYTES = 32
 
-F = TypeVar("F", bound=Callable[..., Any])
+# Numba finds the types of a kernel at its first call; there is nothing to check before.
+Kernel = Callable[..., Any]
 
 
 @functools.cache
@@ -148,12 +149,12 @@ def _enable_cache(dispatcher: Any) -> None:
 
 
 @overload
-def kernel(function: F, /) -> F: ...
+def kernel(function: Kernel, /) -> Kernel: ...
 @overload
-def kernel(*, fastmath: bool | set[str] = ..., inline: str = ...) -> Callable[[F], F]: ...
+def kernel(*, fastmath: bool | set[str] = ..., inline: str = ...) -> Callable[[Kernel], Kernel]: ...
 def kernel(
-    function: F | None = None, /, *, fastmath: bool | set[str] = False, inline: str = "never"
-) -> F | Callable[[F], F]:
+    function: Kernel | None = None, /, *, fastmath: bool | set[str] = False, inline: str = "never"
+) -> Kernel | Callable[[Kernel], Kernel]:
     """Compile a function of floats and arrays, without the interpreter's lock.
 
     A division by zero follows the floating-point rules instead of raising.
@@ -173,12 +174,12 @@ def kernel(
         The compiled function, cached on disk where there is a writable folder.
     """
 
-    def decorate(plain: F) -> F:
+    def decorate(plain: Kernel) -> Kernel:
         options: dict[str, Any] = {"fastmath": fastmath, "inline": inline}
         dispatcher: Any = numba.njit(nogil=True, error_model="numpy", **options)(plain)
         if not numba.config.DISABLE_JIT:
             _enable_cache(dispatcher)
-        compiled: F = dispatcher
+        compiled: Kernel = dispatcher
         return compiled
 
     return decorate if function is None else decorate(function)
