@@ -56,7 +56,7 @@ def _share(span: float) -> float:
     return m._WINDOW_SHARE * max(span, 0.0)
 
 
-class _Walk:
+class Walk:
     """State, sums and recorded rows of one march as it goes on."""
 
     def __init__(self, model: Model, table: Timetable) -> None:
@@ -149,7 +149,7 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
     """
     began = time.perf_counter()
     table = Timetable(model)
-    walk = _Walk(model, table)
+    walk = Walk(model, table)
     stride = max(1, table.steps // _RECORDS) if history else _BLOCK
     walk.to(table.window_start, stride)
     start = walk.energies()
@@ -272,7 +272,7 @@ def _ledger(
     )
 
 
-def _history(model: Model, step: float, walk: _Walk) -> History:
+def _history(model: Model, step: float, walk: Walk) -> History:
     rows = np.concatenate(walk.rows)
     at = np.concatenate(walk.at) * step
     length = model.length(step)

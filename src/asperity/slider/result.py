@@ -48,7 +48,7 @@ class PowerLedger:
         return abs(missing) / scale
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class History:
     """Motion and forces over time; rows need not be equally spaced.
 
@@ -64,7 +64,7 @@ class History:
     velocity: FloatArray
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class SlideResult:
     r"""The answer for one sliding body.
 
