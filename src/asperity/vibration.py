@@ -74,9 +74,7 @@ def fill_increments(waveform, rise, table, first_cycles, cycles_per_step, increm
     """Write the unit displacement's increments over consecutive steps into ``increments``."""
     last = unit_displacement(waveform, first_cycles, rise, table)
     for n in range(increments.size):
-        here = unit_displacement(
-            waveform, first_cycles + (n + 1) * cycles_per_step, rise, table
-        )
+        here = unit_displacement(waveform, first_cycles + (n + 1) * cycles_per_step, rise, table)
         increments[n] = here - last
         last = here
 
@@ -122,9 +120,9 @@ class Vibration(Table):
     frequency: (
         Annotated[float, Quantity("Hz", what="a frequency", example="4 kHz", gt=0)] | None
     ) = None
-    velocity_ratio: (
-        Annotated[float, Quantity("", what="a ratio", example="6.0", ge=0)] | None
-    ) = None
+    velocity_ratio: Annotated[float, Quantity("", what="a ratio", example="6.0", ge=0)] | None = (
+        None
+    )
     velocity_amplitude: (
         Annotated[float, Quantity("m/s", what="a velocity", example="3 mm/s", ge=0)] | None
     ) = None
@@ -134,9 +132,7 @@ class Vibration(Table):
     direction: Annotated[float, Quantity("rad", what="an angle", example="45 deg")] = 0.0
     applied_to: Literal["base", "body"] = "base"
     start: Annotated[float, Quantity("s", what="a time", example="0.14 s", ge=0)] = 0.0
-    rise_time: (
-        Annotated[float, Quantity("s", what="a time", example="10 us", gt=0)] | None
-    ) = None
+    rise_time: Annotated[float, Quantity("s", what="a time", example="10 us", gt=0)] | None = None
     samples: Path | None = None
 
     @model_validator(mode="after")

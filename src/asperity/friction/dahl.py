@@ -8,12 +8,13 @@ An asperity of the contact is a bristle with the deflection :math:`s`. It follow
 and the friction force is :math:`\mu F_N\, s / s_{max}` (stress: :math:`\mu p\, s / s_{max}`).
 The laws differ in the relaxation rate :math:`a` alone (:math:`e = s/|s|`, exponent :math:`i`):
 
-``vector``   :math:`a = |v|` for :math:`i = 1`, in general
-             :math:`\dot w = -|w|^{i-1}|v|\,w/s_{max}` for the distance :math:`w = n - s/s_{max}` to
-             the steady deflection in the slip direction :math:`n`. Does not depend on the frame.
-``unsplit``  :math:`a = c_i(e \cdot v)\,|e \cdot v|`: Dahl's one-dimensional law along the asperity.
-``split``    :math:`a = \sum_j c_i(e \cdot v_j)\,|e \cdot v_j|`: the limit of the thesis's two
-             explicit phases (4.5.1, 4.5.2) as the time step goes to zero.
+- ``vector``: :math:`a = |v|` for :math:`i = 1`, in general
+  :math:`\dot w = -|w|^{i-1}|v|\,w/s_{max}` for the distance :math:`w = n - s/s_{max}` to the
+  steady deflection in the slip direction :math:`n`. It does not depend on the frame.
+- ``unsplit``: :math:`a = c_i(e \cdot v)\,|e \cdot v|`, Dahl's one-dimensional law along the
+  asperity.
+- ``split``: :math:`a = \sum_j c_i(e \cdot v_j)\,|e \cdot v_j|`, the limit of the thesis's two
+  explicit phases (4.5.1, 4.5.2) as the time step goes to zero.
 
 with :math:`c_i(u) = \mathrm{sgn}(u)\,\{1 - [1 - (|s|/s_{max})\,\mathrm{sgn}(u)]^i\}\,s_{max}/|s|`,
 which is 1 for :math:`i = 1`. In one dimension the three coincide.
@@ -30,7 +31,7 @@ UNSPLIT = 1
 VECTOR = 2
 LAWS = {"split": SPLIT, "unsplit": UNSPLIT, "vector": VECTOR}
 
-_TINY = 1e-150
+TINY = 1e-150
 
 
 # (1 - exp(-h))/h = sum of (-h)^k/(k+1)!, exact to rounding up to h = 1/4.
@@ -92,8 +93,7 @@ def inverse_root(over):
     """
     x = over
     return 1.0 + x * (
-        -1 / 2
-        + x * (3 / 8 + x * (-5 / 16 + x * (35 / 128 + x * (-63 / 256 + x * (231 / 1024)))))
+        -1 / 2 + x * (3 / 8 + x * (-5 / 16 + x * (35 / 128 + x * (-63 / 256 + x * (231 / 1024)))))
     )
 
 
@@ -101,7 +101,7 @@ OVERSHOOT_BOUND = 0.02
 
 
 @kernel
-def _half_step(sx, sy, dx, dy, rate):
+def half_step(sx, sy, dx, dy, rate):
     """Deflection half a step on, for the midpoint rate: direction, and what divides its length.
 
     To second order ``(s + D/2)/(1 + rate/2)``: the direction needs no exponential, and a huge slip
@@ -112,7 +112,7 @@ def _half_step(sx, sy, dx, dy, rate):
 
 @kernel
 def rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law):
-    """Relaxation over a step, ``a dt/s_max``, for an asperity along the unit vector ``(ex, ey)``."""
+    """Relaxation over a step, ``a dt/s_max``, of an asperity along the unit vector ``e``."""
     if law == SPLIT:
         u1 = ex * d1x + ey * d1y
         u2 = ex * d2x + ey * d2y
@@ -125,18 +125,18 @@ def rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
-def _midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
     dx = d1x + d2x
     dy = d1y + d2y
     size = math.sqrt(sx * sx + sy * sy)
     rate = 0.0
-    if size > _TINY:
+    if size > TINY:
         rate = rate_along(sx / size, sy / size, min(size, 1.0), d1x, d1y, d2x, d2y, exponent, law)
-    hx, hy, scale = _half_step(sx, sy, dx, dy, rate)
+    hx, hy, scale = half_step(sx, sy, dx, dy, rate)
     half = math.sqrt(hx * hx + hy * hy)
     rate = 0.0
-    if half > _TINY:
+    if half > TINY:
         share = min(half / scale, 1.0)
         rate = rate_along(hx / half, hy / half, share, d1x, d1y, d2x, d2y, exponent, law)
     decay, gain = relaxation(rate)
@@ -156,10 +156,10 @@ def _midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
-def _closed_form(sx, sy, dx, dy, exponent):
+def closed_form(sx, sy, dx, dy, exponent):
     """Exact step of ``vector`` for a slip of constant direction, any exponent."""
     length = math.sqrt(dx * dx + dy * dy)
-    if length <= _TINY:
+    if length <= TINY:
         return sx + dx, sy + dy
     if exponent == 1.0:
         decay, gain = relaxation(length)
@@ -169,7 +169,7 @@ def _closed_form(sx, sy, dx, dy, exponent):
     wx = nx - sx
     wy = ny - sy
     rho = math.sqrt(wx * wx + wy * wy)
-    if rho <= _TINY:
+    if rho <= TINY:
         return nx, ny
     left = remaining_distance(rho, length, exponent) / rho
     return nx - left * wx, ny - left * wy
@@ -191,5 +191,5 @@ def remaining_distance(rho, length, exponent):
 def advance(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     """Deflection after the slip ``D1 + D2``; all in units of ``s_max``, nothing stored."""
     if law == VECTOR:
-        return _closed_form(sx, sy, d1x + d2x, d1y + d2y, exponent)
-    return _midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        return closed_form(sx, sy, d1x + d2x, d1y + d2y, exponent)
+    return midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)

@@ -73,12 +73,12 @@ class Friction(Table):
     @model_validator(mode="after")
     def _consistent(self) -> "Friction":
         given = self.model_fields_set
-        if self.model != "coulomb" and self.max_deflection is None:
-            if self.tangential_stiffness is None:
-                raise InputError(
-                    "friction.max_deflection is missing; model "
-                    f"'{self.model}' needs it, or friction.tangential_stiffness"
-                )
+        elastic = self.max_deflection is not None or self.tangential_stiffness is not None
+        if self.model != "coulomb" and not elastic:
+            raise InputError(
+                f"friction.max_deflection is missing; model '{self.model}' needs it, or "
+                "friction.tangential_stiffness"
+            )
         if self.model != "lugre":
             for key in ("static_mu", "stribeck_velocity", "contact_damping", "viscous_damping"):
                 if key in given and getattr(self, key):
@@ -87,9 +87,7 @@ class Friction(Table):
                         "leave it out or change friction.model"
                     )
         elif self.exponent != 1.0:
-            raise InputError(
-                f"friction.exponent is {self.exponent:g}; LuGre knows exponent 1 only"
-            )
+            raise InputError(f"friction.exponent is {self.exponent:g}; LuGre knows exponent 1 only")
         elif self.static_mu is not None and self.static_mu < self.mu:
             raise InputError(
                 f"friction.static_mu is {self.static_mu:g}; it must not be below "

@@ -8,12 +8,12 @@ import math
 
 from asperity.compiled import kernel
 from asperity.friction.dahl import (
-    _TINY,
     SPLIT,
+    TINY,
     VECTOR,
-    _closed_form,
-    _half_step,
-    _midpoint,
+    closed_form,
+    half_step,
+    midpoint,
     rate_along,
     relaxation,
     remaining_distance,
@@ -61,7 +61,7 @@ def _rate_slope(
 def _midpoint_slope(
     sx, sy, d1x, d1y, d2x, d2y, exponent, law, t1x, t1y, t2x, t2y
 ):  # fmt: skip
-    """Derivative of `dahl._midpoint` for the slip changing by ``(t1, t2)``."""
+    """Derivative of `dahl.midpoint` for the slip changing by ``(t1, t2)``."""
     dx = d1x + d2x
     dy = d1y + d2y
     tx = t1x + t2x
@@ -69,7 +69,7 @@ def _midpoint_slope(
     size = math.sqrt(sx * sx + sy * sy)
     rate = 0.0
     rate_t = 0.0
-    if exponent != 1.0 and size > _TINY:
+    if exponent != 1.0 and size > TINY:
         ex = sx / size
         ey = sy / size
         share = min(size, 1.0)
@@ -78,14 +78,14 @@ def _midpoint_slope(
             ex, ey, 0.0, 0.0, share, 0.0,
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
-    hx, hy, scale = _half_step(sx, sy, dx, dy, rate)
+    hx, hy, scale = half_step(sx, sy, dx, dy, rate)
     scale_t = 0.5 * rate_t
     hx_t = 0.5 * tx
     hy_t = 0.5 * ty
     half = math.sqrt(hx * hx + hy * hy)
     rate = 0.0
     rate_t = 0.0
-    if half > _TINY:
+    if half > TINY:
         ex = hx / half
         ey = hy / half
         half_t = ex * hx_t + ey * hy_t
@@ -119,11 +119,11 @@ def _midpoint_slope(
 
 
 @kernel
-def _closed_form_tangent(sx, sy, dx, dy, exponent):
-    """Derivative of `dahl._closed_form` by the slip, row by row."""
+def _closed_form_slope(sx, sy, dx, dy, exponent):
+    """Derivative of `dahl.closed_form` by the slip, row by row."""
     length = math.sqrt(dx * dx + dy * dy)
     if length <= 1e-12:
-        if length <= _TINY:
+        if length <= TINY:
             # Without a slip there is no direction: the elastic answer, the mean over directions
             # of the one-sided ones to first order in s for exponent 1.
             return 1.0, 0.0, 0.0, 1.0
@@ -139,7 +139,7 @@ def _closed_form_tangent(sx, sy, dx, dy, exponent):
     left = 0.0
     left_rho = 0.0
     speed = 0.0
-    if rho > _TINY:
+    if rho > TINY:
         phi = remaining_distance(rho, length, exponent)
         left = phi / rho
         if phi > 0.0:
@@ -152,7 +152,7 @@ def _closed_form_tangent(sx, sy, dx, dy, exponent):
     qx = pxx * wx + pxy * wy
     qy = pxy * wx + pyy * wy
     turn = (1.0 - left) / length
-    bend = left_rho / (length * rho) if rho > _TINY else 0.0
+    bend = left_rho / (length * rho) if rho > TINY else 0.0
     return (
         turn * pxx + speed * wx * nx - bend * wx * qx,
         turn * pxy + speed * wx * ny - bend * wx * qy,
@@ -206,11 +206,11 @@ def update(deflection, slip_1, slip_2, limit, exponent, law):
     d2x = slip_2[0] / limit
     d2y = slip_2[1] / limit
     if law == VECTOR:
-        share = _closed_form(sx, sy, d1x + d2x, d1y + d2y, exponent)
-        tangent_1 = _closed_form_tangent(sx, sy, d1x + d2x, d1y + d2y, exponent)
+        share = closed_form(sx, sy, d1x + d2x, d1y + d2y, exponent)
+        tangent_1 = _closed_form_slope(sx, sy, d1x + d2x, d1y + d2y, exponent)
         tangent_2 = tangent_1
     else:
-        share = _midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        share = midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
         xx, yx = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 1.0, 0.0, 0.0, 0.0)
         xy, yy = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 1.0, 0.0, 0.0)
         tangent_1 = (xx, xy, yx, yy)

@@ -18,7 +18,7 @@ from asperity.slider.solve import solve
 _FEWEST = 2  # a batch of two costs no more than two single marches
 
 
-class Stopped(Exception):
+class Stopped(Exception):  # noqa: N818 - being told to stop is no error
     """The batch was told to stop before it was done."""
 
 
@@ -151,19 +151,17 @@ def _march(
         second = (sums[k.SUM_FD] - first_half[lane]) / (table.window - half)
         waited = buffer[ln.WAITED, lane]
         broke = buffer[ln.WAITING, lane] == 0.0 and not model.slider.rigid
-        answers.append(
-            summarise(
-                model, table.step, sums, start_energies[lane],
-                energies(state, p, elastic=True),
-                residual=abs(float(second - first)),
-                steps=table.steps,
-                cycles=table.cycles,
-                seconds=seconds,
-                breakaway_time=float(waited) * table.step if broke else None,
-                substeps=model.substeps,
-                notes=march_notes(model),
-            )  # fmt: skip
-        )
+        answer = summarise(
+            model, table.step, sums, start_energies[lane], energies(state, p, elastic=True),
+            residual=abs(float(second - first)),
+            steps=table.steps,
+            cycles=table.cycles,
+            seconds=seconds,
+            breakaway_time=float(waited) * table.step if broke else None,
+            substeps=model.substeps,
+            notes=march_notes(model),
+        )  # fmt: skip
+        answers.append(answer)
     return answers
 
 

@@ -20,7 +20,6 @@ import numpy as np
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
-from asperity.slider import model as m
 from asperity.slider.march import Timetable, Walk
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.periodic import solve_periodic
@@ -124,6 +123,7 @@ class HomogenisedLaw:
     @overload
     def __call__(self, velocity: FloatArray) -> FloatArray: ...
     def __call__(self, velocity: float | FloatArray) -> float | FloatArray:
+        """Mean friction force in N at mean velocities in m/s."""
         values = np.atleast_1d(np.asarray(velocity, dtype=float))
         if not np.all(np.isfinite(values)):
             raise InputError("the velocity is not finite; give finite velocities in m/s")

@@ -14,7 +14,7 @@ import math
 
 from asperity.compiled import kernel
 from asperity.friction.coulomb import project
-from asperity.friction.dahl import SPLIT, UNSPLIT, advance, rate_along
+from asperity.friction.dahl import VECTOR, advance, rate_along
 from asperity.friction.lugre import stribeck_share
 from asperity.slider.model import (
     BASE_X,
@@ -98,7 +98,7 @@ def _node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, p, law):
         my = my1 + my2
         speed = math.sqrt(mx * mx + my * my)
         limit = stribeck_share(speed, p[STATIC_RATIO], p[STRIBECK])
-        if law == SPLIT or law == UNSPLIT:
+        if law != VECTOR:
             rate = 0.0
             if size > 0.0:
                 rate = rate_along(sx / size, sy / size, 1.0, mx, my1, 0.0, my2, 1.0, law) / limit
@@ -129,9 +129,7 @@ def prime(state, p, increments, model, law):
     else:
         state[WX] = 0.5 * p[GIVE_X] * free
     if model == COULOMB:
-        fx, fy = project(
-            state[WX] - ux, own * state[WY] - uy, p[GIVE_X], own * p[GIVE_Y], 0.0, 0.0
-        )
+        fx, fy = project(state[WX] - ux, own * state[WY] - uy, p[GIVE_X], own * p[GIVE_Y], 0.0, 0.0)
         state[WX] -= p[GIVE_X] * fx
         state[WY] -= p[GIVE_Y] * fy
         state[FX] = fx

@@ -1,4 +1,4 @@
-r"""Thirty-two bodies marched side by side: Dahl friction with exponent 1 on an undamped drive, a lane each.
+r"""Thirty-two bodies marched side by side: Dahl friction, exponent 1, drives without damping.
 
 Same equations and units as `asperity.slider.kernels`, laid out for vector instructions. Why it
 looks the way it does: all numbers of a batch stand in ONE buffer at offsets known to the compiler

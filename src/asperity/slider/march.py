@@ -11,6 +11,7 @@ from asperity.slider import model as m
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import History, PowerLedger, SlideResult, finite, mean_pair
 from asperity.slider.two_phase import march_two_phase
+from asperity.vibration import fill_increments
 
 _RECORDS = 4000
 _TAIL_CYCLES = 4
@@ -53,7 +54,7 @@ class Timetable:
 
 
 def _share(span: float) -> float:
-    return m._WINDOW_SHARE * max(span, 0.0)
+    return m.WINDOW_SHARE * max(span, 0.0)
 
 
 class Walk:
@@ -91,7 +92,7 @@ class Walk:
         return self.model.friction.law_code
 
     def _fill(self, room: FloatArray) -> None:
-        k.fill_increments(*self.wave, self._cycles(), self.cycles_per_step, room)
+        fill_increments(*self.wave, self._cycles(), self.cycles_per_step, room)
 
     def _cycles(self) -> float:
         return self.done * self.cycles_per_step - self.start_cycles
@@ -120,7 +121,7 @@ class Walk:
                     m.MODELS[self.model.friction.model], self._law,
                 )  # fmt: skip
             self.rows.append(history)
-            self.at.append(self.done + length * np.arange(1, count + 1))
+            self.at.append(self.done + length * np.arange(1.0, count + 1.0))
             self.done += count * length
         if not finite(self.state):
             raise ConvergenceError(
@@ -187,7 +188,7 @@ def march_notes(model: Model) -> tuple[str, ...]:
     if model.substeps > 1:
         notes.append(
             f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
-            f"must not exceed {m._SLIP_BOUND:g} max_deflection, nor the step {m._RING_BOUND:g} "
+            f"must not exceed {m.SLIP_BOUND:g} max_deflection, nor the step {m.RING_BOUND:g} "
             "over the body's angular frequency on its asperities"
         )
     return tuple(notes)
@@ -266,9 +267,7 @@ def _ledger(
         friction=float(watts * (sums[k.SUM_SLIP] - elastic)),
         damping=float(watts * sums[k.SUM_DRAG]),
         stored=float(watts * (mechanical + elastic)),
-        untransferred=float(
-            -watts * (1.0 - model.friction.transfer) * whole * sums[k.SUM_VY]
-        ),
+        untransferred=float(-watts * (1.0 - model.friction.transfer) * whole * sums[k.SUM_VY]),
     )
 
 

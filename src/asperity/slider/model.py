@@ -49,9 +49,9 @@ _LEAST_STEPS_A_CYCLE = 16
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4
 _WINDOW_RINGS = 20
-_WINDOW_SHARE = 0.75
-_SLIP_BOUND = 0.5
-_RING_BOUND = 0.25
+WINDOW_SHARE = 0.75
+SLIP_BOUND = 0.5
+RING_BOUND = 0.25
 _TWO_PHASE_BOUND = 2.0
 _MOST_SUBSTEPS = 1000
 
@@ -214,14 +214,12 @@ class Model:
                     f"most {self.step * _TWO_PHASE_BOUND / slip:.3g} s here"
                 )
             return 1
-        needed = slip / _SLIP_BOUND
+        needed = slip / SLIP_BOUND
         if self.slider.mass is not None and (not self.slider.rigid or self.slider.free):
             stiffness = self.friction.stiffness(self.slider.normal_force)
             stiffness *= max(1.0, self.friction.exponent * 2.0 ** (self.friction.exponent - 1.0))
             stiffness += self.slider.drive_stiffness or 0.0
-            needed = max(
-                needed, self.step * math.sqrt(stiffness / self.slider.mass) / _RING_BOUND
-            )
+            needed = max(needed, self.step * math.sqrt(stiffness / self.slider.mass) / RING_BOUND)
         parts = max(1, math.ceil(needed * (1.0 - 1e-9)))
         if parts > _MOST_SUBSTEPS:
             raise InputError(

@@ -11,7 +11,7 @@ from asperity.slider import model as m
 from asperity.slider.march import energies, summarise
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import History, SlideResult
-from asperity.slider.shooting import _GOOD_ENOUGH, shoot
+from asperity.slider.shooting import ACCEPTED, shoot
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64
@@ -55,7 +55,7 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     law = model.friction.law_code
     code = m.MODELS[model.friction.model]
     residual, cycles, unknowns = shoot(state, p, increments, steps, code, law, sums, jacobian)
-    if not residual <= _GOOD_ENOUGH:
+    if not residual <= ACCEPTED:
         raise ConvergenceError(
             f"no periodic state found: after {cycles} cycles the state still changes by "
             f"{residual:.2g} a cycle (1e-9 is asked for); solve.method 'march' shows what it does",
@@ -99,7 +99,7 @@ def _one_cycle(
     for n in range(steps):
         k.march_block(here, sums, p, increments[n : n + 2], 1, code, model.friction.law_code)
         rows[n] = here
-    time_ = step * np.arange(1, steps + 1)
+    time_: FloatArray = step * np.arange(1.0, steps + 1.0)
     length = model.length(step)
     drive = model.slider.drive_velocity
     force = model.full_friction

@@ -10,7 +10,20 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.slider.kernels import FD, FX, FY, STATE, STRETCH, SUM_FX, SX, SY, WX, WY, clear, march_block
+from asperity.slider.kernels import (
+    FD,
+    FX,
+    FY,
+    STATE,
+    STRETCH,
+    SUM_FX,
+    SX,
+    SY,
+    WX,
+    WY,
+    clear,
+    march_block,
+)
 from asperity.slider.model import (
     CHI,
     COULOMB,
@@ -23,7 +36,7 @@ from asperity.slider.model import (
 )
 
 TOLERANCE = 1e-11
-_GOOD_ENOUGH = 1e-9
+ACCEPTED = 1e-9
 _NEWTON_STEPS = 25
 _UNKNOWNS = 5
 _DIFFERENCE = 1e-7
@@ -57,7 +70,7 @@ def _solve(a, b, n):
 
 @kernel
 def _unknowns(p, model, places, scales):
-    """Places in the state of what shooting has to find, and the size a change of it is measured by."""
+    """Places in the state of what shooting has to find, and the scale of each."""
     count = 0
     if p[RIGID] == 0.0:
         places[count] = STRETCH
@@ -219,7 +232,9 @@ def shoot(state, p, increments, steps, model, law, sums, jacobian):
     state[FX] = 1.0
     if p[RIGID] == 0.0:
         state[STRETCH] = 1.0 / p[KAPPA]
-    worst = _defect(state, p, increments, steps, model, law, sums, places, scales, count, end, defect)
+    worst = _defect(
+        state, p, increments, steps, model, law, sums, places, scales, count, end, defect
+    )
     used += 1
     if worst > 1e-12:
         # Friction under the drive's mean motion alone tells the mean force to start from.
@@ -238,7 +253,7 @@ def shoot(state, p, increments, steps, model, law, sums, jacobian):
         )
         used += cycles
         settle = 20
-        while worst > _GOOD_ENOUGH and settle <= 2000:
+        while worst > ACCEPTED and settle <= 2000:
             _settle(state, p, increments, steps, model, law, sums, settle)
             worst, cycles = _newton(
                 state, p, increments, steps, model, law, sums, places, scales, count, jacobian
