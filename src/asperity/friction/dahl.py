@@ -125,25 +125,35 @@ def rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
+def step_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Relaxation over a step of ``split`` and ``unsplit``, taken half-way through it."""
+    rate = 0.0
+    if exponent != 1.0:
+        # The size half-way matters only where the exponent makes the rate depend on it.
+        size = math.sqrt(sx * sx + sy * sy)
+        if size > TINY:
+            rate = rate_along(
+                sx / size, sy / size, min(size, 1.0), d1x, d1y, d2x, d2y, exponent, law
+            )
+    hx, hy, scale = half_step(sx, sy, d1x + d2x, d1y + d2y, rate)
+    half = math.sqrt(hx * hx + hy * hy)
+    if half <= TINY:
+        return 0.0
+    share = min(half / scale, 1.0)
+    return rate_along(hx / half, hy / half, share, d1x, d1y, d2x, d2y, exponent, law)
+
+
+@kernel
 def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
     dx = d1x + d2x
     dy = d1y + d2y
-    size = math.sqrt(sx * sx + sy * sy)
-    rate = 0.0
-    if size > TINY:
-        rate = rate_along(sx / size, sy / size, min(size, 1.0), d1x, d1y, d2x, d2y, exponent, law)
-    hx, hy, scale = half_step(sx, sy, dx, dy, rate)
-    half = math.sqrt(hx * hx + hy * hy)
-    rate = 0.0
-    if half > TINY:
-        share = min(half / scale, 1.0)
-        rate = rate_along(hx / half, hy / half, share, d1x, d1y, d2x, d2y, exponent, law)
+    rate = step_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
     decay, gain = relaxation(rate)
     sx1 = sx * decay + dx * gain
     sy1 = sy * decay + dy * gain
     # A coarse step can overshoot the limit by up to 0.6 %; LuGre's limit can fall below s.
-    most = max(1.0, size)
+    most = max(1.0, math.sqrt(sx * sx + sy * sy))
     over = sx1 * sx1 + sy1 * sy1 - most * most
     if over > 0.0:
         if over <= OVERSHOOT_BOUND and most == 1.0:

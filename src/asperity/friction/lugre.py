@@ -11,6 +11,8 @@ et al. 1995, and without a Stribeck velocity :math:`g = \mu F_N`.
 import math
 
 from asperity.compiled import kernel
+from asperity.friction.dahl import VECTOR, relaxation, step_rate
+from asperity.friction.tangent import relaxation_slope, update
 
 
 @kernel
@@ -23,3 +25,106 @@ def stribeck_share(speed, static_ratio, stribeck_speed):
         return 1.0
     x = speed / stribeck_speed
     return 1.0 + (static_ratio - 1.0) * math.exp(-x * x)
+
+
+@kernel
+def _limit_slope(sx, sy, d1x, d1y, d2x, d2y, law):
+    """Derivative of the deflection by the limit, both in units of the limit.
+
+    The relaxation over a step goes as one over the limit, its direction does not depend on it.
+    """
+    dx = d1x + d2x
+    dy = d1y + d2y
+    if law == VECTOR:
+        rate = math.sqrt(dx * dx + dy * dy)
+    else:
+        rate = step_rate(sx, sy, d1x, d1y, d2x, d2y, 1.0, law)
+    decay, gain = relaxation(rate)
+    slope = relaxation_slope(rate)
+    qx = rate * (sx * decay - dx * slope)
+    qy = rate * (sy * decay - dy * slope)
+    if law == VECTOR:
+        return qx, qy
+    free_x = sx * decay + dx * gain
+    free_y = sy * decay + dy * gain
+    reach = math.sqrt(free_x * free_x + free_y * free_y)
+    most = max(1.0, math.sqrt(sx * sx + sy * sy))
+    if reach <= most:
+        return qx, qy
+    # Brought back to the limit (or to where it was, above a limit that fell).
+    nx = free_x / reach
+    ny = free_y / reach
+    along = nx * qx + ny * qy
+    grow = 1.0 if most == 1.0 else 0.0
+    return nx * grow + most * (qx - nx * along) / reach, ny * grow + most * (
+        qy - ny * along
+    ) / reach
+
+
+@kernel
+def lugre_update(
+    deflection, slip_1, slip_2, limit, step,
+    static_ratio, stribeck_speed, rate_damping, slip_damping, law,
+):  # fmt: skip
+    r"""One friction update of LuGre's law in two dimensions, with its consistent tangent.
+
+    Parameters
+    ----------
+    deflection, slip_1, slip_2, limit, law
+        As in `asperity.friction.update`; ``limit`` is :math:`\mu F_N/k_t`.
+    step : float
+        Time step, s.
+    static_ratio : float
+        :math:`F_S/\mu F_N \ge 1`.
+    stribeck_speed : float
+        :math:`v_s`, m/s; 0 for no Stribeck effect.
+    rate_damping, slip_damping : float
+        :math:`h_t/\mu F_N` and :math:`h_v/\mu F_N`, s/m.
+
+    Returns
+    -------
+    deflection : tuple of 2 floats
+        Trial deflection at the end of the step, m.
+    share : tuple of 2 floats
+        :math:`F/\mu F_N`, with the rates of deflection and slip over the step; A.5 (46)-(47).
+    tangent : tuple of 2 tuples of 4 floats
+        Derivative of ``share`` by the slip parts, ``(xx, xy, yx, yy)`` each, 1/m.
+    """
+    dx = slip_1[0] + slip_2[0]
+    dy = slip_1[1] + slip_2[1]
+    speed = math.sqrt(dx * dx + dy * dy) / step
+    ratio = stribeck_share(speed, static_ratio, stribeck_speed)
+    now = limit * ratio
+    new, _, tangents = update(deflection, slip_1, slip_2, now, 1.0, law)
+    hx, hy = _limit_slope(
+        deflection[0] / now, deflection[1] / now, slip_1[0] / now, slip_1[1] / now,
+        slip_2[0] / now, slip_2[1] / now, law,
+    )  # fmt: skip
+    # d(limit)/dD = limit dratio/dspeed D/(|D| step)
+    gx = 0.0
+    gy = 0.0
+    if stribeck_speed > 0.0:
+        bend = -2.0 * limit * (ratio - 1.0) / (stribeck_speed * stribeck_speed * step * step)
+        gx = bend * dx
+        gy = bend * dy
+    elastic = 1.0 / limit + rate_damping / step
+    viscous = slip_damping / step
+    share = (
+        new[0] / limit + rate_damping * (new[0] - deflection[0]) / step + viscous * dx,
+        new[1] / limit + rate_damping * (new[1] - deflection[1]) / step + viscous * dy,
+    )
+    t1 = tangents[0]
+    t2 = tangents[1]
+    tangent_1 = (
+        elastic * (t1[0] + hx * gx) + viscous,
+        elastic * (t1[1] + hx * gy),
+        elastic * (t1[2] + hy * gx),
+        elastic * (t1[3] + hy * gy) + viscous,
+    )
+    tangent_2 = (
+        elastic * (t2[0] + hx * gx) + viscous,
+        elastic * (t2[1] + hx * gy),
+        elastic * (t2[2] + hy * gx),
+        elastic * (t2[3] + hy * gy) + viscous,
+    )
+    return new, share, (tangent_1, tangent_2)

@@ -22,7 +22,7 @@ from asperity.friction.dahl import (
 
 
 @kernel
-def _relaxation_slope(decay):
+def relaxation_slope(decay):
     """Derivative of ``(1 - exp(-A))/A`` by ``A``."""
     if decay < 1e-4:
         return -0.5 + decay * (1.0 / 3.0 - decay * 0.125)
@@ -102,7 +102,7 @@ def _midpoint_slope(
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
     decay, gain = relaxation(rate)
-    gain_t = _relaxation_slope(rate) * rate_t
+    gain_t = relaxation_slope(rate) * rate_t
     sx1 = sx * decay + dx * gain
     sy1 = sy * decay + dy * gain
     sx1_t = -sx * decay * rate_t + tx * gain + dx * gain_t

@@ -1,1 +1,34 @@
-"""A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms."""
+"""A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms.
+
+>>> from asperity.friction import Friction
+>>> from asperity.slider import Model, Slider, solve
+>>> from asperity.vibration import Vibration
+>>> body = Slider(drive_velocity="0.5 mm/s", normal_force="55 N")
+>>> contact = Friction(mu=0.1, max_deflection="68.75 nm")
+>>> shaken = Vibration(frequency="4 kHz", velocity_ratio=6.0, start="0.01 s")
+>>> round(solve(Model(body, contact, shaken)).ratio, 3)
+0.159
+"""
+
+from asperity.slider.batch import Stopped, solve_many
+from asperity.slider.homogenised import HomogenisedLaw, homogenise
+from asperity.slider.methods import solve
+from asperity.slider.model import Model
+from asperity.slider.parameters import Slider, Solve
+from asperity.slider.result import History, PowerLedger, SlideResult
+from asperity.slider.tables import TABLES
+
+__all__ = [
+    "TABLES",
+    "History",
+    "HomogenisedLaw",
+    "Model",
+    "PowerLedger",
+    "SlideResult",
+    "Slider",
+    "Solve",
+    "Stopped",
+    "homogenise",
+    "solve",
+    "solve_many",
+]

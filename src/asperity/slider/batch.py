@@ -13,7 +13,7 @@ from asperity.slider import model as m
 from asperity.slider.march import Timetable, energies, march_notes, summarise
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.solve import solve
+from asperity.slider.methods import solve
 
 _FEWEST = 2  # a batch of two costs no more than two single marches
 

@@ -235,9 +235,8 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     at = begin * step + h * stride * np.arange(1, len(rows) + 1)
     rows = np.column_stack([at, rows])
     breakaway = float(walk.sums[k.BREAKAWAY])
-    return _result(
-        model, law, None, rows, began, breakaway * step if breakaway >= 0.0 else None, history
-    )
+    broke = breakaway * step if breakaway >= 0.0 else None
+    return _result(model, law, None, rows, began, broke, begin + count, history)
 
 
 def _ode_step(model: Model, law: HomogenisedLaw, span: float) -> tuple[float, int]:
@@ -258,6 +257,7 @@ def _result(
     rows: FloatArray | None,
     began: float,
     breakaway: float | None = None,
+    steps: int = 0,
     history: bool = False,
 ) -> SlideResult:
     force = law.full_friction
@@ -270,7 +270,6 @@ def _result(
             raise InputError("no velocity to evaluate the law at")
         share = law(velocity) / force
         pull = share * force
-        steps = 0
         cycles = 0
         residual = law.residual
     else:
@@ -284,7 +283,7 @@ def _result(
         energy = energy + 0.5 * (model.slider.mass or 0.0) * velocity**2
         span = inside[-1, 0] - inside[0, 0]
         stored = float(energy[-1] - energy[0]) / span
-        steps, cycles, residual = len(rows), table.cycles, law.residual
+        cycles, residual = table.cycles, law.residual
         record = _history(model, rows) if history else None
 
     def mean(column: int) -> float:

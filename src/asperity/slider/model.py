@@ -203,7 +203,9 @@ class Model:
         two-phase scheme is not divided, but refused where it is unstable.
         """
         if self.friction.model == "coulomb":
-            return 1
+            # Nothing elastic in the contact: only the drive's own ring bounds the step.
+            ring = 2.0 * math.pi / self.ring_period if self.ring_period > 0.0 else 0.0
+            return self._parts(self.step * ring / RING_BOUND)
         limit = self.friction.deflection_limit(self.slider.normal_force)
         slip = (self.slider.drive_velocity + self.peak_velocity) * self.step / limit
         if self.solve.scheme == "two-phase":
@@ -220,6 +222,9 @@ class Model:
             stiffness *= max(1.0, self.friction.exponent * 2.0 ** (self.friction.exponent - 1.0))
             stiffness += self.slider.drive_stiffness or 0.0
             needed = max(needed, self.step * math.sqrt(stiffness / self.slider.mass) / RING_BOUND)
+        return self._parts(needed)
+
+    def _parts(self, needed: float) -> int:
         parts = max(1, math.ceil(needed * (1.0 - 1e-9)))
         if parts > _MOST_SUBSTEPS:
             raise InputError(

@@ -1,0 +1,31 @@
+"""One call for one body: `march`, `periodic` or `homogenised`, as the case says."""
+
+from asperity.slider.homogenised import solve_homogenised
+from asperity.slider.march import march
+from asperity.slider.model import Model
+from asperity.slider.periodic import solve_periodic
+from asperity.slider.result import SlideResult
+
+
+def solve(model: Model, *, history: bool = True) -> SlideResult:
+    """Solve a sliding body by the method its case names.
+
+    Parameters
+    ----------
+    model : Model
+        The body.
+    history : bool
+        Whether to keep motion and forces over time.
+
+    Raises
+    ------
+    InputError
+        The case cannot be solved this way.
+    ConvergenceError
+        No periodic state was found, or the march became unstable.
+    """
+    if model.solve.method == "periodic":
+        return solve_periodic(model, history=history)
+    if model.solve.method == "homogenised":
+        return solve_homogenised(model, history=history)
+    return march(model, history=history)
