@@ -15,7 +15,7 @@ import pydantic
 from pydantic_core import ErrorDetails
 
 from asperity.errors import InputError, choices, nearest, suggestion
-from asperity.units import quantity_of, split_unit
+from asperity.units import Quantity, quantity_of, split_unit
 
 Raw = dict[str, dict[str, Any]]
 
@@ -182,7 +182,7 @@ class Case:
                 (changed[name], value),
                 (raw[name], _as_text(model, key, value)),
             ):
-                for other in _same_thing(model, key):
+                for other in same_thing(model, key):
                     entries.pop(other, None)
                 if value is not None:
                     entries[key] = entry
@@ -311,7 +311,8 @@ def _known_table(name: str, known: Mapping[str, type[Table]], origin: str) -> ty
     return known[name]
 
 
-def _same_thing(model: type[Table], key: str) -> set[str]:
+def same_thing(model: type[Table], key: str) -> set[str]:
+    """Return the key and those that are other forms of the same thing."""
     groups = (*model.alternatives, *model.required_alternatives)
     return {key}.union(*(group for group in groups if key in group))
 
@@ -325,7 +326,7 @@ def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     model = _known_table(name, known, f"--set {setting}")
     entries = raw.setdefault(name, {})
     value = _with_unit(model, key, _toml_value(text.strip()), entries.get(key), setting)
-    for other in _same_thing(model, key):
+    for other in same_thing(model, key):
         entries.pop(other, None)
     entries[key] = value
     return f"{name}.{key}"
@@ -347,14 +348,19 @@ def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str)
     )
     if not (quantity and quantity.unit and parts and not parts[1]):
         return value
-    replaced = split_unit(old) if isinstance(old, str) else None
-    unit = (replaced and replaced[1]) or ("deg" if quantity.unit == "rad" else "")
+    unit = bare_unit(quantity, old)
     if not unit:
         path = f"{model.table}.{key}"
         raise InputError(
             f"--set {setting}: {path} is {parts[0]} without a unit; {quantity.expected()}"
         )
     return f"{parts[0]} {unit}"
+
+
+def bare_unit(quantity: Quantity, old: object) -> str:
+    """Return the unit of a number without one: that of the text it replaces, deg for an angle."""
+    replaced = split_unit(old) if isinstance(old, str) else None
+    return (replaced and replaced[1]) or ("deg" if quantity.unit == "rad" else "")
 
 
 def _as_text(model: type[Table], key: str, value: object) -> object:

@@ -32,15 +32,21 @@ Kernel = Callable[..., Any]
 
 
 @functools.cache
-def source_hash(root: Path = _PACKAGE) -> str:
-    """Return a hash of every Python source under a folder, of Numba, NumPy and this processor."""
+def package_hash(root: Path = _PACKAGE) -> str:
+    """Return a hash of every Python source under a folder, the same on every machine."""
     digest = hashlib.sha256()
-    for part in (numba.__version__, np.__version__, llvmlite.binding.get_host_cpu_name()):
-        digest.update(part.encode() + b"\0")
     for path in sorted(root.rglob("*.py")):
         content = path.read_bytes()
         digest.update(f"{path.relative_to(root).as_posix()}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()[:16]
+
+
+@functools.cache
+def source_hash(root: Path = _PACKAGE) -> str:
+    """Return a hash of every Python source under a folder, of Numba, NumPy and this processor."""
+    host = llvmlite.binding.get_host_cpu_name()
+    parts = (package_hash(root), numba.__version__, np.__version__, host)
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
 def cache_folder(name: str) -> Path | None:
