@@ -31,7 +31,6 @@ _DIGEST_BYTES = 32
 Kernel = Callable[..., Any]
 
 
-@functools.cache
 def package_hash(root: Path = _PACKAGE) -> str:
     """Return a hash of every Python source under a folder, the same on every machine."""
     digest = hashlib.sha256()
