@@ -1,0 +1,1 @@
+"""Efficiency and load capacity of worm gearsets by the standards."""
