@@ -16,7 +16,6 @@ from asperity.friction.dahl import (
     midpoint,
     rate_along,
     relaxation,
-    remaining_distance,
     saturation,
 )
 
@@ -122,37 +121,38 @@ def _midpoint_slope(
 def _closed_form_slope(sx, sy, dx, dy, exponent):
     """Derivative of `dahl.closed_form` by the slip, row by row."""
     length = math.sqrt(dx * dx + dy * dy)
-    if length <= 1e-12:
-        if length <= TINY:
-            # Without a slip there is no direction: the elastic answer, the mean over directions
-            # of the one-sided ones to first order in s for exponent 1.
-            return 1.0, 0.0, 0.0, 1.0
-        if exponent == 1.0:
-            nx = dx / length
-            ny = dy / length
-            return 1.0 - sx * nx, -sx * ny, -sy * nx, 1.0 - sy * ny
+    if length <= TINY:
+        # Without a slip there is no direction: the elastic answer, the mean over directions of the
+        # one-sided ones for exponent 1.
+        return 1.0, 0.0, 0.0, 1.0
     nx = dx / length
     ny = dy / length
     wx = nx - sx
     wy = ny - sy
     rho = math.sqrt(wx * wx + wy * wy)
-    left = 0.0
-    left_rho = 0.0
-    speed = 0.0
-    if rho > TINY:
-        phi = remaining_distance(rho, length, exponent)
-        left = phi / rho
-        if phi > 0.0:
-            speed = (phi / rho) ** exponent * rho ** (exponent - 1.0)
-            left_rho = ((phi / rho) ** exponent - left) / rho
+    # (1-g)/L, phi^i/rho and -(dg/drho)/(L rho) of the formula below, written so that nothing
+    # cancels for a small slip; in steady sliding rho is 0.
+    bend = 0.0
+    if exponent == 1.0:
+        speed, turn = relaxation(length)
+    else:
+        order = 1.0 - exponent
+        part = order * rho ** (-order)
+        base = 1.0 - part * length
+        speed = 0.0
+        turn = 1.0 / length
+        if base > 0.0:
+            left = base ** (1.0 / order)
+            speed = left / base * rho ** (-order)
+            turn = -math.expm1(math.log1p(-part * length) / order) / length
+            if rho > TINY:
+                bend = left * part / (base * rho * rho)
     # P = I - n n^T;  T = (1-g)/L P + (phi^i/rho) w n^T - (dg/drho)/(L rho) w (P w)^T
     pxx = 1.0 - nx * nx
     pxy = -nx * ny
     pyy = 1.0 - ny * ny
     qx = pxx * wx + pxy * wy
     qy = pxy * wx + pyy * wy
-    turn = (1.0 - left) / length
-    bend = left_rho / (length * rho) if rho > TINY else 0.0
     return (
         turn * pxx + speed * wx * nx - bend * wx * qx,
         turn * pxy + speed * wx * ny - bend * wx * qy,
