@@ -37,8 +37,9 @@ def project(free_x, free_y, give_x, give_y, last_x, last_y):
     can_stick = (give_x > 0.0 or free_x == 0.0) and (give_y > 0.0 or free_y == 0.0)
     if can_stick and stuck_x * stuck_x + stuck_y * stuck_y <= 1.0:
         return stuck_x, stuck_y
-    # Slip: |f/(|D| + b)| = 1 for |D|. 1/|.| is nearly linear in |D|, so Newton takes few steps.
-    slip = max(size - max(give_x, give_y), 0.0)
+    # Slip: |f/(|D| + b)| = 1 for |D|. 1/|.| is nearly linear in |D|, so Newton takes few steps;
+    # from below, where the norm is at least 1, it cannot overshoot.
+    slip = max(size - max(give_x, give_y), abs(free_x) - give_x, abs(free_y) - give_y, 0.0)
     for _ in range(50):
         x = free_x / (slip + give_x) if slip + give_x > 0.0 else 0.0
         y = free_y / (slip + give_y) if slip + give_y > 0.0 else 0.0
