@@ -138,7 +138,11 @@ def step_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     hx, hy, scale = half_step(sx, sy, d1x + d2x, d1y + d2y, rate)
     half = math.sqrt(hx * hx + hy * hy)
     if half <= TINY:
-        return 0.0
+        # Half-way the asperity passes through zero, on the line it stands on.
+        size = math.sqrt(sx * sx + sy * sy)
+        if size <= TINY:
+            return 0.0
+        return rate_along(sx / size, sy / size, 0.0, d1x, d1y, d2x, d2y, exponent, law)
     share = min(half / scale, 1.0)
     return rate_along(hx / half, hy / half, share, d1x, d1y, d2x, d2y, exponent, law)
 

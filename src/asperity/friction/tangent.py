@@ -100,6 +100,14 @@ def _midpoint_slope(
             ex, ey, ex_t, ey_t, share, share_t,
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
+    elif size > TINY:
+        ex = sx / size
+        ey = sy / size
+        rate = rate_along(ex, ey, 0.0, d1x, d1y, d2x, d2y, exponent, law)
+        rate_t = _rate_slope(
+            ex, ey, 0.0, 0.0, 0.0, 0.0,
+            d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
+        )  # fmt: skip
     decay, gain = relaxation(rate)
     gain_t = relaxation_slope(rate) * rate_t
     sx1 = sx * decay + dx * gain
