@@ -1,0 +1,201 @@
+"""Named materials, lubricants and bearings from data files, each value with its source.
+
+A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
+``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
+``[base_oil.NAME]``, ``[lubricant.NAME]`` or ``[bearings.NAME]``, with the keys of its class. Its
+key ``from`` names the source of each value by key, with ``"*"`` for all others::
+
+    [source.maker]
+    name = "data sheet of the foundry, 2024"
+    confidence = "one source"
+
+    [wheel."our bronze"]
+    family = "tin bronze"
+    youngs_modulus = "95 GPa"
+    # ... the other keys of WheelMaterial
+    from = { "*" = "maker" }
+
+Files of your own are named in the environment variable ``ASPERITY_MATERIALS`` (several with the
+separator of ``PATH``), or given as ``files``. The last file that has a name wins.
+"""
+
+import functools
+import os
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+from asperity.casefile import Table
+from asperity.errors import InputError, nearest
+from asperity.sources import Source
+
+VARIABLE = "ASPERITY_MATERIALS"
+SECTIONS: Mapping[str, str] = {
+    "wheel": "wheel material",
+    "worm": "worm material",
+    "base_oil": "base oil",
+    "lubricant": "lubricant",
+    "bearings": "arrangement of bearings",
+}
+"""The tables of a data file, and what they hold."""
+
+GIVEN = Source("the case", "one source", "given by the user")
+"""Source of a value that the user wrote."""
+
+_SHIPPED = Path(__file__).parent / "data"
+_TEXT_ONLY = {"text_only": True}
+
+
+T = TypeVar("T", bound=Table)
+Files = Iterable[str | os.PathLike[str]]
+
+
+class _Entry(NamedTuple):
+    file: str
+    values: dict[str, Any]
+    sources: dict[str, Source]
+
+
+_Library = Mapping[tuple[str, str], _Entry]
+
+
+def find(section: str, name: str, model: type[T], files: Files = ()) -> T:
+    """Return a named thing.
+
+    Parameters
+    ----------
+    section : {'wheel', 'worm', 'base_oil', 'lubricant', 'bearings'}
+        What it is.
+    name : str
+        Its name in a data file.
+    model : type
+        The class that holds it.
+    files : iterable of path
+        Data files of your own, beside those of the environment variable.
+
+    Raises
+    ------
+    InputError
+        There is none of that name, or a data file is wrong.
+    """
+    found = _find(section, name, model, _stamps(files))
+    assert isinstance(found, model)
+    return found
+
+
+def names(section: str, files: Files = ()) -> tuple[str, ...]:
+    """Return the names that :func:`find` knows."""
+    return tuple(name for kind, name in _library(_stamps(files)) if kind == section)
+
+
+def resolve(section: str, value: object, model: type[T], context: Any = None) -> T:
+    """Return the thing that a name or an inline table of a case stands for."""
+    if isinstance(value, str):
+        try:
+            return find(section, value, model)
+        except InputError as error:
+            raise InputError(f"{model.table} is {value!r}; {error}") from None
+    if isinstance(value, Mapping):
+        if "sources" in value:
+            raise InputError(f"{model.table}.sources is given; leave it out")
+        return model.model_validate({"name": "given in the case", **value}, context=context)
+    if not isinstance(value, model):
+        raise InputError(f"{model.table} is {value!r}; it must be a name or a table of values")
+    return value
+
+
+_Stamps = tuple[tuple[Path, int], ...]
+
+
+@functools.lru_cache(maxsize=256)
+def _find(section: str, name: str, model: type[Table], stamps: _Stamps) -> Table:
+    library = _library(stamps)
+    if (section, name) not in library:
+        known = [other for kind, other in library if kind == section]
+        raise InputError(f"no {SECTIONS[section]} of that name is known{nearest(name, known)}")
+    entry = library[section, name]
+    try:
+        return model.model_validate(
+            {"name": name, **entry.values, "sources": entry.sources}, context=_TEXT_ONLY
+        )
+    except InputError as error:
+        raise InputError(f'{entry.file}: [{section}."{name}"]: {error}') from None
+
+
+def _stamps(files: Files) -> _Stamps:
+    own = [Path(text) for text in os.environ.get(VARIABLE, "").split(os.pathsep) if text]
+    own += [Path(file) for file in files]
+    stamps = []
+    for path in own:
+        try:
+            stamps.append((path.absolute(), path.stat().st_mtime_ns))
+        except OSError as error:
+            raise InputError(
+                f"{path} cannot be read: {(error.strerror or str(error)).lower()}; name a data "
+                f"file in {VARIABLE}"
+            ) from None
+    return tuple(stamps)
+
+
+@functools.lru_cache(maxsize=16)
+def _library(stamps: _Stamps) -> _Library:
+    library: dict[tuple[str, str], _Entry] = {}
+    for path in (*sorted(_SHIPPED.glob("*.toml")), *(path for path, _ in stamps)):
+        library.update(_read(path))
+    return library
+
+
+def _read(path: Path) -> dict[tuple[str, str], _Entry]:
+    file = path.name
+    try:
+        raw = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(f"{path} is not a data file: {' '.join(str(error).split())}") from None
+    sources = _sources(file, raw.pop("source", {}))
+    entries: dict[tuple[str, str], _Entry] = {}
+    for section, things in raw.items():
+        if section not in SECTIONS:
+            known = nearest(section, ("source", *SECTIONS))
+            raise InputError(f"{file}: [{section}] is not a table of a data file{known}")
+        for name, values in _tables(file, section, things):
+            given = values.pop("from", {})
+            where = f'{file}: [{section}."{name}"]'
+            entries[section, name] = _Entry(file, values, _assign(where, given, values, sources))
+    return entries
+
+
+def _tables(file: str, section: str, things: Any) -> list[tuple[str, dict[str, Any]]]:
+    if not isinstance(things, dict) or not all(isinstance(v, dict) for v in things.values()):
+        raise InputError(f'{file}: [{section}] must hold tables with names, as in [{section}."x"]')
+    return [(name, dict(values)) for name, values in things.items()]
+
+
+def _sources(file: str, raw: Any) -> dict[str, Source]:
+    sources = {}
+    for key, values in _tables(file, "source", raw):
+        try:
+            sources[key] = Source(**values)
+        except TypeError:
+            raise InputError(
+                f"{file}: [source.{key}] must have name, confidence and perhaps note"
+            ) from None
+        except InputError as error:
+            raise InputError(f"{file}: [source.{key}]: {error}") from None
+    return sources
+
+
+def _assign(
+    where: str, given: Any, values: Mapping[str, Any], sources: Mapping[str, Source]
+) -> dict[str, Source]:
+    if not isinstance(given, dict):
+        raise InputError(f"{where}: from is {given!r}; it must be a table of keys and sources")
+    for key, source in given.items():
+        if source not in sources:
+            raise InputError(f"{where}: from.{key} is {source!r}{nearest(str(source), sources)}")
+    rest = sources[given["*"]] if "*" in given else GIVEN
+    return {
+        key: sources[given[key]] if key in given else rest
+        for key in (*values, *given)
+        if key != "*"
+    }
