@@ -1,0 +1,283 @@
+"""Axes of a grid, from text such as ``vibration.direction=0:360:15``."""
+
+import dataclasses
+import math
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
+from typing import NoReturn
+
+from asperity.casefile import Case, Table, bare_unit, read_case, same_thing
+from asperity.errors import InputError, nearest
+from asperity.units import Quantity, quantity_of, split_unit, to_si
+
+MOST_POINTS = 10_000_000
+_PATH = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
+_FORMS = "1,2,3 or start:stop:step"
+_GRAIN = Decimal("1e-9")
+
+Value = float | str
+
+
+@dataclasses.dataclass(frozen=True)
+class Axis:
+    """The values one key of a case takes.
+
+    Attributes
+    ----------
+    path : str
+        ``table.key``.
+    values : tuple of float or str
+        In SI, or words.
+    shown : tuple of float or str
+        The same as the user wrote them, in `unit`.
+    unit : str
+        Unit of `shown`; empty for a ratio or for words.
+    """
+
+    path: str
+    values: tuple[Value, ...]
+    shown: tuple[Value, ...]
+    unit: str = ""
+
+    @property
+    def table(self) -> str:
+        """Name of the table."""
+        return self.path.partition(".")[0]
+
+    @property
+    def key(self) -> str:
+        """Name of the key in its table."""
+        return self.path.partition(".")[2]
+
+    @property
+    def numeric(self) -> bool:
+        """Whether the values are numbers."""
+        return not any(isinstance(value, str) for value in self.values)
+
+    def text(self, index: int) -> str:
+        """Return one value with its key and unit, as on the command line."""
+        value = self.shown[index]
+        number = value if isinstance(value, str) else f"{value:.12g}"
+        return f"{self.path}={number} {self.unit}".rstrip()
+
+
+@dataclasses.dataclass(frozen=True)
+class _Written:
+    """An axis as it was written, with the key it belongs to."""
+
+    text: str
+    model: type[Table]
+    key: str
+    parts: tuple[str, ...]
+    is_range: bool
+
+    @property
+    def path(self) -> str:
+        return f"{self.model.table}.{self.key}"
+
+    @property
+    def quantity(self) -> Quantity | None:
+        return quantity_of(self.model, self.key)
+
+    def refuse(self, reason: str) -> NoReturn:
+        raise InputError(f"--over {self.text}: {reason}")
+
+    def unit_given(self) -> str:
+        """Return the unit that counts for all parts that have none of their own."""
+        last = split_unit(self.parts[-1])
+        return last[1] if last and self.quantity else ""
+
+    def first_setting(self) -> str:
+        """Return the setting that makes a case the first point of the axis."""
+        first = self.parts[0]
+        number = split_unit(first)
+        if self.quantity and number and not number[1]:
+            first = f"{first} {self.unit_given()}".rstrip()
+        return f"{self.path}={first}"
+
+
+def read_grid(
+    name_or_path: str,
+    tables: Mapping[str, type[Table]],
+    settings: Sequence[str],
+    over: Sequence[str],
+) -> tuple[Case, list[Axis]]:
+    """Read a case and the axes of a grid over it.
+
+    The case returned is the first point of the grid, so that an axis may give what the file does
+    not, such as its amplitude.
+
+    Parameters
+    ----------
+    name_or_path, tables, settings
+        As for :func:`asperity.casefile.read_case`.
+    over : sequence of str
+        ``table.key=1,2,3`` or ``table.key=start:stop:step``, the stop included where it falls on
+        the grid; a unit with each number, or after the last one for all.
+
+    Raises
+    ------
+    InputError
+        One line that names the file, setting or axis, the key, the value and what is allowed.
+    """
+    written = [_split(text, tables) for text in over]
+    _distinct(written)
+    first = [axis.first_setting() for axis in written]
+    try:
+        case = read_case(name_or_path, tables, [*settings, *first])
+    except InputError as error:
+        message = str(error)
+        for setting, axis in zip(first, written, strict=True):
+            message = message.replace(f"--set {setting}:", f"--over {axis.text}:")
+        raise InputError(message) from None
+    return case, _within_bounds([_axis(axis, case) for axis in written])
+
+
+def parse_axes(over: Sequence[str], case: Case) -> list[Axis]:
+    """Parse the axes of a grid over a case that is complete without them.
+
+    Parameters
+    ----------
+    over : sequence of str
+        As for `read_grid`.
+    case : Case
+        Gives the tables, and the unit of a number without one.
+    """
+    written = [_split(text, case.known) for text in over]
+    _distinct(written)
+    return _within_bounds([_axis(axis, case) for axis in written])
+
+
+def _split(text: str, tables: Mapping[str, type[Table]]) -> _Written:
+    path, equals, values = (part.strip() for part in text.partition("="))
+    names = _PATH.fullmatch(path)
+    if not equals or not names:
+        raise InputError(f"--over {text}: it must be table.key={_FORMS}, as in friction.mu=0.1,0.2")
+    name, key = names.groups()
+    if name not in tables:
+        raise InputError(
+            f"--over {text}: [{name}] is not a table of a case file{nearest(name, tables)}"
+        )
+    model = tables[name]
+    if key not in model.model_fields:
+        raise InputError(
+            f"--over {text}: {path} is not a key of [{name}]{nearest(key, model.model_fields)}"
+        )
+    is_range = ":" in values and quantity_of(model, key) is not None
+    parts = tuple(part.strip() for part in values.split(":" if is_range else ","))
+    written = _Written(text, model, key, parts, is_range)
+    if is_range and (len(parts) != 3 or "," in values):
+        written.refuse(f"{path} is {values!r}; it must be {_FORMS}")
+    if not all(parts):
+        written.refuse(f"{path} has an empty value; it must be {_FORMS}")
+    return written
+
+
+def _distinct(axes: Sequence[_Written]) -> None:
+    for place, axis in enumerate(axes):
+        for other in axes[:place]:
+            if other.model is axis.model and other.key in same_thing(axis.model, axis.key):
+                both = "twice" if other.key == axis.key else f"and so is {other.path}"
+                again = f"{axis.path} is given {both}"
+                axis.refuse(f"{again}; give one --over for the same thing")
+
+
+def _within_bounds(axes: list[Axis]) -> list[Axis]:
+    points = math.prod(len(axis.values) for axis in axes)
+    if points > MOST_POINTS:
+        raise InputError(
+            f"--over: the grid has {points} points; at most {MOST_POINTS} are allowed: take "
+            "coarser steps"
+        )
+    return axes
+
+
+def _axis(written: _Written, case: Case) -> Axis:
+    quantity = written.quantity
+    if quantity is None:
+        return _words(written)
+    old = case.raw.get(written.model.table, {}).get(written.key)
+    unit = written.unit_given()
+    parts = [_number(written, part, quantity) for part in written.parts]
+    if any(given for _, given in parts) and not unit and quantity.unit:
+        written.refuse("some values have a unit; give it with the last one, or with each")
+    unit = unit or (bare_unit(quantity, old) if quantity.unit else "")
+    if quantity.unit and not unit:
+        written.refuse(f"{written.path} is without a unit; {quantity.expected()}")
+    numbers = [_in_unit(written, quantity, *part, unit) for part in parts]
+    if written.is_range:
+        numbers = _range(written, *numbers)
+    values = tuple(_si(written, quantity, number, unit) for number in numbers)
+    return _once(written, Axis(written.path, values, tuple(float(n) + 0.0 for n in numbers), unit))
+
+
+def _words(written: _Written) -> Axis:
+    values = []
+    for part in written.parts:
+        try:
+            value = tomllib.loads(f"value = {part}")["value"]
+        except tomllib.TOMLDecodeError:
+            value = part
+        if isinstance(value, bool) or not isinstance(value, str | int | float):
+            written.refuse(f"{written.path} is {part}; it must be words or numbers")
+        values.append(value)
+    return _once(written, Axis(written.path, tuple(values), tuple(values)))
+
+
+def _once(written: _Written, axis: Axis) -> Axis:
+    seen: set[Value] = set()
+    for index, value in enumerate(axis.values):
+        if value in seen:
+            written.refuse(f"{axis.text(index)} is given twice; give every value once")
+        seen.add(value)
+    return axis
+
+
+def _number(written: _Written, part: str, quantity: Quantity) -> tuple[str, str]:
+    number = split_unit(part)
+    if number is None:
+        written.refuse(f"{written.path} is {part!r}; {quantity.expected()}")
+    return number
+
+
+def _in_unit(written: _Written, quantity: Quantity, number: str, given: str, unit: str) -> Decimal:
+    """Return a number in the axis's unit, exact where it was written in that unit."""
+    try:
+        value = to_si(f"{number} {given or unit}".strip(), quantity.unit)
+        if given in ("", unit):
+            return Decimal(number)
+        # A unit may begin elsewhere, as degrees Celsius do.
+        zero = to_si(f"0 {unit}".strip(), quantity.unit)
+        scale = to_si(f"1 {unit}".strip(), quantity.unit) - zero
+        return Decimal(f"{(value - zero) / scale:.15g}")
+    except InputError:
+        shown = f"{number} {given or unit}".strip()
+        written.refuse(f"{written.path} is {shown!r}; {quantity.expected()}")
+
+
+def _si(written: _Written, quantity: Quantity, number: Decimal, unit: str) -> float:
+    try:
+        return quantity.check(to_si(f"{number} {unit}".strip(), quantity.unit))
+    except InputError as error:
+        written.refuse(f"{written.path} is {f'{number} {unit}'.strip()}; {error}")
+
+
+def _range(written: _Written, start: Decimal, stop: Decimal, step: Decimal) -> list[Decimal]:
+    if step == 0:
+        written.refuse("the step is 0; give one that leads from the start to the stop")
+    count = (stop - start) / step
+    if count < 0:
+        written.refuse("the step leads away from the stop; change its sign")
+    if count >= MOST_POINTS:
+        written.refuse(
+            f"the range has {count:.3g} values; at most {MOST_POINTS} are allowed: take a larger "
+            "step"
+        )
+    # Numbers converted from another unit miss the grid by their rounding.
+    last = math.floor(count + _GRAIN)
+    values = [start + place * step for place in range(last + 1)]
+    if abs(values[-1] - stop) <= _GRAIN * abs(step):
+        values[-1] = stop
+    return values

@@ -1,0 +1,119 @@
+"""The points of a grid: their validated models, and the keys their results are kept under."""
+
+import dataclasses
+import functools
+import hashlib
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from asperity.casefile import Case, Table
+from asperity.compiled import source_hash
+from asperity.errors import AsperityError, InputError
+from asperity.slider.march import Timetable
+from asperity.slider.model import Model
+from asperity.slider.tables import TABLES
+from asperity.sweep.axes import Axis
+
+# Enough for the inner axis of a large grid; more would let memory grow with the grid.
+_KEPT_TABLES = 4096
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """One point of a grid, ready to be solved.
+
+    Attributes
+    ----------
+    index : int
+        Its place in the grid.
+    model : Model
+        What is solved.
+    key : bytes
+        What its result is kept under: a hash of the tables and of the package's sources.
+    kind : tuple
+        What two points must share to be marched in one batch.
+    """
+
+    index: int
+    model: Model
+    key: bytes
+    kind: tuple[object, ...]
+
+
+class Grid:
+    """The case at every combination of the axes' values, the last axis running fastest.
+
+    Models are made when asked for and not kept, so that a grid costs no memory.
+
+    Parameters
+    ----------
+    case : Case
+        What the axes vary.
+    axes : sequence of Axis
+        At least one.
+    """
+
+    def __init__(self, case: Case, axes: Sequence[Axis]) -> None:
+        if not axes:
+            raise InputError("the sweep has no axis; give one, as in --over friction.mu=0.1,0.2")
+        self.case = case
+        self.axes = tuple(axes)
+        self.shape = tuple(len(axis.values) for axis in axes)
+        self.size = math.prod(self.shape)
+        self._table = functools.lru_cache(maxsize=_KEPT_TABLES)(self._make_table)
+        self._members = {
+            name: tuple(place for place, axis in enumerate(axes) if axis.table == name)
+            for name in dict.fromkeys(axis.table for axis in axes)
+        }
+        self._fixed = {
+            name: self._canonical(name, table)
+            for name, table in case.tables.items()
+            if name in TABLES and name not in self._members
+        }
+
+    def describe(self, index: int) -> str:
+        """Return the point in words: ``vibration.direction=45 deg, friction.law=split``."""
+        places = np.unravel_index(index, self.shape)
+        return ", ".join(axis.text(int(at)) for axis, at in zip(self.axes, places, strict=True))
+
+    def points(self, indices: Sequence[int]) -> Iterator[Point]:
+        """Yield points by index.
+
+        Raises
+        ------
+        InputError
+            A point cannot be: one line that names it.
+        """
+        places = np.stack(np.unravel_index(np.asarray(indices), self.shape), axis=1)
+        for index, row in zip(indices, places.tolist(), strict=True):
+            try:
+                yield self._point(index, row)
+            except AsperityError as error:
+                raise InputError(f"{self.describe(index)}: {error}") from None
+
+    def _point(self, index: int, places: list[int]) -> Point:
+        tables = dict(self.case.tables)
+        texts = dict(self._fixed)
+        for name, members in self._members.items():
+            tables[name], texts[name] = self._table(name, tuple(places[m] for m in members))
+        model = Model.from_case(dataclasses.replace(self.case, tables=tables))
+        content = "\n".join((source_hash(), *(texts[name] for name in sorted(texts))))
+        return Point(index, model, hashlib.sha256(content.encode()).digest(), _kind(model))
+
+    def _make_table(self, name: str, places: tuple[int, ...]) -> tuple[Table, str]:
+        axes = (self.axes[member] for member in self._members[name])
+        values = {axis.path: axis.values[at] for axis, at in zip(axes, places, strict=True)}
+        table = self.case.replace_values(values).tables[name]
+        return table, self._canonical(name, table)
+
+    def _canonical(self, name: str, table: Table) -> str:
+        return dataclasses.replace(self.case, tables={name: table}).canonical()
+
+
+def _kind(model: Model) -> tuple[object, ...]:
+    # Makes the checks a solution begins with, before anything has been solved.
+    steps = Timetable(model).steps if model.solve.method == "march" else model.substeps
+    friction = model.friction
+    return model.solve.method, model.solve.scheme, friction.model, friction.law, steps

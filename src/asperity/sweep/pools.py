@@ -1,0 +1,156 @@
+"""Where the tasks of a sweep are solved: this machine's cores, or a Dask cluster."""
+
+import concurrent.futures as cf
+import logging
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from asperity.compiled import package_hash
+from asperity.errors import AsperityError, InputError, MissingExtraError, StorageError
+from asperity.slider.model import Model
+from asperity.sweep.cache import Row
+from asperity.sweep.tasks import solve_remote, solve_task
+
+_CONNECT_SECONDS = 5
+_RETRIES = 5
+_ROOM_PER_THREAD = 4
+_LEAST_ROOM = 32
+
+
+class Pool(Protocol):
+    """Solves tasks elsewhere than in the thread that asks."""
+
+    @property
+    def room(self) -> int:
+        """How many tasks to hand in ahead, so that nobody waits and memory stays small."""
+
+    def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
+        """Hand in a task."""
+
+    def check(self) -> None:
+        """Raise if the tasks handed in can never be solved; called now and then."""
+
+    def failure(self, error: BaseException) -> BaseException:
+        """Return what to raise for a task that raised."""
+
+    def stop(self) -> None:
+        """Drop what has not begun and end what has, soon."""
+
+    def close(self) -> None:
+        """Give everything back."""
+
+
+class Cores:
+    """The cores of this machine: threads, since the compiled loops leave the interpreter free."""
+
+    def __init__(self) -> None:
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        self._cores = cores or 1
+        self._threads = cf.ThreadPoolExecutor(self._cores, thread_name_prefix="sweep")
+        self._stop = np.zeros(1, dtype=np.int64)
+
+    @property
+    def room(self) -> int:
+        """See `Pool`."""
+        return 2 * self._cores
+
+    def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
+        """See `Pool`."""
+        return self._threads.submit(solve_task, models, self._stop)
+
+    def check(self) -> None:
+        """See `Pool`."""
+
+    def failure(self, error: BaseException) -> BaseException:
+        """See `Pool`."""
+        return error
+
+    def stop(self) -> None:
+        """See `Pool`."""
+        self._stop[0] = 1
+        self._threads.shutdown(wait=True, cancel_futures=True)
+
+    def close(self) -> None:
+        """See `Pool`."""
+        self._threads.shutdown(wait=True)
+
+
+class Cluster:
+    """The workers of a Dask scheduler, which must have this version of the package.
+
+    Parameters
+    ----------
+    address : str
+        Of the scheduler, such as ``tcp://127.0.0.1:8786``.
+    notify : callable
+        Takes one line about what is being waited for.
+    """
+
+    def __init__(self, address: str, notify: Callable[[str], None]) -> None:
+        try:
+            import distributed
+        except ImportError:
+            raise MissingExtraError(
+                "a cluster needs dask.distributed; install it: pip install asperity[cluster]"
+            ) from None
+        # What goes wrong is said in one line below, not by the library's own log.
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        self._address = address
+        self._notify = notify
+        self._waits = False
+        self._sources = package_hash()
+        try:
+            self._client: Any = distributed.Client(
+                address, timeout=_CONNECT_SECONDS, set_as_default=False
+            )
+        except (OSError, ValueError, ImportError) as error:
+            reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+            raise InputError(
+                f"--cluster {address}: no scheduler answers ({reason}); start one with 'dask "
+                "scheduler' and give its address, as in tcp://127.0.0.1:8786"
+            ) from None
+        self._executor = self._client.get_executor(pure=False, retries=_RETRIES)
+        self._room = max(_LEAST_ROOM, _ROOM_PER_THREAD * sum(self._client.nthreads().values()))
+
+    @property
+    def room(self) -> int:
+        """See `Pool`."""
+        return self._room
+
+    def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
+        """See `Pool`."""
+        future: cf.Future[list[Row]] = self._executor.submit(solve_remote, models, self._sources)
+        return future
+
+    def check(self) -> None:
+        """See `Pool`."""
+        try:
+            waits = not self._client.nthreads()
+        except (OSError, ValueError, RuntimeError):
+            raise StorageError(
+                f"--cluster {self._address}: the scheduler is gone; the same command goes on from "
+                "what is kept"
+            ) from None
+        if waits and not self._waits:
+            self._notify(
+                f"no worker at {self._address}, waiting for one: dask worker {self._address}"
+            )
+        self._waits = waits
+
+    def failure(self, error: BaseException) -> BaseException:
+        """See `Pool`."""
+        if isinstance(error, AsperityError):
+            return error
+        reason = " ".join(str(error).split()) or type(error).__name__
+        return StorageError(f"--cluster {self._address}: a task failed: {reason}")
+
+    def stop(self) -> None:
+        """See `Pool`."""
+        self._executor.shutdown(wait=False)
+
+    def close(self) -> None:
+        """See `Pool`."""
+        self._client.close()

@@ -1,0 +1,166 @@
+"""The answer of a sweep: arrays over the grid, as JSON, dataset, file and picture."""
+
+import dataclasses
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.slider.model import FloatArray
+from asperity.sweep.axes import Axis
+from asperity.sweep.tasks import VARIABLES
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+SOLVED = 0
+NOT_CONVERGED = 1
+_MOST_REASONS = 100
+
+
+@dataclasses.dataclass
+class SweepResult:
+    """What a sweep found.
+
+    Attributes
+    ----------
+    source : str
+        The case.
+    axes : tuple of Axis
+        The grid, the last axis running fastest.
+    arrays : dict of str to ndarray
+        Every variable over the grid in SI, NaN where there is none.
+    status : ndarray of int8
+        0 solved, 1 not converged.
+    failures : dict of str to str
+        The first points that did not converge, and why.
+    inputs : dict of str to float or str
+        What all points share, by ``table.key`` in SI.
+    cached : int
+        Points that were known from before.
+    seconds : float
+        Time the sweep took.
+    file : pathlib.Path or None
+        Where it has been written.
+    """
+
+    source: str
+    axes: tuple[Axis, ...]
+    arrays: dict[str, FloatArray]
+    status: npt.NDArray[np.int8]
+    failures: dict[str, str]
+    inputs: dict[str, float | str]
+    cached: int
+    seconds: float
+    file: Path | None = None
+
+    @property
+    def points(self) -> int:
+        """Number of points."""
+        return self.status.size
+
+    @property
+    def failed(self) -> int:
+        """Number of points that did not converge."""
+        return int(np.count_nonzero(self.status != SOLVED))
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions: the last part of the path, the whole where that is shared."""
+        keys = [axis.key for axis in self.axes]
+        return tuple(
+            axis.key if keys.count(axis.key) == 1 else f"{axis.table}_{axis.key}"
+            for axis in self.axes
+        )
+
+    @property
+    def dataset(self) -> "xr.Dataset":
+        """The variables over the grid, each with ``units`` and ``long_name``.
+
+        Coordinates are in the units the axes were written in, everything else in SI.
+        """
+        import xarray as xr
+
+        variables: dict[str, Any] = {
+            variable.name: (
+                self.dims,
+                self.arrays[variable.name],
+                {"units": variable.units, "long_name": variable.long_name},
+            )
+            for variable in VARIABLES
+        }
+        flags = {
+            "units": "1",
+            "long_name": "whether the point was solved",
+            "flag_values": np.array([SOLVED, NOT_CONVERGED], dtype=np.int8),
+            "flag_meanings": "solved not_converged",
+        }
+        variables["status"] = (self.dims, self.status, flags)
+        coordinates = {
+            dim: (
+                dim,
+                np.array(axis.shown, dtype=float if axis.numeric else object),
+                {"units": axis.unit or "1", "long_name": axis.key.replace("_", " ")},
+            )
+            for dim, axis in zip(self.dims, self.axes, strict=True)
+        }
+        attributes = {
+            "title": "Sliding body over a grid",
+            "case": self.source,
+            "failures": "; ".join(f"{point}: {why}" for point, why in self.failures.items()),
+        }
+        return xr.Dataset(variables, coordinates, attributes | self.inputs)
+
+    def to_json(self) -> dict[str, Any]:
+        """The ratio over the grid, None where there is none, and what was done for it."""
+        ratio = self.arrays["ratio"].astype(object)
+        ratio[np.isnan(self.arrays["ratio"])] = None
+        return {
+            "dims": [axis.path for axis in self.axes],
+            "coords": {axis.path: list(axis.shown) for axis in self.axes},
+            "units": {axis.path: axis.unit for axis in self.axes},
+            "ratio": ratio.tolist(),
+            "points": self.points,
+            "failed": self.failed,
+            "cached": self.cached,
+            "seconds": self.seconds,
+            "file": None if self.file is None else str(self.file),
+        }
+
+    def write(self, path: str | os.PathLike[str]) -> Path:
+        """Write the dataset as netCDF, atomically."""
+        from asperity.store import write_dataset
+
+        self.file = write_dataset(self.dataset, path)
+        return self.file
+
+    def plot(self) -> "Figure":
+        """Draw the ratio over one or two axes."""
+        from asperity.sweep.plots import plot_sweep
+
+        return plot_sweep(self)
+
+
+class Answers:
+    """Room for the scalars of every point, filled as they come."""
+
+    def __init__(self, size: int) -> None:
+        self.arrays = {variable.name: np.full(size, math.nan) for variable in VARIABLES}
+        self.status = np.zeros(size, dtype=np.int8)
+        self.reasons: dict[int, str] = {}
+
+    def put(self, index: int, row: dict[str, float | str | None], failed: str | None) -> None:
+        """Fill in one point."""
+        if failed is not None:
+            self.status[index] = NOT_CONVERGED
+            if len(self.reasons) < _MOST_REASONS:
+                self.reasons[index] = failed
+            return
+        for name, array in self.arrays.items():
+            value = row.get(name)
+            if isinstance(value, int | float):
+                array[index] = value
