@@ -5,7 +5,7 @@ import json
 import sqlite3
 import time
 import zlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Self
 
@@ -70,7 +70,7 @@ class Cache:
             some = keys[first : first + _AT_A_TIME]
             marks = ",".join("?" * len(some))
             query = f"SELECT key, value, checksum FROM results WHERE key IN ({marks})"
-            for key, value, checksum in self._execute(query, some):
+            for key, value, checksum in self._attempt(query, some):
                 with contextlib.suppress(ValueError, TypeError):
                     if zlib.crc32(value) == checksum:
                         rows[key] = json.loads(value)
@@ -81,7 +81,9 @@ class Cache:
         today = int(time.time() // 86400)
         values = {key: json.dumps(row, allow_nan=False).encode() for key, row in rows.items()}
         entries = [(key, value, zlib.crc32(value), today) for key, value in values.items()]
-        self._execute("INSERT OR REPLACE INTO results VALUES (?, ?, ?, ?)", entries, many=True)
+        query = "INSERT OR REPLACE INTO results VALUES (?, ?, ?, ?)"
+        if not self._attempt_many(query, entries):
+            self._attempt_many(query, entries)
 
     def close(self) -> None:
         """Close the file."""
@@ -90,25 +92,30 @@ class Cache:
                 self._database.close()
             self._database = None
 
-    def _execute(
-        self, query: str, values: Iterable[object], *, many: bool = False
-    ) -> list[tuple[bytes, bytes, int]]:
-        if self._database is None:
-            return []
+    def _attempt(self, query: str, values: Sequence[bytes]) -> list[tuple[bytes, bytes, int]]:
+        with self._trouble_told():
+            if self._database is not None:
+                return self._database.execute(query, values).fetchall()
+        return []
+
+    def _attempt_many(self, query: str, rows: Sequence[tuple[bytes, bytes, int, int]]) -> bool:
+        stored = False
+        with self._trouble_told():
+            if self._database is not None:
+                # The context manager commits, so that what is put outlives a kill.
+                with self._database as database:
+                    database.executemany(query, rows)
+            stored = True
+        return stored
+
+    @contextlib.contextmanager
+    def _trouble_told(self) -> Iterator[None]:
         try:
-            # The context manager commits, so that what is put outlives a kill.
-            with self._database as database:
-                if many:
-                    database.executemany(query, values)
-                    return []
-                return database.execute(query, tuple(values)).fetchall()
+            yield
         except sqlite3.OperationalError as error:
             self._give_up(error)
         except sqlite3.DatabaseError:
             self._start_again()
-            if many:
-                return self._execute(query, values, many=True)
-        return []
 
     def _give_up(self, error: sqlite3.Error) -> None:
         self.close()

@@ -65,8 +65,8 @@ def _line(
     order = np.argsort(axis.shown) if axis.numeric else np.arange(len(values))
     marked = marker if len(values) <= _MOST_MARKED else ""
     panel.plot(
-        [axis.shown[at] for at in order], values[order], color=colour, marker=marked, markersize=4.0, label=name,
-        linestyle="-" if axis.numeric else "",
+        [axis.shown[at] for at in order], values[order], color=colour, marker=marked,
+        markersize=4.0, label=name, linestyle="-" if axis.numeric else "",
     )  # fmt: skip
 
 

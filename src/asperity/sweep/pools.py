@@ -113,7 +113,8 @@ class Cluster:
                 "scheduler' and give its address, as in tcp://127.0.0.1:8786"
             ) from None
         self._executor = self._client.get_executor(pure=False, retries=_RETRIES)
-        self._room = max(_LEAST_ROOM, _ROOM_PER_THREAD * sum(self._client.nthreads().values()))
+        threads = sum(self._client.nthreads().values())
+        self._room: int = max(_LEAST_ROOM, _ROOM_PER_THREAD * threads)
 
     @property
     def room(self) -> int:

@@ -24,7 +24,7 @@ Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
 
 
-class Interrupted(KeyboardInterrupt):  # noqa: N818 - an interrupt is no error
+class Interrupted(KeyboardInterrupt):
     """A sweep was interrupted; what was done is in the cache.
 
     Attributes
