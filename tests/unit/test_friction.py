@@ -1,0 +1,260 @@
+import math
+
+import numpy as np
+import pytest
+
+from asperity.compiled import kernel
+from asperity.errors import InputError
+from asperity.friction import LAWS, SPLIT, UNSPLIT, VECTOR, Friction, update
+from asperity.friction.coulomb import project
+from asperity.friction.dahl import (
+    OVERSHOOT_BOUND,
+    SERIES_BOUND,
+    inverse_root,
+    relaxation,
+    relaxation_gain,
+)
+
+EXPONENTS = [0.0, 0.5, 1.0, 1.5, 2.0]
+NOTHING = (0.0, 0.0)
+
+
+def refusal(**entries):
+    with pytest.raises(InputError) as raised:
+        Friction(**entries)
+    assert len(str(raised.value).splitlines()) == 1
+    return str(raised.value)
+
+
+def one_sided(function, at, direction, step=1e-5):
+    """Forward difference of third order along a direction."""
+    f = [np.array(function(np.add(at, n * step * np.array(direction)))) for n in range(4)]
+    return (-11 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / (6 * step)
+
+
+def matrices(deflection, slip_1, slip_2, exponent, law):
+    _, _, tangents = update(deflection, slip_1, slip_2, 1.0, exponent, law)
+    return [np.reshape(tangent, (2, 2)) for tangent in tangents]
+
+
+@pytest.mark.parametrize("law", LAWS.values())
+def test_an_iteration_moves_no_history(law):
+    committed = (3e-8, -2e-8)
+    slips = (4e-8, 1e-8), (0.0, 5e-8)
+    first = update(committed, *slips, 7e-8, 1.0, law)
+    for trial in ((9e-8, 0.0), (-3e-7, 1e-8), NOTHING):
+        update(committed, trial, slips[1], 7e-8, 1.0, law)
+    assert update(committed, *slips, 7e-8, 1.0, law) == first
+
+
+@pytest.mark.parametrize("law", LAWS.values())
+def test_the_force_share_is_the_deflection_over_the_limit(law):
+    new, share, _ = update((1e-8, 0.0), (3e-8, 2e-8), (0.0, 1e-8), 5e-8, 1.0, law)
+    assert np.multiply(share, 5e-8) == pytest.approx(np.array(new), rel=1e-15)
+
+
+def test_only_split_tells_the_two_slip_parts_apart():
+    deflection, parts = (0.3, 0.2), ((-0.6, 0.1), (0.5, 0.1))
+    together = tuple(np.sum(parts, axis=0))
+    for law in (UNSPLIT, VECTOR):
+        apart, _, tangents = update(deflection, *parts, 1.0, 1.0, law)
+        assert apart == pytest.approx(update(deflection, together, NOTHING, 1.0, 1.0, law)[0])
+        assert tangents[0] == tangents[1]
+    apart, _, tangents = update(deflection, *parts, 1.0, 1.0, SPLIT)
+    joined = update(deflection, together, NOTHING, 1.0, 1.0, SPLIT)[0]
+    assert math.dist(apart, joined) > 0.01
+    assert tangents[0] != tangents[1]
+
+
+@pytest.mark.parametrize("law", LAWS.values())
+def test_a_compiled_contact_can_call_the_update(law):
+    @kernel
+    def contact(deflections, slip, limit, exponent, law):
+        stiffness = 0.0
+        for n in range(len(deflections)):
+            here = (deflections[n, 0], deflections[n, 1])
+            new, _, tangents = update(here, slip, (0.0, 0.0), limit, exponent, law)
+            deflections[n, 0], deflections[n, 1] = new
+            stiffness += tangents[0][0]
+        return stiffness
+
+    deflections = np.array([[0.0, 0.0], [0.2, 0.3], [-0.6, 0.1]])
+    expected = [update(tuple(s), (0.1, 0.2), NOTHING, 1.0, 1.0, law) for s in deflections]
+    stiffness = contact(deflections, (0.1, 0.2), 1.0, 1.0, law)
+    assert deflections == pytest.approx(np.array([new for new, _, _ in expected]), abs=1e-15)
+    assert stiffness == pytest.approx(sum(t[0][0] for _, _, t in expected), abs=1e-15)
+
+
+@pytest.mark.parametrize("law", LAWS.values())
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_no_slip_changes_nothing(law, exponent):
+    new, _, _ = update((0.6, -0.2), NOTHING, NOTHING, 1.0, exponent, law)
+    assert new == (0.6, -0.2)
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+@pytest.mark.parametrize("law", LAWS.values())
+def test_steady_sliding_stays_at_the_limit(law, exponent):
+    at_limit = (0.6, 0.8)
+    for length in (1e-6, 0.3, 50.0):
+        slip = (0.6 * length, 0.8 * length)
+        new, _, _ = update(at_limit, slip, NOTHING, 1.0, exponent, law)
+        assert new == pytest.approx(at_limit, abs=1e-7 if exponent == 0.5 else 1e-14)
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_in_steady_sliding_the_vector_tangent_turns_the_friction_with_the_slip(exponent):
+    (along, across), (turned, turning) = matrices(
+        (1.0, 0.0), (2.0, 0.0), NOTHING, exponent, VECTOR
+    )[0]
+    # s1 = n - g(rho) w with rho -> 0: g is 0 below, exp(-L) at and 1 above an exponent of 1.
+    left = 0.0 if exponent < 1.0 else math.exp(-2.0) if exponent == 1.0 else 1.0
+    assert (along, across, turned) == pytest.approx((0.0, 0.0, 0.0), abs=1e-15)
+    assert turning == pytest.approx((1.0 - left) / 2.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+@pytest.mark.parametrize("length", [1e-6, 1e-9, 1e-12, 1e-15, 1e-100])
+def test_for_a_small_slip_the_vector_tangent_goes_to_its_one_sided_limit(exponent, length):
+    s, n = np.array([0.3, 0.4]), np.array([math.cos(0.7), math.sin(0.7)])
+    w, across = n - s, np.eye(2) - np.outer(n, n)
+    rho = np.hypot(*w)
+    limit = rho ** (exponent - 1.0) * (
+        across + np.outer(w, n) + (exponent - 1.0) / rho**2 * np.outer(w, across @ w)
+    )
+    tangent = matrices(tuple(s), tuple(length * n), NOTHING, exponent, VECTOR)[0]
+    assert tangent == pytest.approx(limit, abs=3.0 * length + 1e-14)
+
+
+def test_at_no_slip_the_vector_tangent_is_the_mean_of_its_two_sides():
+    s = (0.5, -0.7)
+    (tangent, _) = matrices(s, NOTHING, NOTHING, 1.0, VECTOR)
+    for direction in ((1.0, 0.0), (0.0, 1.0), (0.6, -0.8)):
+        sides = [
+            sign
+            * one_sided(
+                lambda d: update(s, tuple(d), NOTHING, 1.0, 1.0, VECTOR)[0],
+                NOTHING,
+                sign * np.array(direction),
+            )
+            for sign in (1.0, -1.0)
+        ]
+        assert tangent @ direction == pytest.approx(np.mean(sides, axis=0), abs=1e-9)
+
+
+KINKS = {
+    "no slip, split": ((0.5, -0.3), NOTHING, NOTHING, SPLIT),
+    "no slip, unsplit": ((0.5, -0.3), NOTHING, NOTHING, UNSPLIT),
+    "the first part across the asperity": ((0.4, 0.0), (0.0, 0.0), (0.2, 0.1), SPLIT),
+    "the second part across the asperity": ((0.4, 0.0), (0.2, 0.1), (0.0, 0.0), SPLIT),
+    "the slip reverses along the asperity": ((0.5, 0.0), (-0.2, 0.4), NOTHING, UNSPLIT),
+    "the deflection reaches the limit": ((1.0, 0.0), (1.0, 0.0), NOTHING, UNSPLIT),
+}
+
+
+@pytest.mark.parametrize("part", [0, 1])
+@pytest.mark.parametrize("kink", KINKS.values(), ids=KINKS)
+def test_at_a_kink_the_tangent_is_the_derivative_on_one_of_its_sides(kink, part):
+    deflection, slip_1, slip_2, law = kink
+    tangent = matrices(deflection, slip_1, slip_2, 1.0, law)[part]
+
+    def moved(slip):
+        parts = [slip_1, slip_2]
+        parts[part] = tuple(slip)
+        return update(deflection, *parts, 1.0, 1.0, law)[0]
+
+    at = (slip_1, slip_2)[part]
+    for direction in ((1.0, 0.0), (0.0, 1.0)):
+        # One linear map serves the sides that belong to one branch; an axis may look into either.
+        sides = [sign * one_sided(moved, at, sign * np.array(direction)) for sign in (1.0, -1.0)]
+        error = min(np.abs(tangent @ direction - side).max() for side in sides)
+        assert error < 1e-6
+
+
+@pytest.mark.parametrize("decay", [1e-12, 1e-4, 0.1, 0.3, SERIES_BOUND, 0.5000001, 1.0, 30.0, 1e3])
+def test_the_relaxation_is_exact_to_rounding(decay):
+    left, gain = relaxation(decay)
+    assert left == pytest.approx(math.exp(-decay), abs=1e-15)
+    assert gain == pytest.approx(-math.expm1(-decay) / decay, rel=1e-15)
+
+
+def test_the_series_of_the_lanes_stays_accurate_beyond_its_bound():
+    for decay, error in ((0.5, 2e-16), (1.0, 1e-13), (2.0, 1e-9)):
+        assert relaxation_gain(decay) == pytest.approx(-math.expm1(-decay) / decay, rel=error)
+    for over in (0.0, 0.006, 0.01, OVERSHOOT_BOUND):
+        assert inverse_root(over) == pytest.approx(1.0 / math.sqrt(1.0 + over), rel=1e-12)
+
+
+def test_a_body_that_is_pushed_less_than_friction_sticks():
+    # The free slip 0.3 and -0.2, of which a full friction force could take 0.5 and 1.0.
+    assert project(0.3, -0.2, 0.5, 1.0, 0.0, 0.0) == pytest.approx((0.6, -0.2))
+
+
+def test_a_body_that_is_pushed_harder_slips_against_full_friction():
+    x, y = project(3.0, 4.0, 0.5, 0.5, 0.0, 0.0)
+    assert (x, y) == pytest.approx((0.6, 0.8), abs=1e-15)
+
+
+def test_without_a_slip_or_anything_that_gives_the_last_friction_stays():
+    assert project(0.0, 0.0, 0.0, 0.0, 0.6, -0.8) == (0.6, -0.8)
+    assert project(0.0, 0.0, 0.5, 0.0, 0.6, -0.8) == (0.0, 0.0)
+
+
+def test_a_slip_prescribed_along_one_axis_takes_all_friction_from_a_body_free_across():
+    # Nothing stops the slip along the drive, so the body is free to stick across only in part.
+    x, y = project(1.0, 0.5, 0.0, 2.0, 0.0, 0.0)
+    slip = (1.0, 0.5 - 2.0 * y)
+    assert (x, y) == pytest.approx(tuple(np.array(slip) / np.hypot(*slip)), abs=1e-12)
+    assert project(1.0, 0.0, 0.0, 2.0, 0.0, 0.0) == (1.0, 0.0)
+
+
+def test_stiffness_and_deflection_limit_are_two_forms_of_one_thing():
+    by_limit = Friction(mu=0.1, max_deflection=68.75e-9)
+    by_stiffness = Friction(mu=0.1, tangential_stiffness=80e6)
+    assert by_limit.stiffness(55.0) == pytest.approx(80e6, rel=1e-12)
+    assert by_stiffness.deflection_limit(55.0) == pytest.approx(68.75e-9, rel=1e-12)
+
+
+def test_a_law_is_known_by_its_name():
+    assert [Friction(mu=0.1, max_deflection=1e-7, law=law).law_code for law in LAWS] == [
+        SPLIT,
+        UNSPLIT,
+        VECTOR,
+    ]
+
+
+@pytest.mark.parametrize("model", ["dahl", "lugre"])
+def test_an_elastic_model_needs_a_limit_or_a_stiffness(model):
+    assert "max_deflection is missing" in refusal(model=model, mu=0.1)
+    assert "tangential_stiffness" in refusal(
+        model=model, mu=0.1, max_deflection=1e-7, tangential_stiffness=1e7
+    )
+
+
+@pytest.mark.parametrize("key", ["mu", "max_deflection", "tangential_stiffness"])
+def test_nothing_that_carries_the_friction_may_be_zero(key):
+    entries = {"max_deflection": 1e-7} if key == "mu" else {"mu": 0.1}
+    assert f"friction.{key}" in refusal(**entries, **{key: 0.0})
+
+
+def test_coulomb_friction_needs_no_limit_and_has_none():
+    friction = Friction(model="coulomb", mu=0.1)
+    with pytest.raises(InputError, match="Coulomb friction has no deflection"):
+        friction.deflection_limit(55.0)
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"contact_damping": 1.0}, "friction.contact_damping is for model 'lugre'"),
+        ({"static_mu": 0.2}, "friction.static_mu is for model 'lugre'"),
+        ({"model": "lugre", "exponent": 2.0}, "LuGre knows exponent 1 only"),
+        ({"model": "lugre", "static_mu": 0.05}, "must not be below friction.mu"),
+        ({"model": "lugre", "static_mu": 0.2}, "friction.stribeck_velocity must be given"),
+        ({"exponent": -1.0}, "friction.exponent"),
+        ({"transfer": 1.5}, "friction.transfer"),
+        ({"law": "spilt"}, "friction.law"),
+    ],
+)
+def test_friction_that_makes_no_sense_is_refused(entries, message):
+    assert message in refusal(mu=0.1, max_deflection=1e-7, **entries)
