@@ -89,11 +89,13 @@ def names(section: str, files: Files = ()) -> tuple[str, ...]:
     return tuple(name for kind, name in _library(_stamps(files)) if kind == section)
 
 
-def resolve(section: str, value: object, model: type[T], context: Any = None) -> T:
+def resolve(
+    section: str, value: object, model: type[T], context: Any = None, files: Files = ()
+) -> T:
     """Return the thing that a name or an inline table of a case stands for."""
     if isinstance(value, str):
         try:
-            return find(section, value, model)
+            return find(section, value, model, files)
         except InputError as error:
             raise InputError(f"{model.table} is {value!r}; {error}") from None
     if isinstance(value, Mapping):

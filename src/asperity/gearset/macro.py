@@ -71,7 +71,7 @@ def complete(
             raise InputError(
                 f"gearset.centre_distance is {centre_distance:g} mm; with an axial module of "
                 f"{m:g} mm and {wheel_teeth} teeth it must be above "
-                f"{relations.centre_distance(m, 0.0, wheel_teeth, shift):g} mm"
+                f"{m * (wheel_teeth + 2.0 * shift) / 2.0:g} mm"
             )
     if centre_distance is not None and axial_module is not None and worm_given:
         return Macro(m, q, _agreed(wheel_teeth, centre_distance, m, q, profile_shift))
@@ -82,7 +82,8 @@ def _module(
     wheel_teeth: int, a: float, q: float | None, worm_pitch_diameter: float | None, shift: float
 ) -> float:
     if worm_pitch_diameter is None:
-        return float(relations.axial_module(a, q or 0.0, wheel_teeth, shift))
+        assert q is not None
+        return float(relations.axial_module(a, q, wheel_teeth, shift))
     if worm_pitch_diameter >= 2.0 * a:
         raise InputError(
             f"gearset.worm_pitch_diameter is {worm_pitch_diameter:g} mm; it must be below twice "

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from asperity.gearset.relations import Real, plain
+from asperity.gearset.arrays import Real, checked, plain
 from asperity.sources import Source
 
 
@@ -38,7 +38,8 @@ def bs721_heights(axial_module: Real, lead_angle: Real) -> Heights:
     >>> round(bs721_heights(2.1538, 0.44442).worm_dedendum, 4)
     2.1243
     """
-    m, cosine = np.asarray(axial_module), np.cos(lead_angle)
+    m = checked("axial_module", axial_module)
+    cosine = np.cos(checked("lead_angle", lead_angle))
     return Heights(
         plain(m * np.ones_like(cosine)),
         plain(m * (2.2 * cosine - 1.0)),
@@ -54,7 +55,8 @@ def iso_heights(axial_module: Real, lead_angle: Real) -> Heights:
     :math:`h_{a1} = h_{a2} = m`, :math:`h_{f1} = h_{f2} = 1.2\, m`, :math:`c = 0.2\, m`, for any
     lead angle.
     """
-    m = np.asarray(axial_module) * np.ones_like(lead_angle, dtype=np.float64)
+    angle = checked("lead_angle", lead_angle)
+    m = checked("axial_module", axial_module) * np.ones_like(angle)
     addendum, dedendum = plain(m), plain(1.2 * m)
     return Heights(addendum, dedendum, addendum, dedendum, plain(0.2 * m))
 

@@ -1,0 +1,181 @@
+"""Base oils and lubricants, in SI units, each value with its source."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import Field, model_validator
+
+from asperity.casefile import Table
+from asperity.errors import InputError
+from asperity.gearset import oil
+from asperity.gearset.library import GIVEN, Files, find, resolve
+from asperity.gearset.materials import BaseOilName
+from asperity.sources import Source
+from asperity.units import Quantity
+
+_MM2 = 1e-6
+_ZERO_CELSIUS = 273.15
+
+Density = Annotated[float, Quantity("kg/m^3", what="a density", example="890 kg/m^3", gt=0)]
+Viscosity = Annotated[
+    float,
+    Quantity("m^2/s", what="a kinematic viscosity", example="68 mm^2/s", ge=oil.THINNEST * _MM2),
+]
+
+
+class BaseOil(Table):
+    r"""A class of base oils.
+
+    Parameters
+    ----------
+    name : str
+        ``mineral``, ``polyalphaolefin`` or ``polyglycol``.
+    pressure_viscosity : float or str
+        :math:`c_\alpha`, m²/N.
+    density_coefficient : float or str
+        :math:`k_\rho`, 1/K.
+    pitting_factor : float
+        :math:`Z_{oil}`.
+    sump_limit : float or str
+        :math:`\vartheta_{S,lim}`, K.
+    density_15 : float or str
+        Density at 15 degC of an oil that does not state its own, kg/m³.
+    sources : mapping of str to Source
+        Where each value comes from, by key.
+    """
+
+    table: ClassVar[str] = "base_oil"
+
+    name: str
+    pressure_viscosity: Annotated[
+        float, Quantity("m^2/N", what="a coefficient", example="1.7e-8 m^2/N", gt=0)
+    ]
+    density_coefficient: Annotated[
+        float, Quantity("1/K", what="a coefficient", example="7e-4 1/K", ge=0, lt=0.01)
+    ]
+    pitting_factor: Annotated[float, Quantity("", what="a factor", example="0.89", gt=0)]
+    sump_limit: Annotated[
+        float, Quantity("K", what="a temperature", example="90 degC", gt=_ZERO_CELSIUS)
+    ]
+    density_15: Density
+    sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
+
+    def source(self, key: str) -> Source:
+        """Return where a value comes from."""
+        return self.sources.get(key, GIVEN)
+
+
+class Lubricant(Table):
+    r"""A lubricating oil.
+
+    Parameters
+    ----------
+    name : str
+        As it appears in results.
+    base_oil : {'mineral', 'polyalphaolefin', 'polyglycol'}
+        Class of its base oil.
+    viscosity_40, viscosity_100 : float or str
+        :math:`\nu_{40}`, :math:`\nu_{100}`, kinematic viscosity at 40 and 100 degC, m²/s.
+    density_15 : float or str, optional
+        :math:`\rho_{15}` at 15 degC, kg/m³. Left out: typical of the base oil.
+    assumption : str, optional
+        What is assumed about an oil whose data are not at hand.
+    sources : mapping of str to Source
+        Where each value comes from, by key.
+    """
+
+    table: ClassVar[str] = "operation.lubricant"
+
+    name: str = ""
+    base_oil: BaseOilName
+    viscosity_40: Viscosity
+    viscosity_100: Viscosity
+    density_15: Density | None = None
+    assumption: str | None = None
+    sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
+
+    @model_validator(mode="after")
+    def _thinner_when_hot(self) -> Self:
+        if self.viscosity_100 >= self.viscosity_40:
+            raise InputError(
+                f"{self.table}.viscosity_100 is {self.viscosity_100 / _MM2:g} mm^2/s; it must be "
+                f"below viscosity_40, {self.viscosity_40 / _MM2:g} mm^2/s"
+            )
+        return self
+
+    def source(self, key: str) -> Source:
+        """Return where a value comes from."""
+        if key == "density_15" and self.density_15 is None:
+            return self.base.source(key)
+        return self.sources.get(key, GIVEN)
+
+    @property
+    def base(self) -> BaseOil:
+        """The class of its base oil."""
+        return base_oil(self.base_oil)
+
+    @property
+    def assumed(self) -> Mapping[str, str]:
+        """Which keys of ``[operation]`` hold assumed values, and what was assumed."""
+        assumed = {}
+        if self.assumption is not None:
+            assumed["lubricant"] = self.assumption
+        if self.density_15 is None:
+            assumed["lubricant.density_15"] = (
+                f"{self.base.density_15:g} kg/m^3, typical of {self.base_oil} oil"
+            )
+        return MappingProxyType(assumed)
+
+    def kinematic_viscosity(self, temperature: Any) -> Any:
+        """Kinematic viscosity in m²/s at a temperature in K; a number or an array.
+
+        `asperity.gearset.oil` has the formulas, for arrays that may hold nonsense too.
+        """
+        nu = oil.kinematic_viscosity(
+            temperature - _ZERO_CELSIUS, self.viscosity_40 / _MM2, self.viscosity_100 / _MM2
+        )
+        return nu * _MM2
+
+    def density(self, temperature: Any) -> Any:
+        """Density in kg/m³ at a temperature in K; a number or an array."""
+        own = self.base.density_15 if self.density_15 is None else self.density_15
+        return oil.density(temperature - _ZERO_CELSIUS, own, self.base.density_coefficient)
+
+    def dynamic_viscosity(self, temperature: Any) -> Any:
+        """Dynamic viscosity in Pa s at a temperature in K; a number or an array."""
+        return self.kinematic_viscosity(temperature) * self.density(temperature)
+
+    def violations(self, temperature: float) -> list[str]:
+        """Return how a temperature in K lies outside what the formulas are valid for."""
+        nu = self.kinematic_viscosity(temperature) / _MM2
+        found = (
+            oil.TEMPERATURE.violation(temperature - _ZERO_CELSIUS),
+            oil.VISCOSITY.violation(nu),
+        )
+        return [sentence for sentence in found if sentence is not None]
+
+
+def base_oil(name: str, files: Files = ()) -> BaseOil:
+    """Return a class of base oils by name."""
+    return find("base_oil", name, BaseOil, files)
+
+
+def lubricant(given: object, files: Files = (), *, text_only: bool = False) -> Lubricant:
+    """Return the lubricant that a name or a table of values stands for.
+
+    Parameters
+    ----------
+    given : str or mapping or Lubricant
+        As in ``operation.lubricant``.
+    files : iterable of path
+        Data files of your own.
+    text_only : bool
+        Whether quantities of a table must be text with a unit, as in a case file.
+
+    Raises
+    ------
+    InputError
+        It is not known (with the near name), or its values cannot be used.
+    """
+    return resolve("lubricant", given, Lubricant, {"text_only": text_only}, files)
