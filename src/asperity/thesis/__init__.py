@@ -1,5 +1,5 @@
 """The thesis reproduced: its claims as a ledger, its figures, and a page that shows both."""
 
-from asperity.thesis.run import FigureFiles, ThesisResult, run
+from asperity.thesis.reproduce import FigureFiles, ThesisResult, run
 
 __all__ = ["FigureFiles", "ThesisResult", "run"]

@@ -60,7 +60,8 @@ class Sweep:
             return np.array([float(part) for part in text.split(",")])
         start, stop, step = (float(part) for part in text.split(":"))
         steps = np.arange(round((stop - start) / step) + 1, dtype=np.float64)
-        return start + step * steps
+        # Without the last bits, so that 0.1:20:0.1 holds 20.
+        return np.round(start + step * steps, 12)
 
     def models(self) -> list[Model]:
         """Every point's model, the last axis running fastest."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from asperity.thesis.ledger import Entry
 
 if TYPE_CHECKING:
-    from asperity.thesis.run import FigureFiles
+    from asperity.thesis.reproduce import FigureFiles
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 _TEMPLATE = Path(__file__).with_name("report.html.j2")
@@ -49,7 +49,7 @@ def typeset(text: str) -> Any:
 
     text = text.replace("<=", "≤").replace("+-", "±")
     text = re.sub(r"\bmu\b", "µ", re.sub(r"\beta_", "η_", text))
-    return Markup(re.sub(r"\b([A-Za-zη])_(\w+)", r"\1<sub>\2</sub>", escape(text)))
+    return Markup(re.sub(r"\b([A-Za-zη])_(\w+)", r"\1<sub>\2</sub>", str(escape(text))))
 
 
 def _data(picture: Path) -> str:
