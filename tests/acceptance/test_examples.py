@@ -1,0 +1,41 @@
+"""Every example runs as it stands and comes to its number."""
+
+import runpy
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.fixture
+def example():
+    with matplotlib.rc_context({"backend": "agg"}):
+        from matplotlib import pyplot
+
+        pyplot.switch_backend("agg")
+        yield lambda name: runpy.run_path(str(EXAMPLES / f"{name}.py"))
+        pyplot.close("all")
+
+
+def test_every_example_is_tested():
+    names = {path.stem for path in EXAMPLES.glob("*.py")}
+    assert names == {"a_first_slide", "every_direction", "friction_law_across_the_drive"}
+
+
+def test_a_first_slide(example):
+    assert example("a_first_slide")["ratio"] == pytest.approx(0.13700, rel=1e-3)
+
+
+def test_every_direction(example):
+    names = example("every_direction")
+    assert names["ratios"][2, 12] == pytest.approx(0.40459, rel=1e-3)
+    assert names["best"].tolist() == [90.0, 0.0, 0.0, 0.0]
+
+
+def test_friction_law_across_the_drive(example):
+    names = example("friction_law_across_the_drive")
+    assert names["across"]["split"][23] == pytest.approx(0.40459, rel=1e-3)
+    assert names["spread_along"] < 1e-6
+    assert names["spread_across"] == pytest.approx(0.357, abs=5e-3)
