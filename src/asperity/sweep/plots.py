@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-_MOST_AXES = 2
+MOST_AXES = 2
 _MOST_MARKED = 40
 
 
@@ -29,9 +29,9 @@ def plot_sweep(result: "SweepResult") -> "Figure":
         The sweep has more than two axes.
     """
     axes = result.axes
-    if len(axes) > _MOST_AXES:
+    if len(axes) > MOST_AXES:
         raise InputError(
-            f"the sweep has {len(axes)} axes; at most {_MOST_AXES} can be drawn: take the dataset"
+            f"the sweep has {len(axes)} axes; at most {MOST_AXES} can be drawn: take the dataset"
         )
     ratio = result.arrays["ratio"].reshape(result.status.shape)
     along = max(range(len(axes)), key=lambda place: (axes[place].numeric, ratio.shape[place]))

@@ -1,0 +1,205 @@
+"""The command ``asperity``: what a user types, and what it sets going.
+
+Everything heavy is imported inside the commands, so that the help is there at once.
+"""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from asperity.cli.outcome import USAGE_ERROR, reported, usage
+
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="What imposed vibration does to friction between sliding surfaces.",
+)
+
+CaseArgument = Annotated[
+    str, typer.Argument(metavar="CASE", help="A case file, or the name of a case that ships.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Change the case; as often as needed."),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print one JSON object to standard output, nothing else.")
+]
+OutOption = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Folder to write files to.")
+]
+
+
+@app.callback(invoke_without_command=True)
+@reported
+def asperity(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
+) -> None:
+    """What imposed vibration does to friction between sliding surfaces."""
+    from asperity.cli.show import print_text
+
+    if version:
+        from asperity import __version__
+
+        print_text(f"asperity {__version__}")
+        raise typer.Exit
+    # With its rich help typer prints by itself and returns nothing.
+    if context.invoked_subcommand is None and (text := context.get_help()):
+        print_text(text)
+
+
+@app.command()
+@reported
+def slide(
+    case: CaseArgument,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Pull a body over a vibrating base: drive force, friction, power.
+
+    With --out also slide.nc, slide.png and slide.json.
+    """
+    from asperity.casefile import read_case
+    from asperity.cli import show
+    from asperity.cli.tables import TABLES
+    from asperity.errors import ConvergenceError
+    from asperity.slider.methods import solve
+    from asperity.slider.model import Model
+    from asperity.store import output_folder
+
+    folder = output_folder(out) if out is not None else None
+    model = Model.from_case(read_case(case, TABLES, settings or ()))
+    try:
+        result = solve(model, history=folder is not None)
+    except ConvergenceError as error:
+        if as_json:
+            show.print_json({"error": str(error), "reached": error.reached})
+        raise
+    answer = result.to_json()
+    if folder is not None:
+        from asperity.store import write_dataset
+
+        write_dataset(result.to_dataset(), folder / "slide.nc")
+        show.write_picture(result.plot(), folder / "slide.png")
+        show.write_json(answer, folder / "slide.json")
+        show.note(f"written to {folder}: slide.nc, slide.png, slide.json")
+    if as_json:
+        show.print_json(answer)
+    else:
+        show.print_slide(case, answer)
+
+
+@app.command()
+@reported
+def sweep(
+    case: CaseArgument,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            "--over",
+            metavar="TABLE.KEY=VALUES",
+            help="An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
+        ),
+    ],
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(
+            "--cluster",
+            metavar="ADDRESS",
+            help="A Dask scheduler to send the work to, instead of this machine's cores.",
+        ),
+    ] = None,
+) -> None:
+    """Solve a case over a grid of values; what is done is kept, and found by the next run.
+
+    With --out also sweep.nc, sweep.json and, for one or two axes, sweep.png.
+    """
+    from asperity.cli import show
+    from asperity.cli.tables import TABLES
+    from asperity.errors import ConvergenceError
+    from asperity.store import output_folder
+    from asperity.sweep import read_grid, run
+
+    folder = output_folder(out) if out is not None else None
+    first, axes = read_grid(case, TABLES, settings or [], over)
+    with show.progress_bar() as progress:
+        result = run(first, axes, cluster=cluster, progress=progress, notify=show.note)
+    if folder is not None:
+        from asperity.sweep.plots import MOST_AXES
+
+        result.write(folder / "sweep.nc")
+        drawn = len(axes) <= MOST_AXES
+        if drawn:
+            show.write_picture(result.plot(), folder / "sweep.png")
+        show.write_json(result.to_json(), folder / "sweep.json")
+        names = "sweep.nc, sweep.png, sweep.json" if drawn else "sweep.nc, sweep.json"
+        show.note(f"written to {folder}: {names}")
+    if as_json:
+        show.print_json(result.to_json())
+    else:
+        show.print_sweep(result)
+    if result.failed:
+        point, why = next(iter(result.failures.items()))
+        raise ConvergenceError(
+            f"{result.failed} of {result.points} points did not converge, the first at {point}: "
+            f"{why}"
+        )
+
+
+@app.command()
+@reported
+def thesis(
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--only", metavar="FIGURE", help="Only this figure, such as 4.17."),
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder to write to.")] = Path(
+        "out/thesis"
+    ),
+    as_json: JsonOption = False,
+) -> None:
+    """Reproduce the thesis's claims and figures into one page, index.html."""
+    from asperity.cli import show
+    from asperity.thesis import run
+
+    result = run(out, only or (), show.note)
+    if as_json:
+        show.print_json(result.to_json())
+    else:
+        show.print_text(str(result.index))
+
+
+@app.command()
+@reported
+def cases(as_json: JsonOption = False) -> None:
+    """List the cases that ship; their names work wherever a file does."""
+    from asperity.casefile import describe, shipped_cases
+    from asperity.cli import show
+
+    shipped = [
+        {"name": name, "description": describe(path)} for name, path in shipped_cases().items()
+    ]
+    if as_json:
+        show.print_json({"cases": shipped})
+    else:
+        show.print_cases(shipped)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line and return its exit code."""
+    try:
+        code: int | None = typer.main.get_command(app).main(
+            arguments, prog_name="asperity", standalone_mode=False
+        )
+    except USAGE_ERROR as error:
+        print(usage(error), file=sys.stderr)
+        return 2
+    return code or 0

@@ -1,0 +1,6 @@
+"""Every table a case file may have, whichever command reads it."""
+
+from asperity.casefile import Table
+from asperity.slider.tables import TABLES as SLIDER_TABLES
+
+TABLES: dict[str, type[Table]] = {**SLIDER_TABLES}
