@@ -1,0 +1,308 @@
+"""The tables of BS 721: shipped ones from memory, and those a user puts in their place."""
+
+import dataclasses
+import functools
+import math
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.errors import InputError, nearest
+from asperity.rating.formula import Argument, FloatArray
+from asperity.sources import Source, weakest
+
+_SHIPPED = Path(__file__).parents[1] / "data" / "bs721.toml"
+_ABOUT = ("source", "confidence", "note")
+
+
+class TableRangeError(InputError):
+    """A table of BS 721 does not go that far."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Curve:
+    """A table of one quantity over another, linear between its points.
+
+    Parameters
+    ----------
+    name : str
+        What a message calls it.
+    x, y : ndarray
+        The points; ``x`` increases.
+    source : Source
+        Where it comes from.
+    hold_above : bool
+        Whether the last value holds above the last point.
+    """
+
+    name: str
+    x: FloatArray
+    y: FloatArray
+    source: Source
+    hold_above: bool = False
+
+    def __call__(self, x: FloatArray) -> FloatArray:
+        """Return values at points that lie inside."""
+        return np.interp(x, self.x, self.y)
+
+    def argument(self, name: str, value: npt.ArrayLike, unit: str = "") -> Argument:
+        """Return an argument that must lie inside, else `TableRangeError`."""
+        return Argument(
+            name,
+            value,
+            unit,
+            float(self.x[0]),
+            np.inf if self.hold_above else float(self.x[-1]),
+            because=f"the table of the {self.name} by {self.source.name} goes no further",
+            error=TableRangeError,
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class ZoneFactor:
+    """Table of the zone factor :math:`Z_0`.
+
+    Parameters
+    ----------
+    rows : mapping of int to Curve
+        By the number of starts, all over the same diameter factors.
+    source : Source
+        Where it comes from.
+    """
+
+    rows: Mapping[int, Curve]
+    source: Source
+
+    def __call__(self, starts: FloatArray, diameter_factor: FloatArray) -> FloatArray:
+        """Return Z_0; NaN where there is no row."""
+        return np.select(
+            [starts == row for row in self.rows],
+            [curve(diameter_factor) for curve in self.rows.values()],
+            np.nan,
+        )
+
+    def arguments(
+        self, starts: npt.ArrayLike, diameter_factor: npt.ArrayLike
+    ) -> tuple[Argument, Argument]:
+        """Return arguments that must lie inside, else `TableRangeError`."""
+        curve = next(iter(self.rows.values()))
+        fewest, most = min(self.rows), max(self.rows)
+        return (
+            Argument(
+                "starts",
+                starts,
+                "",
+                fewest,
+                most,
+                because=self.rows_there_are,
+                error=TableRangeError,
+            ),
+            curve.argument("diameter_factor", diameter_factor),
+        )
+
+    @property
+    def rows_there_are(self) -> str:
+        """Return the rows as the end of a message."""
+        return f"the table has rows for {', '.join(map(str, sorted(self.rows)))} starts"
+
+
+@dataclasses.dataclass(frozen=True)
+class Stresses:
+    """Stress factors in MPa, by one or two materials.
+
+    Parameters
+    ----------
+    name : str
+        What a message calls it.
+    values : mapping
+        By material, or by material and the one it runs with.
+    source : Source
+        Where they come from.
+    """
+
+    name: str
+    values: Mapping[str, Mapping[str, float]]
+    source: Source
+
+    def __call__(self, outer: str, inner: str) -> float:
+        """Return one of them; raises InputError with the near names."""
+        rows = self.values
+        if outer not in rows:
+            raise InputError(f"the {self.name} has no row for {outer!r}{nearest(outer, rows)}")
+        if inner not in rows[outer]:
+            raise InputError(
+                f"the {self.name} has nothing for {outer!r} with {inner!r}"
+                f"{nearest(inner, rows[outer])}"
+            )
+        return rows[outer][inner]
+
+
+@dataclasses.dataclass(frozen=True)
+class Tables:
+    r"""All tables of BS 721 that the formulas need.
+
+    Attributes
+    ----------
+    zone_factor : ZoneFactor
+        :math:`Z_0` over the diameter factor, by the number of starts.
+    sliding_speed_factor, rotation_speed_factor : Curve
+        :math:`K_V` over m/s, :math:`K_R` over rpm; their product is :math:`X_c`.
+    strength_speed_factor : Curve
+        :math:`X_b` over rpm.
+    friction : Curve
+        :math:`\mu` over m/s.
+    bending_stress_factor : Stresses
+        :math:`S_b`, by 'wheel' or 'worm' and its material.
+    surface_stress_factor, worm_surface_stress_factor : Stresses
+        :math:`S_c` of the wheel or worm, by its material and that of its mate.
+    """
+
+    zone_factor: ZoneFactor
+    sliding_speed_factor: Curve
+    rotation_speed_factor: Curve
+    strength_speed_factor: Curve
+    friction: Curve
+    bending_stress_factor: Stresses
+    surface_stress_factor: Stresses
+    worm_surface_stress_factor: Stresses
+
+    @property
+    def sources(self) -> dict[str, Source]:
+        """Where each table comes from, by its name in a file."""
+        return {field.name: getattr(self, field.name).source for field in dataclasses.fields(self)}
+
+    @property
+    def source(self) -> Source:
+        """The source of the table that can be trusted least."""
+        return weakest(*self.sources.values())
+
+
+def read_tables(path: str | os.PathLike[str] | None = None) -> Tables:
+    """Return the tables that ship, with those of a file in their place.
+
+    Parameters
+    ----------
+    path : path, optional
+        A TOML file with any of the tables, written as in the shipped file: each whole, and with
+        its own ``source`` and ``confidence``.
+
+    Raises
+    ------
+    InputError
+        Names the file and table, and what is wrong.
+    """
+    if path is None:
+        return _read(None, 0)
+    file = Path(path).absolute()
+    try:
+        return _read(file, file.stat().st_mtime_ns)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError(f"{path} cannot be read: {reason}; name a file of tables") from None
+
+
+@functools.lru_cache(maxsize=16)
+def _read(path: Path | None, stamp: int) -> Tables:
+    raw = _parse(_SHIPPED)
+    origin = dict.fromkeys(raw, _SHIPPED.name)
+    if path is not None:
+        own = _parse(path)
+        for name in own:
+            if name not in raw:
+                raise InputError(
+                    f"{path.name}: [{name}] is not a table of BS 721{nearest(name, raw)}"
+                )
+        raw.update(own)
+        origin.update(dict.fromkeys(own, path.name))
+    built: dict[str, Any] = {}
+    for name, table in raw.items():
+        try:
+            built[name] = _build(name, table)
+        except InputError as error:
+            raise InputError(f"{origin[name]}: [{name}]: {error}") from None
+    return Tables(**built)
+
+
+def _parse(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(f"{path.name} is not TOML: {' '.join(str(error).split())}") from None
+
+
+def _build(name: str, table: Any) -> Any:
+    if not isinstance(table, dict):
+        raise InputError("it must be a table")
+    source = Source(
+        str(table.get("source", "")), table.get("confidence", ""), str(table.get("note", ""))
+    )
+    title = name.replace("_", " ")
+    if name == "zone_factor":
+        _keys(table, "diameter_factor", "starts")
+        rows = table["starts"]
+        if not isinstance(rows, dict) or not rows or not all(key.isdecimal() for key in rows):
+            raise InputError("starts must be a table of rows by the number of starts")
+        factors = table["diameter_factor"]
+        return ZoneFactor(
+            {int(key): _curve(title, factors, row, source) for key, row in rows.items()}, source
+        )
+    if name == "worm_surface_stress_factor":
+        _keys(table, "worm")
+        return Stresses(title, _numbers(table["worm"]), source)
+    if name == "surface_stress_factor":
+        _keys(table, "wheel")
+        return Stresses(title, _numbers(table["wheel"]), source)
+    if name == "bending_stress_factor":
+        _keys(table, "wheel", "worm")
+        return Stresses(
+            title, _numbers({member: table[member] for member in ("wheel", "worm")}), source
+        )
+    _keys(table, "x", "y", optional=("hold_above",))
+    hold = table.get("hold_above", False)
+    if not isinstance(hold, bool):
+        raise InputError(f"hold_above is {hold!r}; it must be true or false")
+    return _curve(title, table["x"], table["y"], source, hold)
+
+
+def _keys(table: Mapping[str, Any], *needed: str, optional: tuple[str, ...] = ()) -> None:
+    for key in needed:
+        if key not in table:
+            raise InputError(f"{key} is missing")
+    allowed = (*needed, *optional, *_ABOUT)
+    for key in table:
+        if key not in allowed:
+            raise InputError(f"{key} is not a key of this table{nearest(key, allowed)}")
+
+
+def _curve(name: str, x: Any, y: Any, source: Source, hold_above: bool = False) -> Curve:
+    try:
+        points = np.array([x, y], dtype=np.float64)
+    except (TypeError, ValueError):
+        points = np.empty(0)
+    if points.ndim != 2 or points.shape[1] < 2 or not np.all(np.isfinite(points)):
+        raise InputError("its rows must be lists of numbers, all of the same length")
+    if np.any(np.diff(points[0]) <= 0.0):
+        raise InputError(f"{points[0].tolist()} must increase from point to point")
+    if np.any(points[1] <= 0.0):
+        raise InputError(f"{points[1].tolist()} must be positive throughout")
+    points.setflags(write=False)
+    return Curve(name, points[0], points[1], source, hold_above)
+
+
+def _numbers(rows: Any) -> dict[str, dict[str, float]]:
+    if not isinstance(rows, dict) or not all(isinstance(row, dict) for row in rows.values()):
+        raise InputError("it must hold a table for each material")
+    for outer, row in rows.items():
+        for inner, value in row.items():
+            if (
+                isinstance(value, bool)
+                or not isinstance(value, int | float)
+                or not 0.0 < value < math.inf
+            ):
+                raise InputError(f"{outer}, {inner} is {value!r}; it must be positive, in MPa")
+    return {outer: {inner: float(v) for inner, v in row.items()} for outer, row in rows.items()}
