@@ -59,3 +59,35 @@ def project(free_x, free_y, give_x, give_y, last_x, last_y):
     y = free_y / (slip + give_y) if slip + give_y > 0.0 else 0.0
     norm = math.sqrt(x * x + y * y)
     return x / norm, y / norm
+
+
+@kernel
+def mean_share(before_x, before_y, after_x, after_y, smooth, last_x, last_y):
+    r"""Mean friction share around a time node for a prescribed slip.
+
+    A sign taken at the node would place a reversal only to within a step.
+
+    Parameters
+    ----------
+    before_x, before_y, after_x, after_y : float
+        Slip of the steps before and after the node.
+    smooth : bool
+        Whether the velocity goes straight from one to the other, or jumps at the node.
+    last_x, last_y : float
+        Share to keep where nothing slips.
+
+    Returns
+    -------
+    tuple of 2 floats
+        Friction force over :math:`\mu F_N`, by component, in the direction of the slip.
+    """
+    before = math.sqrt(before_x * before_x + before_y * before_y)
+    after = math.sqrt(after_x * after_x + after_y * after_y)
+    if before == 0.0 and after == 0.0:
+        return last_x, last_y
+    if smooth or before == 0.0 or after == 0.0:
+        return (before_x + after_x) / (before + after), (before_y + after_y) / (before + after)
+    return (
+        0.5 * (before_x / before + after_x / after),
+        0.5 * (before_y / before + after_y / after),
+    )

@@ -13,7 +13,7 @@ Everything is scaled as in `asperity.slider.model`.
 import math
 
 from asperity.compiled import kernel
-from asperity.friction.coulomb import project
+from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import VECTOR, advance, rate_along
 from asperity.friction.lugre import stribeck_share
 from asperity.slider.model import (
@@ -33,6 +33,7 @@ from asperity.slider.model import (
     RATE_DAMPING,
     RIGID,
     SLIP_DAMPING,
+    SMOOTH,
     STATIC_RATIO,
     STRIBECK,
 )
@@ -154,6 +155,7 @@ def march_block(state, sums, p, increments, steps, model, law):
     own = own_1 + own_2
     exponent = p[EXPONENT]
     rigid = p[RIGID] > 0.0
+    smooth = p[SMOOTH] > 0.0
     stretch = state[STRETCH]
     wx = state[WX]
     wy = state[WY]
@@ -188,14 +190,12 @@ def march_block(state, sums, p, increments, steps, model, law):
         elif model == COULOMB:
             ahead = increments[n + 1]
             wx1 = keep * wx + give_x * free
-            fx, fy = project(
-                wx1 - p[BASE_X] * ahead,
-                own * wy1 - p[BASE_Y] * ahead,
-                give_x,
-                own * give_y,
-                fx,
-                fy,
-            )
+            next_dx = wx1 - p[BASE_X] * ahead
+            next_dy = own * wy1 - p[BASE_Y] * ahead
+            if give_x == 0.0 and give_y == 0.0:
+                fx, fy = mean_share(dx, dy, next_dx, next_dy, smooth, fx, fy)
+            else:
+                fx, fy = project(next_dx, next_dy, give_x, own * give_y, fx, fy)
             wx1 -= give_x * fx
             wy1 -= give_y * fy
         else:
