@@ -51,6 +51,7 @@ def relation(formula: Callable[P, Any]) -> Callable[P, Any]:
     It returns a float for numbers. A result that is not finite is an InputError.
     """
     signature = inspect.signature(formula)
+    unchecked: Callable[..., Any] = formula
 
     @functools.wraps(formula)
     def apply(*args: P.args, **kwargs: P.kwargs) -> Any:
@@ -58,7 +59,7 @@ def relation(formula: Callable[P, Any]) -> Callable[P, Any]:
         given = {name: checked(name, value) for name, value in bound.arguments.items()}
         try:
             with np.errstate(all="ignore"):
-                result = formula(**given)  # type: ignore[arg-type]
+                result = unchecked(**given)
         except ValueError:
             shapes = ", ".join(f"{name} {array.shape}" for name, array in given.items())
             raise InputError(f"the shapes {shapes} do not go together; make them equal") from None

@@ -9,7 +9,7 @@ TOLERANCE = 5e-4
 """By how much an over-determined centre distance may differ, as a share of itself."""
 
 LARGEST_SHIFT = 1.0
-"""Profile shift beyond which centre distance, module and diameter factor contradict each other."""
+"""Profile shift beyond which centre distance, module, diameter factor and teeth contradict."""
 
 
 class Macro(NamedTuple):
@@ -94,20 +94,12 @@ def _module(
 
 def _agreed(wheel_teeth: int, a: float, m: float, q: float, shift: float | None) -> float:
     """Return the profile shift that makes the others exact."""
-    given = f"{wheel_teeth} teeth, an axial module of {m:g} mm and a diameter factor of {q:g}"
-    follows = float(relations.profile_shift(a, m, q, wheel_teeth))
-    if shift is None:
-        if abs(follows) > LARGEST_SHIFT:
+    if shift is not None:
+        needed = relations.centre_distance(m, q, wheel_teeth, shift)
+        if abs(needed - a) > TOLERANCE * a:
             raise InputError(
-                f"gearset.centre_distance is {a:g} mm; {given} then need a profile shift of "
-                f"{follows:.3g}, and it must lie within -{LARGEST_SHIFT:g} and {LARGEST_SHIFT:g}: "
-                f"without one they give {relations.centre_distance(m, q, wheel_teeth):.6g} mm"
+                f"gearset.centre_distance is {a:g} mm; {wheel_teeth} teeth, an axial module of "
+                f"{m:g} mm, a diameter factor of {q:g} and a profile shift of {shift:g} give "
+                f"{needed:.6g} mm: leave one of the four out"
             )
-        return follows
-    needed = relations.centre_distance(m, q, wheel_teeth, shift)
-    if abs(needed - a) > TOLERANCE * a:
-        raise InputError(
-            f"gearset.centre_distance is {a:g} mm; {given} with a profile shift of {shift:g} give "
-            f"{needed:.6g} mm: leave one of the four out"
-        )
-    return follows
+    return float(relations.profile_shift(a, m, q, wheel_teeth))

@@ -14,6 +14,7 @@ from asperity.gearset.geometry import Flank, Geometry, Rule
 from asperity.gearset.library import resolve
 from asperity.gearset.macro import LARGEST_SHIFT, complete
 from asperity.gearset.materials import WheelMaterial, WormMaterial
+from asperity.gearset.relations import centre_distance
 from asperity.units import Quantity
 
 _MILLIMETRES = 1e3
@@ -58,8 +59,11 @@ class Gearset(Table):
     Of ``centre_distance``, ``axial_module``, ``diameter_factor`` (or ``worm_pitch_diameter``) and
     ``profile_shift`` any three define it, or any two of the first three with the profile shift
     assumed zero. All four must agree within half a thousandth of the centre distance; the profile
-    shift is then calculated from the others. A profile shift outside -1 to 1 means that they do
-    not belong together.
+    shift is then calculated from the others.
+
+    A profile shift that follows from the others may have any size, because the thesis varies ratio
+    and module at a fixed centre distance (3.2.3). Outside -1 to 1 it is no gearset that could be
+    made: call `require_consistent` before using it for anything but such a study.
 
     Parameters
     ----------
@@ -183,6 +187,20 @@ class Gearset(Table):
             wheel_face_width=_millimetres(self.wheel_face_width),
             rim_thickness=_millimetres(self.rim_thickness),
         )
+
+    def require_consistent(self) -> Self:
+        """Return the gearset; raises InputError if its numbers do not belong together."""
+        g = self.geometry
+        if abs(g.profile_shift) > LARGEST_SHIFT:
+            without = centre_distance(g.axial_module, g.diameter_factor, g.wheel_teeth)
+            raise InputError(
+                f"gearset.centre_distance is {g.centre_distance:g} mm; with {g.wheel_teeth} teeth, "
+                f"an axial module of {g.axial_module:g} mm and a diameter factor of "
+                f"{g.diameter_factor:g} the profile shift is {g.profile_shift:.3g}, and it must "
+                f"lie within -{LARGEST_SHIFT:g} and {LARGEST_SHIFT:g}: these give {without:.6g} mm "
+                "without one"
+            )
+        return self
 
     @property
     def hand_sign(self) -> int:
