@@ -3,9 +3,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.errors import InputError
-from asperity.slider.model import Model
-from asperity.slider.solve import solve
-from asperity.slider.tables import TABLES
+from asperity.slider import TABLES, Model, solve
 from asperity.store import read_dataset, write_dataset
 
 
