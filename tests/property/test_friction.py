@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from asperity.friction import LAWS, VECTOR, update
+from asperity.friction import LAWS, VECTOR, lugre_update, update
 from asperity.friction.coulomb import project
 
 EXPONENTS = [0.0, 0.5, 1.0, 1.5, 2.0]
@@ -96,17 +96,13 @@ def test_two_half_steps_of_the_vector_update_are_one_whole(deflection, slip, exp
     assert halves == pytest.approx(whole, abs=1e-12)
 
 
-def new_deflection(deflection, parts, exponent, law):
-    return np.array(update(deflection, *map(tuple, parts), 1.0, exponent, law)[0])
-
-
-def difference(deflection, parts, exponent, law, place, step):
-    """Central difference of the new deflection by one slip component; None next to a kink."""
+def difference(function, parts, place, step):
+    """Central difference of a pair by one slip component; None next to a kink."""
     moved = []
     for times in (-2, -1, 0, 1, 2):
         changed = np.array(parts)
         changed[place] += times * step
-        moved.append(new_deflection(deflection, changed, exponent, law))
+        moved.append(np.array(function(*map(tuple, changed))))
     near = (moved[3] - moved[1]) / (2 * step)
     far = (moved[4] - moved[0]) / (4 * step)
     turn = (moved[3] - 2 * moved[2] + moved[1]) / step
@@ -126,7 +122,37 @@ def test_the_tangents_are_the_derivatives_by_both_slip_parts(
     step = 1e-5 * min(np.hypot(*slip_1), np.hypot(*slip_2), 1.0)
     for part, tangent in enumerate(tangents):
         for axis in (0, 1):
-            measured = difference(deflection, parts, exponent, law, (part, axis), step)
+            measured = difference(
+                lambda *moved: update(deflection, *moved, 1.0, exponent, law)[0],
+                parts,
+                (part, axis),
+                step,
+            )
+            assume(measured is not None)
+            assert tangent[axis::2] == pytest.approx(measured, abs=1e-6)
+
+
+@given(
+    deflections, moderate_slips, moderate_slips, st.floats(1.0, 2.0), st.floats(0.1, 10.0),
+    st.floats(0.0, 2.0), st.floats(0.0, 2.0), laws,
+)  # fmt: skip
+def test_the_lugre_tangents_are_the_derivatives_of_the_force_by_both_slip_parts(
+    deflection, slip_1, slip_2, static_ratio, stribeck_speed, rate_damping, slip_damping, law
+):
+    parts = np.array([slip_1, slip_2])
+    slip = parts.sum(axis=0)
+    assume(np.hypot(*slip) > 1e-3 and np.hypot(*(deflection + 0.5 * slip)) > 1e-2)
+    numbers = static_ratio, stribeck_speed, rate_damping, slip_damping, law
+    _, _, tangents = lugre_update(deflection, slip_1, slip_2, 1.0, 1.0, *numbers)
+    step = 1e-5 * min(np.hypot(*slip_1), np.hypot(*slip_2), 1.0)
+    for part, tangent in enumerate(tangents):
+        for axis in (0, 1):
+            measured = difference(
+                lambda *moved: lugre_update(deflection, *moved, 1.0, 1.0, *numbers)[1],
+                parts,
+                (part, axis),
+                step,
+            )
             assume(measured is not None)
             assert tangent[axis::2] == pytest.approx(measured, abs=1e-6)
 
