@@ -1,0 +1,276 @@
+import math
+
+import numpy as np
+import pytest
+
+from asperity.errors import InputError
+from asperity.vibration import Vibration
+
+WAVES = {
+    "sine": {"waveform": "sine", "frequency": 4000.0},
+    "triangle": {"waveform": "triangle", "frequency": 4000.0},
+    "square": {"waveform": "square", "frequency": 4000.0, "rise_time": 20e-6},
+    "sampled": {"waveform": "sampled", "samples": "wave.csv"},
+}
+
+
+def csv_rows(time, displacement):
+    return [f"{t!r},{u!r}" for t, u in zip(time.tolist(), displacement.tolist(), strict=True)]
+
+
+def write_samples(path, displacement, period=2.5e-4, header="time,displacement\n"):
+    displacement = np.append(displacement, displacement[0])
+    time = np.linspace(0.0, period, len(displacement))
+    rows = "".join(
+        f"{t!r},{u!r}\n" for t, u in zip(time.tolist(), displacement.tolist(), strict=True)
+    )
+    path.write_text(header + rows)
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path):
+    phase = 2.0 * math.pi * np.arange(64) / 64
+    write_samples(tmp_path / "wave.csv", 3e-6 * (np.sin(phase) + 0.25 * np.sin(2 * phase + 0.3)))
+    return tmp_path
+
+
+def refusal(call, *arguments, **entries):
+    with pytest.raises(InputError) as raised:
+        call(*arguments, **entries)
+    assert len(str(raised.value).splitlines()) == 1
+    return str(raised.value)
+
+
+def displacement(shape, cycles):
+    """Unit displacement at phases in cycles, from its increments."""
+    steps = len(cycles) - 1
+    start = shape.increments(-1.0, 1.0 + cycles[0], 1).sum() if cycles[0] > 0.0 else 0.0
+    spacing = (cycles[-1] - cycles[0]) / steps
+    return start + np.append(0.0, np.cumsum(shape.increments(cycles[0], spacing, steps)))
+
+
+@pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
+def test_the_displacement_has_unit_amplitude_and_closes_its_period(wave, folder):
+    shape = Vibration(velocity_ratio=1.0, **wave).shape(folder)
+    u = displacement(shape, np.linspace(1.0, 2.0, 8193))
+    assert 0.5 * (u.max() - u.min()) == pytest.approx(1.0, abs=2e-7)
+    assert u[-1] == pytest.approx(u[0], abs=1e-12)
+
+
+@pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
+def test_the_peak_velocity_is_the_steepest_slope_of_the_displacement(wave, folder):
+    vibration = Vibration(displacement_amplitude=2e-7, **wave)
+    shape = vibration.shape(folder)
+    steps = 8192
+    slopes = shape.increments(1.0, 1.0 / steps, steps) * steps * shape.frequency * 2e-7
+    assert vibration.velocity(shape, 1.0) == pytest.approx(np.abs(slopes).max(), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("sine", 2.0 * math.pi * 4000.0 * 2e-7),
+        ("triangle", 4.0 * 4000.0 * 2e-7),
+        ("square", 2.0 * 2e-7 / 20e-6),
+    ],
+)
+def test_the_peak_velocity_follows_its_formula(name, expected):
+    vibration = Vibration(displacement_amplitude=2e-7, **WAVES[name])
+    assert vibration.velocity(vibration.shape(), 1.0) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
+def test_the_three_forms_of_an_amplitude_agree(wave, folder):
+    by_ratio = Vibration(velocity_ratio=6.0, **wave)
+    shape = by_ratio.shape(folder)
+    by_velocity = Vibration(velocity_amplitude=3e-3, **wave)
+    amplitude = by_velocity.displacement(shape, 0.5e-3)
+    by_displacement = Vibration(displacement_amplitude=amplitude, **wave)
+    assert by_ratio.velocity(shape, 0.5e-3) == pytest.approx(3e-3, rel=1e-15)
+    assert by_ratio.displacement(shape, 0.5e-3) == pytest.approx(amplitude, rel=1e-15)
+    assert by_displacement.velocity(shape, 0.5e-3) == pytest.approx(3e-3, rel=1e-15)
+
+
+@pytest.mark.parametrize("name", ["sine", "triangle", "square"])
+def test_the_vibration_starts_at_zero_and_rises(name):
+    shape = Vibration(velocity_ratio=1.0, **WAVES[name]).shape()
+    assert np.all(shape.increments(-3.0, 0.01, 300) == 0.0)
+    first = displacement(shape, np.linspace(0.0, 0.02, 21))
+    assert np.all(np.diff(first) > 0.0)
+    assert first[0] == 0.0
+
+
+def test_a_step_across_the_start_moves_only_by_the_part_after_it():
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sine"]).shape()
+    (across,) = shape.increments(-0.004, 0.01, 1)
+    assert across == pytest.approx(math.sin(2.0 * math.pi * 0.006), rel=1e-14)
+
+
+def test_before_its_start_a_sampled_wave_rests_where_it_begins(folder):
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(folder)
+    assert np.all(shape.increments(-3.0, 0.01, 300) == 0.0)
+    (first,) = shape.increments(-0.01, 0.02, 1)
+    (same,) = shape.increments(1.0, 0.01, 1)
+    assert first == pytest.approx(same, abs=1e-9)
+
+
+def test_a_square_wave_dwells_between_flanks_of_its_rise_time():
+    shape = Vibration(velocity_ratio=1.0, **WAVES["square"]).shape()
+    # 20 us are 0.08 of a period at 4 kHz: a flank reaches 0.04 to either side of a crossing.
+    u = displacement(shape, np.linspace(0.0, 1.0, 1001))
+    assert u[:41] == pytest.approx(np.linspace(0.0, 1.0, 41), abs=1e-12)
+    assert u[40:461] == pytest.approx(1.0, abs=1e-12)
+    assert u[460:541] == pytest.approx(np.linspace(1.0, -1.0, 81), abs=1e-12)
+    assert u[540:961] == pytest.approx(-1.0, abs=1e-12)
+    assert u[960:] == pytest.approx(np.linspace(-1.0, 0.0, 41), abs=1e-12)
+
+
+def test_a_square_wave_that_rises_all_the_time_is_a_triangle():
+    square = Vibration(
+        waveform="square", frequency=4000.0, rise_time=0.125e-3, velocity_ratio=1.0
+    ).shape()
+    triangle = Vibration(velocity_ratio=1.0, **WAVES["triangle"]).shape()
+    assert square.steepness == triangle.steepness
+    assert square.increments(0.0, 0.001, 1000) == pytest.approx(
+        triangle.increments(0.0, 0.001, 1000), abs=1e-14
+    )
+
+
+def test_samples_of_a_sine_are_the_sine(tmp_path):
+    phase = 2.0 * math.pi * np.arange(100) / 100
+    write_samples(tmp_path / "wave.csv", 7e-6 * np.sin(phase) + 3e-6)
+    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
+    sine = Vibration(velocity_ratio=1.0, **WAVES["sine"]).shape()
+    assert sampled.frequency == pytest.approx(4000.0, rel=1e-12)
+    assert sampled.steepness == pytest.approx(sine.steepness, rel=1e-5)
+    cycles = np.linspace(1.0, 2.0, 501)
+    assert displacement(sampled, cycles) == pytest.approx(np.sin(2.0 * math.pi * cycles), abs=1e-6)
+
+
+def test_the_scale_and_the_mean_of_samples_do_not_matter(tmp_path):
+    wave = np.sin(np.linspace(0.0, 2.0 * math.pi, 40, endpoint=False)) ** 3
+    shapes = []
+    for name, samples in (("a.csv", wave), ("b.csv", 1e-6 * wave - 4.0e-6)):
+        write_samples(tmp_path / name, samples)
+        shapes.append(
+            Vibration(waveform="sampled", samples=name, velocity_ratio=1.0).shape(tmp_path)
+        )
+    assert shapes[0].table == pytest.approx(shapes[1].table, abs=1e-9)
+    assert shapes[0].steepness == pytest.approx(shapes[1].steepness, rel=1e-9)
+
+
+def test_samples_need_no_equal_spacing(tmp_path):
+    cycles = np.sort(np.concatenate([np.linspace(0.0, 0.5, 60), np.linspace(0.51, 1.0, 30)]))
+    u = np.sin(2.0 * math.pi * cycles)
+    rows = "".join(
+        f"{t * 2.5e-4!r},{x!r}\n" for t, x in zip(cycles.tolist(), u.tolist(), strict=True)
+    )
+    (tmp_path / "wave.csv").write_text(rows)
+    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
+    at = np.linspace(1.0, 2.0, 101)
+    assert displacement(sampled, at) == pytest.approx(np.sin(2.0 * math.pi * at), abs=2e-5)
+
+
+def test_changed_samples_are_read_anew(tmp_path):
+    path = write_samples(tmp_path / "wave.csv", np.sin(np.linspace(0, 2 * math.pi, 32, False)))
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    first = vibration.shape(tmp_path)
+    write_samples(path, np.sin(np.linspace(0, 2 * math.pi, 64, False)), period=1e-3)
+    assert first.frequency == pytest.approx(4000.0)
+    assert vibration.shape(tmp_path).frequency == pytest.approx(1000.0)
+
+
+def rows_of(n=64, period=2.5e-4):
+    time = np.linspace(0.0, period, n + 1)
+    return csv_rows(time, np.sin(2.0 * math.pi * time / period))
+
+
+def without_some():
+    rows = rows_of()
+    return rows[:20] + rows[30:]
+
+
+def unsorted():
+    rows = rows_of()
+    rows[10], rows[11] = rows[11], rows[10]
+    return rows
+
+
+def replaced(index, text):
+    rows = rows_of()
+    rows[index] = text
+    return rows
+
+
+SAMPLES = {
+    "a gap": (without_some(), "a gap of"),
+    "not a number": (replaced(12, "4.6875e-05,nan"), "fill the gap"),
+    "infinite": (replaced(12, "4.6875e-05,inf"), "fill the gap"),
+    "an empty cell": (replaced(12, "4.6875e-05,"), "two numbers"),
+    "one column": (replaced(12, "4.6875e-05"), "two numbers"),
+    "a word": (replaced(12, "4.6875e-05,high"), "two numbers"),
+    "not closed": (rows_of()[:-8], "to close the period"),
+    "too few": (rows_of(6), "at least 8"),
+    "unsorted": (unsorted(), "sort the samples"),
+    "repeated": (replaced(12, rows_of()[11]), "sort the samples"),
+    "constant": ([f"{n * 1e-6},1.0" for n in range(20)], "does not change"),
+    "empty": ([], "holds 0 samples"),
+}
+
+
+@pytest.mark.parametrize(("rows", "message"), SAMPLES.values(), ids=SAMPLES)
+def test_samples_that_are_no_period_are_refused(rows, message, tmp_path):
+    (tmp_path / "wave.csv").write_text("".join(row + "\n" for row in rows))
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    text = refusal(vibration.shape, tmp_path)
+    assert message in text
+    assert "wave.csv" in text
+
+
+def test_samples_that_cannot_be_read_are_refused(tmp_path):
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    assert "cannot be read" in refusal(vibration.shape, tmp_path)
+    (tmp_path / "wave.csv").write_bytes(bytes(range(128, 256)))
+    assert "cannot be read" in refusal(vibration.shape, tmp_path)
+    (tmp_path / "folder.csv").mkdir()
+    other = Vibration(velocity_ratio=1.0, waveform="sampled", samples="folder.csv")
+    assert "cannot be read" in refusal(other.shape, tmp_path)
+
+
+def test_a_frequency_that_contradicts_the_samples_is_refused(folder):
+    vibration = Vibration(velocity_ratio=1.0, frequency=3000.0, **WAVES["sampled"])
+    assert "leave the frequency out" in refusal(vibration.shape, folder)
+    agreeing = Vibration(velocity_ratio=1.0, frequency=4000.0, **WAVES["sampled"])
+    assert agreeing.shape(folder).frequency == pytest.approx(4000.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"waveform": "sampled"}, "vibration.samples is missing"),
+        ({"frequency": 1e3, "samples": "wave.csv"}, "vibration.samples is given"),
+        ({}, "vibration.frequency is missing"),
+        ({"frequency": 0.0}, "vibration.frequency"),
+        ({"frequency": -4e3}, "vibration.frequency"),
+        ({"frequency": 1e3, "waveform": "square"}, "vibration.rise_time is missing"),
+        ({"frequency": 1e3, "rise_time": 1e-5}, "vibration.rise_time is for a square wave"),
+        (
+            {"frequency": 1e3, "waveform": "square", "rise_time": 6e-4},
+            "must not exceed half a period, 0.0005 s",
+        ),
+        ({"frequency": 1e3, "waveform": "saw"}, "vibration.waveform"),
+        ({"frequency": 1e3, "start": -1.0}, "vibration.start"),
+        ({"frequency": 1e3, "applied_to": "wall"}, "vibration.applied_to"),
+    ],
+)
+def test_a_vibration_that_makes_no_sense_is_refused(entries, message):
+    assert message in refusal(Vibration, velocity_ratio=1.0, **entries)
+
+
+def test_exactly_one_amplitude_is_needed():
+    assert "velocity_ratio" in refusal(Vibration, frequency=1e3)
+    text = refusal(Vibration, frequency=1e3, velocity_ratio=2.0, velocity_amplitude=1e-3)
+    assert "velocity_ratio" in text
+    assert "velocity_amplitude" in text
+    assert "vibration.velocity_ratio" in refusal(Vibration, frequency=1e3, velocity_ratio=-1.0)
