@@ -8,7 +8,7 @@ import numpy as np
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
 from asperity.slider import model as m
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import WINDOW_SHARE, FloatArray, Model
 from asperity.slider.result import History, PowerLedger, SlideResult, finite, mean_pair
 from asperity.slider.two_phase import march_two_phase
 from asperity.vibration import fill_increments
@@ -24,37 +24,39 @@ class Timetable:
     """Steps of a march: how many, and where its window and its finely recorded tail begin."""
 
     def __init__(self, model: Model) -> None:
-        self.step = model.step / model.substeps
-        self.steps = round(model.duration / self.step)
-        duration = self.steps * self.step
+        # Counted in the steps asked for, so that rows stand at the same times however they are
+        # divided.
+        whole = round(model.duration / model.step)
         if model.vibrates:
-            available = _share(duration - model.start)
-            self.cycles = math.floor(min(model.window, available) * model.frequency + 1e-9)
+            span = WINDOW_SHARE * max(whole * model.step - model.start, 0.0)
+            self.cycles = math.floor(min(model.window, span) * model.frequency + 1e-9)
             if self.cycles < 1:
                 raise InputError(
-                    f"solve.duration is {duration:g} s; with the vibration of "
+                    f"solve.duration is {model.duration:g} s; with the vibration of "
                     f"{model.frequency:g} Hz from {model.start:g} s on it must be at least "
                     f"{model.start + 1.5 / model.frequency:.3g} s"
                 )
-            window = round(self.cycles / (model.frequency * self.step))
-            tail = _TAIL_CYCLES / model.frequency
+            window = round(self.cycles / (model.frequency * model.step))
+            tail = round(_TAIL_CYCLES / (model.frequency * model.step))
         else:
             self.cycles = 0
-            window = round(min(model.window, _share(duration)) / self.step)
-            tail = 0.0
-        if self.steps < 8 or window < 2:
+            window = round(min(model.window, WINDOW_SHARE * model.duration) / model.step)
+            tail = 0
+        if whole < 8 or window < 2:
             raise InputError(
                 f"solve.duration is {model.duration:g} s; it must be at least 8 steps of "
-                f"{self.step:g} s"
+                f"{model.step:g} s"
             )
-        self.window = min(window, self.steps)
+        window = min(window, whole)
+        tail = min(tail, window // 2, _TAIL_RECORDS)
+        parts = model.substeps
+        self.parts = parts
+        self.step = model.step / parts
+        self.steps = whole * parts
+        self.window = window * parts
         self.window_start = self.steps - self.window
-        self.middle = self.window_start + self.window // 2
-        self.tail = min(round(tail / self.step), self.window // 2, _TAIL_RECORDS)
-
-
-def _share(span: float) -> float:
-    return m.WINDOW_SHARE * max(span, 0.0)
+        self.middle = self.window_start + window // 2 * parts
+        self.tail = tail * parts
 
 
 class Walk:
@@ -151,7 +153,7 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
     began = time.perf_counter()
     table = Timetable(model)
     walk = Walk(model, table)
-    stride = max(1, table.steps // _RECORDS) if history else _BLOCK
+    stride = max(1, table.steps // table.parts // _RECORDS) * table.parts if history else _BLOCK
     walk.to(table.window_start, stride)
     start = walk.energies()
     breakaway = walk.sums[k.BREAKAWAY]
@@ -161,7 +163,7 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
     k.clear(walk.sums)
     if history:
         walk.to(table.steps - table.tail, stride)
-    walk.to(table.steps, 1 if history else stride)
+    walk.to(table.steps, table.parts if history else stride)
     second_half = walk.sums.copy()
     sums = first_half + second_half
     sums[k.MAX_FX] = max(first_half[k.MAX_FX], second_half[k.MAX_FX])
@@ -273,7 +275,7 @@ def _ledger(
 
 def _history(model: Model, step: float, walk: Walk) -> History:
     rows = np.concatenate(walk.rows)
-    at = np.concatenate(walk.at) * step
+    at = np.concatenate(walk.at) / walk.table.parts * model.step
     length = model.length(step)
     force = model.full_friction
     drive = model.slider.drive_velocity
