@@ -76,7 +76,7 @@ def kinematic_viscosity(
     :math:`\lg\lg(\nu + 0.7) = A \lg T + B` with :math:`T` in K through the two given points. The
     standard rounds its constants to :math:`A = -13.129 \lg[\lg(\nu_{40} + 0.7)/\lg(\nu_{100} +
     0.7)]` and :math:`B = \lg\lg(\nu_{40} + 0.7) - 2.496 A`, and so misses the points themselves by
-    up to 1 %; here they are met exactly.
+    about 1 %; here they are met exactly.
 
     Parameters
     ----------

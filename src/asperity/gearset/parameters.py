@@ -38,7 +38,8 @@ def _whole(value: object) -> int:
 
 
 def _millimetres(length: float | None) -> float | None:
-    return None if length is None else length * _MILLIMETRES
+    # To 15 digits, so that "74.93 mm" comes back as 74.93 from metres.
+    return None if length is None else float(f"{length * _MILLIMETRES:.15g}")
 
 
 def _count(least: int) -> Any:

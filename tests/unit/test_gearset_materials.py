@@ -1,0 +1,184 @@
+"""Materials, lubricants and bearings by name, with their sources, and files of one's own."""
+
+import os
+
+import pytest
+
+from asperity.errors import InputError
+from asperity.gearset.bearings import Bearings, bearings
+from asperity.gearset.library import VARIABLE, names
+from asperity.gearset.lubricants import base_oil, lubricant
+from asperity.gearset.materials import wheel_material, worm_material
+
+OWN = """
+[source.maker]
+name = "data sheet"
+confidence = "one source"
+
+[wheel."our bronze"]
+family = "tin bronze"
+youngs_modulus = "95 GPa"
+poisson_ratio = 0.35
+material_factor = 1.0
+pitting_strength = "450 MPa"
+shear_strength = "95 MPa"
+from = { shear_strength = "maker" }
+
+[bearings.fixed-floating]
+loss_coefficient = 0.02
+"""
+
+
+@pytest.fixture
+def own_file(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(OWN)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("name", "reduced_modulus"),
+    [
+        ("CuSn12-C-GZ", 140144),
+        ("CuSn12Ni2-C-GZ", 150622),
+        ("CuSn12Ni2-C-GC", 150622),
+        ("CuAl10Fe5Ni5-C-GZ", 174053),
+        ("EN-GJS-400-15", 209790),
+        ("EN-GJL-250", 146955),
+    ],
+)
+def test_with_a_steel_worm_each_wheel_has_the_printed_reduced_modulus(name, reduced_modulus):
+    parts = (wheel_material(name), worm_material("case-hardened steel"))
+    compliance = sum((1 - part.poisson_ratio**2) / part.youngs_modulus for part in parts)
+    assert 2e-6 / compliance == pytest.approx(reduced_modulus, abs=0.5)
+
+
+def test_every_value_that_ships_has_a_source():
+    for section, find in (
+        ("wheel", wheel_material),
+        ("worm", worm_material),
+        ("lubricant", lubricant),
+        ("base_oil", base_oil),
+        ("bearings", bearings),
+    ):
+        assert names(section)
+        for name in names(section):
+            thing = find(name)
+            keys = thing.model_fields_set - {"name", "sources", "assumption"}
+            assert keys <= set(thing.sources), name
+            assert all(thing.source(key).note != "given by the user" for key in keys), name
+
+
+def test_aluminium_bronze_counts_as_centrifugal_phosphor_bronze_and_says_so():
+    material = wheel_material("CuAl10Fe5Ni5-C-GZ")
+    assert material.bs721 == "phosphor bronze centrifugal"
+    assert material.agma6034 == "centrifugal"
+    assert "no row for aluminium bronze" in material.source("bs721").note
+    assert material.source("bs721").confidence == "from memory"
+
+
+def test_iron_is_not_in_the_tables_of_agma():
+    for name in ("EN-GJS-400-15", "EN-GJL-250"):
+        assert wheel_material(name).agma6034 is None
+    assert wheel_material("EN-GJS-400-15").bs721 is None
+    assert "no row" in wheel_material("EN-GJS-400-15").source("bs721").note
+
+
+def test_a_file_of_your_own_adds_names_and_replaces_them(own_file):
+    material = wheel_material("our bronze", [own_file])
+    assert material.youngs_modulus == 95e9
+    assert material.source("shear_strength").name == "data sheet"
+    assert material.source("youngs_modulus").note == "given by the user"
+    assert bearings("fixed-floating", [own_file]).loss_coefficient == 0.02
+    assert bearings("fixed-floating").loss_coefficient == 0.013
+
+
+def test_the_environment_names_files_of_your_own(own_file, monkeypatch):
+    monkeypatch.setenv(VARIABLE, str(own_file))
+    assert "our bronze" in names("wheel")
+    assert wheel_material("our bronze").name == "our bronze"
+    monkeypatch.delenv(VARIABLE)
+    assert "our bronze" not in names("wheel")
+
+
+def test_a_changed_file_is_read_again(own_file):
+    assert bearings("fixed-floating", [own_file]).loss_coefficient == 0.02
+    stamp = own_file.stat().st_mtime_ns + 10**9
+    own_file.write_text(OWN.replace("0.02", "0.025"))
+    os.utime(own_file, ns=(stamp, stamp))
+    assert bearings("fixed-floating", [own_file]).loss_coefficient == 0.025
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[wheel", "is not a data file"),
+        ("[wheels.x]", r"own.toml: \[wheels\] is not a table .*did you mean 'wheel'"),
+        ("wheel = 3", r"\[wheel\] must hold tables with names"),
+        ("[wheel]\nyoungs_modulus = 3", r"\[wheel\] must hold tables with names"),
+        ('[wheel.x]\nfrom = "maker"', r'\[wheel."x"\]: from is \'maker\'; it must be a table'),
+        ('[wheel.x]\nfrom = { "*" = "maker" }', r"from.\* is 'maker'"),
+        ("[source.x]\nnam = 'a'", r"\[source.x\] must have name, confidence"),
+        ("[source.x]\nname = 'a'\nconfidence = 'sure'", r"\[source.x\]: confidence is 'sure'"),
+        ("[wheel.x]\nfamily = 'tin bronze'", r'own.toml: \[wheel."x"\]: .*youngs_modulus is miss'),
+    ],
+)
+def test_a_bad_file_of_your_own_is_named_in_one_line(text, message, tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=message) as refused:
+        wheel_material("x", [path])
+    assert "\n" not in str(refused.value)
+
+
+def test_a_missing_file_of_your_own_is_named(tmp_path, monkeypatch):
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "gone.toml"))
+    with pytest.raises(InputError, match=r"gone\.toml cannot be read"):
+        wheel_material("CuSn12-C-GZ")
+
+
+def test_a_name_that_is_not_known_brings_the_near_one_or_all():
+    with pytest.raises(InputError, match="did you mean 'preloaded'"):
+        bearings("preload")
+    with pytest.raises(InputError, match=r"allowed: 'fixed-floating', 'preloaded'"):
+        bearings("x")
+    with pytest.raises(InputError, match=r"operation\.lubricant is .*did you mean 'ISO VG 220 min"):
+        lubricant("ISO VG 220 mineal")
+
+
+def test_bearings_of_your_own_are_a_class():
+    assert Bearings(loss_coefficient=0.02).source("loss_coefficient").note == "given by the user"
+
+
+def test_the_oil_of_the_thesis_is_a_stand_in_and_says_so():
+    oil = lubricant("Fuchs Titan Gear MP SAE 80")
+    assert "stands in" in oil.assumed["lubricant"]
+    assert oil.source("viscosity_40").confidence == "from memory"
+    assert lubricant("ISO VG 220 mineral").assumed == {}
+
+
+def test_a_lubricant_of_your_own_takes_its_density_from_the_base_oil():
+    oil = lubricant(
+        {"base_oil": "polyglycol", "viscosity_40": "460 cSt", "viscosity_100": "77 mm^2/s"},
+        text_only=True,
+    )
+    assert oil.viscosity_40 == 460e-6
+    assert oil.density(288.15) == pytest.approx(1050.0, rel=1e-12)
+    assert oil.assumed == {"lubricant.density_15": "1050 kg/m^3, typical of polyglycol oil"}
+    assert oil.source("density_15").confidence == "from memory"
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"base_oil": "minerals"}, "base_oil is 'minerals'; .*did you mean 'mineral'"),
+        ({"viscosity_40": 68}, "viscosity_40 is 68; it must be a kinematic viscosity such as"),
+        ({"viscosity_100": "70 mm^2/s"}, "viscosity_100 is 70 mm.2/s; it must be below visc.* 68"),
+        ({"viscosity_100": "0.1 mm^2/s"}, "viscosity_100 is '0.1 mm.2/s'; it must be at least"),
+        ({"density": "890 kg/m^3"}, "density is not a key .*did you mean 'density_15'"),
+    ],
+)
+def test_a_lubricant_that_is_none_is_refused(changes, message):
+    given = {"base_oil": "mineral", "viscosity_40": "68 mm^2/s", "viscosity_100": "8.7 mm^2/s"}
+    with pytest.raises(InputError, match=rf"^operation\.lubricant\.{message}"):
+        lubricant({**given, **changes}, text_only=True)

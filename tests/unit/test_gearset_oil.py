@@ -1,0 +1,96 @@
+"""Viscosity and density of oils at temperature."""
+
+import math
+
+import numpy as np
+import pytest
+
+from asperity.errors import InputError
+from asperity.gearset import oil
+from asperity.gearset.lubricants import lubricant
+
+
+def test_the_viscosity_meets_the_given_points_exactly():
+    for theta, expected in ((40.0, 220.0), (100.0, 19.0)):
+        assert oil.kinematic_viscosity(theta, 220.0, 19.0) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(("nu_40", "nu_100"), [(68.0, 8.7), (220.0, 19.0), (680.0, 38.5)])
+def test_the_rounded_constants_of_the_standard_give_about_one_percent_more(nu_40, nu_100):
+    a = -13.129 * math.log10(math.log10(nu_40 + 0.7) / math.log10(nu_100 + 0.7))
+    b = math.log10(math.log10(nu_40 + 0.7)) - 2.496 * a
+    for theta in (40.0, 60.0, 80.0, 100.0):
+        printed = 10.0 ** (10.0 ** (a * math.log10(theta + 273.15) + b)) - 0.7
+        exact = oil.kinematic_viscosity(theta, nu_40, nu_100)
+        assert 1.005 < printed / exact < 1.013
+
+
+def test_an_oil_expands_as_it_warms():
+    assert oil.density(15.0, 890.0, 7e-4) == 890.0
+    assert oil.density(115.0, 890.0, 7e-4) == pytest.approx(890.0 / 1.07, rel=1e-15)
+
+
+def test_a_lubricant_answers_in_si_units():
+    vg220 = lubricant("ISO VG 220 mineral")
+    assert vg220.kinematic_viscosity(313.15) == pytest.approx(220e-6, rel=1e-12)
+    dynamic = vg220.dynamic_viscosity(333.15)
+    nu = oil.kinematic_viscosity(60.0, 220.0, 19.0)
+    rho = oil.density(60.0, 895.0, 7e-4)
+    assert dynamic == pytest.approx(oil.dynamic_viscosity(nu, rho), rel=1e-12)
+    assert vg220.dynamic_viscosity(np.array([333.15, 353.15]))[0] == dynamic
+
+
+def test_numbers_and_arrays_give_the_same():
+    theta = np.linspace(-20.0, 150.0, 35)
+    array = oil.kinematic_viscosity(theta, 220.0, 19.0)
+    numbers = [oil.kinematic_viscosity(float(t), 220.0, 19.0) for t in theta]
+    np.testing.assert_allclose(array, numbers, rtol=1e-13)
+    assert type(numbers[0]) is float
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((-80.0, 220.0, 19.0), "below -60 degC"),
+        ((400.0, 220.0, 19.0), "above 300 degC"),
+        ((math.nan, 220.0, 19.0), "below -60 degC"),
+        ((40.0, 19.0, 220.0), "must be finite, fall from 40 to 100 degC"),
+        ((40.0, math.nan, 19.0), "must be finite"),
+        ((40.0, 220.0, 0.1), "at least 0.5"),
+        ((-60.0, 1e7, 0.5), "the oil is solid"),
+        (("warm", 220.0, 19.0), "are not numbers"),
+        (([1.0, 2.0], [220.0] * 3, 19.0), "are not numbers, or arrays of one shape"),
+    ],
+)
+def test_where_there_is_no_answer_a_call_says_why(arguments, message):
+    with pytest.raises(InputError, match=message):
+        oil.kinematic_viscosity(*arguments)
+
+
+def test_an_array_call_masks_with_reasons_if_asked():
+    masked = oil.kinematic_viscosity(
+        np.array([40.0, -80.0, 400.0, 40.0, -60.0]),
+        np.array([220.0, 220.0, 220.0, 19.0, 1e7]),
+        np.array([19.0, 19.0, 19.0, 220.0, 0.5]),
+        on_invalid="mask",
+    )
+    assert masked.reason.tolist() == [0, oil.TOO_COLD, oil.TOO_HOT, oil.NO_OIL, oil.TOO_THICK]
+    assert np.isnan(masked.values).tolist() == [False, True, True, True, True]
+    assert set(masked.legend) == {1, 2, 3, 4}
+    dense = oil.density([15.0, 15.0], [890.0, -1.0], 7e-4, on_invalid="mask")
+    assert dense.reason.tolist() == [0, oil.NO_OIL]
+
+
+def test_a_number_raises_even_if_a_mask_is_asked_for():
+    with pytest.raises(InputError, match="above 300 degC"):
+        oil.kinematic_viscosity(400.0, 220.0, 19.0, on_invalid="mask")
+    with pytest.raises(InputError, match="it must be 'raise' or 'mask'"):
+        oil.density(40.0, 890.0, 7e-4, on_invalid="ignore")
+
+
+def test_temperatures_outside_what_the_formulas_are_valid_for_are_reported():
+    vg68 = lubricant("ISO VG 68 mineral")
+    assert vg68.violations(333.15) == []
+    hot = vg68.violations(273.15 + 200.0)
+    assert hot[0].startswith("oil temperature is 200 degC; ASTM D341")
+    assert hot[1].startswith("kinematic viscosity is 1.")
