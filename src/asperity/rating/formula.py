@@ -188,8 +188,9 @@ def evaluate(
             return float(values)
         return values if values.shape == shape else np.broadcast_to(values, shape).copy()
     everything = np.full(shape, np.nan)
-    everything[valid] = np.where(accepted, values, np.nan)
-    reason[valid] = np.where(accepted, 0, NOT_A_RESULT)
+    where = ... if valid.all() else valid
+    everything[where] = np.where(accepted, values, np.nan)
+    reason[where] = np.where(accepted, 0, NOT_A_RESULT)
     legend = {NOT_A_RESULT: f"{result} is not defined: {because}"}
     for code, argument in enumerate(arguments, NOT_A_RESULT + 1):
         legend[code] = f"{argument.name} is not allowed; {argument.allowed()}"

@@ -155,4 +155,8 @@ def equivalent_hours(
         positive("at_speed", at_speed, "rpm"),
         positive("at_torque", at_torque, "N m"),
     )
-    return float(np.sum(parts))
+    with np.errstate(over="ignore"):
+        total = float(np.sum(parts))
+    if not np.isfinite(total):
+        raise InputError(f"the equivalent hours are {total}; give a shorter duty cycle")
+    return total

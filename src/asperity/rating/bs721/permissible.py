@@ -68,7 +68,8 @@ class Permissible:
     @property
     def m_26k(self) -> Any:
         """M_26k, N m: the smallest of all, for a life of 26000 h."""
-        return _smaller(self.wear.torque, self.strength.torque)
+        # A wheel that is masked for one of them stays masked.
+        return _plain(np.minimum(self.wear.torque, self.strength.torque))
 
     def m_w(self, hours: npt.ArrayLike) -> Any:
         """M_w, N m: torque permitted by wear for a running time in hours."""
@@ -220,9 +221,12 @@ def _limit(
     return Limit(rated, other, None, {}, note)
 
 
-def _smaller(one: Any, other: Any) -> Any:
-    if other is None:
-        return one
+def _smaller(wheel: Any, worm: Any) -> Any:
+    if worm is None:
+        return wheel
     # A worm that is not rated does not limit; a wheel that is masked stays masked.
-    least = np.where(np.isnan(one), one, np.fmin(one, other))
-    return float(least) if least.ndim == 0 else least
+    return _plain(np.where(np.isnan(wheel), wheel, np.fmin(wheel, worm)))
+
+
+def _plain(value: Any) -> Any:
+    return float(value) if np.ndim(value) == 0 else value

@@ -143,7 +143,7 @@ def strength_speed_factor_from_velocity(
 
     Notes
     -----
-    From memory; `permissible_torques` does not use it.
+    From memory, and a third above the table for gearset 3; `permissible_torques` does not use it.
     """
     return evaluate(
         lambda v: 0.521 * v**-0.2,
