@@ -304,8 +304,9 @@ def test_a_case_travels_to_another_process(case_file):
 
 def test_the_published_tables_ship_and_are_described():
     names = [*(f"table-4.1-L{number}" for number in range(1, 7)), "table-4.3", "table-4.4"]
-    assert list(shipped_cases()) == names
-    for path in shipped_cases().values():
+    shipped = {name: path for name, path in shipped_cases().items() if name.startswith("table-")}
+    assert list(shipped) == names
+    for path in shipped.values():
         assert "Table 4." in describe(path)
 
 
