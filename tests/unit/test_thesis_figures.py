@@ -49,16 +49,17 @@ def test_dahl_from_rest_is_drawn_for_five_exponents():
 
 
 def test_rigid_friction_is_reversed_for_a_third_of_the_cycle_at_k_2():
-    friction = figure_2_14().dataset["friction"].sel(axis="x").values.ravel()
-    assert np.abs(friction) == pytest.approx(5.08)
+    friction = figure_2_14().dataset["friction_rigid_drive"].sel(axis="x").values
+    assert np.median(np.abs(friction)) == pytest.approx(5.08)
+    assert np.mean(np.abs(friction) < 5.079) < 1e-3
     assert np.mean(friction < 0.0) == pytest.approx(1.0 / 3.0, abs=1e-3)
 
 
 def test_dahl_friction_falls_and_keeps_its_sign_just_above_k_1():
     dataset = figure_2_15().dataset
-    friction = dataset["friction"].sel(axis="x")
-    assert float(friction.min()) > 0.0
-    assert float(friction.min()) < 0.8 * float(dataset["full_force"])
+    for drive in ("compliant", "rigid"):
+        least = float(dataset[f"friction_{drive}_drive"].sel(axis="x").min())
+        assert 0.0 < least < 0.8 * float(dataset["full_force"])
 
 
 def test_what_is_there_and_true_is_used_again(tmp_path, counted):

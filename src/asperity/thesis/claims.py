@@ -24,6 +24,8 @@ def _basic_bodies() -> Finding:
     results = [body.solve() for body in bodies]
     full = results[0].static_drive_force
     square = _drive(results[1])
+    # Share of the cycle spent between the two values, a step at each reversal.
+    steep = float(np.mean(np.abs(np.abs(square) - full) > _SAME * full))
     swings = [np.ptp(_drive(result)) for result in results[3:]]
     least = [result.friction_min[0] for result in results[3:]]
     means = [result.drive_force for result in results]
@@ -31,9 +33,8 @@ def _basic_bodies() -> Finding:
         "L1 and L3 keep the full drive force": all(
             abs(results[n].ratio - 1.0) < _SAME for n in (0, 2)
         ),
-        "L2 is a square wave between -mu F_N and mu F_N": bool(
-            np.allclose(np.abs(square), full, rtol=_SAME) and square.min() < 0.0 < square.max()
-        ),
+        "L2 is a square wave between -mu F_N and mu F_N": steep < 1e-3
+        and square.min() < 0.0 < square.max(),
         "the swing falls from L4 over L5 to L6": swings[0] > swings[1] > swings[2],
         "in the end the force keeps its sign": least[-1] > 0.0,
     }

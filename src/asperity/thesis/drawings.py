@@ -1,5 +1,6 @@
 """The pictures of the thesis's figures, each drawn from its dataset alone."""
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +26,19 @@ _COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
 _DASHES = ((None, None), (6, 2), (2, 2), (6, 2, 2, 2), (4, 1))
 _RATIO = r"drive force over $\mu F_N$"
 _ZOOM = 1e-3
+
+
+def own_names(variable: str, body: str) -> tuple[str, str]:
+    """Names of a body's variable and of its time in a dataset that holds several bodies."""
+    own = body.replace("-", "_").replace(" ", "_")
+    return f"{variable}_{own}", f"time_{own}"
+
+
+def _histories(dataset: "xr.Dataset", variable: str) -> Iterator[tuple[str, Any, Any]]:
+    """Name, times and values of every body, in SI."""
+    for name in dataset["body"].values:
+        own, time = own_names(variable, str(name))
+        yield str(name), dataset[time].values, dataset[own]
 
 
 def _line(axes: "Axes", index: int, x: Any, y: Any, label: str = "") -> None:
@@ -54,10 +68,11 @@ def force_over_displacement(dataset: "xr.Dataset") -> "Figure":
 def cycle(dataset: "xr.Dataset") -> "Figure":
     """Draw the velocities above and the friction below, over one cycle."""
     figure, (upper, lower) = panels(2, height=5.6)
-    time = dataset["time"].values * 1e3
-    upper.plot(time, dataset["base_velocity"] * 1e3, color=BLUE, label="base")
+    base = dataset["base_velocity"]
+    time = base[base.dims[0]].values * 1e3
+    upper.plot(time, base * 1e3, color=BLUE, label="base")
     upper.axhline(float(dataset["drive_velocity"]) * 1e3, color=BLACK, dashes=(5, 2), label="drive")
-    faster = dataset["base_velocity"].values > float(dataset["drive_velocity"])
+    faster = base.values > float(dataset["drive_velocity"])
     for axes in (upper, lower):
         axes.fill_between(
             time, 0, 1, where=faster, color=SKY, alpha=0.2, linewidth=0,
@@ -68,27 +83,30 @@ def cycle(dataset: "xr.Dataset") -> "Figure":
     upper.set_ylabel("velocity (mm/s)")
     upper.set_title("Shaded: the base outruns the drive", loc="left")
     legend(upper, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
-    for index, name in enumerate(dataset["body"].values):
-        _line(lower, index, time, dataset["friction"].sel(body=name, axis="x"), str(name))
+    least = 0.0
+    for index, (name, at, friction) in enumerate(_histories(dataset, "friction")):
+        along = friction.sel(axis="x").values
+        least = min(least, along.min())
+        _line(lower, index, at * 1e3, along, name)
     _limit(lower, float(dataset["full_force"]))
     lower.set_ylabel("friction (N)")
     if dataset.sizes["body"] > 1:
         legend(lower, loc="lower left")
-    lower.set_ylim(min(0.0, 1.1 * float(dataset["friction"].min())), None)
+    lower.set_ylim(1.1 * least, None)
     return figure
 
 
 def stacked(dataset: "xr.Dataset") -> "Figure":
     """Draw a panel for each body, on the same scale."""
-    names = dataset["body"].values
-    figure, all_axes = panels(len(names), height=1.2 + 1.5 * len(names))
-    force = dataset["drive_force"]
-    low, high = min(0.0, float(force.min())), float(force.max())
-    for index, (axes, name) in enumerate(zip(all_axes, names, strict=True)):
-        axes.plot(dataset["time"] * 1e3, force.sel(body=name), color=_COLOURS[index])
+    histories = list(_histories(dataset, "drive_force"))
+    figure, all_axes = panels(len(histories), height=1.2 + 1.5 * len(histories))
+    low = min(0.0, *(float(force.min()) for _, _, force in histories))
+    high = max(float(force.max()) for _, _, force in histories)
+    for index, (axes, (name, time, force)) in enumerate(zip(all_axes, histories, strict=True)):
+        axes.plot(time * 1e3, force, color=_COLOURS[index])
         axes.set_ylim(low - 0.08 * (high - low), high + 0.08 * (high - low))
         axes.margins(x=0.0)
-        axes.set_title(str(name), loc="left")
+        axes.set_title(name, loc="left")
         axes.set_ylabel("force (N)")
         axes.tick_params(labelbottom=axes is all_axes[-1])
     all_axes[-1].set_xlabel("time (ms)")
@@ -130,12 +148,10 @@ def over_ratio(dataset: "xr.Dataset") -> "Figure":
 def drive_over_time(dataset: "xr.Dataset") -> "Figure":
     """Draw the whole march above and its last millisecond below."""
     figure, (upper, lower) = panels(2, height=6.2)
-    time = dataset["time"].values
-    tail = time >= time[-1] - _ZOOM
-    for index, name in enumerate(dataset["body"].values):
-        force = dataset["drive_force"].sel(body=name).values
-        _line(upper, index, time, force, str(name))
-        _line(lower, index, (time[tail] - time[tail][0]) * 1e3, force[tail], str(name))
+    for index, (name, time, force) in enumerate(_histories(dataset, "drive_force")):
+        tail = time >= time[-1] - _ZOOM
+        _line(upper, index, time, force, name)
+        _line(lower, index, (time[tail] - time[-1] + _ZOOM) * 1e3, force[tail], name)
     _limit(upper, float(dataset["full_force"]))
     upper.annotate(
         r"$\mu F_N$", (1.0, float(dataset["full_force"])), (-2, 3),
@@ -159,10 +175,9 @@ def friction_over_cycles(dataset: "xr.Dataset") -> "Figure":
     names = {"x": "along the drive, x", "y": "across, y"}
     parts = [str(axis) for axis in dataset["axis"].values]
     figure, all_axes = panels(len(parts), height=1.4 + 2.4 * len(parts))
-    time = dataset["time"].values * 1e3
     for axes, part in zip(all_axes, parts, strict=True):
-        for index, name in enumerate(dataset["body"].values):
-            _line(axes, index, time, dataset["friction"].sel(body=name, axis=part), str(name))
+        for index, (name, time, friction) in enumerate(_histories(dataset, "friction")):
+            _line(axes, index, time * 1e3, friction.sel(axis=part), name)
         axes.set_title(f"Friction {names[part]}", loc="left")
         axes.set_ylabel("friction (N)")
         axes.set_xlabel("time (ms)")

@@ -54,12 +54,21 @@ def _dataset(**variables: tuple[tuple[str, ...], Any, str, str]) -> "xr.Dataset"
     return xr.Dataset(labelled).set_coords(sorted(dimensions & set(labelled)))
 
 
-def _side_by_side(names: Sequence[str], results: Sequence[SlideResult], keep: str) -> "xr.Dataset":
-    """One variable of several bodies' histories over the same times, and mu F_N."""
+def _side_by_side(
+    names: Sequence[str],
+    results: Sequence[SlideResult],
+    keep: str,
+    part: Callable[["xr.Dataset", Model], "xr.Dataset"] = lambda history, model: history,
+) -> "xr.Dataset":
+    """One variable of several bodies' histories, each over its own times, and mu F_N."""
     import xarray as xr
 
-    histories = [result.to_dataset()[[keep]] for result in results]
-    joined = xr.concat(histories, dim="body", join="exact", combine_attrs="override")
+    histories = []
+    for name, result in zip(names, results, strict=True):
+        history = part(result.to_dataset()[[keep]], result.model)
+        own = drawings.own_names(keep, name)
+        histories.append(history.rename({keep: own[0], "time": own[1]}))
+    joined = xr.merge(histories, combine_attrs="override")
     joined.attrs.clear()
     labels = {"units": "1", "long_name": "what was solved"}
     joined = joined.assign_coords(body=("body", np.array(names, dtype=object), labels))
@@ -68,13 +77,13 @@ def _side_by_side(names: Sequence[str], results: Sequence[SlideResult], keep: st
     return joined
 
 
-def _last_cycles(dataset: "xr.Dataset", model: Model, cycles: int) -> "xr.Dataset":
-    """The last whole cycles, with the time counted from the start of the first of them."""
+def _two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
+    """The last two whole cycles, with the time counted from the start of the first of them."""
     period = 1.0 / model.frequency
-    end = float(dataset["time"][-1])
-    whole = np.floor((end - model.start) / period + 1e-6) - cycles
+    end = float(history["time"][-1])
+    whole = np.floor((end - model.start) / period + 1e-6) - 2
     begin = model.start + whole * period
-    part = dataset.sel(time=slice(begin - 1e-9, begin + cycles * period + 1e-9))
+    part = history.sel(time=slice(begin - 1e-9, begin + 2 * period + 1e-9))
     attributes = {"units": "s", "long_name": "time from the start of a vibration cycle"}
     return part.assign_coords(time=("time", part["time"].values - begin, attributes))
 
@@ -106,9 +115,10 @@ def _cycle(bodies: Sequence[Body], names: Sequence[str]) -> Drawn:
     results = [body.solve() for body in bodies]
     dataset = _side_by_side(names, results, "friction")
     model = results[0].model
-    base = np.cos(2.0 * np.pi * model.frequency * dataset["time"].values)
+    _, time = drawings.own_names("friction", names[0])
+    base = np.cos(2.0 * np.pi * model.frequency * dataset[time].values)
     labels = {"units": "m/s", "long_name": "velocity of the base"}
-    dataset["base_velocity"] = ("time", model.peak_velocity * base, labels)
+    dataset["base_velocity"] = (time, model.peak_velocity * base, labels)
     labels = {"units": "m/s", "long_name": "drive velocity"}
     dataset["drive_velocity"] = ((), model.slider.drive_velocity, labels)
     return Drawn(drawings.cycle(dataset), dataset, [body.command for body in bodies])
@@ -195,9 +205,9 @@ def _drive_over_time(case: str, ratio: str) -> Drawn:
 def _friction_over_cycles(case: str, ratio: str, axes: Sequence[str]) -> Drawn:
     bodies = _schemes(case, ratio)
     results = [body.solve() for body in bodies]
-    dataset = _side_by_side(_SCHEMES, results, "friction").sel(axis=list(axes))
-    part = _last_cycles(dataset, results[0].model, 2)
-    return Drawn(drawings.friction_over_cycles(part), part, [body.command for body in bodies])
+    dataset = _side_by_side(_SCHEMES, results, "friction", _two_cycles).sel(axis=list(axes))
+    how = [body.command for body in bodies]
+    return Drawn(drawings.friction_over_cycles(dataset), dataset, how)
 
 
 def figure_4_18() -> Drawn:
