@@ -5,11 +5,11 @@ Everything heavy is imported inside the commands, so that the help is there at o
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
-from asperity.cli.outcome import USAGE_ERROR, reported, usage
+from asperity.cli.outcome import USAGE_ERROR, reported, silence_standard_output, usage
 
 app = typer.Typer(
     add_completion=False,
@@ -193,13 +193,18 @@ def cases(as_json: JsonOption = False) -> None:
         show.print_cases(shipped)
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command line and return its exit code."""
+def main(arguments: list[str] | None = None) -> NoReturn:
+    """Run the command line and leave with its exit code."""
     try:
         code: int | None = typer.main.get_command(app).main(
             arguments, prog_name="asperity", standalone_mode=False
         )
     except USAGE_ERROR as error:
         print(usage(error), file=sys.stderr)
-        return 2
-    return code or 0
+        code = 2
+    except OSError as error:
+        # Of what is left, the help that cannot be printed.
+        print(error, file=sys.stderr)
+        silence_standard_output()
+        code = 2
+    sys.exit(code or 0)

@@ -32,7 +32,7 @@ def reported(command: Callable[P, None]) -> Callable[P, None]:
             _end(str(error) or "interrupted", INTERRUPTED)
         except BrokenPipeError:
             # Who read the output has seen enough. Python would complain at its own last flush.
-            _silence_standard_output()
+            silence_standard_output()
             _end("", BROKEN_PIPE)
 
     return wrapped
@@ -60,7 +60,8 @@ def _end(line: str, code: int) -> None:
     raise typer.Exit(code)
 
 
-def _silence_standard_output() -> None:
+def silence_standard_output() -> None:
+    """Let what is still to be written to standard output go nowhere."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)

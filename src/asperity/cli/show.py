@@ -1,6 +1,7 @@
 """What a command prints: one JSON object, or tables for people; notes and progress beside it."""
 
 import contextlib
+import io
 import itertools
 import json
 import math
@@ -156,13 +157,14 @@ def progress_bar() -> Iterator[Callable[[int, int], None]]:
 def _console() -> "Console":
     from rich.console import Console
 
-    return Console(highlight=False, markup=False)
+    # It writes to memory: what goes to standard output goes by `print_text`, errors and all.
+    return Console(file=io.StringIO(), highlight=False, markup=False)
 
 
 def _table(*headings: str) -> "Table":
     from rich.table import Table
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for heading in headings:
         table.add_column(heading, no_wrap=True)
     return table

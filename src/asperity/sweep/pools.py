@@ -103,6 +103,10 @@ class Cluster:
         self._waits = False
         self._sources = package_hash()
         try:
+            # Looked at before, since a client that fails to begin with this takes long to end.
+            scheme, place = distributed.comm.parse_address(address)
+            distributed.comm.registry.get_backend(scheme)
+            distributed.comm.addressing.parse_host_port(place)
             self._client: Any = distributed.Client(
                 address, timeout=_CONNECT_SECONDS, set_as_default=False
             )
