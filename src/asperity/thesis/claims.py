@@ -185,14 +185,14 @@ def _transverse() -> Finding:
     sweeps.append(Sweep("table-4.4", ((RATIO, UP_TO_ONE),), (TWO_PHASE,)))
     ratios = np.array([sweep.ratios() for sweep in sweeps])
     split = ", ".join(f"{ratio:.4f}" for ratio in ratios[0])
-    at_one = dict(zip((*laws, "two_phase"), ratios[:, -1].tolist(), strict=True))
+    at_one = dict(zip((*laws, "two-phase"), ratios[:, -1].tolist(), strict=True))
     return Finding.judged(
         {"reduction at every k up to 1": bool(np.all(ratios < 1.0 - _CLOSE))},
         f"at k = {UP_TO_ONE.replace(',', ', ')}: {split}",
         "With every law and scheme: at k = 1 "
         + ", ".join(f"{name} {ratio:.4f}" for name, ratio in at_one.items())
         + f"; rigid Coulomb friction with eta_y k {transverse_ratio(0.71):.4f}.",
-        {f"ratio_k_1_{name}": ratio for name, ratio in at_one.items()},
+        {f"ratio_k_1_{name.replace('-', '_')}": ratio for name, ratio in at_one.items()},
         [sweep.command for sweep in sweeps],
     )
 
@@ -248,7 +248,8 @@ def _lugre() -> Finding:
     apart = float(np.abs(dahl.ratios() - lugre.ratios()).max())
     return Finding.judged(
         {"exact": apart < 1e-12},
-        f"largest difference {apart:.0e} over 25 directions at k = 2 and 20",
+        f"{f'differ by up to {apart:.0e}' if apart else 'the same to the last bit'}, in 25 "
+        "directions at k = 2 and 20",
         "Damping and Stribeck terms are left out, so that static friction equals kinetic friction. "
         "Zeros put into (43) as printed make it 0/0, and its exponent has no bound for negative "
         "slip velocity; the corrected form with (|v|/v_s)^2 is used.",
