@@ -145,6 +145,24 @@ def test_friction_in_si_has_the_metric_constants():
     np.testing.assert_allclose(agma.friction(v), metric, rtol=2e-4)
 
 
+def test_velocity_factor_in_si_has_the_metric_constants():
+    # 0.0011, 13.31 and 65.52 for ft/min, with 196.85 ft/min to the metre a second.
+    assert agma.velocity_factor(0.0) == 0.659
+    v = np.array([0.01, 1.0, 3.5])
+    np.testing.assert_allclose(agma.velocity_factor(v), 0.659 * np.exp(-0.216535 * v), rtol=3e-5)
+    v = np.array([3.56, 8.0, 15.2])
+    np.testing.assert_allclose(agma.velocity_factor(v), 0.65197 * v**-0.571, rtol=3e-5)
+    v = np.array([15.3, 20.0, 30.0])
+    np.testing.assert_allclose(agma.velocity_factor(v), 1.09828 * v**-0.774, rtol=3e-5)
+
+
+def test_power_of_the_wheel_is_torque_times_speed_within_the_rounding_of_126000():
+    power = agma.output_power(1440.0, 5000.0, 130.0, 15.0)
+    exact = 5000.0 * 0.065 * 2.0 * math.pi * 1440.0 / 15.0 / 60.0
+    assert power / exact == pytest.approx(1.0 / (126000.0 * math.pi / 396000.0), rel=1e-9)
+    assert power == pytest.approx(exact, rel=5e-4)
+
+
 @pytest.mark.parametrize(("lead", "mu", "expected"), [(20.0, 0.05, 0.85556), (5.0, 0.1, 0.44699)])
 def test_efficiency_of_closed_form(lead, mu, expected):
     assert round(agma.worm_driving_efficiency(mu, RAD(lead), RAD(20.0)), 5) == expected

@@ -114,6 +114,23 @@ def test_both_life_factors_are_one_at_26000_hours():
     assert bs721.wear_life_factor(0.0) == pytest.approx(3.0, rel=1e-15)
 
 
+def test_formulas_in_numbers():
+    assert bs721.wear_torque(0.3, 15.2, 1.2, 100.0, 2.0) == pytest.approx(
+        0.00191 * 0.3 * 15.2 * 1.2 * 10.0**3.6 * 2.0, rel=1e-14
+    )
+    assert bs721.strength_torque(0.4, 69.0, 2.0, 14.0, 130.0, math.pi / 3.0) == pytest.approx(
+        0.0018 * 0.4 * 69.0 * 2.0 * 14.0 * 130.0 * 0.5, rel=1e-14
+    )
+    # A clearance of 0.2 m cos(60 deg) = 0.4 mm makes a diameter of 20.8 mm, half of it the face.
+    assert bs721.root_arc(10.4, 20.0, 4.0, 8.0, math.pi / 3.0) == pytest.approx(
+        20.8 * math.pi / 6.0, rel=1e-14
+    )
+    # Here only 2 m sqrt(q + 1) = 12 mm of the face counts.
+    assert bs721.root_arc(30.0, 23.6, 2.0, 8.0, math.pi / 3.0) == pytest.approx(
+        24.0 * math.pi / 6.0, rel=1e-14
+    )
+
+
 def test_formulas_agree_with_those_of_is_7443_within_the_rounding_of_both():
     # 18.64 X S Z d^1.8 m in kgf/mm2 and N mm; 17.65 X S m l d cos(g) likewise.
     kgf = 9.80665
