@@ -1,5 +1,0 @@
-"""Old place of `asperity.slider.methods`."""
-
-from asperity.slider.methods import solve
-
-__all__ = ["solve"]
