@@ -190,7 +190,8 @@ def march_notes(model: Model) -> tuple[str, ...]:
     if model.substeps > 1:
         notes.append(
             f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
-            f"must not exceed {m.SLIP_BOUND:g} max_deflection, nor the step {m.RING_BOUND:g} "
+            f"must not exceed {m.SLIP_BOUND:g} max_deflection, nor change by more than "
+            f"{m.CHANGE_BOUND:g} of it from step to step, nor the step exceed {m.RING_BOUND:g} "
             "over the body's angular frequency on its asperities"
         )
     return tuple(notes)
