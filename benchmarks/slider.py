@@ -139,7 +139,7 @@ def march_batches(report):
                 )
             )
             for ratio, angle in zip(
-                np.linspace(0.5, 20.0, 32), np.linspace(0.0, np.pi, 32), strict=True
+                np.linspace(0.5, 7.5, 32), np.linspace(0.0, np.pi, 32), strict=True
             )
         ]
         steps = round(models[0].duration / models[0].step)
@@ -242,7 +242,9 @@ def main():
     for name, figures in report.items():
         for key, value in figures.items():
             print(f"{name:18s} {key:32s} {value:12.4g}")
-    print(f"peak memory of this run {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB")
+    print(
+        f"peak memory of this run {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB"
+    )
 
 
 if __name__ == "__main__":
