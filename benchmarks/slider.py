@@ -242,9 +242,8 @@ def main():
     for name, figures in report.items():
         for key, value in figures.items():
             print(f"{name:18s} {key:32s} {value:12.4g}")
-    print(
-        f"peak memory of this run {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB"
-    )
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"peak memory of this run {peak:.0f} MiB")
 
 
 if __name__ == "__main__":
