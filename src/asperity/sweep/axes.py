@@ -151,6 +151,7 @@ def parse_axes(over: Sequence[str], case: Case) -> list[Axis]:
 
 
 def _split(text: str, tables: Mapping[str, type[Table]]) -> _Written:
+    text = " ".join(text.split())
     path, equals, values = (part.strip() for part in text.partition("="))
     names = _PATH.fullmatch(path)
     if not equals or not names:

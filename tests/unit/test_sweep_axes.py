@@ -1,0 +1,118 @@
+"""Axes of a grid from text."""
+
+import math
+
+import pytest
+
+from asperity.casefile import read_case
+from asperity.errors import InputError
+from asperity.slider import TABLES
+from asperity.sweep import parse_axes, read_grid
+
+
+@pytest.fixture(scope="module")
+def case():
+    return read_case("table-4.3", TABLES)
+
+
+def parse(text, case):
+    (axis,) = parse_axes([text], case)
+    return axis
+
+
+@pytest.mark.parametrize(
+    ("text", "shown", "unit", "factor"),
+    [
+        ("vibration.velocity_ratio=0.5,1,2", [0.5, 1.0, 2.0], "", 1.0),
+        ("vibration.direction=0:360:90", [0.0, 90.0, 180.0, 270.0, 360.0], "deg", math.pi / 180),
+        ("vibration.direction=0,1 rad", [0.0, 1.0], "rad", 1.0),
+        ("slider.drive_velocity=1,2,5", [1.0, 2.0, 5.0], "mm/s", 1e-3),
+        ("slider.drive_velocity=1,2,5 um/s", [1.0, 2.0, 5.0], "um/s", 1e-6),
+        ("slider.drive_velocity=1 mm/s, 200 um/s", [1000.0, 200.0], "um/s", 1e-6),
+        ("slider.drive_velocity=0.5:2:0.5 mm/s", [0.5, 1.0, 1.5, 2.0], "mm/s", 1e-3),
+        ("slider.drive_velocity=1 mm/s:2 mm/s:500 um/s", [1000.0, 1500.0, 2000.0], "um/s", 1e-6),
+        ("friction.mu=0.3:0.1:-0.1", [0.3, 0.2, 0.1], "", 1.0),
+        ("friction.mu=0.1:0.35:0.1", [0.1, 0.2, 0.3], "", 1.0),
+        ("friction.mu=0.2:0.2:1", [0.2], "", 1.0),
+        ("vibration.velocity_amplitude=1,2 mm/s", [1.0, 2.0], "mm/s", 1e-3),
+        ("friction.transfer=0 %, 50 %", [0.0, 50.0], "%", 0.01),
+    ],
+)
+def test_numbers_come_in_the_written_unit_and_in_si(case, text, shown, unit, factor):
+    axis = parse(text, case)
+    assert list(axis.shown) == shown
+    assert axis.unit == unit
+    assert list(axis.values) == pytest.approx([value * factor for value in shown], rel=1e-15)
+
+
+def test_words_are_a_list_of_words(case):
+    axis = parse("friction.law=split, vector", case)
+    assert axis.values == axis.shown == ("split", "vector")
+    assert not axis.numeric
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("friction.mu", "it must be table.key="),
+        ("mu=0.1,0.2", "it must be table.key="),
+        ("frction.mu=0.1", "[frction] is not a table of a case file (did you mean 'friction'?)"),
+        ("friction.transfr=1", "is not a key of [friction] (did you mean 'transfer'?)"),
+        ("friction.mu=", "has an empty value"),
+        ("friction.mu=0.1,,0.2", "has an empty value"),
+        ("friction.mu=0.1:0.2", "it must be 1,2,3 or start:stop:step"),
+        ("friction.mu=0.1:0.2:0.1,0.5", "it must be 1,2,3 or start:stop:step"),
+        ("friction.mu=0.1:0.2:0", "the step is 0"),
+        ("friction.mu=0.1:0.2:-0.1", "leads away from the stop"),
+        ("friction.mu=0:inf:1", "friction.mu is 'inf'; it must be a coefficient of friction"),
+        ("friction.mu=0:1e9:1", "at most 10000000 are allowed"),
+        ("friction.mu=0:1:1e-400", "at most 10000000 are allowed"),
+        ("friction.mu=1e9999", "friction.mu is '1e9999'"),
+        ("friction.mu=0.1,nan", "friction.mu is 'nan'"),
+        ("friction.mu=0.1,0.10", "friction.mu=0.1 is given twice"),
+        ("friction.mu=0.1,-0.2", "friction.mu is -0.2; it must be positive"),
+        ("friction.law=split,split", "friction.law=split is given twice"),
+        ("vibration.frequency=1,2 kN", "it must be a frequency such as '4 kHz'"),
+        ("vibration.frequency=1 kHz,2", "give it with the last one, or with each"),
+        ("vibration.velocity_amplitude=1,2", "is without a unit; it must be a velocity such as"),
+    ],
+)
+def test_a_wrong_axis_is_refused_in_one_line_that_repeats_it(case, text, part):
+    with pytest.raises(InputError) as caught:
+        parse(text, case)
+    message = str(caught.value)
+    assert message.startswith(f"--over {text}: ")
+    assert part in message
+    assert "\n" not in message
+
+
+@pytest.mark.parametrize(
+    "second",
+    ["vibration.velocity_ratio=3", "vibration.velocity_amplitude=1 mm/s"],
+)
+def test_two_axes_for_the_same_thing_are_refused(case, second):
+    with pytest.raises(InputError, match="give one --over for the same thing"):
+        parse_axes(["vibration.velocity_ratio=1,2", second], case)
+
+
+def test_a_grid_of_more_than_ten_million_points_is_refused(case):
+    axes = ["vibration.velocity_ratio=1:5000:1", "vibration.direction=0:3600:1"]
+    with pytest.raises(InputError, match="18005000 points; at most 10000000"):
+        parse_axes(axes, case)
+
+
+def test_an_axis_may_give_what_the_file_does_not(tmp_path):
+    file = tmp_path / "bare.toml"
+    file.write_text(
+        '[slider]\ndrive_velocity = "1 mm/s"\nnormal_force = "10 N"\n'
+        '[friction]\nmodel = "coulomb"\nmu = 0.1\n[vibration]\nfrequency = "1 kHz"\n'
+    )
+    case, (axis,) = read_grid(str(file), TABLES, [], ["vibration.velocity_amplitude=1,2 mm/s"])
+    assert axis.values == (0.001, 0.002)
+    assert case["vibration"].velocity_amplitude == 0.001
+
+
+def test_a_case_that_is_wrong_by_an_axis_blames_the_axis():
+    with pytest.raises(InputError) as caught:
+        read_grid("table-4.3", TABLES, [], ["friction.law=splt,vector"])
+    assert str(caught.value).startswith("--over friction.law=splt,vector: friction.law is 'splt'")
