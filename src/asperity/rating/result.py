@@ -14,7 +14,18 @@ if TYPE_CHECKING:
 
 Value = float | int | bool | str
 
-COLUMNS = ("symbol", "value", "unit", "meaning", "equation", "source", "confidence", "assumed")
+COLUMNS = (
+    "symbol",
+    "value",
+    "unit",
+    "meaning",
+    "equation",
+    "source",
+    "confidence",
+    "note",
+    "assumed",
+)
+"""Columns of a table of entries."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -76,6 +87,7 @@ class Entry:
             "equation": self.equation,
             "source": self.source.name,
             "confidence": self.source.confidence,
+            "note": self.source.note,
             "assumed": "assumed" if self.assumed else "",
         }
 
@@ -192,10 +204,9 @@ class Rating:
         for entry in self.entries:
             row = entry.row()
             mark = "*" if entry.assumed else ""
-            source = f"{row['source']} ({row['confidence']})"
             # As text, because brackets in a formula would be taken for markup.
             cells = (row["symbol"], row["value"] + mark, row["unit"], row["meaning"])
-            table.add_row(*map(Text, (*cells, row["equation"], source)))
+            table.add_row(*map(Text, (*cells, row["equation"], str(entry.source))))
         remarks = list(self.remarks())
         return Group(table, *(Text(f"- {remark}") for remark in remarks))
 

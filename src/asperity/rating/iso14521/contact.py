@@ -74,7 +74,7 @@ def contact_parameter(
     Examples
     --------
     >>> round(contact_parameter(4, 60, 8.2, 2.1962, 74.93, np.radians(20), 0.018), 3)
-    1.162
+    1.167
     """
     check_words(edition=edition, flank=flank)
     arguments = [

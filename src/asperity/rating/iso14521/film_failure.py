@@ -123,8 +123,8 @@ def too_thin(
     shown = np.degrees(given) if driver == "pressure_angle" else given
     return FilmParameterError(
         f"h* is {value:.3g}; it must be above 0. {symbol} = {shown:.5g}{unit} drives it (with "
-        f"x_2 = {gearset['profile_shift']:.3g}); each of these alone brings it back at the same "
-        f"centre distance: {', '.join(changes)}",
+        f"x_2 = {gearset['profile_shift']:.3g}); any one of these, x_2 following, brings it back: "
+        f"{', '.join(changes)}",
         value,
         driver,
         {name: limit.value if limit else None for name, limit in limits.items()},

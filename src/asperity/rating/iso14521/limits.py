@@ -16,7 +16,7 @@ from asperity.rating.iso14521.wear import pressure_factor, reference_wear_intens
 from asperity.rating.jump import Jump
 from asperity.sources import Range, Source
 
-_STANDARD = "ISO/TR 14521:2010, DIN 3996:2012"
+_STANDARD = "ISO/TR 14521:2010"
 _ONE_SOURCE = Source(_STANDARD, "one source")
 _FROM_MEMORY = Source(_STANDARD, "from memory")
 
@@ -73,7 +73,7 @@ def violations(
     Examples
     --------
     >>> violations(centre_distance=60.17, profile_shift=0, worm_speed=1440, ratio=15)[0]
-    'centre distance a (Y_S) is 60.17 mm; ISO/TR 14521:2010, DIN 3996:2012 is valid from 65 to 250 mm'
+    'centre distance a (theta_S) is 60.17 mm; ISO/TR 14521:2010 is valid from 63 to 400 mm'
     """
     given: dict[str, float] = {"profile_shift": profile_shift}
     if geometry_factor is not None:
@@ -99,7 +99,7 @@ def jumps() -> tuple[Jump, ...]:
     >>> for jump in jumps():
     ...     if abs(jump.relative) > 1e-12:
     ...         print(f"{jump.formula} at {jump.at:g} {jump.unit}: {100 * jump.relative:+.3f} %")
-    rim_factor at 2 : -0.021 %
+    rim_factor at 2 : -0.020 %
     """
     return tuple(
         Jump(name, at, unit, formula(_below(at)), formula(_above(at)))

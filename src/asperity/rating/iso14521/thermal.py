@@ -87,7 +87,9 @@ def sump_temperature(
     check_words(base_oil=base_oil)
     heat = _fan if fan else _no_fan
     return evaluate(
-        lambda t, n, u, a, nu, ambient: ambient + heat(t, n, u, a, nu) * _oil_factor(n, u, base_oil),
+        lambda t, n, u, a, nu, ambient: (
+            ambient + heat(t, n, u, a, nu) * _oil_factor(n, u, base_oil)
+        ),
         Argument("wheel_torque", wheel_torque, "N m", 0.0),
         Argument("worm_speed", worm_speed, "rpm", 13.8 if fan else 0.0, above=fan),
         positive("ratio", ratio),
