@@ -268,7 +268,7 @@ def _ledger(
         drive=float(watts * p[m.DRIVE] * sums[k.SUM_FD]),
         vibration=float(watts * vibration),
         friction=float(watts * (sums[k.SUM_SLIP] - elastic)),
-        damping=float(watts * sums[k.SUM_DRAG]),
+        damping=float(watts * sums[k.SUM_DRAG]) if p[m.CHI] > 0.0 else 0.0,
         stored=float(watts * (mechanical + elastic)),
         untransferred=float(-watts * (1.0 - model.friction.transfer) * whole * sums[k.SUM_VY]),
     )
