@@ -1,23 +1,71 @@
 """The command line as a user runs it: a process of its own, with caches of its own."""
 
+import contextlib
 import os
+import sqlite3
 import subprocess
 import sys
+import time
+from pathlib import Path
 
 import pytest
 
 from asperity.compiled import cache_folder
 
 
+@pytest.fixture(scope="session")
+def new_user(tmp_path_factory):
+    """Make the environment of a user without results, whose kernels are compiled already."""
+
+    def make():
+        home = tmp_path_factory.mktemp("cache")
+        kernels = cache_folder("kernels")
+        if kernels is not None:
+            (home / "asperity").mkdir()
+            (home / "asperity" / "kernels").symlink_to(kernels)
+        return {**os.environ, "ASPERITY_CACHE": str(home), "COLUMNS": "100"}
+
+    return make
+
+
 @pytest.fixture(scope="module")
-def environment(tmp_path_factory):
-    """Environment of a user who has no results yet, and whose kernels are compiled already."""
-    home = tmp_path_factory.mktemp("cache")
-    kernels = cache_folder("kernels")
-    if kernels is not None:
-        (home / "asperity").mkdir()
-        (home / "asperity" / "kernels").symlink_to(kernels)
-    return {**os.environ, "ASPERITY_CACHE": str(home), "COLUMNS": "100"}
+def environment(new_user):
+    """Environment of the module's own user."""
+    return new_user()
+
+
+def _results(environment):
+    return list(Path(environment["ASPERITY_CACHE"]).glob("asperity/sweep/*.sqlite"))
+
+
+@pytest.fixture(scope="session")
+def kept():
+    """Count a user's results, while a sweep may be writing to them."""
+
+    def count(environment):
+        for path in _results(environment):
+            try:
+                with contextlib.closing(sqlite3.connect(path, timeout=10)) as database:
+                    return database.execute("SELECT count(*) FROM results").fetchone()[0]
+            except sqlite3.OperationalError:
+                break
+        return 0
+
+    return count
+
+
+@pytest.fixture(scope="session")
+def wait_for(kept):
+    """Wait until a sweep has kept so many results."""
+
+    def wait(process, environment, least):
+        deadline = time.monotonic() + 60
+        while kept(environment) < least:
+            assert process.poll() is None, process.communicate()
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+
+    return wait
 
 
 @pytest.fixture(scope="module")

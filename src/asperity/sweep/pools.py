@@ -97,7 +97,8 @@ class Cluster:
                 "a cluster needs dask.distributed; install it: pip install asperity[cluster]"
             ) from None
         # What goes wrong is said in one line below, not by the library's own log.
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        for log in ("distributed", "distributed.client"):
+            logging.getLogger(log).setLevel(logging.CRITICAL)
         self._address = address
         self._notify = notify
         self._waits = False

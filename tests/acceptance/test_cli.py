@@ -1,0 +1,280 @@
+"""The command line: what it prints, how it ends, and what it says about a mistake."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+from asperity.cli.main import main
+from asperity.store import read_dataset
+
+SHORT = ["--set", "solve.duration=20 ms", "--set", "vibration.start=2 ms"]
+STICK_SLIP = [
+    "--set", "solve.method=periodic", "--set", "friction.model=lugre",
+    "--set", "friction.static_mu=0.2", "--set", "friction.stribeck_velocity=1 mm/s",
+]  # fmt: skip
+KEYS = {
+    "ratio", "drive_force_N", "static_drive_force_N", "breakaway_time_s", "friction_x_mean_N",
+    "friction_x_max_N", "friction_x_min_N", "friction_y_max_N", "power_residual", "residual",
+    "method", "law", "scheme", "steps", "cycles", "seconds",
+}  # fmt: skip
+PROGRAM = """
+import sys
+from asperity.cli.main import main
+try:
+    main(sys.argv[1:])
+except SystemExit as end:
+    assert not end.code, end.code
+print("loaded:", *sorted(sys.modules), file=sys.stderr)
+"""
+
+
+def one_object(output):
+    assert output.count("\n") == 1
+    return json.loads(output, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+
+
+def test_a_slide_prints_one_object_with_the_keys_of_the_contract(asperity):
+    code, output, errors = asperity("slide", "table-4.3", *SHORT, "--json")
+    assert (code, errors) == (0, "")
+    answer = one_object(output)
+    assert answer.keys() >= KEYS
+    assert answer["static_drive_force_N"] == pytest.approx(5.5)
+    assert answer["drive_force_N"] == pytest.approx(5.5 * answer["ratio"])
+    assert (answer["method"], answer["law"], answer["scheme"]) == ("march", "split", "exponential")
+    assert answer["steps"] == 20_000
+
+
+def test_a_periodic_slide_has_no_breakaway(asperity):
+    code, output, _ = asperity("slide", "table-4.4", "--set", "solve.method=periodic", "--json")
+    assert code == 0
+    answer = one_object(output)
+    assert answer["breakaway_time_s"] is None
+    assert answer["ratio"] == pytest.approx(0.4046, rel=1e-3)
+
+
+def test_a_slide_is_readable_and_names_symbols_and_units(asperity):
+    code, output, errors = asperity("slide", "table-4.3", *SHORT)
+    assert (code, errors) == (0, "")
+    assert output.isascii()
+    assert max(map(len, output.splitlines())) <= 80
+    assert re.search(r"^drive force without vibration +mu F_N +5\.5 +N$", output, re.MULTILINE)
+
+
+def test_a_slide_writes_dataset_picture_and_scalars(asperity, tmp_path):
+    folder = tmp_path / "new" / "out"
+    code, output, errors = asperity("slide", "table-4.3", *SHORT, "--json", "--out", folder)
+    assert code == 0
+    assert errors == f"written to {folder}: slide.nc, slide.png, slide.json\n"
+    assert json.loads((folder / "slide.json").read_text()) == one_object(output)
+    assert (folder / "slide.png").read_bytes().startswith(b"\x89PNG")
+    dataset = read_dataset(folder / "slide.nc")
+    assert dataset["drive_force"].attrs["units"] == "N"
+    assert sorted(path.name for path in folder.iterdir()) == ["slide.json", "slide.nc", "slide.png"]
+
+
+def test_a_file_of_the_users_own_works_like_a_case_that_ships(asperity, tmp_path):
+    file = tmp_path / "own.toml"
+    file.write_text(
+        '[slider]\ndrive_velocity = "1 mm/s"\nnormal_force = "10 N"\n'
+        '[friction]\nmodel = "coulomb"\nmu = 0.2\n'
+        '[vibration]\nfrequency = "1 kHz"\nvelocity_ratio = 2.0\n'
+        '[solve]\nmethod = "periodic"\n'
+    )
+    code, output, _ = asperity("slide", "own.toml", "--json", cwd=tmp_path)
+    assert code == 0
+    assert one_object(output)["ratio"] == pytest.approx(1 / 3, rel=1e-3)
+
+
+def test_no_convergence_ends_with_3_and_tells_what_was_reached(asperity):
+    settings = [*STICK_SLIP, "--set", "vibration.velocity_ratio=0.5"]
+    code, output, errors = asperity("slide", "table-4.3", *settings, "--json")
+    assert code == 3
+    assert one_object(output)["reached"]["residual"] > 1e-9
+    assert errors.count("\n") == 1
+    assert re.search(r"\(reached: residual [\d.e-]+, cycles \d+\)$", errors.rstrip())
+
+
+def test_the_cases_that_ship_are_listed(asperity):
+    code, output, errors = asperity("cases")
+    assert (code, errors) == (0, "")
+    assert re.search(r"^table-4\.3 +Longitudinal", output, re.MULTILINE)
+    code, output, _ = asperity("cases", "--json")
+    names = [case["name"] for case in one_object(output)["cases"]]
+    assert {"table-4.3", "table-4.4", *(f"table-4.1-L{n}" for n in range(1, 7))} <= set(names)
+
+
+def test_a_sweep_prints_one_object_and_writes_what_it_found(asperity, tmp_path):
+    code, output, errors = asperity(
+        "sweep", "table-4.4", "--set", "solve.method=periodic", "--json", "--out", tmp_path,
+        "--over", "vibration.velocity_ratio=1,2,6", "--over", "vibration.direction=0:90:45",
+    )  # fmt: skip
+    assert code == 0
+    assert errors == f"written to {tmp_path}: sweep.nc, sweep.png, sweep.json\n"
+    answer = one_object(output)
+    assert answer["dims"] == ["vibration.velocity_ratio", "vibration.direction"]
+    assert answer["coords"] == {
+        "vibration.velocity_ratio": [1.0, 2.0, 6.0],
+        "vibration.direction": [0.0, 45.0, 90.0],
+    }
+    assert answer["units"]["vibration.direction"] == "deg"
+    assert (answer["points"], answer["cached"]) == (9, 0)
+    assert answer["ratio"][2][2] == pytest.approx(0.4046, rel=1e-3)
+    assert answer["file"] == str(tmp_path / "sweep.nc")
+    dataset = read_dataset(answer["file"])
+    assert dataset["ratio"].values.tolist() == answer["ratio"]
+    assert (tmp_path / "sweep.png").read_bytes().startswith(b"\x89PNG")
+    assert json.loads((tmp_path / "sweep.json").read_text())["ratio"] == answer["ratio"]
+
+
+def test_a_sweep_is_readable_as_a_matrix_or_a_list(asperity):
+    sweep = ["sweep", "table-4.4", "--set", "solve.method=periodic"]
+    code, output, _ = asperity(
+        *sweep, "--over", "vibration.velocity_ratio=2,6", "--over", "friction.law=split,vector"
+    )
+    assert code == 0
+    assert re.search(r"^velocity_ratio \\ law +split +vector$", output, re.MULTILINE)
+    assert re.search(r"^6 +0\.404\d* +0\.336\d*$", output, re.MULTILINE)
+    _, output, _ = asperity(*sweep, "--over", "vibration.direction=0:88:1")
+    assert re.search(r"^direction \(deg\) +ratio$", output, re.MULTILINE)
+    assert "... and 29 more rows; --out or --json gives all" in output
+
+
+def test_a_sweep_in_which_a_point_fails_hands_back_the_others_and_ends_with_3(asperity, tmp_path):
+    code, output, errors = asperity(
+        "sweep", "table-4.3", *STICK_SLIP, "--over", "vibration.velocity_ratio=0.5,2",
+        "--json", "--out", tmp_path,
+    )  # fmt: skip
+    assert code == 3
+    answer = one_object(output)
+    assert answer["ratio"][0] is None
+    assert answer["ratio"][1] > 0
+    assert answer["failed"] == 1
+    assert read_dataset(tmp_path / "sweep.nc")["status"].values.tolist() == [1, 0]
+    assert errors.splitlines()[-1].startswith(
+        "1 of 2 points did not converge, the first at vibration.velocity_ratio=0.5: no periodic"
+    )
+
+
+def test_the_thesis_makes_one_figure_when_asked_for_one(asperity, tmp_path):
+    code, output, _ = asperity("thesis", "--only", "2.7", "--out", tmp_path, "--json")
+    assert code == 0
+    one_object(output)
+    assert (tmp_path / "index.html").is_file()
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])
+def test_without_a_command_there_is_help(asperity, arguments):
+    code, output, errors = asperity(*arguments)
+    assert (code, errors) == (0, "")
+    for command in ("slide", "sweep", "thesis", "cases"):
+        assert command in output
+
+
+def test_the_version_is_told(asperity):
+    assert asperity("--version") == (0, "asperity 0.1.0\n", "")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (["slide", "table-4.33"], ["table-4.33 is neither a file nor", "'table-4.3'"]),
+        (["slide", "table-4.3", "--set", "vibratoin.start=1 s"], ["[vibratoin]", "'vibration'"]),
+        (["slide", "table-4.3", "--set", "slider.mas=1 kg"], ["slider.mas ", "'mass'"]),
+        (["slide", "table-4.3", "--set", "vibration.frequency=4 kN"], ["'4 kN'", "'4 kHz'"]),
+        (["slide", "table-4.3", "--set", "friction.law=splt"], ["'splt'", "'split'"]),
+        (["slide", "table-4.3", "--set", "slider.drive_stiffness=0 N/m"], ["0 N/m", "positive"]),
+        (["slide", "table-4.3", "--set", "slider.drive_velocity=-1 mm/s"], ["must be positive"]),
+        (["slide", "table-4.3", "--set", "solve.step=1 ms"], ["solve.step is 0.001 s, too coarse"]),
+        (["slide", "table-4.3", "--set", "nonsense"], ["it must be table.key=value"]),
+        (["slide", "missing.toml"], ["missing.toml: vibration.velocity_ratio is missing"]),
+        (["slide", "two.toml"], ["two.toml: ", "velocity_ratio and", "are given; keep one"]),
+        (["slide", "broken.toml"], ["broken.toml: not valid TOML"]),
+        (["slide", "gap.toml"], ["wave.csv", "a gap of"]),
+        (["slide", "nan.toml"], ["nan.csv", "fill the gap"]),
+        (["slide", "table-4.3", "--out", "taken"], ["taken cannot be used as output folder"]),
+        (["slide", "table-4.3", "--out", "/dev/null/x"], ["/dev/null/x cannot be used"]),
+        (["sweep", "table-4.3", "--over", "friction.mu=0.1", "--out", "taken"], ["taken cannot"]),
+        (["sweep", "table-4.3", "--over", "friction.mu=1:2"], ["start:stop:step"]),
+        (["sweep", "table-4.3", "--over", "friction.law=split,vectr"], ["'vectr'", "'vector'"]),
+        (["sweep", "table-4.3"], ["missing option '--over'"]),
+        (["sweep", "nope", "--over", "friction.mu=1"], ["nope is neither a file"]),
+        (["thesis", "--only", "4.99"], ["4.99"]),
+        (["slide"], ["missing argument 'CASE'", "asperity slide --help"]),
+        (["slide", "table-4.3", "--sett", "x"], ["no such option: --sett"]),
+        (["slide", "table-4.3", "extra"], ["extra"]),
+        (["slyde", "table-4.3"], ["no such command 'slyde'", "'slide'"]),
+    ],
+)
+def test_a_mistake_is_one_line_and_ends_with_2(folder, monkeypatch, capsys, arguments, parts):
+    monkeypatch.chdir(folder)
+    with pytest.raises(SystemExit) as ended:
+        main(arguments)
+    output, errors = capsys.readouterr()
+    assert (ended.value.code, output) == (2, "")
+    assert errors.count("\n") == 1
+    for part in parts:
+        assert part in errors
+
+
+def test_a_mistake_ends_the_process_with_2(asperity):
+    code, output, errors = asperity("slide", "table-4.3", "--set", "friction.mu=-1", "--json")
+    assert (code, output) == (2, "")
+    assert errors == "--set friction.mu=-1: friction.mu is -1; it must be positive\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder of files with one mistake each."""
+    folder = tmp_path_factory.mktemp("mistakes")
+    good = (
+        '[slider]\ndrive_velocity = "1 mm/s"\nnormal_force = "10 N"\n'
+        '[friction]\nmodel = "coulomb"\nmu = 0.2\n[vibration]\n'
+    )
+    sampled = 'waveform = "sampled"\nvelocity_ratio = 2\nsamples = '
+    (folder / "missing.toml").write_text(f'{good}frequency = "1 kHz"\n')
+    (folder / "two.toml").write_text(
+        f'{good}frequency = "1 kHz"\nvelocity_ratio = 2\nvelocity_amplitude = "1 mm/s"\n'
+    )
+    (folder / "broken.toml").write_text(f"{good}frequency = = 3\n")
+    (folder / "gap.toml").write_text(f'{good}{sampled}"wave.csv"\n')
+    (folder / "nan.toml").write_text(f'{good}{sampled}"nan.csv"\n')
+    rows = [f"{n * 1e-5:g},{n % 10}" for n in (*range(30), *range(50, 61))]
+    (folder / "wave.csv").write_text("\n".join(rows))
+    (folder / "nan.csv").write_text("\n".join([*rows[:20], "0.1,nan", *rows[20:]]))
+    (folder / "taken").touch()
+    return folder
+
+
+def test_a_reader_who_leaves_early_is_not_told_off(start):
+    read, write = os.pipe()
+    os.close(read)
+    process = start("cases", stdout=write)
+    os.close(write)
+    _, errors = process.communicate(timeout=60)
+    assert errors == ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "absent"),
+    [
+        (["--help"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
+        (["cases"], {"numpy", "numba", "matplotlib", "xarray", "scipy"}),
+        (
+            ["slide", "table-4.3", *SHORT, "--json"],
+            {"matplotlib", "xarray", "pandas", "h5py", "distributed", "sqlite3", "rich.table"}
+            | {f"scipy.{part}" for part in ("integrate", "interpolate", "optimize", "special")},
+        ),
+    ],
+)
+def test_what_a_command_does_not_need_is_not_loaded(environment, arguments, absent):
+    ended = subprocess.run(
+        [sys.executable, "-c", PROGRAM, *arguments],
+        env=environment, capture_output=True, text=True, timeout=60, check=True,
+    )  # fmt: skip
+    loaded = set(ended.stderr.rpartition("loaded:")[2].split())
+    assert "asperity.cli.main" in loaded
+    assert not loaded & absent

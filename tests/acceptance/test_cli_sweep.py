@@ -1,0 +1,87 @@
+"""Sweeps that are interrupted, killed, or meet a cache in trouble."""
+
+import json
+import os
+import signal
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+POINTS = 1024
+LONG = [
+    "sweep", "table-4.3", "--set", "solve.duration=0.3 s", "--json",
+    "--over", f"vibration.velocity_ratio=0.01:{POINTS / 100}:0.01",
+]  # fmt: skip
+SMALL = [
+    "sweep", "table-4.3", "--set", "solve.method=periodic", "--json",
+    "--over", "vibration.velocity_ratio=2,4,6",
+]  # fmt: skip
+
+
+@pytest.fixture
+def start_slowly(start):
+    """Start a command on one core, so that there is time to end it."""
+
+    def begin(*arguments):
+        process = start(*arguments)
+        os.sched_setaffinity(process.pid, [min(os.sched_getaffinity(0))])
+        return process
+
+    return begin
+
+
+def test_a_sweep_interrupted_and_then_killed_loses_nothing_that_was_done(
+    start_slowly, asperity, environment, kept, wait_for
+):
+    process = start_slowly(*LONG)
+    wait_for(process, environment, 1)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=30)
+    interrupted = kept(environment)
+    assert 0 < interrupted < POINTS
+    assert (process.returncode, output) == (130, "")
+    assert errors == (
+        f"interrupted: {interrupted} of {POINTS} points are kept; the same command goes on from "
+        "there\n"
+    )
+
+    process = start_slowly(*LONG)
+    wait_for(process, environment, interrupted + 1)
+    process.kill()
+    process.communicate(timeout=30)
+    killed = kept(environment)
+    assert interrupted < killed < POINTS
+
+    code, output, errors = asperity(*LONG)
+    assert (code, errors) == (0, "")
+    answer = json.loads(output)
+    assert (answer["points"], answer["cached"]) == (POINTS, killed)
+    ratio = np.array(answer["ratio"])
+    assert np.all((ratio > 0) & (ratio < 1.01))
+
+    single = ["slide", *LONG[1:5], "--set", "vibration.velocity_ratio=5.01"]
+    _, output, _ = asperity(*single)
+    assert ratio[500] == pytest.approx(json.loads(output)["ratio"], rel=1e-9)
+
+
+def test_a_damaged_cache_costs_a_line_and_is_replaced(asperity, environment):
+    asperity(*SMALL)
+    (database,) = Path(environment["ASPERITY_CACHE"], "asperity", "sweep").glob("*.sqlite")
+    database.write_bytes(b"damaged" * 1000)
+    code, output, errors = asperity(*SMALL)
+    assert code == 0
+    assert json.loads(output)["cached"] == 0
+    assert errors == f"{database} is damaged; moved to {database.name}.corrupt and started again\n"
+    _, output, errors = asperity(*SMALL)
+    assert (json.loads(output)["cached"], errors) == (3, "")
+
+
+def test_a_cache_folder_that_cannot_be_written_costs_a_line(asperity, new_user):
+    environment = new_user()
+    Path(environment["ASPERITY_CACHE"], "asperity").mkdir(exist_ok=True)
+    Path(environment["ASPERITY_CACHE"], "asperity", "sweep").touch()
+    code, output, errors = asperity(*SMALL, env=environment)
+    assert code == 0
+    assert len(json.loads(output)["ratio"]) == 3
+    assert errors == "no cache folder can be written to; this sweep's results are not kept\n"
