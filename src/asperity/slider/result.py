@@ -42,9 +42,12 @@ class PowerLedger:
 
     @property
     def residual(self) -> float:
-        """What is missing from the balance, over the drive power."""
+        """What is missing from the balance, over the drive power.
+
+        Where the drive does less than a thousandth of friction's work, over that much.
+        """
         missing = self.drive + self.vibration - self.friction - self.damping - self.stored
-        scale = abs(self.drive) or abs(self.friction) or 1.0
+        scale = max(abs(self.drive), 1e-3 * abs(self.friction)) or 1.0
         return abs(missing) / scale
 
 

@@ -32,6 +32,8 @@ from asperity.slider.model import (
     GIVE_Y,
     KAPPA,
     KEEP,
+    OWN_1,
+    OWN_2,
     RIGID,
 )
 
@@ -40,6 +42,7 @@ ACCEPTED = 1e-9
 _NEWTON_STEPS = 25
 _UNKNOWNS = 5
 _DIFFERENCE = 1e-7
+_LEAST_DIFFERENCE = 1e-10
 
 
 @kernel
@@ -78,7 +81,8 @@ def _unknowns(p, model, places, scales):
         places[count + 1] = WX
         scales[count + 1] = p[DRIVE]
         count += 2
-    if p[GIVE_Y] > 0.0:
+    # A lateral motion the contact does not see (transfer 0) is as periodic at one speed as another.
+    if p[GIVE_Y] > 0.0 and p[OWN_1] + p[OWN_2] > 0.0:
         places[count] = WY
         scales[count] = p[DRIVE]
         count += 1
@@ -133,6 +137,7 @@ def _newton(start, p, increments, steps, model, law, sums, places, scales, count
         start, p, increments, steps, model, law, sums, places, scales, count, end, defect
     )
     fresh = False
+    side = 1.0
     for _ in range(_NEWTON_STEPS):
         if worst <= TOLERANCE:
             break
@@ -140,8 +145,11 @@ def _newton(start, p, increments, steps, model, law, sums, places, scales, count
             for j in range(count):
                 for i in range(STATE):
                     trial[i] = start[i]
-                # Step towards the inside: a difference across the limit would be one-sided.
-                change = _DIFFERENCE if start[places[j]] <= 0.0 else -_DIFFERENCE
+                # Steps that shrink with the defect do not reach a kink the answer is not at. At
+                # first towards the inside: a difference across the limit would be one-sided.
+                change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE)) * side
+                if start[places[j]] > 0.0:
+                    change = -change
                 trial[places[j]] += change * scales[j]
                 _defect(
                     trial, p, increments, steps, model, law, sums,
@@ -179,7 +187,13 @@ def _newton(start, p, increments, steps, model, law, sums, places, scales, count
                 break
             length *= 0.5
         if not moved:
-            break
+            if side < 0.0:
+                break
+            # At a kink the differences of one side may not see where the other goes.
+            side = -1.0
+            fresh = False
+            continue
+        side = 1.0
         # The differences cost a cycle an unknown: keep them while they still gain a digit.
         fresh = reached < 0.1 * worst and length == 1.0
         worst = reached
