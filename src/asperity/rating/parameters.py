@@ -1,12 +1,36 @@
 """The `[operation]` and `[rating]` tables: how a worm gearset is run, and how it is to be rated."""
 
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
+from asperity.gearset.bearings import Bearings
+from asperity.gearset.library import resolve
+from asperity.gearset.lubricants import Lubricant
 from asperity.units import Quantity
+
+DEFAULT_LIFE = 25000.0 * 3600.0
+"""Life in seconds where none is required: that of AGMA 6034 and of ISO/TR 14521's own tests."""
+
+_ASSUMED = {
+    "through_travel_torque": "a third of output_torque",
+    "life": "25000 h",
+    "lubrication": "bath",
+    "oil_temperature": "from the heat balance of ISO/TR 14521",
+    "ambient_temperature": "20 degC",
+    "bearings": "fixed-floating",
+    "bearing_span": "1.5 centre distances, the wheel in the middle",
+    "seals": "2",
+    "fan": "none",
+    "immersed": "worm",
+    "application_factor": "1",
+    "starts_per_hour": "0",
+}
 
 Torque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", gt=0)]
 Temperature = Annotated[
@@ -14,6 +38,27 @@ Temperature = Annotated[
 ]
 Time = Annotated[float, Quantity("s", what="a time", example="25000 h", gt=0)]
 Ratio = Annotated[float, Quantity("", what="a factor", example="1.0", gt=0)]
+Speed = Annotated[float, Quantity("rad/s", what="a speed of rotation", example="1440 rpm", gt=0)]
+
+
+class LoadStep(Table):
+    """A part of a duty cycle.
+
+    Parameters
+    ----------
+    duration : float or str
+        s ("10 h" in a file), of the whole life.
+    output_torque : float or str
+        Wheel torque, N m.
+    worm_speed : float or str, optional
+        rad/s; that of the operation if left out.
+    """
+
+    table: ClassVar[str] = "operation.duty_cycle"
+
+    duration: Annotated[float, Quantity("s", what="a time", example="10 h", gt=0)]
+    output_torque: Torque
+    worm_speed: Speed | None = None
 
 
 class Operation(Table):
@@ -32,16 +77,19 @@ class Operation(Table):
         Required life in turns of the wheel. Give this or ``life``; left out: ``life``.
     life : float or str, optional
         Required life, s ("25000 h" in a file). Left out: 25000 h.
+    duty_cycle : list of table, optional
+        Parts of the required life, each a `LoadStep`, in place of ``life``.
     lubricant : str or table
-        A name, or a table with ``base_oil``, ``viscosity_40``, ``viscosity_100``, ``density_15``.
+        A name, or a table with the keys of `asperity.gearset.lubricants.Lubricant`.
     lubrication : {'bath', 'spray'}
         How it gets there.
     oil_temperature : float or str, optional
         Sump temperature, K. Left out: from the heat balance of the standard.
     ambient_temperature : float or str
         K; 20 degC if left out.
-    bearings : {'fixed-floating', 'preloaded'}
-        Arrangement of the worm's bearings.
+    bearings : str or table
+        Arrangement of the worm's bearings: 'fixed-floating', 'preloaded', a name of your own or a
+        table with the keys of `asperity.gearset.bearings.Bearings`.
     bearing_span : float or str, optional
         Between the worm's bearings, m. Left out: 1.5 centre distances.
     seals : int
@@ -57,22 +105,25 @@ class Operation(Table):
     """
 
     table: ClassVar[str] = "operation"
-    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (("wheel_revolutions", "life"),)
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("wheel_revolutions", "life", "duty_cycle"),
+    )
 
-    worm_speed: Annotated[
-        float, Quantity("rad/s", what="a speed of rotation", example="1440 rpm", gt=0)
-    ]
+    worm_speed: Speed
     output_torque: Torque
     through_travel_torque: Torque | None = None
     wheel_revolutions: (
         Annotated[float, Quantity("", what="a number of turns", example="500000", gt=0)] | None
     ) = None
     life: Time | None = None
-    lubricant: str | dict[str, Any]
+    duty_cycle: tuple[LoadStep, ...] | None = None
+    lubricant: Lubricant
     lubrication: Literal["bath", "spray"] = "bath"
     oil_temperature: Temperature | None = None
     ambient_temperature: Temperature = 293.15
-    bearings: Literal["fixed-floating", "preloaded"] = "fixed-floating"
+    bearings: Bearings = Field(
+        default_factory=lambda: resolve("bearings", "fixed-floating", Bearings)
+    )
     bearing_span: (
         Annotated[float, Quantity("m", what="a length", example="110 mm", gt=0)] | None
     ) = None
@@ -82,8 +133,25 @@ class Operation(Table):
     application_factor: Ratio = 1.0
     starts_per_hour: Annotated[float, Quantity("", what="a number", example="0", ge=0)] = 0.0
 
+    @model_validator(mode="before")
+    @classmethod
+    def _named(cls, data: Any, info: ValidationInfo[Any]) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        named = dict(data)
+        if "lubricant" in named:
+            named["lubricant"] = resolve("lubricant", named["lubricant"], Lubricant, info.context)
+        if "bearings" in named:
+            try:
+                named["bearings"] = resolve("bearings", named["bearings"], Bearings, info.context)
+            except InputError as error:
+                raise InputError(f"operation.{error}") from None
+        return named
+
     @model_validator(mode="after")
     def _consistent(self) -> "Operation":
+        if self.duty_cycle == ():
+            raise InputError("operation.duty_cycle is empty; give a part or leave it out")
         if (
             self.through_travel_torque is not None
             and self.through_travel_torque > self.output_torque
@@ -94,6 +162,18 @@ class Operation(Table):
             )
         return self
 
+    @property
+    def assumed(self) -> Mapping[str, str]:
+        """Which keys were left out, and what was assumed for them."""
+        left_out = {
+            key: reason
+            for key, reason in _ASSUMED.items()
+            if key not in self.model_fields_set or getattr(self, key) is None
+        }
+        if self.wheel_revolutions is not None or self.duty_cycle is not None:
+            left_out.pop("life", None)
+        return MappingProxyType({**left_out, **self.lubricant.assumed})
+
 
 class RatingOptions(Table):
     r"""How a worm gearset is to be rated.
@@ -102,6 +182,8 @@ class RatingOptions(Table):
     ----------
     iso14521_edition : {'1998', '2010'}
         Family of formulas.
+    bs721_tables : path, optional
+        A TOML file of your own tables of BS 721, in place of those that ship from memory.
     base_friction : float, optional
         In place of :math:`\mu_{0T}`: the methods of the thesis's Table 3.3 act here.
     friction : float, optional
@@ -114,6 +196,7 @@ class RatingOptions(Table):
     alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (("base_friction", "friction"),)
 
     iso14521_edition: Literal["1998", "2010"] = "2010"
+    bs721_tables: Path | None = None
     base_friction: (
         Annotated[
             float, Quantity("", what="a coefficient of friction", example="0.055", gt=0, lt=1)
@@ -127,3 +210,11 @@ class RatingOptions(Table):
     friction_factor: Annotated[float, Quantity("", what="a factor", example="1.0", ge=0, le=10)] = (
         1.0
     )
+
+    @property
+    def assumed(self) -> Mapping[str, str]:
+        """Which keys were left out, and what was assumed for them."""
+        defaults = {"iso14521_edition": "2010", "friction_factor": "1"}
+        return MappingProxyType(
+            {key: text for key, text in defaults.items() if key not in self.model_fields_set}
+        )

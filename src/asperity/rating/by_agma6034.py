@@ -1,0 +1,179 @@
+"""A gearset by AGMA 6034: the formulas in the order of the calculation.
+
+Loads go by the rated torque times the application factor, powers and temperatures by the rated
+torque itself.
+"""
+
+import math
+
+from asperity.errors import InputError
+from asperity.rating import agma6034
+from asperity.rating.agma6034.units import VELOCITY
+from asperity.rating.by_iso14521 import Apply, Values
+from asperity.rating.calculation import directly
+from asperity.rating.facts import entries
+from asperity.rating.givens import given_entries
+from asperity.rating.inputs import Inputs
+from asperity.rating.iso14521 import losses, strength
+from asperity.rating.result import Rating
+from asperity.sources import Range
+
+
+def rate_agma6034(given: Inputs) -> Rating:
+    """Rate one gearset by AGMA 6034.
+
+    Raises
+    ------
+    InputError
+        The standard cannot be applied.
+    """
+    values = rated(given, directly)
+    return Rating(
+        "ANSI/AGMA 6034-B92",
+        entries(
+            given_entries(given, "agma6034"),
+            "agma6034",
+            values,
+            {"C_s": given.gearset.wheel_material.source("agma6034")},
+            _equations(given, values),
+        ),
+        _violations(given, values),
+        _notes(given, values),
+    )
+
+
+def rated(given: Inputs, apply: Apply) -> Values:
+    """Return friction, efficiency, loads and heat by the keys of a rating."""
+    casting = given.gearset.wheel_material.agma6034
+    if casting is None:
+        raise InputError(
+            f"gearset.wheel_material is {given.gearset.wheel_material.name!r}, which is no bronze "
+            "that AGMA 6034 covers; take another, or a table with the key 'agma6034'"
+        )
+    v: Values = {}
+    v["sliding_velocity_m_s"] = apply(
+        agma6034.sliding_velocity, given.worm_pitch_diameter, given.lead_angle, given.worm_speed
+    )
+    mean = given.friction
+    if mean is None:
+        mean = apply(agma6034.friction, v["sliding_velocity_m_s"])
+    v["mu"] = mean * given.friction_factor
+    mesh = v["mu"], given.lead_angle, given.pressure_angle
+    v["eta"] = apply(agma6034.worm_driving_efficiency, *mesh)
+    v["eta_back"] = apply(agma6034.wheel_driving_efficiency, *mesh)
+    v["C_s"] = apply(
+        agma6034.materials_factor, given.centre_distance, given.wheel_mean_diameter, casting
+    )
+    v["C_m"] = apply(agma6034.ratio_correction_factor, given.gear_ratio)
+    v["C_v"] = apply(agma6034.velocity_factor, v["sliding_velocity_m_s"])
+    v["F_e_mm"] = apply(
+        agma6034.effective_face_width, given.wheel_face_width, given.worm_pitch_diameter
+    )
+    v["W_t_all_N"] = apply(
+        agma6034.allowable_tangential_load,
+        v["C_s"],
+        given.wheel_mean_diameter,
+        v["F_e_mm"],
+        v["C_m"],
+        v["C_v"],
+    )
+    v["allowable_torque_Nm"] = apply(
+        agma6034.wheel_torque, v["W_t_all_N"], given.wheel_mean_diameter
+    )
+    torque = given.operation.application_factor * given.output_torque
+    v["safety_torque"] = apply(strength.safety, v["allowable_torque_Nm"], torque)
+    v["W_G_N"] = 2000.0 * torque / given.wheel_mean_diameter
+    v["W_W_N"] = apply(agma6034.worm_tangential_load, v["W_G_N"], *mesh)
+    v["bending_stress_MPa"] = apply(
+        agma6034.bending_stress,
+        v["W_G_N"],
+        given.axial_pitch,
+        given.lead_angle,
+        v["F_e_mm"],
+        given.pressure_angle,
+    )
+    _heat(given, apply, v)
+    return v
+
+
+def _heat(given: Inputs, apply: Apply, v: Values) -> None:
+    v["output_power_W"] = apply(
+        losses.output_power, given.output_torque, given.worm_speed, given.gear_ratio
+    )
+    load = 2000.0 * given.output_torque / given.wheel_mean_diameter
+    mesh = v["mu"], given.lead_angle, given.pressure_angle
+    v["W_f_N"] = apply(agma6034.friction_force, load, *mesh, form="shigley")
+    v["loss_meshing_W"] = apply(agma6034.friction_power, v["sliding_velocity_m_s"], v["W_f_N"])
+    v["input_power_W"] = v["output_power_W"] + v["loss_meshing_W"]
+    v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
+    v["h_CR_W_m2K"] = apply(
+        agma6034.heat_transfer_coefficient, given.worm_speed, fan=given.operation.fan
+    )
+    v["A_min_m2"] = apply(agma6034.minimum_housing_area, given.centre_distance)
+    v["t_s_degC"] = apply(
+        agma6034.sump_temperature,
+        given.ambient_temperature,
+        v["input_power_W"],
+        v["eta"],
+        v["h_CR_W_m2K"],
+        v["A_min_m2"],
+    )
+
+
+def _equations(given: Inputs, values: Values) -> dict[str, str]:
+    # In the standard's feet a minute, as its constants are.
+    feet = values["sliding_velocity_m_s"] / VELOCITY.size
+    v, ratio = "(V_s/0.00508)", given.gear_ratio
+    by_case = {
+        "C_m": (
+            "0.02 sqrt(-u^2 + 40 u - 76) + 0.46"
+            if ratio <= 20.0
+            else "0.0107 sqrt(-u^2 + 56 u + 5145)"
+            if ratio <= 76.0
+            else "1.1483 - 0.00658 u"
+        ),
+        "C_v": (
+            f"0.659 exp(-0.0011 {v})"
+            if feet < 700.0
+            else f"13.31 {v}^-0.571"
+            if feet < 3000.0
+            else f"65.52 {v}^-0.774"
+        ),
+        "h_CR_W_m2K": f"(n_1/{3939 if given.operation.fan else 6494} + 0.13) 63.07",
+        "mu": (
+            f"k_mu (0.103 exp(-0.110 {v}^0.450) + 0.012)"
+            if feet > 10.0
+            else f"k_mu 0.124 exp(-0.074 {v}^0.645)"
+        ),
+    }
+    if given.friction is not None:
+        by_case["mu"] = f"k_mu {given.friction:g}"
+    return by_case
+
+
+def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
+    at = {
+        "sliding_velocity": values["sliding_velocity_m_s"],
+        "worm_speed": given.worm_speed,
+        "gear_ratio": given.gear_ratio,
+        "pressure_angle": math.degrees(given.pressure_angle),
+    }
+    found = [agma6034.VALIDITY[name].violation(value) for name, value in at.items()]
+    steepest = math.degrees(agma6034.maximum_lead_angle(given.pressure_angle))
+    lead = Range("lead angle", 0.0, steepest, "deg", agma6034.SOURCES["maximum_lead_angle"])
+    found.append(lead.violation(math.degrees(given.lead_angle)))
+    return tuple(sentence for sentence in found if sentence)
+
+
+def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
+    notes = []
+    if not given.gearset.worm_material.hardened:
+        notes.append(
+            f"the worm of {given.gearset.worm_material.name} is not known to be hardened to 58 HRC "
+            "or more, which the standard takes for granted"
+        )
+    if values["safety_torque"] < 1.0:
+        notes.append(
+            f"the allowable torque is {values['allowable_torque_Nm']:.4g} N m, below the rated one"
+        )
+    return tuple(notes)

@@ -1,0 +1,197 @@
+"""A gearset by BS 721: the formulas in the order of the calculation.
+
+Wear is judged by the torque through the travel and the whole running time, strength by the rated
+torque and a tenth of the time (thesis 3.3.1), both torques times the application factor.
+"""
+
+from typing import Any
+
+from asperity.errors import InputError
+from asperity.rating import bs721
+from asperity.rating.by_iso14521 import Apply, Values
+from asperity.rating.calculation import Masking, directly, smaller
+from asperity.rating.facts import entries
+from asperity.rating.givens import given_entries
+from asperity.rating.inputs import Inputs
+from asperity.rating.iso14521 import efficiency, strength
+from asperity.rating.iso14521 import friction as iso_friction
+from asperity.rating.result import Rating
+from asperity.sources import Source, weakest
+
+
+def rate_bs721(given: Inputs, tables: bs721.Tables) -> Rating:
+    """Rate one gearset by BS 721.
+
+    Raises
+    ------
+    InputError
+        The standard cannot be applied.
+    """
+    values, notes = rated(given, directly, tables)
+    return Rating(
+        "BS 721-2:1983",
+        entries(
+            given_entries(given, "bs721"),
+            "bs721",
+            values,
+            _sources(given, tables),
+            _equations(given, values),
+        ),
+        _violations(given, values),
+        (*notes, *_notes(given, values)),
+    )
+
+
+def rated(given: Inputs, apply: Apply, tables: bs721.Tables) -> tuple[Values, tuple[str, ...]]:
+    """Return friction and permissible torques by the keys of a rating, and notes."""
+    wheel, worm = _rows(given)
+    v: Values = {}
+    v["sliding_velocity_m_s"] = apply(
+        iso_friction.sliding_velocity,
+        given.worm_pitch_diameter,
+        given.worm_speed,
+        given.lead_angle,
+    )
+    mean = given.friction
+    if mean is None:
+        mean = apply(bs721.friction, v["sliding_velocity_m_s"], tables=tables)
+    v["mu"] = mean * given.friction_factor
+    v["eta"] = apply(efficiency.worm_driving_efficiency, given.lead_angle, v["mu"])
+    v["eta_back"] = apply(efficiency.wheel_driving_efficiency, given.lead_angle, v["mu"])
+    v["X_c"] = apply(
+        bs721.wear_speed_factor, v["sliding_velocity_m_s"], given.wheel_speed, tables=tables
+    )
+    v["Z"] = apply(
+        bs721.zone_factor,
+        given.starts,
+        given.diameter_factor,
+        given.wheel_face_width,
+        given.axial_module,
+        tables=tables,
+    )
+    v["S_c_MPa"] = tables.surface_stress_factor(wheel, worm)
+    v["X_b"] = apply(bs721.strength_speed_factor, given.wheel_speed, tables=tables)
+    v["S_b_MPa"] = tables.bending_stress_factor("wheel", wheel)
+    v["l_r_mm"] = apply(
+        bs721.root_arc,
+        given.wheel_face_width,
+        given.worm_tip_diameter,
+        given.axial_module,
+        given.diameter_factor,
+        given.lead_angle,
+    )
+    permitted: bs721.Permissible = bs721.permissible_torques(
+        starts=given.starts,
+        diameter_factor=given.diameter_factor,
+        axial_module=given.axial_module,
+        lead_angle=given.lead_angle,
+        wheel_diameter=given.wheel_reference_diameter,
+        worm_tip_diameter=given.worm_tip_diameter,
+        face_width=given.wheel_face_width,
+        sliding_velocity=v["sliding_velocity_m_s"],
+        worm_speed=given.worm_speed,
+        wheel_speed=given.wheel_speed,
+        wheel_material=wheel,
+        worm_material=worm,
+        tables=tables,
+        on_invalid="mask" if isinstance(apply, Masking) else "raise",
+    )
+    _torques(given, apply, v, permitted)
+    notes = dict.fromkeys(limit.note for limit in (permitted.wear, permitted.strength))
+    return v, tuple(note for note in notes if note)
+
+
+def _equations(given: Inputs, values: Values) -> dict[str, str]:
+    wear = "min(M_c1, M_c2)" if "M_c_worm_Nm" in values else "M_c2"
+    bending = "min(M_b1, M_b2)" if "M_b_worm_Nm" in values else "M_b2"
+    by_case = {
+        "M_26k_Nm": f"min({wear}, {bending})",
+        "M_w_Nm": f"{wear} k_w",
+        "M_s_Nm": f"{bending} k_s",
+        "U_w_h": "L_h",
+        "U_s_h": "L_h/10",
+    }
+    if given.operation.duty_cycle is not None:
+        for key, exponent, torque in (("U_w_h", 3, "T_2"), ("U_s_h", 7, "T_R")):
+            by_case[key] = f"sum of U_i n_i/n_1 (T_i/{torque})^{exponent} over the duty cycle"
+    if given.friction is not None:
+        by_case["mu"] = f"k_mu {given.friction:g}"
+    return by_case
+
+
+def _sources(given: Inputs, tables: bs721.Tables) -> dict[str, Source]:
+    row = given.gearset.wheel_material.source("bs721")
+    sources = {
+        "X_c": weakest(tables.sliding_speed_factor.source, tables.rotation_speed_factor.source),
+        "Z": tables.zone_factor.source,
+        "S_c_MPa": weakest(tables.surface_stress_factor.source, row),
+        "X_b": tables.strength_speed_factor.source,
+        "S_b_MPa": weakest(tables.bending_stress_factor.source, row),
+        "M_c_worm_Nm": tables.worm_surface_stress_factor.source,
+    }
+    if given.friction is None:
+        sources["mu"] = tables.friction.source
+    if given.operation.duty_cycle is not None:
+        equivalent = bs721.SOURCES["equivalent_hours"]
+        sources |= {"U_w_h": equivalent, "U_s_h": equivalent}
+    return sources
+
+
+def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
+    at = {
+        "axial_module": given.axial_module,
+        "wheel_diameter": given.wheel_reference_diameter,
+        "sliding_velocity": values["sliding_velocity_m_s"],
+        "wheel_speed": given.wheel_speed,
+    }
+    found = (span.violation(at[name]) for name, span in bs721.VALIDITY.items())
+    return tuple(sentence for sentence in found if sentence)
+
+
+def _notes(given: Inputs, values: Values) -> list[str]:
+    notes = [
+        f"{part}: {note}"
+        for part in ("wheel", "worm")
+        if (note := getattr(given.gearset, f"{part}_material").source("bs721").note)
+    ]
+    if values["safety_wear"] <= 1.0:
+        notes.append(
+            f"M_w is {values['M_w_Nm']:.4g} N m and not above the torque through the travel"
+        )
+    if values["safety_strength"] <= 1.0:
+        notes.append(f"M_s is {values['M_s_Nm']:.4g} N m and not above the rated torque")
+    return notes
+
+
+def _rows(given: Inputs) -> tuple[str, str]:
+    """Return what the tables of stress factors call the materials."""
+    rows = []
+    for part in ("wheel", "worm"):
+        material: Any = getattr(given.gearset, f"{part}_material")
+        if material.bs721 is None:
+            raise InputError(
+                f"gearset.{part}_material is {material.name!r}, for which BS 721 has no stress "
+                "factors; take another, or a table with the key 'bs721'"
+            )
+        rows.append(material.bs721)
+    return rows[0], rows[1]
+
+
+def _torques(given: Inputs, apply: Apply, v: Values, permitted: bs721.Permissible) -> None:
+    for limit, symbol in ((permitted.wear, "c"), (permitted.strength, "b")):
+        if isinstance(apply, Masking) and limit.reason is not None:
+            for code, sentence in limit.legend.items():
+                apply.mask(limit.reason == code, sentence)
+        v[f"M_{symbol}_wheel_Nm"] = limit.wheel
+        if limit.worm is not None:
+            v[f"M_{symbol}_worm_Nm"] = limit.worm
+    v["M_26k_Nm"] = permitted.m_26k
+    v["U_w_h"], v["U_s_h"] = given.wear_hours, given.strength_hours
+    v["wear_life_factor"] = apply(bs721.wear_life_factor, v["U_w_h"])
+    v["strength_life_factor"] = apply(bs721.strength_life_factor, v["U_s_h"])
+    v["M_w_Nm"] = permitted.wear.torque * v["wear_life_factor"]
+    v["M_s_Nm"] = permitted.strength.torque * v["strength_life_factor"]
+    v["M_permissible_Nm"] = smaller(v["M_w_Nm"], v["M_s_Nm"])
+    factor = given.operation.application_factor
+    v["safety_wear"] = apply(strength.safety, v["M_w_Nm"], factor * given.through_travel_torque)
+    v["safety_strength"] = apply(strength.safety, v["M_s_Nm"], factor * given.output_torque)

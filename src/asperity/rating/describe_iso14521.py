@@ -1,0 +1,133 @@
+"""A rating by ISO/TR 14521: its numbers with their equations, sources, limits and notes."""
+
+import math
+
+from asperity.gearset.library import GIVEN
+from asperity.rating.by_iso14521 import Values, rated_capacity, rated_efficiency
+from asperity.rating.calculation import directly
+from asperity.rating.facts import entries
+from asperity.rating.givens import given_entries
+from asperity.rating.inputs import Inputs
+from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, violations
+from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
+from asperity.rating.result import Rating
+from asperity.sources import Source
+
+
+def rate_iso14521(given: Inputs) -> Rating:
+    """Rate one gearset by ISO/TR 14521.
+
+    Raises
+    ------
+    FilmParameterError
+        :math:`h^*` is not above zero.
+    InputError
+        The standard cannot be applied.
+    """
+    values = rated_capacity(given, directly, rated_efficiency(given, directly))
+    return Rating(
+        EDITIONS[given.options.iso14521_edition],
+        entries(
+            given_entries(given, "iso14521"),
+            "iso14521",
+            values,
+            _sources(given),
+            _equations(given),
+        ),
+        _violations(given, values),
+        _notes(given, values),
+    )
+
+
+def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
+    own = violations(
+        centre_distance=given.centre_distance,
+        profile_shift=given.profile_shift,
+        worm_speed=given.worm_speed,
+        ratio=given.gear_ratio,
+        geometry_factor=values["Y_G"] if given.friction is None else None,
+        sump_by_formula=given.oil_temperature is None,
+    )
+    return (*own, *given.operation.lubricant.violations(values["theta_M_degC"] + 273.15))
+
+
+def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
+    notes = [
+        f"{key} is {values[key]:.3g}; the standard asks for at least {least:g}"
+        for key, (least, _) in MINIMUM_SAFETIES.items()
+        if values[key] < least
+    ]
+    if given.operation.lubrication == "spray" and given.oil_temperature is None:
+        notes.append(
+            "the oil temperature is that of a splash-lubricated gearbox, though the lubrication is "
+            "by spray: give operation.oil_temperature"
+        )
+    return tuple(notes)
+
+
+def _equations(given: Inputs) -> dict[str, str]:
+    """Return the equations that depend on the case, by key."""
+    options, operation = given.options, given.operation
+    wheel, base_oil = given.gearset.wheel_material, operation.lubricant.base_oil
+    concave, old = given.gearset.flank == "ZC", options.iso14521_edition == "1998"
+    law = friction_constants(wheel.family, operation.lubrication, base_oil)
+    worn = wear_constants(wheel.family, operation.lubrication, base_oil)
+    iron = wheel.family in ("grey iron", "nodular iron")
+    thin = base_oil == "mineral" or (base_oil == "polyalphaolefin" and iron)
+    intensity = f"{worn.scale:g} K_W^-{worn.exponent:g}"
+    by_case = {
+        "mu_0T": (
+            "input"
+            if options.base_friction is not None
+            else f"min({law.offset:g} + {law.gain:g}/(v_gm + {law.shift:g})^{law.exponent:g}, "
+            f"{law.cap:g})"
+        ),
+        "h_star": (
+            "0.018 + q_1/(7.86 (q_1 + z_2)) + 1/z_2 + x_2/110 - u/36300 + b_2H/(370.4 m_x1) - "
+            "sqrt(2 q_1 - 1)/213.9"
+            if old
+            else f"{'-0.511 + 3.7904e-6' if concave else '-0.393 + 2.9157e-6'} "
+            "P(z_2, alpha_n, x_2, q_1, z_1/q_1, m_x1)"
+        ),
+        "p_m_star": (
+            "1.03 (0.4 + x_2/u + 0.01 z_2 - 0.083 b_2H/m_x1 + sqrt(2 q_1 - 1)/6.9 + "
+            "(q_1 + 50 (u + 1)/u)/(15.9 + 37.5 q_1))"
+            if old
+            else f"polynomial of {'C' if concave else 'A, I, N, K'} flanks in "
+            "a/d_m1, x_2, q_1, z_2, alpha_n, z_1/q_1"
+        ),
+        "theta_S_degC": (
+            "input"
+            if operation.oil_temperature is not None
+            else "theta_0 + (c_1 T_R/(a/63)^3 + c_0) c_2 with c_0, c_1, c_2 of n_1, u, a, nu_40, "
+            f"{'with' if operation.fan else 'without'} a fan"
+        ),
+        "W_S": "1" if thin else "eta_0M^-0.35",
+        "W_H": "(300/sigma_Hm2)^1.4" if iron else "min(1, (450/sigma_Hm2)^4.5)",
+        "J_0T": f"min({intensity}, {worn.cap:g})" if math.isfinite(worn.cap) else intensity,
+        "s_star": (
+            "0.94 + 0.25 u + 6.7/tan(gamma_m1)" if concave else "0.78 + 0.21 u + 5.6/tan(gamma_m1)"
+        ),
+    }
+    if old:
+        by_case["Z_u"] = "1"
+    if options.friction is not None:
+        by_case["mu_zm"] = f"k_mu {options.friction:g}"
+    return by_case
+
+
+def _sources(given: Inputs) -> dict[str, Source]:
+    """Return where the values of tables come from, by key."""
+    wheel, operation = given.gearset.wheel_material, given.operation
+    law = wheel.family, operation.lubrication, operation.lubricant.base_oil
+    base = operation.lubricant.base
+    return {
+        "mu_0T": friction_constants(*law).source if given.base_friction is None else GIVEN,
+        "Y_W": wheel.source("material_factor"),
+        "theta_S_lim_degC": base.source("sump_limit"),
+        "J_0T": wear_constants(*law).source,
+        "W_ML": wheel.source("wear_factor"),
+        "Z_oil": base.source("pitting_factor"),
+        "sigma_HlimT_MPa": wheel.source("pitting_strength"),
+        "tau_FlimT_MPa": wheel.source("shear_strength"),
+    }

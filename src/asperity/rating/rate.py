@@ -1,0 +1,155 @@
+"""Rate a worm gearset by up to three standards."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity.casefile import Case
+from asperity.errors import InputError, choices, suggestion
+from asperity.gearset.geometry import Geometry
+from asperity.gearset.parameters import Gearset
+from asperity.rating import bs721
+from asperity.rating.by_agma6034 import rate_agma6034
+from asperity.rating.by_bs721 import rate_bs721
+from asperity.rating.describe_iso14521 import rate_iso14521
+from asperity.rating.givens import assumptions
+from asperity.rating.inputs import Inputs, inputs
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.result import Rating
+
+STANDARDS = ("iso14521", "bs721", "agma6034")
+"""The standards, by the name they have in results."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Rated:
+    """A worm gearset rated by one or more standards.
+
+    Attributes
+    ----------
+    gearset : Gearset
+        What was rated.
+    geometry : Geometry
+        What follows from its numbers.
+    iso14521, bs721, agma6034 : Rating or None
+        Its rating by each standard; None if it was not asked for or cannot be applied.
+    notes : tuple of str
+        Why a standard could not be applied.
+    assumed : mapping of str to str
+        What was assumed for the keys of a case file that were left out, by ``table.key``.
+    """
+
+    gearset: Gearset
+    geometry: Geometry
+    iso14521: Rating | None
+    bs721: Rating | None
+    agma6034: Rating | None
+    notes: tuple[str, ...]
+    assumed: Mapping[str, str]
+
+    @property
+    def ratings(self) -> tuple[Rating, ...]:
+        """Those that there are."""
+        found = (self.iso14521, self.bs721, self.agma6034)
+        return tuple(rating for rating in found if rating is not None)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return everything by key; the units are part of the keys."""
+        ratings = {name: getattr(self, name) for name in STANDARDS}
+        return {
+            "name": self.gearset.name,
+            "geometry": self.geometry.to_json(),
+            **{name: rating and rating.to_json() for name, rating in ratings.items()},
+            "assumed": dict(self.assumed),
+            "notes": list(self.notes),
+        }
+
+
+def rate(
+    gearset: Gearset,
+    operation: Operation,
+    options: RatingOptions | None = None,
+    standards: Sequence[str] = STANDARDS,
+    *,
+    folder: Path | None = None,
+) -> Rated:
+    """Rate a worm gearset.
+
+    Parameters
+    ----------
+    gearset : Gearset
+        The ``[gearset]`` table.
+    operation : Operation
+        The ``[operation]`` table.
+    options : RatingOptions, optional
+        The ``[rating]`` table.
+    standards : sequence of {'iso14521', 'bs721', 'agma6034'}
+        Which to apply.
+    folder : path, optional
+        Where a relative file name among the options starts.
+
+    Returns
+    -------
+    Rated
+        A standard that cannot be applied is None, and the notes say why.
+
+    Raises
+    ------
+    InputError
+        The gearset's numbers do not belong together, or the only standard asked for cannot be
+        applied; `asperity.rating.iso14521.film_failure.FilmParameterError` where h* is not above
+        zero.
+    """
+    options = options or RatingOptions()
+    wanted = _known(standards)
+    given = inputs(gearset.require_consistent(), operation, options)
+    found: dict[str, Rating] = {}
+    notes = []
+    for name in wanted:
+        try:
+            found[name] = _rate(name, given, folder)
+        except InputError as error:
+            if len(wanted) == 1:
+                raise
+            notes.append(f"{name}: {error}")
+    return Rated(
+        gearset=gearset,
+        geometry=gearset.geometry,
+        **{name: found.get(name) for name in STANDARDS},
+        notes=tuple(notes),
+        assumed=assumptions(given),
+    )
+
+
+def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
+    """Rate the worm gearset of a case file."""
+    options = case.require(RatingOptions) if RatingOptions.table in case else None
+    gearset, operation = case.require(Gearset), case.require(Operation)
+    return rate(gearset, operation, options, standards, folder=case.folder)
+
+
+def tables_of(options: RatingOptions, folder: Path | None) -> bs721.Tables:
+    """Return the tables of BS 721 that are asked for."""
+    own = options.bs721_tables
+    return bs721.read_tables(None if own is None else (folder or Path()) / own)
+
+
+def _known(standards: Sequence[str]) -> tuple[str, ...]:
+    for name in standards:
+        if name not in STANDARDS:
+            raise InputError(
+                f"standard is {name!r}; it must be one of {choices(STANDARDS)}"
+                f"{suggestion(str(name), STANDARDS)}"
+            )
+    if not standards:
+        raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
+    return tuple(name for name in STANDARDS if name in standards)
+
+
+def _rate(name: str, given: Inputs, folder: Path | None) -> Rating:
+    if name == "iso14521":
+        return rate_iso14521(given)
+    if name == "bs721":
+        return rate_bs721(given, tables_of(given.options, folder))
+    return rate_agma6034(given)
