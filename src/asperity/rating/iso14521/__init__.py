@@ -24,7 +24,6 @@ from asperity.rating.iso14521.efficiency import (
     worm_driving_efficiency,
 )
 from asperity.rating.iso14521.efficiency_chain import Chain, chain
-from asperity.rating.iso14521.entries import Definition, definitions, entry
 from asperity.rating.iso14521.film import film_limits, film_parameter, film_thickness
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.iso14521.forces import (
@@ -100,7 +99,6 @@ __all__ = [
     "STEEL",
     "VALIDITY",
     "Chain",
-    "Definition",
     "FilmParameterError",
     "FrictionConstants",
     "WearConstants",
@@ -113,9 +111,7 @@ __all__ = [
     "contact_parameter",
     "contact_stress",
     "cooling_area",
-    "definitions",
     "deflection_limit",
-    "entry",
     "film_limits",
     "film_parameter",
     "film_thickness",

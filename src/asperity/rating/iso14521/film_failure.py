@@ -74,7 +74,8 @@ def _scaled(
     teeth = changed["diameter_factor"] + changed["wheel_teeth"]
     changed["profile_shift"] = distance / changed["axial_module"] - 0.5 * teeth
     with np.errstate(all="ignore"):
-        return formula(*(np.asarray(value) for value in changed.values()))
+        film = formula(*(np.asarray(value) for value in changed.values()))
+    return np.where(changed["pressure_angle"] < 0.5 * np.pi, film, np.nan)
 
 
 def _limits(
@@ -86,9 +87,9 @@ def _limits(
         nearest: float | None = None
         for way in (-1.0, 1.0):
             values = _scaled(formula, gearset, name, np.exp(way * steps))
-            # An input the formula does not know leaves a single value.
-            above = np.broadcast_to(values > 0.0, steps.shape)
-            crossing = np.flatnonzero(above[1:] != above[:-1])
+            # An input that the formula does not know leaves a single value; NaN is no side.
+            side = np.broadcast_to(np.sign(values), steps.shape)
+            crossing = np.flatnonzero(np.abs(side[1:] - side[:-1]) > 0.5)
             if not crossing.size or (nearest and abs(nearest) <= steps[crossing[0]]):
                 continue
             low, high = steps[crossing[0]] * way, steps[crossing[0] + 1] * way

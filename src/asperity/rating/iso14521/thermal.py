@@ -11,7 +11,7 @@ from asperity.rating.iso14521.tables import check_words
 
 Immersed = Literal["worm", "wheel"]
 
-_OIL_CONSTANT = {"mineral": 9.0, "polyalphaolefin": 5.0, "polyglycol": 1.0}
+_OIL_CONSTANT = {"mineral": 9.0, "polyalphaolefin": 5.0, "polyglycol": 0.0}
 
 
 def sump_temperature(
@@ -49,7 +49,7 @@ def sump_temperature(
     and
 
     .. math:: c_2 = 1 - \frac{k}{(0.012 u + 0.092)\sqrt{n_1} - 0.745 u + 82.877}, \quad
-        k = 9 \text{ (mineral)},\ 5 \text{ (polyalphaolefin)},\ 1 \text{ (polyglycol)}
+        k = 9 \text{ (mineral)},\ 5 \text{ (polyalphaolefin)},\ 0 \text{ (polyglycol)}
 
     Parameters
     ----------

@@ -1,0 +1,433 @@
+import doctest
+import importlib
+import inspect
+import math
+import pkgutil
+
+import numpy as np
+import pytest
+
+from asperity.errors import InputError
+from asperity.gearset.materials import wheel_material
+from asperity.rating import iso14521 as iso
+from asperity.rating.formula import Masked
+
+ALPHA = math.radians(20.0)
+# Every formula with numbers it takes.
+FORMULAS = {
+    iso.sliding_velocity: (18.0, 1440.0, 0.45),
+    iso.base_friction: (1.5,),
+    iso.size_factor: (75.0,),
+    iso.geometry_factor: (0.05,),
+    iso.roughness_factor: (1.6,),
+    iso.mean_friction: (0.06, 1.1, 1.2, 0.95, 1.3),
+    iso.film_parameter: (4.0, 60.0, 8.2, 2.2, ALPHA, 0.02),
+    iso.film_thickness: (0.05, 1.7e-8, 0.03, 1440.0, 75.0, 174053.0, 122.0),
+    iso.contact_parameter: (4.0, 60.0, 8.2, 2.2, 75.0, ALPHA, 0.02),
+    iso.path_parameter: (15.0, 0.45),
+    iso.reduced_modulus: (210e3, 0.3, 122600.0, 0.35),
+    iso.contact_stress: (1.1, 366.0, 174053.0, 75.0),
+    iso.load_cycles: (25000.0, 1440.0, 15.0),
+    iso.sliding_path: (15.0, 300.0, 75.0, 174053.0, 5e5),
+    iso.wheel_tangential_force: (366.0, 132.0),
+    iso.worm_tangential_force: (5500.0, 0.45, 0.13),
+    iso.separating_force: (3400.0, ALPHA, 0.45, 0.13),
+    iso.worm_driving_efficiency: (0.45, 0.13),
+    iso.wheel_driving_efficiency: (0.45, 0.13),
+    iso.output_power: (366.0, 1440.0, 15.0),
+    iso.meshing_loss: (366.0, 1440.0, 15.0, 0.73),
+    iso.back_driving_meshing_loss: (366.0, 1440.0, 15.0, 0.6),
+    iso.idle_loss: (75.0, 1440.0),
+    iso.bearing_loss: (3700.0, 75.0, 15.0, 132.0, 0.013),
+    iso.seal_loss: (18.0, 1440.0, 2.0),
+    iso.total_efficiency: (3700.0, 1400.0),
+    iso.back_driving_total_efficiency: (3700.0, 1400.0),
+    iso.lubricant_structure_factor: (0.03,),
+    iso.pressure_factor: (500.0,),
+    iso.wear_parameter: (0.1, 1.0, 0.9),
+    iso.reference_wear_intensity: (0.1,),
+    iso.start_factor: (10.0,),
+    iso.wear_intensity: (1e-9, 1.1, 1.6),
+    iso.flank_wear: (1e-9, 1e8),
+    iso.wear_limit: (2.2, 0.45),
+    iso.pitting_life_factor: (10000.0,),
+    iso.pitting_velocity_factor: (1.5,),
+    iso.pitting_size_factor: (75.0,),
+    iso.pitting_ratio_factor: (15.0,),
+    iso.pitting_limit: (660.0, 1.1, 0.95, 1.0, 0.95, 0.89),
+    iso.safety: (90.0, 60.0),
+    iso.worm_deflection: (5500.0, 0.45, 0.13, ALPHA, 14.0, 56.0, 56.0, 206e3),
+    iso.deflection_limit: (2.2,),
+    iso.root_thickness: (2.2, 132.0, 127.0, ALPHA, 0.45, 0.1),
+    iso.form_factor: (2.2, 4.0),
+    iso.rim_factor: (2.2, 3.0),
+    iso.root_shear_stress: (5500.0, 13.3, 2.2, 1.6, 0.45, 1.1, 0.5),
+    iso.root_shear_limit: (128.0, 1.0),
+    iso.sump_temperature: (366.0, 1440.0, 15.0, 75.0, 68.0, 20.0),
+    iso.heat_transfer_coefficient: (1440.0,),
+    iso.cooling_area: (13.0, 132.0),
+    iso.bulk_temperature: (60.0, 1300.0, 23000.0, 0.0017),
+}
+NAMES = [formula.__name__ for formula in FORMULAS]
+GEARSET = {
+    "starts": 1,
+    "wheel_teeth": 60,
+    "diameter_factor": 10.8,
+    "axial_module": 1.70,
+    "centre_distance": 60.17,
+    "pressure_angle": ALPHA,
+    "worm_speed": 1440.0,
+    "worm_roughness": 1.6,
+    "material": "CuAl10Fe5Ni5-C-GZ",
+    "base_oil": "mineral",
+    "output_torque": 66.0,
+}
+
+
+def test_every_formula_of_the_package_is_in_the_table_of_this_file():
+    takes_arrays = {
+        thing
+        for name in iso.__all__
+        if inspect.isfunction(thing := getattr(iso, name))
+        and "on_invalid" in inspect.signature(thing).parameters
+    }
+    assert takes_arrays - {iso.chain} == set(FORMULAS)
+
+
+@pytest.mark.parametrize(("formula", "numbers"), FORMULAS.items(), ids=NAMES)
+def test_numbers_give_a_float_and_arrays_the_same_numbers(formula, numbers):
+    alone = formula(*numbers)
+    assert type(alone) is float
+    for i, number in enumerate(numbers):
+        varied = number * np.array([[0.98, 1.0], [1.005, 1.01]])
+        answer = formula(*numbers[:i], varied, *numbers[i + 1 :])
+        masked = formula(*numbers[:i], varied, *numbers[i + 1 :], on_invalid="mask")
+        assert answer.shape == varied.shape
+        assert np.array_equal(answer, masked.values)
+        assert not masked.reason.any()
+        for one, result in zip(varied.flat, answer.flat, strict=True):
+            expected = formula(*numbers[:i], float(one), *numbers[i + 1 :])
+            assert result == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(("formula", "numbers"), FORMULAS.items(), ids=NAMES)
+def test_nonsense_raises_with_the_arguments_name_or_is_masked_with_a_reason(formula, numbers):
+    names = list(inspect.signature(formula).parameters)
+    for i, (name, number) in enumerate(zip(names, numbers, strict=False)):
+        for wrong in (math.nan, math.inf, -math.inf):
+            with pytest.raises(InputError, match=f"^{name} is ") as error:
+                formula(*numbers[:i], wrong, *numbers[i + 1 :])
+            assert "\n" not in str(error.value)
+            mixed = np.array([number, wrong])
+            with pytest.raises(InputError, match=f"^{name} is "):
+                formula(*numbers[:i], mixed, *numbers[i + 1 :])
+            masked = formula(*numbers[:i], mixed, *numbers[i + 1 :], on_invalid="mask")
+            assert isinstance(masked, Masked)
+            assert masked.reason[0] == 0 < masked.reason[1]
+            assert masked.values[0] == pytest.approx(formula(*numbers), rel=1e-13)
+            assert np.isnan(masked.values[1])
+            assert masked.legend[int(masked.reason[1])].startswith(name)
+
+
+@pytest.mark.parametrize(("formula", "numbers"), FORMULAS.items(), ids=NAMES)
+def test_no_negative_number_gives_nan(formula, numbers):
+    for i in range(len(numbers)):
+        try:
+            answer = formula(*numbers[:i], -numbers[i], *numbers[i + 1 :])
+        except InputError:
+            continue
+        assert math.isfinite(answer)
+
+
+def test_every_word_of_an_option_has_its_constants():
+    for family in ("tin bronze", "aluminium bronze", "grey iron", "nodular iron"):
+        for lubrication in ("bath", "spray"):
+            for oil in ("mineral", "polyalphaolefin", "polyglycol"):
+                words = {"family": family, "lubrication": lubrication, "base_oil": oil}
+                friction = iso.friction_constants(family, lubrication, oil)
+                assert friction.source.confidence == "verified"
+                assert friction.offset < iso.base_friction(5.0, **words) < friction.cap
+                assert iso.base_friction(0.0, **words) == friction.cap
+                wear = iso.wear_constants(family, lubrication, oil)
+                assert wear.source.confidence == "one source"
+                assert iso.reference_wear_intensity(1e3, **words) < wear.cap
+
+
+def test_iron_knows_no_difference_between_bath_and_spray_and_bronzes_the_same_friction():
+    assert iso.base_friction(2.0, family="grey iron") == iso.base_friction(
+        2.0, family="nodular iron", lubrication="spray"
+    )
+    assert iso.base_friction(2.0) == iso.base_friction(2.0, family="aluminium bronze")
+    assert iso.reference_wear_intensity(0.3) != iso.reference_wear_intensity(
+        0.3, family="aluminium bronze"
+    )
+
+
+@pytest.mark.parametrize(
+    ("option", "word", "call"),
+    [
+        ("base_oil", "synthetic", lambda word: iso.base_friction(1.0, base_oil=word)),
+        ("family", "bronze", lambda word: iso.pressure_factor(100.0, family=word)),
+        ("lubrication", "bathe", lambda word: iso.base_friction(1.0, lubrication=word)),
+        ("edition", "2012", lambda word: iso.pitting_ratio_factor(15.0, edition=word)),
+        ("flank", "ZX", lambda word: iso.path_parameter(15.0, 0.3, flank=word)),
+        ("immersed", "both", lambda word: iso.heat_transfer_coefficient(100.0, immersed=word)),
+        ("on_invalid", "nan", lambda word: iso.size_factor(100.0, on_invalid=word)),
+        ("on_invalid", "nan", lambda word: iso.chain(**GEARSET, on_invalid=word)),
+        ("flank", "ZX", lambda word: iso.chain(**GEARSET, flank=word)),
+    ],
+)
+def test_unknown_words_are_named_with_what_is_allowed(option, word, call):
+    with pytest.raises(InputError, match=f"^{option} is '{word}'; it must be"):
+        call(word)
+
+
+def test_structure_factor_is_one_for_mineral_oil_and_for_polyalphaolefin_on_iron():
+    factor = iso.lubricant_structure_factor
+    assert factor(0.05) == factor(0.05, family="grey iron") == 1.0
+    assert factor(0.05, family="nodular iron", base_oil="polyalphaolefin") == 1.0
+    assert factor(0.05, base_oil="polyalphaolefin") == pytest.approx(0.05**-0.35)
+    assert factor(0.05, family="grey iron", base_oil="polyglycol") > 1.0
+
+
+def test_pressure_factor_of_iron_goes_above_one_below_300_megapascals():
+    assert iso.pressure_factor(200.0, family="grey iron") > 1.0
+    assert iso.pressure_factor(200.0) == 1.0
+    assert iso.pressure_factor(900.0) == pytest.approx(0.5**4.5)
+
+
+def test_ratio_factor_of_pitting_is_one_in_1998():
+    assert iso.pitting_ratio_factor(10.0, edition="1998") == 1.0
+    assert np.all(iso.pitting_ratio_factor(np.array([10.0, 30.0]), edition="1998") == 1.0)
+
+
+def test_what_lies_beyond_a_formula_is_said_and_masked():
+    with pytest.raises(InputError, match="the worm cannot drive"):
+        iso.worm_driving_efficiency(1.5, 0.2)
+    with pytest.raises(InputError, match="the worm cannot drive"):
+        iso.worm_deflection(1.0, 1.5, 0.2, ALPHA, 10.0, 50.0, 50.0)
+    with pytest.raises(InputError, match="nothing of the tooth"):
+        iso.root_thickness(2.0, 100.0, 96.0, ALPHA, 0.3, 9.0)
+    with pytest.raises(InputError, match="profile shift"):
+        iso.contact_parameter(1, 60, 8.0, 2.0, 68.0, ALPHA, -4.0)
+    with pytest.raises(InputError, match="lower the ratio"):
+        iso.sump_temperature(10.0, 15.0, 200.0, 100.0, 68.0)
+    masked = iso.contact_parameter(
+        1, 60, 8.0, 2.0, 68.0, ALPHA, np.array([0.0, -4.0]), on_invalid="mask"
+    )
+    assert masked.reason.tolist() == [0, 1]
+
+
+def test_a_fan_needs_turns_and_room():
+    place = (100.0, 1500.0, 20.0, 100.0, 100.0)
+    assert iso.sump_temperature(*place, fan=True) < iso.sump_temperature(*place)
+    with pytest.raises(InputError, match=r"worm_speed is 13 rpm; it must be above 13\.8 rpm"):
+        iso.sump_temperature(100.0, 13.0, 20.0, 100.0, 100.0, fan=True)
+    with pytest.raises(InputError, match="centre_distance is 48 mm; it must be above 48 mm"):
+        iso.sump_temperature(100.0, 1500.0, 20.0, 48.0, 100.0, fan=True)
+
+
+def test_the_heat_balance_takes_least_for_mineral_oil_and_all_for_polyglycol():
+    def rise(oil, ratio):
+        return iso.sump_temperature(0.0, 1500.0, ratio, 100.0, 100.0, 0.0, base_oil=oil)
+
+    assert rise("mineral", 20.0) < rise("polyalphaolefin", 20.0) < rise("polyglycol", 20.0)
+    assert rise("polyglycol", 20.0) == rise("polyglycol", 40.0)
+    with pytest.raises(InputError, match="lower the ratio"):
+        rise("mineral", 400.0)
+
+
+def test_a_film_that_ends_names_its_driver_and_the_way_back():
+    shift = 60.17 / 1.7 - 0.5 * (10.8 + 80.0)
+    with pytest.raises(iso.FilmParameterError) as error:
+        iso.film_parameter(1, 80, 10.8, 1.7, ALPHA, shift)
+    message, found = str(error.value), error.value
+    assert isinstance(found, InputError)
+    assert found.exit_code == 2
+    assert "\n" not in message
+    assert message.startswith("h* is -0.0114; it must be above 0. U = 80 drives it")
+    assert "U below 76.628 (-4.2 %)" in message
+    assert "m_x1 below 1.6123 mm (-5.2 %)" in message
+    assert "c above 63.448 mm (+5.4 %)" in message
+    assert found.value == pytest.approx(-0.0114, abs=1e-4)
+    assert found.driver == "ratio"
+    assert found.limits["ratio"] == pytest.approx(76.63, abs=0.01)
+    assert found.limits["diameter_factor"] is None
+
+
+def test_a_film_that_no_ratio_or_module_brings_back_says_so():
+    with pytest.raises(iso.FilmParameterError, match="no U, no m_x1") as error:
+        iso.film_parameter(1, 60, 70.0, 2.5, ALPHA)
+    assert error.value.driver == "diameter_factor"
+
+
+def test_film_driven_by_the_pressure_angle_is_shown_in_degrees():
+    shift = 60.17 / 1.7 - 0.5 * (10.8 + 76.7)
+    with pytest.raises(iso.FilmParameterError, match=r"alpha_n above 2\d\.\d+ deg"):
+        iso.film_parameter(1, 76.7, 10.8, 1.7, ALPHA, shift)
+
+
+def test_an_array_with_a_film_that_ends_raises_or_is_masked():
+    teeth = np.array([60.0, 80.0, -1.0])
+    shift = 60.17 / 1.7 - 0.5 * (10.8 + teeth)
+    with pytest.raises(iso.FilmParameterError, match="U = 80 drives it"):
+        iso.film_parameter(1, teeth[:2], 10.8, 1.7, ALPHA, shift[:2])
+    masked = iso.film_parameter(1, teeth, 10.8, 1.7, ALPHA, shift, on_invalid="mask")
+    assert masked.reason[0] == 0
+    assert masked.legend[int(masked.reason[1])].startswith(
+        "h* is not defined: it is not above zero"
+    )
+    assert masked.legend[int(masked.reason[2])].startswith("wheel_teeth is not allowed")
+    assert np.isnan(masked.values[1:]).all()
+
+
+def test_a_single_film_raises_even_where_masking_is_asked_for():
+    with pytest.raises(iso.FilmParameterError):
+        iso.film_parameter(1, 200, 10.8, 1.7, ALPHA, -70.0, on_invalid="mask")
+
+
+def test_face_width_counts_in_1998_only():
+    shape = (1, 60, 10.8, 1.70, ALPHA)
+    default = 2.0 * 1.70 * math.sqrt(11.8)
+    for formula, more in ((iso.film_parameter, ()), (iso.contact_parameter, (60.17,))):
+        arguments = (*shape[:4], *more, shape[4])
+        old = formula(*arguments, edition="1998")
+        assert formula(*arguments, edition="1998", wheel_face_width=default) == pytest.approx(old)
+        assert formula(*arguments, edition="1998", wheel_face_width=8.0) != pytest.approx(old)
+        assert formula(*arguments, wheel_face_width=8.0) == formula(*arguments)
+
+
+def test_the_chain_is_its_formulas_one_after_another():
+    answer = iso.chain(**GEARSET)
+    lead = math.atan2(1.0, 10.8)
+    diameter, shift = 10.8 * 1.7, 60.17 / 1.7 - 0.5 * 70.8
+    velocity = iso.sliding_velocity(diameter, 1440.0, lead)
+    film = iso.film_parameter(1, 60, 10.8, 1.7, ALPHA, shift)
+    mu = iso.mean_friction(
+        iso.base_friction(velocity, family="aluminium bronze"),
+        iso.size_factor(60.17),
+        iso.geometry_factor(film),
+        wheel_material("CuAl10Fe5Ni5-C-GZ").material_factor,
+        iso.roughness_factor(1.6),
+    )
+    eta = iso.worm_driving_efficiency(lead, mu)
+    power = iso.output_power(66.0, 1440.0, 60.0)
+    lost = (
+        iso.meshing_loss(66.0, 1440.0, 60.0, eta)
+        + iso.idle_loss(60.17, 1440.0)
+        + iso.bearing_loss(power, 60.17, 60.0, 2.0 * 60.17 - diameter)
+        + iso.seal_loss(diameter, 1440.0)
+    )
+    assert answer.film_parameter == pytest.approx(film, rel=1e-13)
+    assert answer.mean_friction == pytest.approx(mu, rel=1e-13)
+    assert answer.efficiency == pytest.approx(eta, rel=1e-13)
+    assert answer.total_efficiency == pytest.approx(power / (power + lost), rel=1e-13)
+    assert answer.reason == 0
+    assert type(answer.efficiency) is float
+
+
+def test_the_chain_masks_each_gearset_with_its_reason():
+    columns = {
+        "wheel_teeth": np.array([60.0, 80.0, 60.0, 60.0, 60.0, math.nan]),
+        "centre_distance": np.array([60.17, 60.17, 9.0, 60.17, 60.17, 60.17]),
+        "worm_speed": np.array([1440.0, 1440.0, 1440.0, -1.0, 1440.0, 1440.0]),
+        "friction_factor": np.array([1.0, 1.0, 1.0, 1.0, 900.0, 1.0]),
+    }
+    answer = iso.chain(**{**GEARSET, **columns}, on_invalid="mask")
+    assert answer.reason[:3].tolist() == [0, iso.NO_FILM, iso.NO_WHEEL]
+    assert answer.reason[4] == iso.NOT_DRIVING
+    assert answer.legend[int(answer.reason[3])].startswith("worm_speed is not allowed")
+    assert answer.legend[int(answer.reason[5])].startswith("wheel_teeth is not allowed")
+    for name in ("efficiency", "input_power", "film_parameter", "lead_angle", "size_factor"):
+        values = getattr(answer, name)
+        assert np.isfinite(values[0])
+        assert np.isnan(values[1:]).all()
+    assert answer.efficiency[0] == pytest.approx(iso.chain(**GEARSET).efficiency, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"worm_speed": -1.0}, "worm_speed is -1 rpm; it must be from"),
+        ({"worm_speed": "fast"}, "worm_speed is 'fast'; it must be a number"),
+        ({"worm_speed": [1.0, math.nan]}, "worm_speed is nan rpm"),
+        ({"pressure_angle": 20.0}, "pressure_angle is 20 rad"),
+        ({"centre_distance": 5.0}, "centre_distance is 5 mm; it must be above half the worm's"),
+        ({"profile_shift": 0.0}, "give one of centre_distance and profile_shift"),
+        ({"base_friction": 0.05, "friction": 0.05}, "give base_friction or friction, not both"),
+        ({"material": "CuAl"}, "no wheel material of that name"),
+        ({"base_oil": "minerals"}, "did you mean 'mineral'"),
+        ({"worm_speed": [1.0, 2.0], "starts": [1, 2, 3]}, "do not go together"),
+        ({"friction": 20.0, "starts": 6}, "the worm cannot drive"),
+    ],
+)
+def test_what_the_chain_cannot_take_is_said_in_one_line(change, message):
+    with pytest.raises(InputError, match=message) as error:
+        iso.chain(**{**GEARSET, **change})
+    assert "\n" not in str(error.value)
+
+
+def test_a_given_friction_needs_neither_film_nor_factors():
+    answer = iso.chain(**{**GEARSET, "wheel_teeth": 90}, friction=0.1, friction_factor=0.5)
+    assert answer.mean_friction == 0.05
+    assert answer.film_parameter is answer.base_friction is answer.geometry_factor is None
+    assert answer.efficiency == iso.worm_driving_efficiency(answer.lead_angle, 0.05)
+
+
+def test_a_given_base_friction_goes_through_the_factors():
+    plain, given = iso.chain(**GEARSET), iso.chain(**GEARSET, base_friction=0.055)
+    share = 0.055 / plain.base_friction
+    assert given.mean_friction == pytest.approx(share * plain.mean_friction, rel=1e-13)
+
+
+def test_without_a_torque_the_chain_ends_at_the_teeth():
+    answer = iso.chain(**{**GEARSET, "output_torque": None})
+    assert answer.efficiency == iso.chain(**GEARSET).efficiency
+    assert answer.total_efficiency is answer.output_power is answer.loss_meshing is None
+
+
+def test_the_chain_keeps_the_common_shape_over_many_blocks():
+    speeds = np.linspace(100.0, 3000.0, 70000).reshape(2, 1, 35000)
+    materials = np.array(["CuSn12-C-GZ", "CuAl10Fe5Ni5-C-GZ"]).reshape(2, 1, 1)
+    answer = iso.chain(**{**GEARSET, "worm_speed": speeds, "material": materials})
+    assert answer.efficiency.shape == answer.reason.shape == speeds.shape
+    for where in ((0, 0, 0), (0, 0, 34999), (1, 0, 17), (1, 0, 34999)):
+        own = {"worm_speed": speeds[where], "material": str(materials[where[0], 0, 0])}
+        alone = iso.chain(**{**GEARSET, **own})
+        assert answer.total_efficiency[where] == pytest.approx(alone.total_efficiency, rel=1e-13)
+
+
+def test_no_gearsets_have_no_answers():
+    answer = iso.chain(**{**GEARSET, "worm_speed": []})
+    assert answer.efficiency.shape == (0,)
+
+
+def test_materials_of_ones_own_are_taken_as_they_are():
+    own = wheel_material("CuAl10Fe5Ni5-C-GZ").model_copy(update={"material_factor": 0.9})
+    assert iso.chain(**{**GEARSET, "material": own}).material_factor == 0.9
+    both = iso.chain(**{**GEARSET, "material": [own, "CuSn12-C-GZ"]})
+    assert both.material_factor.tolist() == [0.9, 1.0]
+
+
+def test_violations_are_sentences_about_what_is_used():
+    usual = {"centre_distance": 100.0, "profile_shift": 0.0, "worm_speed": 1440.0, "ratio": 20.0}
+    assert iso.violations(**usual, geometry_factor=1.0) == ()
+    assert iso.violations(**{**usual, "centre_distance": 60.17}, geometry_factor=1.0) == (
+        "centre distance a (Y_S) is 60.17 mm; ISO/TR 14521:2010 is valid from 65 to 250 mm",
+        "centre distance a (theta_S) is 60.17 mm; ISO/TR 14521:2010 is valid from 63 to 400 mm",
+    )
+    assert iso.violations(**{**usual, "centre_distance": 60.17}, sump_by_formula=False) == ()
+    many = iso.violations(
+        centre_distance=500.0, profile_shift=-8.0, worm_speed=5.0, ratio=80.0, geometry_factor=3.0
+    )
+    assert len(many) == len(iso.VALIDITY) == 6
+
+
+def test_every_least_safety_has_a_source():
+    assert all(least >= 1.0 for least, _ in iso.MINIMUM_SAFETIES.values())
+    assert iso.MINIMUM_SAFETIES["safety_temperature"][1].confidence == "from memory"
+
+
+def test_examples_in_the_docstrings_hold():
+    for module in pkgutil.iter_modules(iso.__path__, f"{iso.__name__}."):
+        assert doctest.testmod(importlib.import_module(module.name)).failed == 0, module.name
