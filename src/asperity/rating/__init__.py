@@ -2,5 +2,16 @@
 
 from asperity.rating.parameters import LoadStep, Operation, RatingOptions
 from asperity.rating.rate import STANDARDS, Rated, rate, rate_case
+from asperity.rating.variants import Variants, variants
 
-__all__ = ["STANDARDS", "LoadStep", "Operation", "Rated", "RatingOptions", "rate", "rate_case"]
+__all__ = [
+    "STANDARDS",
+    "LoadStep",
+    "Operation",
+    "Rated",
+    "RatingOptions",
+    "Variants",
+    "rate",
+    "rate_case",
+    "variants",
+]

@@ -6,6 +6,8 @@ torque and a tenth of the time (thesis 3.3.1), both torques times the applicatio
 
 from typing import Any
 
+import numpy as np
+
 from asperity.errors import InputError
 from asperity.rating import bs721
 from asperity.rating.by_iso14521 import Apply, Values
@@ -80,22 +82,7 @@ def rated(given: Inputs, apply: Apply, tables: bs721.Tables) -> tuple[Values, tu
         given.diameter_factor,
         given.lead_angle,
     )
-    permitted: bs721.Permissible = bs721.permissible_torques(
-        starts=given.starts,
-        diameter_factor=given.diameter_factor,
-        axial_module=given.axial_module,
-        lead_angle=given.lead_angle,
-        wheel_diameter=given.wheel_reference_diameter,
-        worm_tip_diameter=given.worm_tip_diameter,
-        face_width=given.wheel_face_width,
-        sliding_velocity=v["sliding_velocity_m_s"],
-        worm_speed=given.worm_speed,
-        wheel_speed=given.wheel_speed,
-        wheel_material=wheel,
-        worm_material=worm,
-        tables=tables,
-        on_invalid="mask" if isinstance(apply, Masking) else "raise",
-    )
+    permitted = _permissible(given, apply, v, tables)
     _torques(given, apply, v, permitted)
     notes = dict.fromkeys(limit.note for limit in (permitted.wear, permitted.strength))
     return v, tuple(note for note in notes if note)
@@ -177,13 +164,40 @@ def _rows(given: Inputs) -> tuple[str, str]:
     return rows[0], rows[1]
 
 
+def _permissible(given: Inputs, apply: Apply, v: Values, tables: bs721.Tables) -> bs721.Permissible:
+    wheel, worm = _rows(given)
+    numbers = {
+        "starts": given.starts,
+        "diameter_factor": given.diameter_factor,
+        "axial_module": given.axial_module,
+        "lead_angle": given.lead_angle,
+        "wheel_diameter": given.wheel_reference_diameter,
+        "worm_tip_diameter": given.worm_tip_diameter,
+        "face_width": given.wheel_face_width,
+        "sliding_velocity": v["sliding_velocity_m_s"],
+        "worm_speed": given.worm_speed,
+        "wheel_speed": given.wheel_speed,
+    }
+    masking = isinstance(apply, Masking)
+    if isinstance(apply, Masking):
+        # An array is masked where a number that all variants share would raise.
+        numbers = {name: np.broadcast_to(value, apply.shape) for name, value in numbers.items()}
+    return bs721.permissible_torques(
+        **numbers,
+        wheel_material=wheel,
+        worm_material=worm,
+        tables=tables,
+        on_invalid="mask" if masking else "raise",
+    )
+
+
 def _torques(given: Inputs, apply: Apply, v: Values, permitted: bs721.Permissible) -> None:
     for limit, symbol in ((permitted.wear, "c"), (permitted.strength, "b")):
-        if isinstance(apply, Masking) and limit.reason is not None:
-            for code, sentence in limit.legend.items():
-                apply.mask(limit.reason == code, sentence)
         v[f"M_{symbol}_wheel_Nm"] = limit.wheel
-        if limit.worm is not None:
+        if isinstance(apply, Masking):
+            # The worm has no number where no table reaches its speed: the torques below heed that.
+            apply.take_over(limit.reason, limit.legend)
+        elif limit.worm is not None:
             v[f"M_{symbol}_worm_Nm"] = limit.worm
     v["M_26k_Nm"] = permitted.m_26k
     v["U_w_h"], v["U_s_h"] = given.wear_hours, given.strength_hours

@@ -1,6 +1,6 @@
 """Formulas applied one after another, to one gearset or to arrays that may hold nonsense."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,29 @@ def directly(formula: Callable[..., Any], *arguments: Any, **options: Any) -> An
     return formula(*arguments, **options)
 
 
+class Collecting:
+    """Apply formulas to numbers, go on without those that have no answer, and remember why.
+
+    Attributes
+    ----------
+    notes : list of str
+        Why a formula has no answer; nothing about those that would have needed it.
+    """
+
+    def __init__(self) -> None:
+        self.notes: list[str] = []
+
+    def __call__(self, formula: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+        """Return what a formula gives, NaN where it has no answer."""
+        if any(isinstance(argument, float) and argument != argument for argument in arguments):
+            return np.nan
+        try:
+            return formula(*arguments, **options)
+        except InputError as error:
+            self.notes.append(str(error))
+            return np.nan
+
+
 def smaller(one: Any, other: Any) -> Any:
     """Return the smaller of two numbers, or of each pair of two arrays."""
     least = np.minimum(one, other)
@@ -25,7 +48,7 @@ def smaller(one: Any, other: Any) -> Any:
 
 
 class Masking:
-    """Apply formulas to arrays, and remember why the first of them that has no answer has none.
+    """Apply formulas to arrays, and remember which was the first without an answer.
 
     Parameters
     ----------
@@ -41,12 +64,13 @@ class Masking:
     """
 
     def __init__(self, shape: tuple[int, ...]) -> None:
-        self.reason: Reasons = np.zeros(shape, dtype=np.int16)
+        # A single variant too is an array here, because numbers raise.
+        self.reason: Reasons = np.zeros(shape or (1,), dtype=np.int16)
         self.legend: dict[int, str] = {}
 
     def copy(self) -> "Masking":
         """Return another that goes on from here."""
-        other = Masking(self.reason.shape)
+        other = Masking(self.shape)
         other.reason, other.legend = self.reason.copy(), dict(self.legend)
         return other
 
@@ -61,25 +85,25 @@ class Masking:
             self.reason[new] = code
 
     def __call__(self, formula: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
-        """Return what a formula gives, NaN where it has no answer."""
+        """Return what a formula gives, NaN where it has no answer or gets none."""
         try:
             answer = formula(*arguments, on_invalid="mask", **options)
         except InputError as error:
             # Only numbers that are the same for all variants raise.
             self.mask(True, str(error))
             return np.nan
-        return self.unwrap(answer)
+        if isinstance(answer, Masked | oil.Masked):
+            self.take_over(answer.reason, answer.legend)
+            return answer.values
+        return answer
 
-    def unwrap(self, answer: Any) -> Any:
-        """Return the values of an answer, and take over its reasons."""
-        if not isinstance(answer, Masked | oil.Masked):
-            return answer
-        for code in np.unique(answer.reason[answer.reason != 0]):
-            self.mask(answer.reason == code, answer.legend[int(code)])
-        return answer.values
+    def take_over(self, reason: npt.ArrayLike | None, legend: Mapping[int, str]) -> None:
+        """Take over the reasons of an answer."""
+        codes = np.asarray(0 if reason is None else reason)
+        for code in np.unique(codes[codes != 0]):
+            self.mask(codes == code, legend[int(code)])
 
-    def spread(self, value: Any) -> npt.NDArray[np.float64]:
-        """Return a value for every variant, NaN where there is no answer."""
-        everywhere = np.array(np.broadcast_to(value, self.reason.shape), dtype=np.float64)
-        everywhere[self.reason != 0] = np.nan
-        return everywhere
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of the reasons."""
+        return self.reason.shape

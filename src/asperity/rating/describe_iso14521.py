@@ -4,7 +4,7 @@ import math
 
 from asperity.gearset.library import GIVEN
 from asperity.rating.by_iso14521 import Values, rated_capacity, rated_efficiency
-from asperity.rating.calculation import directly
+from asperity.rating.calculation import Collecting, directly
 from asperity.rating.facts import entries
 from asperity.rating.givens import given_entries
 from asperity.rating.inputs import Inputs
@@ -17,6 +17,8 @@ from asperity.sources import Source
 def rate_iso14521(given: Inputs) -> Rating:
     """Rate one gearset by ISO/TR 14521.
 
+    A stress or safety whose formula does not reach so far is left out, and a note says why.
+
     Raises
     ------
     FilmParameterError
@@ -24,7 +26,8 @@ def rate_iso14521(given: Inputs) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    values = rated_capacity(given, directly, rated_efficiency(given, directly))
+    collecting = Collecting()
+    values = rated_capacity(given, collecting, rated_efficiency(given, directly))
     return Rating(
         EDITIONS[given.options.iso14521_edition],
         entries(
@@ -35,7 +38,7 @@ def rate_iso14521(given: Inputs) -> Rating:
             _equations(given),
         ),
         _violations(given, values),
-        _notes(given, values),
+        (*dict.fromkeys(collecting.notes), *_notes(given, values)),
     )
 
 
@@ -48,6 +51,8 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
         geometry_factor=values["Y_G"] if given.friction is None else None,
         sump_by_formula=given.oil_temperature is None,
     )
+    if math.isnan(values["nu_M_mm2_s"]):
+        return own
     return (*own, *given.operation.lubricant.violations(values["theta_M_degC"] + 273.15))
 
 

@@ -5,6 +5,7 @@ be read from it: it is trusted no more than the least of those.
 """
 
 import functools
+import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -93,7 +94,7 @@ def entries(
     section : {'iso14521', 'bs721', 'agma6034'}
         The standard.
     values : mapping of str to float
-        What it found, by key; numbers that are not there are left out.
+        What it found, by key; what is not there, or NaN, is left out.
     sources : mapping of str to Source
         Where the values of tables come from, by key, and what else they rest on.
     equations : mapping of str to str
@@ -107,12 +108,12 @@ def entries(
         if not entry.assumed and entry.source is not GIVEN
     }
     for fact in facts(section):
-        if fact.key not in values:
+        value = values.get(fact.key, math.nan)
+        if isinstance(value, float) and math.isnan(value):
             continue
         equation = equations.get(fact.key, fact.equation)
         rests_on = [trusted[word] for word in words(equation) if word in trusted]
         own = [source for source in (sources.get(fact.key), fact.source) if source is not None]
         trusted[fact.symbol] = source = weakest(*own, *rests_on)
-        value = values[fact.key]
         made.append(Entry(fact.key, fact.symbol, value, fact.unit, fact.meaning, equation, source))
     return tuple(made)

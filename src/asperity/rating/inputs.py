@@ -17,9 +17,12 @@ Real = Any
 
 _HOUR = 3600.0
 _ZERO_CELSIUS = 273.15
-_RPM = 60.0 / (2.0 * math.pi)
+RPM = 60.0 / (2.0 * math.pi)
+"""Turns a minute in a radian a second."""
+THROUGH_TRAVEL = 1.0 / 3.0
+"""Torque through the travel over the rated one, where it is left out (thesis 3.2.1)."""
+
 _SPAN = 1.5
-_THROUGH_TRAVEL = 1.0 / 3.0
 _STRENGTH_SHARE = 0.1
 
 GEOMETRY = (
@@ -153,7 +156,7 @@ class Inputs:
         # asperity.rating.bs721.equivalent_hours, for arrays of speeds and torques.
         total: Real = 0.0
         for step in self.operation.duty_cycle or ():
-            speed = 1.0 if step.worm_speed is None else step.worm_speed * _RPM / self.worm_speed
+            speed = 1.0 if step.worm_speed is None else step.worm_speed * RPM / self.worm_speed
             total += step.duration / _HOUR * speed * (step.output_torque / torque) ** exponent
         return total
 
@@ -169,9 +172,9 @@ def inputs(gearset: Gearset, operation: Operation, options: RatingOptions) -> In
         options=options,
         **{name: getattr(g, name) for name in GEOMETRY},
         worm_roughness=scaled(gearset.worm_roughness, 1e6),
-        worm_speed=scaled(operation.worm_speed, _RPM),
+        worm_speed=scaled(operation.worm_speed, RPM),
         output_torque=torque,
-        through_travel_torque=_THROUGH_TRAVEL * torque if through is None else through,
+        through_travel_torque=THROUGH_TRAVEL * torque if through is None else through,
         base_friction=options.base_friction,
         friction=options.friction,
         friction_factor=options.friction_factor,

@@ -102,7 +102,7 @@ def rate(
         zero.
     """
     options = options or RatingOptions()
-    wanted = _known(standards)
+    wanted = known_standards(standards)
     given = inputs(gearset.require_consistent(), operation, options)
     found: dict[str, Rating] = {}
     notes = []
@@ -135,7 +135,8 @@ def tables_of(options: RatingOptions, folder: Path | None) -> bs721.Tables:
     return bs721.read_tables(None if own is None else (folder or Path()) / own)
 
 
-def _known(standards: Sequence[str]) -> tuple[str, ...]:
+def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
+    """Return the standards in their order; raises InputError for one that is not known."""
     for name in standards:
         if name not in STANDARDS:
             raise InputError(

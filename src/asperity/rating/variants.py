@@ -1,0 +1,156 @@
+"""Rate many variants of a worm gearset at once, on arrays."""
+
+import dataclasses
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.errors import InputError, nearest
+from asperity.gearset.parameters import Gearset
+from asperity.rating import by_agma6034, by_bs721, by_iso14521
+from asperity.rating.calculation import Masking, Reasons
+from asperity.rating.inputs import Inputs
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.rate import STANDARDS, known_standards, tables_of
+from asperity.rating.varied import varied
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Variants(Mapping[str, npt.NDArray[np.float64]]):
+    """Ratings of many variants: an array for each number, by standard and key.
+
+    ``variants["iso14521.eta_z1_2"]`` has the numbers that `asperity.rating.rate` gives for each
+    variant alone; NaN where there is none, and `reason` says why.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Of all arrays.
+    given : Inputs
+        What the formulas started from, in the units of the standards; stand-ins where a variant
+        is impossible.
+    notes : tuple of str
+        Why a standard could not be applied at all.
+    """
+
+    shape: tuple[int, ...]
+    given: Inputs
+    notes: tuple[str, ...]
+    _impossible: npt.NDArray[np.bool_]
+    _values: Mapping[str, Any]
+    _masks: Mapping[str, Masking]
+
+    def __getitem__(self, key: str) -> npt.NDArray[np.float64]:
+        if key not in self._values:
+            raise InputError(f"{key!r} is not part of the result{self._why(key)}")
+        everywhere = np.broadcast_to(self._values[key], self._impossible.shape).astype(np.float64)
+        everywhere[self._impossible] = np.nan
+        return everywhere.reshape(self.shape)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def reason(self, key: str) -> Reasons:
+        """Return 0 where there is a number, else the code of the reason why not.
+
+        Parameters
+        ----------
+        key : str
+            Of an array, or the name of a standard: then it is 0 where none of its formulas failed.
+            The reason is the first formula of the standard that failed for a variant.
+        """
+        standard, _, number = key.partition(".")
+        reason = self._mask(standard).reason.reshape(self.shape)
+        return np.where(np.isnan(self[key]), reason, 0).astype(np.int16) if number else reason
+
+    def legend(self, standard: str) -> Mapping[int, str]:
+        """Return the codes of a standard as sentences."""
+        return MappingProxyType(self._mask(standard).legend)
+
+    def _mask(self, standard: str) -> Masking:
+        if standard not in self._masks:
+            raise InputError(f"{standard!r} is not part of the result{self._why(standard)}")
+        return self._masks[standard]
+
+    def _why(self, key: str) -> str:
+        standard = key.partition(".")[0]
+        notes = [note for note in self.notes if note.startswith(f"{standard}:")]
+        return f": {notes[0]}" if notes else nearest(key, (*self._masks, *self))
+
+
+def variants(
+    gearset: Gearset,
+    operation: Operation,
+    options: RatingOptions | None = None,
+    standards: Sequence[str] = STANDARDS,
+    *,
+    capacity: bool = True,
+    folder: Path | None = None,
+    **values: npt.ArrayLike,
+) -> Variants:
+    """Rate variants of a worm gearset.
+
+    Parameters
+    ----------
+    gearset, operation, options
+        As in `asperity.rating.rate`; what is not varied.
+    standards : sequence of {'iso14521', 'bs721', 'agma6034'}
+        Which to apply.
+    capacity : bool
+        Whether stresses and safeties by ISO/TR 14521 are wanted beside the efficiency.
+    folder : path, optional
+        Where a relative file name among the options starts.
+    **values : array_like
+        What is varied, in SI, by the names of the case file: ``starts``, ``wheel_teeth``,
+        ``centre_distance``, ``axial_module``, ``diameter_factor``, ``profile_shift``,
+        ``pressure_angle``, ``worm_roughness``; ``worm_speed``, ``output_torque``;
+        ``base_friction``, ``friction``, ``friction_factor``; and ``gear_ratio``, which varies the
+        teeth of the wheel without rounding them. Shapes broadcast. See `asperity.rating.varied`
+        for which of the geometry's numbers follows.
+
+    Returns
+    -------
+    Variants
+        Arrays by standard and key, with NaN where a formula has no answer, and the reasons. A
+        standard that cannot be applied to any variant is left out, and the notes say why.
+
+    Raises
+    ------
+    InputError
+        Names and shapes that do not fit, or the only standard asked for cannot be applied at all.
+    """
+    options = options or RatingOptions()
+    given, impossible, shape = varied(gearset, operation, options, values)
+    wanted = known_standards(standards)
+    found: dict[str, Any] = {}
+    masks, notes = {}, []
+    for name in wanted:
+        apply = impossible.copy()
+        try:
+            numbers = _calculate(name, given, apply, capacity, folder)
+        except InputError as error:
+            if len(wanted) == 1:
+                raise
+            notes.append(f"{name}: {error}")
+            continue
+        masks[name] = apply
+        found |= {f"{name}.{key}": value for key, value in numbers.items()}
+    return Variants(shape, given, tuple(notes), impossible.reason != 0, found, masks)
+
+
+def _calculate(
+    name: str, given: Inputs, apply: Masking, capacity: bool, folder: Path | None
+) -> dict[str, Any]:
+    if name == "iso14521":
+        numbers = by_iso14521.rated_efficiency(given, apply)
+        return by_iso14521.rated_capacity(given, apply, numbers) if capacity else numbers
+    if name == "bs721":
+        return by_bs721.rated(given, apply, tables_of(given.options, folder))[0]
+    return by_agma6034.rated(given, apply)
