@@ -170,7 +170,8 @@ class Rating:
             ("assumed, give them to replace the defaults", [e for e in self.entries if e.assumed]),
         ):
             if marked:
-                remarks.append(f"{words}: {', '.join(entry.symbol for entry in marked)}")
+                names = ", ".join(entry.symbol or entry.key for entry in marked)
+                remarks.append(f"{words}: {names}")
         return (*remarks, *self.notes)
 
     def to_json(self) -> dict[str, Any]:
