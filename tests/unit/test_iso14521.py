@@ -345,6 +345,21 @@ def test_the_chain_masks_each_gearset_with_its_reason():
     assert answer.efficiency[0] == pytest.approx(iso.chain(**GEARSET).efficiency, rel=1e-13)
 
 
+@pytest.mark.parametrize("place", ["centre_distance", "profile_shift"])
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1e300, 1e300])
+def test_nonsense_in_any_number_of_the_chain_is_masked(place, wrong):
+    shape = {k: v for k, v in GEARSET.items() if isinstance(v, float | int)}
+    rest = {"material": "CuSn12-C-GZ", "base_oil": "polyglycol", "on_invalid": "mask"}
+    if place == "profile_shift":
+        shape = {**shape, "profile_shift": -0.1}
+        del shape["centre_distance"]
+    for name, value in shape.items():
+        answer = iso.chain(**{**shape, name: np.array([value, wrong])}, **rest)
+        assert answer.reason[0] == 0 < answer.reason[1]
+        assert answer.legend[int(answer.reason[1])].startswith(f"{name} is not allowed")
+        assert np.isnan(answer.total_efficiency).tolist() == [False, True]
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

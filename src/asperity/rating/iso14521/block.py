@@ -68,7 +68,8 @@ def _refuse(
             # As for a single number, the message comes from the formula's own machinery.
             evaluate(lambda value: value, dataclasses.replace(argument, value=values))
         reason = np.where((reason == 0) & outside, code, reason).astype(np.int8)
-    d_m1, a = _diameter_and_distance(block)
+    with np.errstate(invalid="ignore"):
+        d_m1, a = _diameter_and_distance(block)
     if np.any((2.0 * a <= d_m1) & (reason == 0)):
         if not masking:
             where = np.argmax(np.broadcast_to(2.0 * a <= d_m1, size))
@@ -86,11 +87,11 @@ def _refuse(
 
 
 def _diameter_and_distance(block: Mapping[str, Any]) -> tuple[Any, Any]:
-    m, q, z2 = block["axial_module"], block["diameter_factor"], block["wheel_teeth"]
-    d_m1 = relations.worm_pitch_diameter(m, q)
+    # Not by gearset.relations, which take no nonsense: here it is yet to be sorted out.
+    m, q = block["axial_module"], block["diameter_factor"]
     if "centre_distance" in block:
-        return d_m1, block["centre_distance"]
-    return d_m1, relations.centre_distance(m, q, z2, block["profile_shift"])
+        return q * m, block["centre_distance"]
+    return q * m, 0.5 * m * (q + block["wheel_teeth"] + 2.0 * block["profile_shift"])
 
 
 def follow(
