@@ -17,6 +17,7 @@ from asperity.rating.givens import assumptions
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
+from asperity.rating.self_locking import SelfLocking, self_locking
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
 """The standards, by the name they have in results."""
@@ -34,6 +35,8 @@ class Rated:
         What follows from its numbers.
     iso14521, bs721, agma6034 : Rating or None
         Its rating by each standard; None if it was not asked for or cannot be applied.
+    self_locking : SelfLocking
+        Whether the worm locks itself, by the friction of each of them.
     notes : tuple of str
         Why a standard could not be applied.
     assumed : mapping of str to str
@@ -45,6 +48,7 @@ class Rated:
     iso14521: Rating | None
     bs721: Rating | None
     agma6034: Rating | None
+    self_locking: SelfLocking
     notes: tuple[str, ...]
     assumed: Mapping[str, str]
 
@@ -61,6 +65,7 @@ class Rated:
             "name": self.gearset.name,
             "geometry": self.geometry.to_json(),
             **{name: rating and rating.to_json() for name, rating in ratings.items()},
+            "self_locking": self.self_locking.to_json(),
             "assumed": dict(self.assumed),
             "notes": list(self.notes),
         }
@@ -104,11 +109,12 @@ def rate(
     options = options or RatingOptions()
     wanted = known_standards(standards)
     given = inputs(gearset.require_consistent(), operation, options)
+    tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
     notes = []
     for name in wanted:
         try:
-            found[name] = _rate(name, given, folder)
+            found[name] = _rate(name, given, tables)
         except InputError as error:
             if len(wanted) == 1:
                 raise
@@ -117,6 +123,7 @@ def rate(
         gearset=gearset,
         geometry=gearset.geometry,
         **{name: found.get(name) for name in STANDARDS},
+        self_locking=self_locking(given, found, tables),
         notes=tuple(notes),
         assumed=assumptions(given),
     )
@@ -148,9 +155,9 @@ def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
     return tuple(name for name in STANDARDS if name in standards)
 
 
-def _rate(name: str, given: Inputs, folder: Path | None) -> Rating:
+def _rate(name: str, given: Inputs, tables: bs721.Tables) -> Rating:
     if name == "iso14521":
         return rate_iso14521(given)
     if name == "bs721":
-        return rate_bs721(given, tables_of(given.options, folder))
+        return rate_bs721(given, tables)
     return rate_agma6034(given)
