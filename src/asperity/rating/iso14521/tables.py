@@ -95,7 +95,9 @@ def _row(table: str, family: str, lubrication: str, base_oil: str) -> dict[str, 
 
 
 @functools.cache
-def friction_constants(family: Family, lubrication: Lubrication, base_oil: BaseOilName) -> Any:
+def friction_constants(
+    family: Family, lubrication: Lubrication, base_oil: BaseOilName
+) -> FrictionConstants:
     """Return the `FrictionConstants` of a wheel's material under a lubricant.
 
     Raises
@@ -107,7 +109,9 @@ def friction_constants(family: Family, lubrication: Lubrication, base_oil: BaseO
 
 
 @functools.cache
-def wear_constants(family: Family, lubrication: Lubrication, base_oil: BaseOilName) -> Any:
+def wear_constants(
+    family: Family, lubrication: Lubrication, base_oil: BaseOilName
+) -> WearConstants:
     """Return the `WearConstants` of a wheel's material under a lubricant.
 
     Raises
