@@ -5,7 +5,6 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from asperity.errors import InputError
 from asperity.rating.formula import FloatArray
@@ -81,6 +80,9 @@ def _scaled(
 def _limits(
     formula: Callable[..., FloatArray], gearset: Mapping[str, float]
 ) -> dict[str, _Limit | None]:
+    # Here, because loading it takes longer than all else that a command line needs.
+    from scipy.optimize import brentq
+
     steps = np.linspace(0.0, np.log(5.0), 400)
     limits: dict[str, _Limit | None] = {}
     for name in _SHOWN:
