@@ -1,0 +1,219 @@
+import dataclasses
+import math
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.errors import AsperityError, InputError
+from asperity.friction import Friction
+from asperity.slider import TABLES, Model, Slider, Solve, Stopped, solve, solve_many
+from asperity.slider.lanes import BLOCK, LANES
+from asperity.vibration import Vibration
+
+LAWS = ["split", "unsplit", "vector"]
+WAVES = {
+    "sine": {"waveform": "sine"},
+    "triangle": {"waveform": "triangle"},
+    "square": {"waveform": "square", "rise_time": 4e-5},
+}
+
+
+def body(slider=None, friction=None, vibration=None, **solve_entries):
+    slider = {"drive_velocity": 0.5e-3, "normal_force": 50.0} | (
+        {"drive_stiffness": 1e5, "mass": 0.5} if slider is None else slider
+    )
+    friction = {"mu": 0.1, "max_deflection": 7e-8, "law": "split", "transfer": 0.71} | (
+        friction or {}
+    )
+    vibration = {"frequency": 4e3, "velocity_ratio": 6.0, "start": 0.01} | (vibration or {})
+    amplitudes = "velocity_amplitude", "displacement_amplitude"
+    if any(name in vibration for name in amplitudes):
+        del vibration["velocity_ratio"]
+    solver = Solve(**{"step": 1e-6, "duration": 0.03} | solve_entries)
+    return Model(Slider(**slider), Friction(**friction), Vibration(**vibration), solver)
+
+
+def assert_same(answer, alone):
+    assert answer.model is alone.model
+    scale = alone.static_drive_force
+    for name in ("ratio", "residual"):
+        assert getattr(answer, name) == pytest.approx(getattr(alone, name), abs=1e-9)
+    for name in ("friction_mean", "friction_max", "friction_min"):
+        assert getattr(answer, name) == pytest.approx(getattr(alone, name), abs=1e-9 * scale)
+    for name in ("breakaway_time", "steps", "cycles", "substeps", "notes"):
+        assert getattr(answer, name) == getattr(alone, name)
+    powers = dataclasses.asdict(alone.ledger)
+    rounding = 1e-9 * max(abs(power) for power in powers.values())
+    assert dataclasses.asdict(answer.ledger) == pytest.approx(powers, abs=rounding)
+    if answer.model.solve.scheme == "exponential":
+        assert answer.ledger.residual < 1e-6
+    assert answer.history is None
+
+
+def assert_all_same(models):
+    answers = solve_many(models)
+    assert len(answers) == len(models)
+    for model, answer in zip(models, answers, strict=True):
+        assert_same(answer, solve(model, history=False))
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("applied_to", ["base", "body"])
+def test_bodies_side_by_side_answer_as_each_alone(law, applied_to):
+    rng = np.random.default_rng(3)
+    models = [
+        body(
+            friction={"law": law, "max_deflection": rng.uniform(3e-8, 2e-7)},
+            vibration={
+                "velocity_ratio": 10.0 ** rng.uniform(-0.5, 1.3),
+                "direction": rng.uniform(0.0, 2.0 * math.pi),
+                "applied_to": applied_to,
+            },
+            step=2.5e-7,
+        )
+        for _ in range(LANES)
+    ]
+    assert_all_same(models)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, LANES - 1, LANES, LANES + 1, 2 * LANES + 5])
+def test_any_number_of_bodies_may_march(count):
+    directions = np.linspace(0.0, math.pi, count)
+    assert_all_same([body(vibration={"direction": d}, duration=0.02) for d in directions])
+
+
+def test_nothing_to_march_is_no_trouble():
+    assert solve_many([]) == []
+
+
+def test_different_frequencies_and_starts_share_a_batch():
+    models = [
+        body(vibration={"frequency": f, "start": start, "direction": 0.5})
+        for f in (2.0e3, 3.1e3, 4.0e3)
+        for start in (0.0, 1.2345e-3, 0.01)
+    ]
+    assert_all_same(models)
+
+
+def test_different_waveforms_share_a_batch():
+    models = [body(vibration={"direction": d, **WAVES[w]}) for d in (0.0, 1.0) for w in WAVES]
+    assert_all_same(models)
+
+
+def test_sampled_waveforms_march_side_by_side(tmp_path):
+    models = []
+    for n in range(3):
+        turn = np.linspace(0.0, 2.0 * math.pi, 41)
+        wave = np.sin(turn) + 0.1 * n * np.sin(2.0 * turn)
+        rows = zip((turn / turn[-1] * 2.5e-4).tolist(), wave.tolist(), strict=True)
+        path = tmp_path / f"{n}.csv"
+        path.write_text("\n".join(f"{t!r},{u!r}" for t, u in rows))
+        models.append(body(vibration={"waveform": "sampled", "frequency": None, "samples": path}))
+    assert_all_same(models)
+
+
+def test_rigid_and_compliant_guided_and_free_bodies_share_a_batch():
+    kinds = [
+        {},
+        {"mass": 2.0},
+        {"mass": 2.0, "lateral": "guided"},
+        {"drive_stiffness": 1e5, "mass": 2.0},
+        {"drive_stiffness": 1e4, "mass": 0.5, "lateral": "guided"},
+    ]
+    assert_all_same([body(slider=kind, vibration={"direction": 0.7}) for kind in kinds])
+
+
+def test_a_body_without_vibration_marches_with_the_others():
+    still = body(vibration={"velocity_ratio": 0.0})
+    bare = Model(still.slider, still.friction, None, still.solve)
+    assert_all_same([still, bare, body(), body(vibration={"direction": 1.0})])
+
+
+def test_every_amplitude_gives_the_same_body():
+    ratio = body()
+    velocity = body(vibration={"velocity_amplitude": 3e-3})
+    displacement = body(vibration={"displacement_amplitude": 3e-3 / (2.0 * math.pi * 4e3)})
+    answers = solve_many([ratio, velocity, displacement])
+    assert answers[1].ratio == pytest.approx(answers[0].ratio, rel=1e-12)
+    assert answers[2].ratio == pytest.approx(answers[0].ratio, rel=1e-12)
+
+
+def test_what_the_lanes_cannot_take_is_solved_alone_in_its_place():
+    models = [
+        body(),
+        body(friction={"model": "coulomb", "max_deflection": None}),
+        body(friction={"exponent": 2.0}),
+        body(friction={"model": "lugre", "contact_damping": 10.0}),
+        body(slider={"drive_stiffness": 1e5, "mass": 0.5, "drive_damping": 30.0}),
+        body(method="periodic"),
+        body(scheme="two-phase"),
+        body(vibration={"direction": 1.0}),
+    ]
+    assert_all_same(models)
+
+
+def test_a_body_that_cannot_be_solved_leaves_its_error_in_its_place():
+    models = [
+        body(),
+        body(step=1e-4),
+        body(vibration={"direction": 1.0}),
+        body(duration=0.0101),
+        body(scheme="two-phase", step=1.2e-5, vibration={"velocity_ratio": 30.0}),
+    ]
+    answers = solve_many(models)
+    refused = [isinstance(answer, AsperityError) for answer in answers]
+    assert refused == [False, True, False, True, True]
+    assert "too coarse" in str(answers[1])
+    assert "solve.duration" in str(answers[3])
+    assert "unstable" in str(answers[4])
+    assert all(isinstance(answers[n], InputError) for n in (1, 3, 4))
+    assert_same(answers[2], solve(models[2], history=False))
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_mirror_image_of_a_direction_is_exact_in_a_batch(law):
+    directions = np.radians(np.arange(0.0, 181.0, 15.0))
+    settings = [f"friction.law={law}", "solve.duration=0.3 s"]
+    base = read_case("table-4.4", TABLES, settings)
+
+    def models(sign):
+        return [
+            Model.from_case(base.replace_values({"vibration.direction": sign * direction}))
+            for direction in directions
+        ]
+
+    pairs = zip(solve_many(models(1.0)), solve_many(models(-1.0)), strict=True)
+    for here, there in pairs:
+        assert there.ratio == pytest.approx(here.ratio, abs=1e-9)
+        assert there.friction_mean[1] == pytest.approx(-here.friction_mean[1], abs=1e-9)
+
+
+def test_a_batch_that_is_told_to_stop_stops_between_blocks():
+    stop = np.zeros(1, dtype=np.int64)
+    models = [body(duration=60.0, vibration={"direction": d}) for d in (0.0, 0.5, 1.0)]
+    timer = threading.Timer(0.3, stop.fill, (1,))
+    solve_many([body(duration=0.02), body(duration=0.02, vibration={"direction": 1.0})])
+    began = time.perf_counter()
+    timer.start()
+    with pytest.raises(Stopped):
+        solve_many(models, stop=stop)
+    assert time.perf_counter() - began < 0.3 + 5.0
+    timer.join()
+
+
+def test_a_march_of_no_whole_number_of_blocks_ends_with_a_short_one():
+    steps = 3 * BLOCK + 1
+    frequency = 4e3
+    duration = steps / (64 * frequency)
+    models = [
+        body(
+            vibration={"start": 0.0, "direction": d, "velocity_ratio": 1.5},
+            step=1.0 / (64 * frequency), duration=duration, friction={"max_deflection": 2e-6},
+        )
+        for d in (0.1, 0.9)
+    ]  # fmt: skip
+    assert solve(models[0]).steps == steps
+    assert_all_same(models)
