@@ -8,7 +8,7 @@ import pytest
 
 from asperity.store import read_dataset
 from asperity.thesis import run
-from asperity.thesis.figures import FIGURES
+from asperity.thesis.contents import CLAIMS, FIGURES, TABLES
 
 
 @pytest.fixture(scope="module")
@@ -180,12 +180,12 @@ def test_a_second_run_finds_everything_and_says_so(result):
     again = run(result.index.parent, progress=lines.append)
     assert all(files.reused for files in again.figures)
     assert [entry.to_json() for entry in again.claims] == [e.to_json() for e in result.claims]
-    assert len(lines) == len(FIGURES) + 8
+    assert len(lines) == len(FIGURES) + len(TABLES) + len(CLAIMS)
     assert all(line.endswith("there already") for line in lines)
 
 
 def test_the_result_is_plain_json(result):
     plain = json.loads(json.dumps(result.to_json(), allow_nan=False))
     assert plain["index"] == str(result.index)
-    assert len(plain["claims"]) == 8
+    assert len(plain["claims"]) == len(CLAIMS)
     assert plain["figures"][0]["number"] == "2.7"

@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError
-from asperity.thesis import reproduce
-from asperity.thesis.figures import FIGURES, figure_2_7, figure_2_14, figure_2_15, select
+from asperity.thesis import contents, files
+from asperity.thesis.contents import FIGURES, TABLES, select
+from asperity.thesis.figures_sliding import figure_2_7, figure_2_14, figure_2_15
 from asperity.thesis.reproduce import run
 
 
@@ -20,24 +21,26 @@ def counted(monkeypatch):
         return figure.__class__(figure.number, figure.title, figure.caption, figure.cases, make)
 
     few = {number: counting(FIGURES[number]) for number in ("2.7", "2.14")}
-    monkeypatch.setattr("asperity.thesis.figures.FIGURES", few)
-    monkeypatch.setattr(reproduce, "FIGURES", few)
+    monkeypatch.setattr(contents, "FIGURES", few)
     return made
 
 
 def test_every_figure_asked_for_is_there():
     assert list(FIGURES) == [
-        "2.7", "2.14", "2.15", "4.3", "4.4", "4.17", "4.18", "4.19", "4.20", "4.21", "4.22", "4.23",
+        "2.7", "2.14", "2.15", "3.1", "3.2", "3.3", "3.4", "3.5", "4.3", "4.4", "4.17", "4.18",
+        "4.19", "4.20", "4.21", "4.22", "4.23",
     ]  # fmt: skip
 
 
 def test_figures_are_selected_by_number_in_the_order_of_the_thesis():
-    assert [figure.number for figure in select(["4.17", "2.7"])] == ["2.7", "4.17"]
-    assert len(select([])) == len(FIGURES)
+    figures, tables = select(["4.17", "2.7"])
+    assert [figure.number for figure in figures] == ["2.7", "4.17"]
+    assert tables == []
+    assert [len(exhibits) for exhibits in select([])] == [len(FIGURES), len(TABLES)]
 
 
 def test_an_unknown_figure_is_refused_with_the_nearest():
-    with pytest.raises(InputError, match=r"figure '4\.177' .*\(did you mean '4\.17'\?\)"):
+    with pytest.raises(InputError, match=r"'4\.177' is neither .*\(did you mean '4\.17'\?\)"):
         select(["4.177"])
 
 
@@ -84,7 +87,7 @@ def test_a_damaged_file_is_made_again(tmp_path, counted, harm):
 
 def test_a_figure_of_other_sources_is_made_again(tmp_path, counted, monkeypatch):
     run(tmp_path, ["2.7"])
-    monkeypatch.setattr(reproduce, "source_hash", lambda: "changed")
+    monkeypatch.setattr(files, "source_hash", lambda: "changed")
     assert not run(tmp_path, ["2.7"]).figures[0].reused
     assert counted == ["2.7", "2.7"]
 

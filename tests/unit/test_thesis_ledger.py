@@ -5,7 +5,7 @@ import pytest
 
 from asperity.thesis import report
 from asperity.thesis.bodies import Body, Sweep
-from asperity.thesis.claims import CLAIMS, drive_stiffness
+from asperity.thesis.claims_sliding import CLAIMS, drive_stiffness
 from asperity.thesis.ledger import Claim, Entry, Finding, settle
 
 
@@ -88,6 +88,6 @@ def test_symbols_are_set_and_everything_else_is_escaped():
 
 
 def test_a_page_without_ledger_and_figures_says_how_to_get_them():
-    page = report.render((), (), "0.0")
+    page = report.render((), (), (), "0.0")
     assert "asperity thesis" in page
     assert "✓" not in page

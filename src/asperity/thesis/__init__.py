@@ -1,5 +1,6 @@
-"""The thesis reproduced: its claims as a ledger, its figures, and a page that shows both."""
+"""The thesis reproduced: its claims as a ledger, figures, tables, and a page that shows them."""
 
-from asperity.thesis.reproduce import FigureFiles, ThesisResult, run
+from asperity.thesis.files import FigureFiles, TableFiles
+from asperity.thesis.reproduce import ThesisResult, run
 
-__all__ = ["FigureFiles", "ThesisResult", "run"]
+__all__ = ["FigureFiles", "TableFiles", "ThesisResult", "run"]

@@ -1,40 +1,81 @@
-"""The page: one HTML file that holds the ledger, the pictures and how each number was made."""
+"""The page: one HTML file that holds ledger, pictures and tables, and how each number was made."""
 
 import base64
+import dataclasses
 import importlib.metadata
 import platform
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from asperity.thesis.contents import CHAPTERS, Chapter, chapter_of
+from asperity.thesis.exhibits import Cell
+from asperity.thesis.files import FigureFiles, TableFiles
 from asperity.thesis.ledger import Entry
-
-if TYPE_CHECKING:
-    from asperity.thesis.reproduce import FigureFiles
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 _TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
-def render(claims: Sequence[Entry], figures: "Sequence[FigureFiles]", version: str) -> str:
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """A chapter with what is shown of it."""
+
+    chapter: Chapter
+    claims: list[Entry]
+    figures: list[FigureFiles]
+    tables: list[TableFiles]
+
+    @property
+    def differ(self) -> int:
+        """How many of its claims do not hold."""
+        return sum(entry.finding.verdict == "differs" for entry in self.claims)
+
+
+def render(
+    claims: Sequence[Entry],
+    figures: Sequence[FigureFiles],
+    tables: Sequence[TableFiles],
+    version: str,
+) -> str:
     """Return the page as text, pictures included."""
     import jinja2
 
     environment = jinja2.Environment(
         autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    environment.filters["typeset"] = typeset
+    environment.filters |= {"typeset": typeset, "shown": shown}
     template = environment.from_string(_TEMPLATE.read_text("utf-8"))
     versions = {"asperity": version, "Python": platform.python_version()}
     versions |= {name: importlib.metadata.version(name) for name in _PACKAGES}
+    parts = [
+        Part(
+            chapter,
+            [entry for entry in claims if chapter_of(entry.id) == chapter.number],
+            [figure for figure in figures if chapter_of(figure.number) == chapter.number],
+            [table for table in tables if chapter_of(table.number) == chapter.number],
+        )
+        for chapter in CHAPTERS
+    ]
     return template.render(
-        claims=claims,
+        parts=[part for part in parts if part.claims or part.figures or part.tables],
+        claimed=len(claims),
         reproduced=sum(entry.finding.verdict == "reproduced" for entry in claims),
-        figures=figures,
         pictures={figure.number: _data(figure.picture) for figure in figures},
         versions=versions,
     )
+
+
+def shown(cell: Cell) -> Any:
+    """Return a cell of a table as HTML: a number to five digits, a text with its symbols set.
+
+    Examples
+    --------
+    >>> print(shown(1.390279), shown(60), shown("m_x1"))
+    1.3903 60 m<sub>x1</sub>
+    """
+    return f"{cell:.5g}" if isinstance(cell, float) else typeset(str(cell))
 
 
 def typeset(text: str) -> Any:

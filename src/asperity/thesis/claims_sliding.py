@@ -107,7 +107,7 @@ def _digitised_stiffness() -> Finding:
             "ratio_at_stiffness_from_mean_force": ratio,
         },
         [
-            "asperity.thesis.claims.drive_stiffness, on the points of 4.3.1",
+            "asperity.thesis.claims_sliding.drive_stiffness, on the points of 4.3.1",
             body.command,
             other.command,
         ],

@@ -1,4 +1,4 @@
-"""The pictures of the thesis's figures, each drawn from its dataset alone."""
+"""The pictures of the sliding body's figures, each drawn from its dataset alone."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""The thesis's figures, each a few lines over the slider; the drawing is in `drawings`."""
+"""Figures of chapters 2 and 4, each a few lines over the slider; drawn by `drawings_sliding`."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -6,52 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.errors import InputError, nearest
 from asperity.slider import Model, SlideResult
 from asperity.slider.closed_forms import dahl_from_rest, longitudinal_ratio, transverse_ratio
-from asperity.thesis import drawings
+from asperity.thesis import drawings_sliding as drawings
 from asperity.thesis.bodies import PERIODIC, TWO_PHASE, Body, Sweep
-from asperity.thesis.claims import ALL_AROUND, DIRECTION, LUGRE, MARKED, PLOTTED, RATIO
+from asperity.thesis.claims_sliding import ALL_AROUND, DIRECTION, LUGRE, MARKED, PLOTTED, RATIO
+from asperity.thesis.exhibits import Drawn, FigureOf, labelled
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
 _DENSE = "0.1:20:0.1"
 _SCHEMES = ("exponential", "two-phase")
 _CLOSED = "asperity.slider.closed_forms"
-
-
-@dataclasses.dataclass(frozen=True)
-class Drawn:
-    """A figure, the numbers in it, and the commands and functions that give them."""
-
-    figure: "Figure"
-    dataset: "xr.Dataset"
-    how: Sequence[str]
-
-
-@dataclasses.dataclass(frozen=True)
-class FigureOf:
-    """A figure of the thesis: its number, what it shows, the cases it uses, and how to make it."""
-
-    number: str
-    title: str
-    caption: str
-    cases: tuple[str, ...]
-    make: Callable[[], Drawn]
-
-
-def _dataset(**variables: tuple[tuple[str, ...], Any, str, str]) -> "xr.Dataset":
-    """Variables given as (dimensions, values, units, long name); a dimension's own is a coord."""
-    import xarray as xr
-
-    labelled = {
-        name: (dims, values, {"units": units, "long_name": long_name})
-        for name, (dims, values, units, long_name) in variables.items()
-    }
-    dimensions = {dim for dims, *_ in variables.values() for dim in dims}
-    return xr.Dataset(labelled).set_coords(sorted(dimensions & set(labelled)))
 
 
 def _side_by_side(
@@ -99,7 +66,7 @@ def figure_2_7() -> Drawn:
     exponents = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
     x = np.linspace(0.0, 4.0 * s_max, 401)
     values = dahl_from_rest(x, force, s_max, exponents[:, None])
-    dataset = _dataset(
+    dataset = labelled(
         displacement=(("displacement",), x, "m", "displacement"),
         exponent=(("exponent",), exponents, "1", "Dahl's exponent"),
         force=(("exponent", "displacement"), values, "N", "friction force"),
@@ -166,7 +133,7 @@ def _over_ratio(case: str, laws: Sequence[str], closed: Callable[[Any], Any]) ->
     two_phase = Sweep(case, ((RATIO, MARKED),), (TWO_PHASE,))
     settled = [Sweep(case, ((RATIO, _DENSE),), (PERIODIC, f"friction.law={law}")) for law in laws]
     dense = settled[0].values()
-    dataset = _dataset(
+    dataset = labelled(
         k=(("k",), dense, "1", "velocity ratio v_a/v_d"),
         k_marched=(("k_marched",), marched.values(), "1", "velocity ratio v_a/v_d, marched"),
         law=(("law",), np.array(laws, dtype=object), "1", "relaxation law"),
@@ -236,7 +203,7 @@ def figure_4_23() -> Drawn:
     marched = Sweep("table-4.4", axes)
     settled = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, "0:360:3")), (PERIODIC,))
     lugre = Sweep("table-4.4", ((RATIO, "2,20"), (DIRECTION, ALL_AROUND)), LUGRE)
-    dataset = _dataset(
+    dataset = labelled(
         k=(("k",), marched.values(), "1", "velocity ratio v_a/v_d"),
         theta=(("theta",), marched.values(1), "deg", "direction of vibration"),
         theta_dense=(("theta_dense",), settled.values(1), "deg", "direction of vibration, line"),
@@ -251,91 +218,78 @@ def figure_4_23() -> Drawn:
 
 _LINES = "Exponential scheme (full line) and two-phase scheme (dashed)"
 
-FIGURES = {
-    figure.number: figure
-    for figure in (
-        FigureOf(
-            "2.7", "Dahl's friction force from rest",
-            "The exponent sets how the contact yields: 0 is elastic up to the full force, 2 creeps "
-            "towards it. Full force and deflection limit of Table 4.3.",
-            (), figure_2_7,
-        ),
-        FigureOf(
-            "2.14", "Rigid friction in a cycle of longitudinal vibration",
-            "While the base outruns the body, friction pushes the body forward. The thesis gives "
-            "no numbers; those of simulation L2 are used, with v_a = 2 v_d.",
-            ("table-4.1-L2",), figure_2_14,
-        ),
-        FigureOf(
-            "2.15", "Dahl friction in a cycle of longitudinal vibration",
-            "At 4 kHz and v_a = 0.75 mm/s against v_d = 0.5 mm/s the asperities give way before "
-            "the force can turn: it falls, but keeps its sign. The thesis gives no other numbers; "
-            "those of Table 4.3 are used, with its compliant drive and with a rigid one.",
-            ("table-4.3", "table-4.1-L4"), figure_2_15,
-        ),
-        FigureOf(
-            "4.3", "Rigid drive, vibration slower than the drive",
-            "Simulations L1 (rigid friction) and L3 (asperities): the drive force stays at "
-            "mu F_N once the asperities are stretched.",
-            ("table-4.1-L1", "table-4.1-L3"), figure_4_3,
-        ),
-        FigureOf(
-            "4.4", "Rigid drive, vibration faster than the drive",
-            "Simulations L2 (rigid friction) and L4, L5, L6 with softer and softer asperities, "
-            "from rest; L6 has not settled yet at the end.",
-            ("table-4.1-L2", "table-4.1-L4", "table-4.1-L5", "table-4.1-L6"), figure_4_4,
-        ),
-        FigureOf(
-            "4.17", "Longitudinal vibration: what is left of the drive force",
-            "Table 4.3. Line: periodic states; markers: 1 s marched with either scheme; dashed: "
-            "rigid friction and rigid drive.",
-            ("table-4.3",), figure_4_17,
-        ),
-        FigureOf(
-            "4.18", "Drive force when longitudinal vibration sets in, k = 6",
-            f"Table 4.3. {_LINES}. The last millisecond, enlarged, shows the undulation that the "
-            "two-phase scheme puts into the drive force by stretching the drive with the base's "
-            "motion; it is not physical.",
-            ("table-4.3",), figure_4_18,
-        ),
-        FigureOf(
-            "4.19", "Friction under longitudinal vibration, k = 6",
-            f"Table 4.3, two cycles at the end of the march. {_LINES}.",
-            ("table-4.3",), figure_4_19,
-        ),
-        FigureOf(
-            "4.20", "Transverse vibration: what is left of the drive force",
-            "Table 4.4. Lines: periodic states of the three relaxation laws; markers: 1 s marched "
-            "with law split and either scheme; dotted: rigid friction and rigid drive with the "
-            "transferred part of the vibration, eta_y k.",
-            ("table-4.4",), figure_4_20,
-        ),
-        FigureOf(
-            "4.21", "Drive force when transverse vibration sets in, k = 20",
-            f"Table 4.4. {_LINES}. Enlarged: the last millisecond.",
-            ("table-4.4",), figure_4_21,
-        ),
-        FigureOf(
-            "4.22", "Friction under transverse vibration, k = 20",
-            f"Table 4.4, two cycles at the end of the march. {_LINES}. Along the drive the force "
-            "changes in size, across it in size and sign.",
-            ("table-4.4",), figure_4_22,
-        ),
-        FigureOf(
-            "4.23", "What is left of the drive force in every direction of vibration",
-            "Table 4.4. Lines: periodic states; filled markers: 25 directions marched for 1 s; "
-            "open diamonds: LuGre friction without damping and Stribeck terms, at k = 2 and 20.",
-            ("table-4.4",), figure_4_23,
-        ),
-    )
-}  # fmt: skip
-
-
-def select(only: Sequence[str]) -> list[FigureOf]:
-    """Return the figures of some numbers, all for none; raises InputError for an unknown one."""
-    for number in only:
-        if number not in FIGURES:
-            raise InputError(
-                f"figure {number!r} is not one of the thesis's{nearest(number, FIGURES)}"
-            )
-    return [figure for number, figure in FIGURES.items() if not only or number in only]
+FIGURES = (
+    FigureOf(
+        "2.7", "Dahl's friction force from rest",
+        "The exponent sets how the contact yields: 0 is elastic up to the full force, 2 creeps "
+        "towards it. Full force and deflection limit of Table 4.3.",
+        (), figure_2_7,
+    ),
+    FigureOf(
+        "2.14", "Rigid friction in a cycle of longitudinal vibration",
+        "While the base outruns the body, friction pushes the body forward. The thesis gives "
+        "no numbers; those of simulation L2 are used, with v_a = 2 v_d.",
+        ("table-4.1-L2",), figure_2_14,
+    ),
+    FigureOf(
+        "2.15", "Dahl friction in a cycle of longitudinal vibration",
+        "At 4 kHz and v_a = 0.75 mm/s against v_d = 0.5 mm/s the asperities give way before "
+        "the force can turn: it falls, but keeps its sign. The thesis gives no other numbers; "
+        "those of Table 4.3 are used, with its compliant drive and with a rigid one.",
+        ("table-4.3", "table-4.1-L4"), figure_2_15,
+    ),
+    FigureOf(
+        "4.3", "Rigid drive, vibration slower than the drive",
+        "Simulations L1 (rigid friction) and L3 (asperities): the drive force stays at "
+        "mu F_N once the asperities are stretched.",
+        ("table-4.1-L1", "table-4.1-L3"), figure_4_3,
+    ),
+    FigureOf(
+        "4.4", "Rigid drive, vibration faster than the drive",
+        "Simulations L2 (rigid friction) and L4, L5, L6 with softer and softer asperities, "
+        "from rest; L6 has not settled yet at the end.",
+        ("table-4.1-L2", "table-4.1-L4", "table-4.1-L5", "table-4.1-L6"), figure_4_4,
+    ),
+    FigureOf(
+        "4.17", "Longitudinal vibration: what is left of the drive force",
+        "Table 4.3. Line: periodic states; markers: 1 s marched with either scheme; dashed: "
+        "rigid friction and rigid drive.",
+        ("table-4.3",), figure_4_17,
+    ),
+    FigureOf(
+        "4.18", "Drive force when longitudinal vibration sets in, k = 6",
+        f"Table 4.3. {_LINES}. The last millisecond, enlarged, shows the undulation that the "
+        "two-phase scheme puts into the drive force by stretching the drive with the base's "
+        "motion; it is not physical.",
+        ("table-4.3",), figure_4_18,
+    ),
+    FigureOf(
+        "4.19", "Friction under longitudinal vibration, k = 6",
+        f"Table 4.3, two cycles at the end of the march. {_LINES}.",
+        ("table-4.3",), figure_4_19,
+    ),
+    FigureOf(
+        "4.20", "Transverse vibration: what is left of the drive force",
+        "Table 4.4. Lines: periodic states of the three relaxation laws; markers: 1 s marched "
+        "with law split and either scheme; dotted: rigid friction and rigid drive with the "
+        "transferred part of the vibration, eta_y k.",
+        ("table-4.4",), figure_4_20,
+    ),
+    FigureOf(
+        "4.21", "Drive force when transverse vibration sets in, k = 20",
+        f"Table 4.4. {_LINES}. Enlarged: the last millisecond.",
+        ("table-4.4",), figure_4_21,
+    ),
+    FigureOf(
+        "4.22", "Friction under transverse vibration, k = 20",
+        f"Table 4.4, two cycles at the end of the march. {_LINES}. Along the drive the force "
+        "changes in size, across it in size and sign.",
+        ("table-4.4",), figure_4_22,
+    ),
+    FigureOf(
+        "4.23", "What is left of the drive force in every direction of vibration",
+        "Table 4.4. Lines: periodic states; filled markers: 25 directions marched for 1 s; "
+        "open diamonds: LuGre friction without damping and Stribeck terms, at k = 2 and 20.",
+        ("table-4.4",), figure_4_23,
+    ),
+)  # fmt: skip

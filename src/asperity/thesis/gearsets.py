@@ -1,0 +1,64 @@
+"""Shipped gearsets that know the command that rates them."""
+
+import dataclasses
+import functools
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+from asperity.casefile import Case, Table, read_case
+from asperity.rating import STANDARDS, Rated, rate_case
+from asperity.rating.result import Rating
+from asperity.rating.tables import TABLES as RATING_TABLES
+from asperity.slider.tables import TABLES as SLIDER_TABLES
+
+CASE_TABLES: Mapping[str, type[Table]] = {
+    **SLIDER_TABLES,
+    **RATING_TABLES,
+}
+"""Every table of the cases the thesis is reproduced from."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Gear:
+    """A shipped case of a gearset with settings."""
+
+    case: str
+    settings: tuple[str, ...] = ()
+
+    def read(self) -> Case:
+        """The case."""
+        return read_case(self.case, CASE_TABLES, self.settings)
+
+    def rated(self) -> Rated:
+        """Its rating by all standards."""
+        return _rated(self)
+
+    def ratings(self) -> dict[str, Rating]:
+        """Its ratings by the name of the standard, all of which must apply."""
+        rated = self.rated()
+        ratings = {name: getattr(rated, name) for name in STANDARDS}
+        if rated.notes:
+            raise ValueError("; ".join(rated.notes))
+        return ratings
+
+    def number(self, standard: str, key: str) -> float:
+        """A number of its rating by a standard."""
+        value: Any = self.ratings()[standard][key]
+        return float(value)
+
+    def command(self, verb: str = "rate") -> str:
+        """The same on the command line."""
+        settings = [f"--set {shlex.quote(setting)}" for setting in self.settings]
+        return " ".join(["asperity", verb, self.case, *settings])
+
+
+@functools.cache
+def _rated(gear: Gear) -> Rated:
+    return rate_case(gear.read())
+
+
+GEARSET_2 = Gear("gearset-2")
+GEARSET_3 = Gear("gearset-3")
+GEARSETS = {"gearset 2": GEARSET_2, "gearset 3": GEARSET_3}
+"""The two of which enough survives."""
