@@ -103,7 +103,7 @@ def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
     assert kept(environment) > 0
 
 
-@pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:1", "http://127.0.0.1:80"])
+@pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:1"])
 def test_an_address_where_no_scheduler_answers_is_one_line(asperity, address):
     began = time.monotonic()
     code, output, errors = asperity(*SWEEP, "--cluster", address)

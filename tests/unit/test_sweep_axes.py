@@ -1,10 +1,11 @@
 """Axes of a grid from text."""
 
 import math
+from typing import ClassVar
 
 import pytest
 
-from asperity.casefile import read_case
+from asperity.casefile import Table, read_case
 from asperity.errors import InputError
 from asperity.slider import TABLES
 from asperity.sweep import parse_axes, read_grid
@@ -99,6 +100,16 @@ def test_a_grid_of_more_than_ten_million_points_is_refused(case):
     axes = ["vibration.velocity_ratio=1:5000:1", "vibration.direction=0:3600:1"]
     with pytest.raises(InputError, match="18005000 points; at most 10000000"):
         parse_axes(axes, case)
+
+
+def test_an_axis_of_a_table_that_the_sweep_does_not_use_is_refused():
+    class Oven(Table):
+        table: ClassVar[str] = "oven"
+
+        heat: float = 1.0
+
+    with pytest.raises(InputError, match=r"\[oven\] has no part in a sliding body; take one of"):
+        read_grid("table-4.3", {**TABLES, "oven": Oven}, [], ["oven.heat=1,2"])
 
 
 def test_an_axis_may_give_what_the_file_does_not(tmp_path):

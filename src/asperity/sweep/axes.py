@@ -9,7 +9,8 @@ from decimal import Decimal
 from typing import NoReturn
 
 from asperity.casefile import Case, Table, bare_unit, read_case, same_thing
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, choices, nearest
+from asperity.slider.tables import TABLES as SWEPT
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 MOST_POINTS = 10_000_000
@@ -160,6 +161,10 @@ def _split(text: str, tables: Mapping[str, type[Table]]) -> _Written:
     if name not in tables:
         raise InputError(
             f"--over {text}: [{name}] is not a table of a case file{nearest(name, tables)}"
+        )
+    if name not in SWEPT:
+        raise InputError(
+            f"--over {text}: [{name}] has no part in a sliding body; take one of {choices(SWEPT)}"
         )
     model = tables[name]
     if key not in model.model_fields:

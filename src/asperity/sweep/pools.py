@@ -142,7 +142,8 @@ class Cluster:
             ) from None
         if waits and not self._waits:
             self._notify(
-                f"no worker at {self._address}, waiting for one: dask worker {self._address}"
+                f"no worker at {self._address}; waiting for one that has asperity: dask worker "
+                f"{self._address}"
             )
         self._waits = waits
 
