@@ -1,86 +1,134 @@
 """Tables 3.2 to 3.7, as far as their inputs survive, each row with what the thesis says of it."""
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
-from asperity.rating.result import Rating
-from asperity.thesis.exhibits import Cell, Grid, TableOf
-from asperity.thesis.gearsets import GEARSET_2
-
-_STATED = "stated"
-_LOST = "lost"
+from asperity.rating.result import Entry
+from asperity.thesis.exhibits import Grid, TableOf
+from asperity.thesis.gearsets import GEARSET_2, GEARSETS, Gear
 
 
 class _Row(NamedTuple):
-    """A row: the standard and key of its number, what the thesis says, and where it is from."""
+    """A number of a rating, what survives of it in the thesis, and where the one here is from."""
 
     standard: str
     key: str
-    thesis: str
-    origin: str
+    thesis: str = "lost"
+    here: str = "computed"
+
+    def entry(self, gear: Gear) -> Entry:
+        return gear.ratings()[self.standard].entry(self.key)
 
 
-def _cells(ratings: Mapping[str, Rating], row: _Row) -> tuple[Cell, ...]:
-    entry = ratings[row.standard].entry(row.key)
-    return entry.symbol, entry.meaning, entry.value, entry.unit
-
-
-_COMPUTED = "computed"
-_FROM_ETA = "inferred from eta_z, with the other two of q1, m_x1 and c"
+_FROM_ETA = "inferred from eta_z, with the other two of q_1, m_x1 and a"
+_STAND_IN = "assumed: Table 6.9 is lost; without influence on efficiency"
 
 _TABLE_3_2 = (
-    _Row("iso14521", "centre_distance_mm", _LOST, _FROM_ETA),
-    _Row("iso14521", "gear_ratio", _LOST,
-         "inferred from where the calculation fails (3.2.3)"),
-    _Row("iso14521", "starts", "1", "stated (3.2.3)"),
-    _Row("iso14521", "wheel_teeth", _LOST, "inferred with the ratio"),
-    _Row("iso14521", "diameter_factor", _LOST, _FROM_ETA),
-    _Row("iso14521", "axial_module_mm", _LOST, _FROM_ETA),
-    _Row("iso14521", "pressure_angle_deg", _LOST, "assumed: the guideline of BS 721 (3.2.1)"),
-    _Row("iso14521", "worm_speed_rpm", _LOST, "assumed: that of gearset 3 (7.4.1)"),
-    _Row("iso14521", "worm_roughness_um", _LOST, "inferred for gearset 3, equal for all (3.3.4)"),
-    _Row("iso14521", "output_torque_Nm", _LOST, "inferred from eta_ges"),
-    _Row("iso14521", "nu_40_mm2_s", _LOST,
-         "assumed: a stand-in, Table 6.9 is lost; without influence on efficiency"),
-    _Row("iso14521", "nu_100_mm2_s", _LOST,
-         "assumed: a stand-in, Table 6.9 is lost; without influence on efficiency"),
-    _Row("iso14521", "Y_W", _LOST, "inferred: the alloy's, from the table of the standard"),
-    _Row("iso14521", "lead_angle_deg", _LOST, _COMPUTED),
-    _Row("iso14521", "profile_shift", _LOST, _COMPUTED),
-    _Row("iso14521", "sliding_velocity_m_s", _LOST, _COMPUTED),
-    _Row("iso14521", "mu_0T", "0.0715", _COMPUTED),
-    _Row("iso14521", "Y_S", _LOST, _COMPUTED),
-    _Row("iso14521", "h_star", _LOST, _COMPUTED),
-    _Row("iso14521", "Y_G", _LOST, _COMPUTED),
-    _Row("iso14521", "Y_R", _LOST, _COMPUTED),
-    _Row("iso14521", "mu_zm", _LOST, _COMPUTED),
-    _Row("iso14521", "eta_z1_2", "38 %", _COMPUTED),
-    _Row("iso14521", "output_power_W", _LOST, _COMPUTED),
-    _Row("iso14521", "loss_meshing_W", _LOST, _COMPUTED),
-    _Row("iso14521", "loss_idle_W", _LOST, _COMPUTED),
-    _Row("iso14521", "loss_bearing_W", _LOST, _COMPUTED),
-    _Row("iso14521", "loss_seal_W", _LOST, _COMPUTED),
-    _Row("iso14521", "eta_ges", "31 %", _COMPUTED),
+    _Row("iso14521", "centre_distance_mm", here=_FROM_ETA),
+    _Row("iso14521", "gear_ratio", here="inferred from where the calculation fails (3.2.3)"),
+    _Row("iso14521", "starts", "1 (3.2.3)", "stated"),
+    _Row("iso14521", "wheel_teeth", here="inferred with the ratio"),
+    _Row("iso14521", "diameter_factor", here=_FROM_ETA),
+    _Row("iso14521", "axial_module_mm", here=_FROM_ETA),
+    _Row("iso14521", "pressure_angle_deg", here="assumed: the guideline of BS 721 (3.2.1)"),
+    _Row("iso14521", "worm_speed_rpm", here="assumed: that of gearset 3 (7.2.4)"),
+    _Row("iso14521", "worm_roughness_um", here="inferred for gearset 3, equal for all (3.3.4)"),
+    _Row("iso14521", "output_torque_Nm", here="inferred from eta_ges"),
+    _Row("iso14521", "nu_40_mm2_s", here=_STAND_IN),
+    _Row("iso14521", "nu_100_mm2_s", here=_STAND_IN),
+    _Row("iso14521", "Y_W", here="inferred: aluminium bronze (7.2.2), equal for all (3.3.4)"),
+    _Row("iso14521", "lead_angle_deg"),
+    _Row("iso14521", "profile_shift"),
+    _Row("iso14521", "sliding_velocity_m_s"),
+    _Row("iso14521", "mu_0T", "0.0715 (3.2.2)"),
+    _Row("iso14521", "Y_S"),
+    _Row("iso14521", "h_star"),
+    _Row("iso14521", "Y_G"),
+    _Row("iso14521", "Y_R"),
+    _Row("iso14521", "mu_zm"),
+    _Row("iso14521", "eta_z1_2", "38 % (3.2.1)"),
+    _Row("iso14521", "output_power_W"),
+    _Row("iso14521", "loss_meshing_W"),
+    _Row("iso14521", "loss_idle_W"),
+    _Row("iso14521", "loss_bearing_W"),
+    _Row("iso14521", "loss_seal_W"),
+    _Row("iso14521", "eta_ges", "31 % (3.2.1)"),
+)
+
+_INFERRED = "inferred"
+_TABLE_3_5 = (
+    _Row("iso14521", "centre_distance_mm", "grows from gearset 1 to 4", _INFERRED),
+    _Row("iso14521", "gear_ratio", "gearset 3: 15 (1440 and 96 rpm, 7.4.1)",
+         "gearset 3: stated; 2: inferred"),
+    _Row("iso14521", "starts", "gearset 2: 1", "gearset 2: stated; 3: from ratio and teeth"),
+    _Row("iso14521", "wheel_teeth", "gearset 3: 60 (7.2.2)", "gearset 3: stated; 2: inferred"),
+    _Row("iso14521", "diameter_factor", here=_INFERRED),
+    _Row("iso14521", "axial_module_mm", here=_INFERRED),
+    _Row("iso14521", "pressure_angle_deg", here="assumed: the guideline of BS 721 (3.2.1)"),
+    _Row("iso14521", "worm_speed_rpm", "gearset 3: 1440 (7.2.4)",
+         "gearset 3: stated; 2: assumed"),
+    _Row("iso14521", "worm_roughness_um", "the same for all", _INFERRED),
+    _Row("iso14521", "Y_W", "the same for all", "inferred from the alloy"),
+    _Row("iso14521", "output_torque_Nm", "gearset 3: 366 (7.2.4)",
+         "gearset 3: stated; 2: inferred"),
+    _Row("iso14521", "through_travel_torque_Nm", "usually a third of T_R (3.2.1)", "a third"),
+    _Row("iso14521", "sliding_velocity_m_s", "grows; gearset 3: 1.5108 (7.2.4)"),
+    _Row("iso14521", "mu_0T", "gearset 2: 0.0715"),
+    _Row("iso14521", "mu_zm", "gearset 3: 0.1344 (7.2.4)"),
+    _Row("iso14521", "eta_z1_2", "38 %; 73 % (7.4.1)"),
+    _Row("iso14521", "eta_ges", "gearset 2: 31 %; below eta_z"),
+    _Row("agma6034", "mu"),
+    _Row("agma6034", "eta", "much higher than eta_z"),
+    _Row("bs721", "M_26k_Nm", "below T_G,all"),
+    _Row("bs721", "M_w_Nm", "above M_26k and T_2"),
+    _Row("bs721", "M_s_Nm", "above M_26k and T_R"),
+    _Row("agma6034", "allowable_torque_Nm", "above M_26k"),
+    _Row(
+        "agma6034",
+        "bending_stress_MPa",
+        "does not grow with T_R (3.3.4)",
+        "computed; grows here from 2 to 3, with the inferred torque of gearset 2",
+    ),
+    _Row("iso14521", "sigma_line_MPa", "gearset 3: 778 (7.2.4)",
+         "computed as a Hertz line contact"),
+    _Row("iso14521", "sigma_Hm_MPa", here="computed by ISO/TR 14521"),
 )  # fmt: skip
 
 
 def table_3_2() -> Grid:
     """Inputs and results of the efficiency of gearset 2."""
-    ratings = GEARSET_2.ratings()
-    return Grid(
-        ("symbol", "quantity", "value", "unit", "thesis", "here"),
-        tuple((*_cells(ratings, row), row.thesis, row.origin) for row in _TABLE_3_2),
-        (GEARSET_2.command(),),
-    )
+    rows = []
+    for row in _TABLE_3_2:
+        entry = row.entry(GEARSET_2)
+        rows.append((entry.symbol, entry.meaning, entry.value, entry.unit, row.thesis, row.here))
+    columns = ("symbol", "quantity", "value", "unit", "thesis", "here")
+    return Grid(columns, tuple(rows), (GEARSET_2.command(),))
 
 
-_KEYS_3_5 = ()
+def table_3_5() -> Grid:
+    """Inputs and results of gearsets 2 and 3 as they are."""
+    rows = []
+    for row in _TABLE_3_5:
+        entries = [row.entry(gear) for gear in GEARSETS.values()]
+        first, values = entries[0], [entry.value for entry in entries]
+        rows.append((first.symbol, first.meaning, first.unit, *values, row.thesis, row.here))
+    columns = ("symbol", "quantity", "unit", *GEARSETS, "thesis", "here")
+    return Grid(columns, tuple(rows), tuple(gear.command() for gear in GEARSETS.values()))
+
+
+_CASES = tuple(gear.case for gear in GEARSETS.values())
 
 TABLES = (
     TableOf(
         "3.2", "Efficiency of gearset 2: inputs and results",
-        "By ISO/TR 14521. The thesis's table is lost; of its numbers the text repeats those in the "
-        "column “thesis”.",
+        "By ISO/TR 14521. The thesis's table is lost; its column holds what the text repeats of "
+        "it, the last one where the number here is from.",
         (GEARSET_2.case,), table_3_2,
+    ),
+    TableOf(
+        "3.5", "Efficiency and load capacity of gearsets 2 and 3 as they are",
+        "By ISO/TR 14521, AGMA 6034 and, from tables that are from memory, BS 721. The thesis's "
+        "table is lost, gearsets 1 and 4 with it. The required life is 500 000 turns of the wheel, "
+        "a tenth of it for strength (3.3.1).",
+        _CASES, table_3_5,
     ),
 )  # fmt: skip
