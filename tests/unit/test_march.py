@@ -1,0 +1,277 @@
+import math
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.errors import ConvergenceError, InputError
+from asperity.slider import TABLES, Model, solve
+
+LAWS = ["split", "unsplit", "vector"]
+EXPONENTS = [0, 0.5, 1, 1.5, 2]
+RIGID = {"slider.drive_stiffness": None, "slider.drive_damping": None}
+STILL = "vibration.velocity_ratio=0"
+
+
+def body(name, *settings, **values):
+    return Model.from_case(read_case(name, TABLES, settings).replace_values(values))
+
+
+def solved(name, *settings, history=False, **values):
+    return solve(body(name, *settings, **values), history=history)
+
+
+def refusal(*settings, error=InputError):
+    with pytest.raises(error) as raised:
+        solved(*settings)
+    assert len(str(raised.value).splitlines()) == 1
+    return str(raised.value)
+
+
+@pytest.fixture(scope="module")
+def every_step():
+    """A march short enough for every step to be kept."""
+    settings = "vibration.start=1 ms", "vibration.direction=40 deg", "solve.duration=3.5 ms"
+    return solved("table-4.4", *settings, "friction.law=vector", history=True)
+
+
+def test_the_motion_obeys_newtons_law(every_step):
+    history, model = every_step.history, every_step.model
+    acceleration = np.diff(history.velocity, axis=0) / 1e-6
+    force = -history.friction[1:]
+    force[:, 0] += history.drive_force[1:]
+    assert model.slider.mass * acceleration == pytest.approx(force, abs=1e-7)
+
+
+def test_positions_velocities_and_drive_force_belong_together(every_step):
+    history = every_step.history
+    ways = np.diff(history.position, axis=0)
+    assert ways == pytest.approx(history.velocity[:-1] * 1e-6, abs=1e-18)
+    stretch = 0.5e-3 * history.time - history.position[:, 0]
+    assert history.drive_force == pytest.approx(96068.0 * stretch, rel=1e-9)
+
+
+def test_friction_is_the_deflections(every_step):
+    history, friction = every_step.history, every_step.model.friction
+    stiffness = friction.stiffness(50.8)
+    assert history.friction == pytest.approx(stiffness * history.deflection, abs=1e-12)
+
+
+def test_the_ratio_is_the_mean_drive_force_of_whole_cycles_at_the_end(every_step):
+    # Three quarters of what follows the start, cut to whole cycles: 5 of 3 kHz.
+    assert every_step.cycles == 5
+    force = every_step.history.drive_force[-round(5e6 / 3000) - 1 :]
+    mean = np.trapezoid(force) / (len(force) - 1)
+    assert every_step.drive_force == pytest.approx(mean, rel=1e-12)
+    assert every_step.ratio == pytest.approx(mean / 5.08, rel=1e-12)
+    assert every_step.friction_max[0] == every_step.history.friction[-1667:, 0].max()
+    assert every_step.friction_min[0] == every_step.history.friction[-1667:, 0].min()
+
+
+def test_the_window_is_the_last_four_tenths_of_a_second_in_whole_cycles():
+    assert solved("table-4.3").cycles == 1600
+    # 20 periods of the ringing of 2 kg on 96068 N/m last 0.5733 s.
+    assert solved("table-4.4").cycles == math.floor(40 * math.pi * math.sqrt(2 / 96068) * 3000)
+
+
+def test_the_residual_is_the_change_from_half_to_half_of_the_window():
+    settling = solved("table-4.3", "solve.duration=0.2 s")
+    settled = solved("table-4.3")
+    assert settling.residual > 1e-2
+    assert settled.residual < 1e-6
+
+
+def test_the_breakaway_is_the_first_time_at_full_force():
+    answer = solved("table-4.3", "solve.duration=0.2 s", history=True)
+    history = answer.history
+    first = np.flatnonzero(history.drive_force >= 5.5)[0]
+    assert history.time[first - 1] < answer.breakaway_time <= history.time[first] + 1e-12
+    fine = solved("table-4.3", "solve.duration=0.2 s", "solve.step=0.25 us")
+    assert fine.breakaway_time == pytest.approx(answer.breakaway_time, abs=1e-6)
+
+
+def test_a_body_that_never_needs_full_force_does_not_break_away():
+    assert solved("table-4.3", "vibration.start=0 s").breakaway_time is None
+    assert solved("table-4.1-L4").breakaway_time is None
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_vibration_from_the_first_moment_ends_in_the_same_state(law):
+    early = solved("table-4.3", "vibration.start=0 s", f"friction.law={law}")
+    late = solved("table-4.3", f"friction.law={law}")
+    assert early.ratio == pytest.approx(late.ratio, rel=1e-3)
+
+
+@pytest.mark.parametrize("model", ["dahl", "coulomb", "lugre"])
+@pytest.mark.parametrize("case", ["table-4.3", "table-4.4"])
+def test_without_vibration_the_drive_force_is_full_friction(case, model):
+    answer = solved(case, STILL, f"friction.model={model}")
+    assert answer.cycles == 0
+    assert answer.ratio == pytest.approx(1.0, abs=1e-3)
+    ledger = answer.ledger
+    assert (ledger.vibration, ledger.untransferred, ledger.damping) == (0.0, 0.0, 0.0)
+    assert ledger.residual < 1e-9
+    # The drive rings on, and the window is no whole number of its periods.
+    assert ledger.friction == pytest.approx(answer.static_drive_force * 0.5e-3, rel=2e-3)
+
+
+def test_a_body_without_a_vibration_table_is_one_at_rest():
+    bare = body("table-4.3", "solve.duration=0.3 s")
+    bare = Model(bare.slider, bare.friction, None, bare.solve)
+    still = solved("table-4.3", "solve.duration=0.3 s", STILL)
+    assert solve(bare, history=False).ratio == still.ratio
+
+
+def test_a_longitudinal_vibration_moves_nothing_sideways():
+    history = solved("table-4.3", "solve.duration=0.2 s", history=True).history
+    assert np.all(history.position[:, 1] == 0.0)
+    assert np.all(history.friction[:, 1] == 0.0)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("theta", [0, 50, 90, 230])
+def test_to_a_guided_body_on_a_rigid_drive_it_is_the_same_whoever_is_shaken(theta, law):
+    settings = "slider.lateral=guided", f"friction.law={law}", "solve.duration=0.2 s"
+    base = solved("table-4.4", *settings, f"vibration.direction={theta} deg", **RIGID)
+    # The body's motion is the base's turned round.
+    moved = solved(
+        "table-4.4", *settings, f"vibration.direction={theta + 180} deg",
+        "vibration.applied_to=body", **RIGID,
+    )  # fmt: skip
+    assert moved.ratio == pytest.approx(base.ratio, rel=1e-11)
+    assert moved.ledger.vibration == pytest.approx(base.ledger.vibration, rel=1e-10)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("exponent", EXPONENTS)
+@pytest.mark.parametrize("theta", [0, 60])
+def test_every_exponent_marches_inside_the_limit(exponent, law, theta):
+    answer = solved(
+        "table-4.4", f"friction.law={law}", f"friction.exponent={exponent}",
+        f"vibration.direction={theta} deg", "vibration.start=0 s", "solve.duration=0.1 s",
+        history=True,
+    )  # fmt: skip
+    size = np.hypot(*answer.history.deflection.T) / 75.49e-9
+    assert size.max() <= 1.0 + 1e-12
+    assert 0.0 < answer.ratio < 1.0
+    assert answer.ledger.residual < 1e-9
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("lateral", ["free", "guided"])
+@pytest.mark.parametrize("applied_to", ["base", "body"])
+@pytest.mark.parametrize("waveform", ["sine", "triangle", "square"])
+def test_the_power_ledger_closes(waveform, applied_to, lateral, law):
+    settings = [
+        f"friction.law={law}", f"slider.lateral={lateral}", f"vibration.applied_to={applied_to}",
+        f"vibration.waveform={waveform}", "vibration.direction=35 deg", "solve.duration=0.2 s",
+        "slider.drive_damping=20 N s/m",
+    ]  # fmt: skip
+    if waveform == "square":
+        settings.append("vibration.rise_time=40 us")
+    ledger = solved("table-4.4", *settings).ledger
+    assert ledger.residual < 1e-9
+    assert ledger.damping > 0.0
+    assert ledger.friction > ledger.vibration > 0.0
+
+
+def test_more_of_the_lateral_vibration_means_more_power_and_less_drive_force():
+    answers = [
+        solved("table-4.4", f"friction.transfer={share}", "solve.duration=0.4 s")
+        for share in (0.0, 0.4, 0.71, 1.0)
+    ]
+    assert np.all(np.diff([answer.ratio for answer in answers]) < 0.0)
+    assert np.all(np.diff([answer.ledger.vibration for answer in answers]) > 0.0)
+    assert answers[0].ratio == pytest.approx(1.0, abs=2e-2)
+
+
+def test_the_untransferred_share_is_named_and_does_no_work():
+    # Transverse, friction works on eta of the base's motion; on the rest it would do (1-eta)/eta.
+    part = solved("table-4.4").ledger
+    assert part.untransferred == pytest.approx(part.vibration * 0.29 / 0.71, rel=1e-9)
+    assert part.residual < 1e-9
+    assert solved("table-4.4", "friction.transfer=1").ledger.untransferred == 0.0
+    assert solved("table-4.4", "vibration.direction=0 deg").ledger.untransferred == 0.0
+
+
+def test_a_step_that_is_divided_is_named_and_answers_as_the_smaller_step():
+    settings = "vibration.velocity_ratio=20", "solve.duration=0.3 s"
+    divided = solved("table-4.3", *settings, "solve.step=4 us")
+    parts = divided.substeps
+    assert parts > 1
+    assert divided.steps == 75_000 * parts
+    assert any(f"divided by {parts}" in note for note in divided.notes)
+    smaller = solved("table-4.3", *settings, f"solve.step={4 / parts!r} us")
+    assert (smaller.substeps, smaller.notes) == (1, ())
+    assert divided.ratio == pytest.approx(smaller.ratio, rel=1e-9)
+    assert divided.ledger.friction == pytest.approx(smaller.ledger.friction, rel=1e-9)
+
+
+def test_a_stiff_contact_is_divided_until_the_march_is_stable():
+    answer = solved(
+        "table-4.3", "friction.max_deflection=1 nm", "solve.step=5 us", "solve.duration=0.2 s",
+        "vibration.velocity_ratio=2",
+    )  # fmt: skip
+    assert answer.substeps > 10
+    assert 0.0 < answer.ratio < 1.0
+    assert answer.ledger.residual < 1e-6
+
+
+def test_two_phase_numbers_that_leave_the_finite_are_reported():
+    # An overshoot of the limit that grows, below the bound of the linear stability.
+    text = refusal(
+        "table-4.4", "solve.scheme=two-phase", "friction.exponent=2", "solve.step=9.7 us",
+        "vibration.velocity_ratio=30", "vibration.direction=0 deg", error=ConvergenceError,
+    )  # fmt: skip
+    assert "give a smaller solve.step" in text
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (["solve.duration=0.1401 s"], "it must be at least 0.14"),
+        (["solve.duration=0.1 s"], "it must be at least 0.14"),
+        (["solve.duration=5 us", STILL], "at least 8 steps"),
+        (["solve.step=20 us"], "too coarse for the vibration of 4000 Hz"),
+        (["slider.drive_velocity=-0.5 mm/s"], "it must be positive"),
+    ],
+)
+def test_what_cannot_be_marched_is_refused_in_one_line(settings, message):
+    assert message in refusal("table-4.3", *settings)
+
+
+def test_a_rigid_drive_feels_the_friction_itself():
+    answer = solved(
+        "table-4.4", "slider.lateral=guided", "solve.duration=0.2 s", history=True, **RIGID
+    )
+    history = answer.history
+    assert np.array_equal(history.drive_force, history.friction[:, 0])
+    assert answer.drive_force == pytest.approx(answer.friction_mean[0], rel=1e-14)
+    assert history.velocity[:, 0] == pytest.approx(0.5e-3, rel=1e-12)
+
+
+def test_the_history_ends_with_the_march_and_shows_its_last_cycles_step_by_step():
+    history = solved("table-4.3", history=True).history
+    assert np.all(np.diff(history.time) > 0.0)
+    assert history.time[-1] == pytest.approx(1.0, rel=1e-12)
+    assert np.diff(history.time[-1000:]) == pytest.approx(1e-6, rel=1e-6)
+    assert len(history.time) < 10_000
+
+
+def test_the_history_changes_nothing():
+    with_history = solved("table-4.4", history=True)
+    without = solved("table-4.4")
+    assert without.history is None
+    assert without.ratio == pytest.approx(with_history.ratio, rel=1e-12)
+    assert without.breakaway_time == with_history.breakaway_time
+
+
+def test_rigid_friction_holds_a_body_until_the_drive_pulls_hard_enough():
+    history = solved(
+        "table-4.3", "friction.model=coulomb", STILL, "solve.duration=0.2 s", history=True
+    ).history
+    sticking = history.time < 5.5 / (96068.0 * 0.5e-3) - 1e-5
+    assert np.all(np.abs(history.velocity[sticking]) < 1e-12)
+    assert history.friction[sticking, 0] == pytest.approx(history.drive_force[sticking], abs=1e-9)
+    slipping = history.velocity[:, 0] > 1e-7
+    assert history.friction[slipping, 0] == pytest.approx(5.5, rel=1e-9)
