@@ -156,6 +156,27 @@ def sweep(
 
 @app.command()
 @reported
+def rate(
+    case: CaseArgument,
+    standard: Annotated[
+        str,
+        typer.Option("--standard", metavar="NAME", help="iso14521, bs721, agma6034 or all."),
+    ] = "all",
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.
+
+    With --out also rate.json, rate.html and rate.csv.
+    """
+    from asperity.cli.rate import rate as run
+
+    run(case, standard, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
 def thesis(
     only: Annotated[
         list[str] | None,

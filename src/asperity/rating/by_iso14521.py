@@ -38,8 +38,7 @@ _MM2 = 1e6
 
 def rated_efficiency(given: Inputs, apply: Apply) -> Values:
     """Return friction, efficiency and losses, by the keys of a rating."""
-    g, wheel, operation = given.gearset, given.gearset.wheel_material, given.operation
-    edition = given.options.iso14521_edition
+    wheel, operation = given.gearset.wheel_material, given.operation
     v: Values = {}
     v["sliding_velocity_m_s"] = apply(
         friction.sliding_velocity, given.worm_pitch_diameter, given.worm_speed, given.lead_angle
@@ -54,18 +53,7 @@ def rated_efficiency(given: Inputs, apply: Apply) -> Values:
             base_oil=operation.lubricant.base_oil,
         )
     v["Y_S"] = apply(friction.size_factor, given.centre_distance)
-    v["h_star"] = apply(
-        film.film_parameter,
-        given.starts,
-        given.wheel_teeth,
-        given.diameter_factor,
-        given.axial_module,
-        given.pressure_angle,
-        given.profile_shift,
-        wheel_face_width=given.effective_face_width,
-        edition=edition,
-        flank=g.flank,
-    )
+    v["h_star"] = film_parameter_of(given, apply)
     v["Y_G"] = apply(friction.geometry_factor, v["h_star"])
     v["Y_W"] = wheel.material_factor
     v["Y_R"] = apply(friction.roughness_factor, given.worm_roughness)
@@ -77,6 +65,22 @@ def rated_efficiency(given: Inputs, apply: Apply) -> Values:
     v["eta_z2_1"] = apply(efficiency.wheel_driving_efficiency, given.lead_angle, v["mu_zm"])
     _powers(given, apply, v)
     return v
+
+
+def film_parameter_of(given: Inputs, apply: Apply) -> Real:
+    """Return h*."""
+    return apply(
+        film.film_parameter,
+        given.starts,
+        given.wheel_teeth,
+        given.diameter_factor,
+        given.axial_module,
+        given.pressure_angle,
+        given.profile_shift,
+        wheel_face_width=given.effective_face_width,
+        edition=given.options.iso14521_edition,
+        flank=given.gearset.flank,
+    )
 
 
 def _powers(given: Inputs, apply: Apply, v: Values) -> None:

@@ -23,8 +23,8 @@ _SYMBOL = re.compile(r"(?<![\w.])[A-Za-z]\w*\*?")
 class Fact(NamedTuple):
     """One number of a rating; the fields are those of `asperity.rating.result.Entry`.
 
-    For a given number ``of`` is where it stands in `asperity.rating.inputs.Inputs`, and ``path``
-    the key of a case file that decides on it.
+    For a given number ``of`` is where it stands in `asperity.rating.inputs.Inputs`, ``path`` the
+    key of a case file that decides on it, and ``derived`` its equation where that is left out.
     """
 
     key: str
@@ -35,6 +35,7 @@ class Fact(NamedTuple):
     source: Source | None
     of: str
     path: str
+    derived: str
 
 
 @functools.cache
@@ -58,6 +59,7 @@ def facts(section: str) -> tuple[Fact, ...]:
             source=sources[values["from"]] if "from" in values else None,
             of=values.get("of", ""),
             path=values.get("path", values.get("of", "") if "." in values.get("of", "") else ""),
+            derived=values.get("derived", ""),
         )
         for key, values in raw[section].items()
     )

@@ -25,24 +25,19 @@ def given_entries(given: Inputs, section: str) -> tuple[Entry, ...]:
     for key in starts_from(section):
         fact = known[key]
         reason = _reason(fact.path, assumed)
+        equation, source = fact.equation, _source(given, fact)
+        if reason:
+            source = Source("default of asperity", "one source", reason)
+        elif fact.derived and _at(given, fact.path) is None:
+            equation, source = _derived(given, fact), DEFINITION
         value: Any = _at(given, fact.of)
         if fact.unit == "deg":
             value = math.degrees(value)
         elif fact.unit in _FROM_SI:
             value = scaled(value, _FROM_SI[fact.unit])
+        meaning = fact.meaning
         made.append(
-            Entry(
-                key,
-                fact.symbol,
-                value,
-                fact.unit,
-                fact.meaning,
-                fact.equation,
-                Source("default of asperity", "one source", reason)
-                if reason
-                else _source(given, fact),
-                assumed=bool(reason),
-            )
+            Entry(key, fact.symbol, value, fact.unit, meaning, equation, source, bool(reason))
         )
     return tuple(made)
 
@@ -65,6 +60,12 @@ def _reason(path: str, assumed: Mapping[str, str]) -> str:
     parts = path.split(".")
     names = (".".join(parts[:count]) for count in range(len(parts), 1, -1))
     return next((assumed[name] for name in names if name in assumed), "")
+
+
+def _derived(given: Inputs, fact: Fact) -> str:
+    if fact.path == "gearset.diameter_factor" and given.gearset.worm_pitch_diameter is not None:
+        return "d_m1/m_x1"
+    return fact.derived
 
 
 def _source(given: Inputs, fact: Fact) -> Source:

@@ -3,21 +3,26 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from asperity.casefile import Case
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
-from asperity.rating import bs721
+from asperity.rating import bs721, by_iso14521, report
 from asperity.rating.by_agma6034 import rate_agma6034
 from asperity.rating.by_bs721 import rate_bs721
+from asperity.rating.calculation import directly
 from asperity.rating.describe_iso14521 import rate_iso14521
 from asperity.rating.givens import assumptions
 from asperity.rating.inputs import Inputs, inputs
+from asperity.rating.iso14521 import FilmParameterError
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
+
+if TYPE_CHECKING:
+    from rich.console import Group
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
 """The standards, by the name they have in results."""
@@ -53,22 +58,39 @@ class Rated:
     assumed: Mapping[str, str]
 
     @property
+    def found(self) -> dict[str, Rating]:
+        """The ratings that there are, by standard."""
+        ratings = {name: getattr(self, name) for name in STANDARDS}
+        return {name: rating for name, rating in ratings.items() if rating is not None}
+
+    @property
     def ratings(self) -> tuple[Rating, ...]:
-        """Those that there are."""
-        found = (self.iso14521, self.bs721, self.agma6034)
-        return tuple(rating for rating in found if rating is not None)
+        """The ratings that there are."""
+        return tuple(self.found.values())
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""
-        ratings = {name: getattr(self, name) for name in STANDARDS}
+        found = {name: rating.to_json() for name, rating in self.found.items()}
         return {
             "name": self.gearset.name,
             "geometry": self.geometry.to_json(),
-            **{name: rating and rating.to_json() for name, rating in ratings.items()},
+            **{name: found.get(name) for name in STANDARDS},
             "self_locking": self.self_locking.to_json(),
             "assumed": dict(self.assumed),
             "notes": list(self.notes),
         }
+
+    def to_rich(self) -> "Group":
+        """Return the tables of all ratings for the terminal."""
+        return report.to_rich(self)
+
+    def to_html(self) -> str:
+        """Return a page of its own with the tables of all ratings."""
+        return report.to_html(self)
+
+    def to_frame(self) -> Any:
+        """Return a pandas data frame of all ratings, indexed by standard and key."""
+        return report.to_frame(self)
 
 
 def rate(
@@ -103,12 +125,13 @@ def rate(
     ------
     InputError
         The gearset's numbers do not belong together, or the only standard asked for cannot be
-        applied; `asperity.rating.iso14521.film_failure.FilmParameterError` where h* is not above
+        applied; `asperity.rating.iso14521.FilmParameterError` where h* is not above
         zero.
     """
     options = options or RatingOptions()
     wanted = known_standards(standards)
-    given = inputs(gearset.require_consistent(), operation, options)
+    given = inputs(gearset, operation, options)
+    _require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
     notes = []
@@ -153,6 +176,21 @@ def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
     if not standards:
         raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
     return tuple(name for name in STANDARDS if name in standards)
+
+
+def _require_consistent(given: Inputs, by_iso: bool) -> None:
+    try:
+        given.gearset.require_consistent()
+    except InputError as error:
+        # The end of h* tells more about a ratio or module that is too large.
+        try:
+            if by_iso:
+                by_iso14521.film_parameter_of(given, directly)
+        except FilmParameterError as film:
+            raise FilmParameterError(
+                f"{film}; {error}", film.value, film.driver, film.limits
+            ) from None
+        raise
 
 
 def _rate(name: str, given: Inputs, tables: bs721.Tables) -> Rating:

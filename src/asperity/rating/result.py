@@ -201,6 +201,7 @@ class Rating:
                 name,
                 justify="right" if name == "value" else "left",
                 no_wrap=name in ("symbol", "value", "unit"),
+                overflow="fold",
             )
         for entry in self.entries:
             row = entry.row()
