@@ -1,0 +1,69 @@
+"""The studies as labelled datasets, every variable with ``units`` and ``long_name``."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from asperity.rating.studies.sensitivity import Sensitivity
+
+Labelled = tuple[tuple[str, ...], Any, str, str]
+
+
+def labelled(title: str, coordinates: dict[str, Labelled], **variables: Labelled) -> "xr.Dataset":
+    """Return a dataset of variables given as (dimensions, values, units, long name)."""
+    import xarray as xr
+
+    def named(group: dict[str, Labelled]) -> dict[str, Any]:
+        return {
+            name: (dims, values, {"units": units, "long_name": long_name})
+            for name, (dims, values, units, long_name) in group.items()
+        }
+
+    return xr.Dataset(named(variables), named(coordinates), {"title": title})
+
+
+def words(values: Any) -> Any:
+    """Return texts as an array that a dataset holds."""
+    return np.array(list(values), dtype=object)
+
+
+def sensitivity_dataset(study: "Sensitivity") -> "xr.Dataset":
+    """Return efficiencies over input and rise, what ends them, and the elasticities."""
+    found = study.influences
+    both = ("input", "rise")
+    ends = [np.nan if i.fails_above is None else 100.0 * i.fails_above for i in found]
+    dataset = labelled(
+        f"Sensitivity of the efficiency of {study.name or 'a worm gearset'}",
+        {
+            "input": (
+                ("input",), words(i.quantity.name for i in found), "1", "input that is raised",
+            ),
+            "rise": (("rise",), 100.0 * study.rises, "percent", "rise of the input"),
+        },
+        symbol=(("input",), words(i.quantity.symbol for i in found), "1", "symbol of the input"),
+        eta_z1_2=(
+            both, np.array([i.efficiency for i in found]), "1", "efficiency of the teeth",
+        ),
+        reason=(
+            both,
+            np.array([[i.legend.get(int(code), "") for code in i.reason] for i in found], object),
+            "1",
+            "why there is no efficiency",
+        ),
+        elasticity=(
+            ("input",), np.array([i.elasticity for i in found]), "1",
+            "relative change of the efficiency over that of the input",
+        ),
+        fails_above=(
+            ("input",), np.array(ends), "percent", "rise above which there is no efficiency",
+        ),
+        **{
+            i.quantity.name: (("rise",), i.values, i.quantity.unit or "1", i.quantity.meaning)
+            for i in found
+        },
+    )  # fmt: skip
+    dataset.attrs["eta_z1_2"] = study.efficiency
+    return dataset

@@ -1,0 +1,58 @@
+"""What the studies vary and find: names, symbols and units, as a rating has them."""
+
+import functools
+import math
+from typing import Any, NamedTuple
+
+from asperity.errors import InputError, nearest
+from asperity.rating.facts import facts
+from asperity.rating.inputs import RPM, Inputs, Real
+
+_TO_SI = {"mm": 1e-3, "um": 1e-6, "rpm": 1.0 / RPM, "deg": math.radians(1.0)}
+
+
+class Quantity(NamedTuple):
+    """A number that a study varies.
+
+    Attributes
+    ----------
+    name : str
+        As `asperity.rating.variants` has it.
+    key : str
+        As results have it, with the unit: ``"axial_module_mm"``.
+    symbol, unit, meaning : str
+        The standard's.
+    """
+
+    name: str
+    key: str
+    symbol: str
+    unit: str
+    meaning: str
+
+    def to_si(self, value: Real) -> Real:
+        """Return a value in SI."""
+        return value * _TO_SI.get(self.unit, 1.0)
+
+    def from_si(self, value: Real) -> Real:
+        """Return a value in the unit of results."""
+        return value / _TO_SI.get(self.unit, 1.0)
+
+    def of(self, given: Inputs) -> float:
+        """Return what a gearset has, in the unit of results."""
+        value: Any = getattr(given, self.name)
+        return math.degrees(value) if self.unit == "deg" else float(value)
+
+    def text(self, value: float) -> str:
+        """Return a value with its unit for people."""
+        return f"{value:.4g} {self.unit}".rstrip()
+
+
+@functools.cache
+def quantity(name: str) -> Quantity:
+    """Return a quantity by its name; raises InputError where there is none."""
+    known = {fact.of: fact for fact in facts("given")}
+    if name not in known:
+        raise InputError(f"{name!r} is not a quantity of a gearset{nearest(name, known)}")
+    fact = known[name]
+    return Quantity(name, fact.key, fact.symbol, fact.unit, fact.meaning)

@@ -1,0 +1,264 @@
+"""How much the efficiency depends on each input: one at a time, the others as they are.
+
+This is thesis 3.2.3 (Figure 3.2, Table 3.4): each input is raised in steps of 5 % to 40 %, the
+ratio without rounding the teeth, with the centre distance as it is and the profile shift making up
+for the rest.
+"""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.errors import InputError, nearest
+from asperity.gearset.parameters import Gearset
+from asperity.rating.calculation import Reasons
+from asperity.rating.formula import FloatArray
+from asperity.rating.inputs import inputs as given_inputs
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.rate import rate
+from asperity.rating.studies.quantities import Quantity, quantity
+from asperity.rating.variants import Variants, variants
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from rich.console import Group
+
+INPUTS = (
+    "pressure_angle",
+    "centre_distance",
+    "worm_speed",
+    "gear_ratio",
+    "diameter_factor",
+    "axial_module",
+    "worm_roughness",
+)
+"""What is varied: alpha_n, c, n1, U, q1, m_x1, Ra1."""
+
+RISES: tuple[float, ...] = tuple(0.05 * step for step in range(9))
+"""By how much of itself an input is raised."""
+
+LARGE, SMALL = 0.5, 0.2
+"""Elasticities from which on an influence is called large, and below which it is called small."""
+
+_STANDARD = "iso14521"
+_EFFICIENCY = "iso14521.eta_z1_2"
+_NEARBY = 1e-4
+_SAME = 1e-9
+_PARTS = 64
+_ROUNDS = 5
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Influence:
+    """What one input does to the efficiency.
+
+    Attributes
+    ----------
+    quantity : Quantity
+        The input.
+    values : ndarray
+        Its values, in its unit.
+    efficiency : ndarray
+        Efficiency of the teeth with each; NaN where there is none.
+    reason : ndarray of int
+        0 where there is an efficiency, else a code of `legend`.
+    legend : mapping of int to str
+        The codes as sentences.
+    elasticity : float
+        Change of the efficiency over the change of the input, both in parts of themselves, at the
+        gearset as it is.
+    fails_above : float or None
+        The rise, within those studied, above which the calculation has no answer.
+    """
+
+    quantity: Quantity
+    values: FloatArray
+    efficiency: FloatArray
+    reason: Reasons
+    legend: Mapping[int, str]
+    elasticity: float
+    fails_above: float | None
+
+    @property
+    def change(self) -> float:
+        """From the gearset as it is to the highest rise that has an answer, as a share of one."""
+        found = self.efficiency[~np.isnan(self.efficiency)]
+        return float(found[-1] - found[0])
+
+    @property
+    def effect(self) -> str:
+        """What a rise of the input does."""
+        steps = np.diff(self.efficiency[~np.isnan(self.efficiency)])
+        signs = np.sign(steps[np.abs(steps) > _SAME])
+        turns = signs[np.insert(np.diff(signs) != 0.0, 0, True)] if signs.size else signs
+        return ", then ".join("raises" if sign > 0.0 else "lowers" for sign in turns) or "none"
+
+    @property
+    def size(self) -> str:
+        """Whether the influence is large, medium or small, by the elasticity."""
+        size = abs(self.elasticity)
+        return "large" if size >= LARGE else "small" if size < SMALL else "medium"
+
+    @property
+    def failure(self) -> str:
+        """Why there is no answer beyond `fails_above`; empty where there always is."""
+        codes = self.reason[self.reason != 0]
+        return self.legend[int(codes[0])] if codes.size else ""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """The efficiency of a worm gearset over each of its inputs.
+
+    Attributes
+    ----------
+    name : str
+        Of the gearset.
+    efficiency : float
+        Of the teeth, as the gearset is.
+    rises : ndarray
+        By how much of itself an input is raised.
+    influences : tuple of Influence
+        One for each input.
+    """
+
+    name: str
+    efficiency: float
+    rises: FloatArray
+    influences: tuple[Influence, ...]
+
+    def __getitem__(self, name: str) -> Influence:
+        """Return the influence of an input by its name."""
+        for influence in self.influences:
+            if influence.quantity.name == name:
+                return influence
+        names = [influence.quantity.name for influence in self.influences]
+        raise InputError(f"{name!r} is not varied in this study{nearest(name, names)}")
+
+    def to_json(self) -> dict[str, Any]:
+        """Return everything by key; the units are part of the keys, None is where no answer is."""
+        return {
+            "name": self.name,
+            "eta_z1_2": self.efficiency,
+            "rises_percent": [round(100.0 * rise, 9) for rise in self.rises.tolist()],
+            "inputs": {i.quantity.name: _plain(i) for i in self.influences},
+        }
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the efficiency over input and rise, and the summary, labelled."""
+        from asperity.rating.studies.datasets import sensitivity_dataset
+
+        return sensitivity_dataset(self)
+
+    def to_rich(self) -> "Group":
+        """Return the efficiencies and the summary as tables for the terminal."""
+        from asperity.rating.studies.reports import sensitivity_report
+
+        return sensitivity_report(self)
+
+    def plot(self) -> "Figure":
+        """Draw the efficiency over the rise of each input."""
+        from asperity.rating.studies.plots import plot_sensitivity
+
+        return plot_sensitivity(self)
+
+
+def sensitivity(
+    gearset: Gearset,
+    operation: Operation,
+    options: RatingOptions | None = None,
+    *,
+    inputs: Sequence[str] = INPUTS,
+    rises: npt.ArrayLike = RISES,
+) -> Sensitivity:
+    """Raise one input after the other and follow the efficiency by ISO/TR 14521.
+
+    Parameters
+    ----------
+    gearset, operation, options
+        As in `asperity.rating.rate`.
+    inputs : sequence of str
+        What to vary, by the names of `asperity.rating.variants`.
+    rises : array_like
+        By how much of itself, increasing from 0.
+
+    Returns
+    -------
+    Sensitivity
+        A value without an answer is masked with its reason; where answers end is found.
+
+    Raises
+    ------
+    InputError
+        An input that cannot be varied, or a gearset that has no efficiency to begin with;
+        `asperity.rating.iso14521.film_failure.FilmParameterError` where h* is not above zero.
+    """
+    options = options or RatingOptions()
+    base: Any = rate(gearset, operation, options, (_STANDARD,)).found[_STANDARD]["eta_z1_2"]
+    steps = _increasing(rises)
+    given = given_inputs(gearset, operation, options)
+
+    def at(name: str, shares: npt.ArrayLike) -> Variants:
+        what = quantity(name)
+        values = what.to_si(what.of(given) * (1.0 + np.asarray(shares, dtype=np.float64)))
+        return variants(gearset, operation, options, (_STANDARD,), capacity=False, **{name: values})
+
+    influences = []
+    for name in inputs:
+        found = at(name, steps)
+        below, above = at(name, [-_NEARBY, _NEARBY])[_EFFICIENCY]
+        influences.append(
+            Influence(
+                quantity=quantity(name),
+                values=quantity(name).of(given) * (1.0 + steps),
+                efficiency=found[_EFFICIENCY],
+                reason=found.reason(_EFFICIENCY),
+                legend=MappingProxyType(dict(found.legend(_STANDARD))),
+                elasticity=float((above - below) / (2.0 * _NEARBY * base)),
+                fails_above=_end(lambda s, n=name: np.isnan(at(n, s)[_EFFICIENCY]), steps),
+            )
+        )
+    return Sensitivity(gearset.name, float(base), steps, tuple(influences))
+
+
+def _increasing(rises: npt.ArrayLike) -> FloatArray:
+    steps = np.array(rises, dtype=np.float64)
+    if steps.ndim != 1 or steps.size < 2 or steps[0] != 0.0 or not np.all(np.diff(steps) > 0.0):
+        raise InputError(f"rises is {str(rises)[:60]}; it must increase from 0, as in [0, 0.05]")
+    return steps
+
+
+def _end(failing: Any, steps: FloatArray) -> float | None:
+    """Return where the first failure is, between the rises before and at it."""
+    failed = failing(steps)
+    if not failed.any():
+        return None
+    first = int(np.argmax(failed))
+    low, high = steps[first - 1], steps[first]
+    for _ in range(_ROUNDS):
+        grid = np.linspace(low, high, _PARTS + 1)
+        first = int(np.argmax(failing(grid)))
+        low, high = grid[first - 1], grid[first]
+    return float(low)
+
+
+def _plain(influence: Influence) -> dict[str, Any]:
+    what = influence.quantity
+    efficiency = [None if np.isnan(value) else value for value in influence.efficiency.tolist()]
+    fails = influence.fails_above
+    return {
+        "symbol": what.symbol,
+        what.key: influence.values.tolist(),
+        "eta_z1_2": efficiency,
+        "effect": influence.effect,
+        "size": influence.size,
+        "elasticity": influence.elasticity,
+        "change_points": 100.0 * influence.change,
+        "fails_above_percent": None if fails is None else 100.0 * fails,
+        "reason": influence.failure or None,
+    }
