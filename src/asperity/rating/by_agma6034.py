@@ -7,6 +7,7 @@ torque itself.
 import math
 
 from asperity.errors import InputError
+from asperity.gearset.library import GIVEN
 from asperity.rating import agma6034
 from asperity.rating.agma6034.units import VELOCITY
 from asperity.rating.by_iso14521 import Apply, Values
@@ -16,7 +17,7 @@ from asperity.rating.givens import given_entries
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import losses, strength
 from asperity.rating.result import Rating
-from asperity.sources import Range
+from asperity.sources import Range, Source
 
 
 def rate_agma6034(given: Inputs) -> Rating:
@@ -34,7 +35,7 @@ def rate_agma6034(given: Inputs) -> Rating:
             given_entries(given, "agma6034"),
             "agma6034",
             values,
-            {"C_s": given.gearset.wheel_material.source("agma6034")},
+            _sources(given),
             _equations(given, values),
         ),
         _violations(given, values),
@@ -118,6 +119,11 @@ def _heat(given: Inputs, apply: Apply, v: Values) -> None:
         v["h_CR_W_m2K"],
         v["A_min_m2"],
     )
+
+
+def _sources(given: Inputs) -> dict[str, Source]:
+    casting = {"C_s": given.gearset.wheel_material.source("agma6034")}
+    return casting if given.friction is None else {**casting, "mu": GIVEN}
 
 
 def _equations(given: Inputs, values: Values) -> dict[str, str]:

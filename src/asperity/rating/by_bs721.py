@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from asperity.errors import InputError
+from asperity.gearset.library import GIVEN
 from asperity.rating import bs721
 from asperity.rating.by_iso14521 import Apply, Values
 from asperity.rating.calculation import Masking, directly, smaller
@@ -116,8 +117,7 @@ def _sources(given: Inputs, tables: bs721.Tables) -> dict[str, Source]:
         "S_b_MPa": weakest(tables.bending_stress_factor.source, row),
         "M_c_worm_Nm": tables.worm_surface_stress_factor.source,
     }
-    if given.friction is None:
-        sources["mu"] = tables.friction.source
+    sources["mu"] = tables.friction.source if given.friction is None else GIVEN
     if given.operation.duty_cycle is not None:
         equivalent = bs721.SOURCES["equivalent_hours"]
         sources |= {"U_w_h": equivalent, "U_s_h": equivalent}
@@ -141,6 +141,11 @@ def _notes(given: Inputs, values: Values) -> list[str]:
         for part in ("wheel", "worm")
         if (note := getattr(given.gearset, f"{part}_material").source("bs721").note)
     ]
+    bronze = given.gearset.wheel_material.family == "tin bronze"
+    if given.friction is None and not (bronze and given.gearset.worm_material.hardened):
+        notes.append("the friction is that of phosphor bronze on a case-hardened worm")
+    if given.gearset.flank != "ZI":
+        notes.append(f"the flank is {given.gearset.flank}; the standard is for ZI")
     if values["safety_wear"] <= 1.0:
         notes.append(
             f"M_w is {values['M_w_Nm']:.4g} N m and not above the torque through the travel"

@@ -126,8 +126,13 @@ def _sources(given: Inputs) -> dict[str, Source]:
     wheel, operation = given.gearset.wheel_material, given.operation
     law = wheel.family, operation.lubrication, operation.lubricant.base_oil
     base = operation.lubricant.base
+    in_place = {
+        "mu_0T": given.base_friction,
+        "mu_zm": given.friction,
+        "theta_S_degC": given.oil_temperature,
+    }
     return {
-        "mu_0T": friction_constants(*law).source if given.base_friction is None else GIVEN,
+        "mu_0T": friction_constants(*law).source,
         "Y_W": wheel.source("material_factor"),
         "theta_S_lim_degC": base.source("sump_limit"),
         "J_0T": wear_constants(*law).source,
@@ -135,4 +140,5 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "Z_oil": base.source("pitting_factor"),
         "sigma_HlimT_MPa": wheel.source("pitting_strength"),
         "tau_FlimT_MPa": wheel.source("shear_strength"),
+        **{key: GIVEN for key, value in in_place.items() if value is not None},
     }

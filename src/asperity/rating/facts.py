@@ -32,7 +32,7 @@ class Fact(NamedTuple):
     unit: str
     meaning: str
     equation: str
-    source: Source | None
+    source: Source
     of: str
     path: str
     derived: str
@@ -56,7 +56,7 @@ def facts(section: str) -> tuple[Fact, ...]:
             unit=values.get("unit", ""),
             meaning=values["meaning"],
             equation=values.get("equation", "input" if section == "given" else ""),
-            source=sources[values["from"]] if "from" in values else None,
+            source=sources[values.get("from", "definition")],
             of=values.get("of", ""),
             path=values.get("path", values.get("of", "") if "." in values.get("of", "") else ""),
             derived=values.get("derived", ""),
@@ -98,7 +98,8 @@ def entries(
     values : mapping of str to float
         What it found, by key; what is not there, or NaN, is left out.
     sources : mapping of str to Source
-        Where the values of tables come from, by key, and what else they rest on.
+        Where the values of tables come from, by key; `GIVEN` for what the user gave in place of a
+        result.
     equations : mapping of str to str
         Equations that depend on the case, by key.
     """
@@ -115,7 +116,9 @@ def entries(
             continue
         equation = equations.get(fact.key, fact.equation)
         rests_on = [trusted[word] for word in words(equation) if word in trusted]
-        own = [source for source in (sources.get(fact.key), fact.source) if source is not None]
-        trusted[fact.symbol] = source = weakest(*own, *rests_on)
+        source = sources.get(fact.key, fact.source)
+        if source is not GIVEN:
+            source = weakest(source, fact.source, *rests_on)
+            trusted[fact.symbol] = source
         made.append(Entry(fact.key, fact.symbol, value, fact.unit, fact.meaning, equation, source))
     return tuple(made)

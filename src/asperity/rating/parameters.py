@@ -5,7 +5,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
@@ -59,6 +59,19 @@ class LoadStep(Table):
     duration: Annotated[float, Quantity("s", what="a time", example="10 h", gt=0)]
     output_torque: Torque
     worm_speed: Speed | None = None
+
+
+def _steps(value: Any, context: Any) -> tuple[LoadStep, ...]:
+    listed = isinstance(value, list | tuple) and len(value) > 0
+    if not listed or not all(isinstance(step, Mapping | LoadStep) for step in value):
+        raise InputError(
+            f"operation.duty_cycle is {str(value)[:60]}; it must be a list of tables with "
+            "'duration', 'output_torque' and perhaps 'worm_speed'"
+        )
+    return tuple(
+        step if isinstance(step, LoadStep) else LoadStep.model_validate(step, context=context)
+        for step in value
+    )
 
 
 class Operation(Table):
@@ -141,6 +154,8 @@ class Operation(Table):
         named = dict(data)
         if "lubricant" in named:
             named["lubricant"] = resolve("lubricant", named["lubricant"], Lubricant, info.context)
+        if named.get("duty_cycle") is not None:
+            named["duty_cycle"] = _steps(named["duty_cycle"], info.context)
         if "bearings" in named:
             try:
                 named["bearings"] = resolve("bearings", named["bearings"], Bearings, info.context)
@@ -150,8 +165,6 @@ class Operation(Table):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Operation":
-        if self.duty_cycle == ():
-            raise InputError("operation.duty_cycle is empty; give a part or leave it out")
         if (
             self.through_travel_torque is not None
             and self.through_travel_torque > self.output_torque
@@ -195,7 +208,11 @@ class RatingOptions(Table):
     table: ClassVar[str] = "rating"
     alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (("base_friction", "friction"),)
 
-    iso14521_edition: Literal["1998", "2010"] = "2010"
+    # A year given by --set arrives as a number.
+    iso14521_edition: Annotated[
+        Literal["1998", "2010"],
+        BeforeValidator(lambda year: str(year) if isinstance(year, int) else year),
+    ] = "2010"
     bs721_tables: Path | None = None
     base_friction: (
         Annotated[

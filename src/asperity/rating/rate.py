@@ -153,10 +153,14 @@ def rate(
 
 
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
-    """Rate the worm gearset of a case file."""
+    """Rate the worm gearset of a case file; as `rate`."""
     options = case.require(RatingOptions) if RatingOptions.table in case else None
     gearset, operation = case.require(Gearset), case.require(Operation)
-    return rate(gearset, operation, options, standards, folder=case.folder)
+    try:
+        return rate(gearset, operation, options, standards, folder=case.folder)
+    except InputError as error:
+        error.args = (f"{case.source}: {error}", *error.args[1:])
+        raise
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> bs721.Tables:
