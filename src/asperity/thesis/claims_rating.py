@@ -1,10 +1,11 @@
 """Claims 3.1 to 3.8 and 7.1: the worm gearsets."""
 
 import functools
+import math
 
 from asperity.rating import STANDARDS
 from asperity.rating.shaft import torsional_stiffness
-from asperity.thesis.gearsets import GEARSET_2, GEARSET_3, GEARSETS
+from asperity.thesis.gearsets import GEARSET_2, GEARSET_3, GEARSETS, sensitivity_of
 from asperity.thesis.ledger import Claim, Finding
 
 CASES = tuple(gear.case for gear in GEARSETS.values())
@@ -39,10 +40,55 @@ def _base_friction() -> Finding:
     )
 
 
+def _failures() -> Finding:
+    study = sensitivity_of(GEARSET_2)
+    ratio, module = study["gear_ratio"], study["axial_module"]
+    ends = [math.nan if i.fails_above is None else i.fails_above for i in (ratio, module)]
+    others = [i for i in study.influences if i not in (ratio, module) and i.fails_above is not None]
+    percent = [f"{100.0 * end:.1f} %" for end in ends]
+    return Finding.judged(
+        {
+            "U fails just above 27 %": 0.27 <= ends[0] < 0.28,
+            "m_x1 fails just above 37 %": 0.37 <= ends[1] < 0.38,
+            "no other input fails up to 40 %": not others,
+            "because h* is not above zero": ratio.failure.startswith("h*")
+            and module.failure.startswith("h*"),
+        },
+        f"h* <= 0 from U + {percent[0]}, m_x1 + {percent[1]}",
+        "The two limits were used to find the wheel's teeth, between 57 and 63, of which 60 is "
+        "the usual number with a profile shift near zero. No other input ends the calculation.",
+        {"gear_ratio_rise": ends[0], "axial_module_rise": ends[1]},
+        [GEARSET_2.command("sensitivity")],
+    )
+
+
+def _signs() -> Finding:
+    study = sensitivity_of(GEARSET_2)
+    slopes = {i.quantity.name: i.elasticity for i in study.influences}
+    effects = {i.quantity.name: i.effect for i in study.influences}
+    raising = ("pressure_angle", "centre_distance", "worm_speed")
+    lowering = ("gear_ratio", "diameter_factor", "axial_module", "worm_roughness")
+    small = max(abs(slopes[name]) for name in ("pressure_angle", "worm_roughness"))
+    large = min(abs(slopes[name]) for name in ("centre_distance", "gear_ratio"))
+    return Finding.judged(
+        {
+            "alpha_n, c and n_1 raise it": all(effects[name] == "raises" for name in raising),
+            "U, q_1, m_x1 and Ra_1 lower it": all(effects[name] == "lowers" for name in lowering),
+            "alpha_n and Ra_1 little compared to c and U": small < 0.2 * large,
+            "c raises it most": max(slopes, key=lambda name: slopes[name]) == "centre_distance",
+        },
+        ", ".join(f"{i.quantity.symbol} {i.elasticity:+.2f}" for i in study.influences),
+        "The numbers are relative changes of eta_z over that of the input, at gearset 2 as it is. "
+        "The ratio is varied without rounding the wheel's teeth.",
+        {f"{name}_elasticity": slope for name, slope in slopes.items()},
+        [GEARSET_2.command("sensitivity")],
+    )
+
+
 def _standards() -> Finding:
     parts: dict[str, bool] = {}
     numbers: dict[str, float] = {}
-    shown = []
+    shown, misprinted = [], []
     for name, gear in GEARSETS.items():
         iso, bs, agma = (functools.partial(gear.number, name) for name in STANDARDS)
         permissible, allowable = bs("M_26k_Nm"), agma("allowable_torque_Nm")
@@ -58,6 +104,7 @@ def _standards() -> Finding:
             f"{name}: {allowable:.0f} > {permissible:.0f} N m, {eta_agma:.1%} against {eta:.1%}"
         )
         own = name.replace(" ", "_")
+        misprinted.append(allowable * (1.0 - 450.0 / agma("C_s")))
         numbers |= {
             f"{own}_T_G_all_Nm": allowable,
             f"{own}_M_26k_Nm": permissible,
@@ -72,8 +119,9 @@ def _standards() -> Finding:
         "Judged for gearsets 2 and 3 only: 1 and 4 are lost, and with them the reverse order that "
         "the thesis reports of gearset 4. The tables of BS 721 are from memory and have no row for "
         "aluminium bronze, which is taken as phosphor bronze; they end below 1440 rpm, so the worm "
-        "itself is not rated. AGMA's materials factor is 720 + 10.37 C^3 below 3 in: with the 270 "
-        "that some editions print, the order would be reversed.",
+        "itself is not rated. AGMA's materials factor is 720 + 10.37 C^3 below 3 in; with the 270 "
+        "that one textbook prints, T_G,all would be "
+        f"{' and '.join(f'{torque:.0f}' for torque in misprinted)} N m and the order reversed.",
         numbers,
         [gear.command() for gear in GEARSETS.values()],
     )
@@ -90,11 +138,11 @@ def _gearset_3() -> Finding:
             "v_g 1510.8 mm/s": round(1e3 * velocity, 1) == 1510.8,
         },
         f"{friction:.4f}, {mesh:.1%}, {1e3 * velocity:.1f} mm/s",
-        "Gearset 3 is reconstructed from these three numbers and its teeth, which leave a family "
-        "of gearsets. Not used for it, and met: with the alloy's Y_W of 1.1 and Ra1 1.6 um the "
-        f"profile shift comes out near zero ({iso('profile_shift'):.3f}), and the Hertz "
-        f"stress of a line contact is {stress:.0f} MPa for the 778 of 7.2.4; ISO's own sigma_Hm is "
-        f"{iso('sigma_Hm_MPa'):.0f} MPa.",
+        "Gearset 3 is reconstructed from these three numbers and its teeth. What they leave open, "
+        "an Ra_1 of 1.6 um with the alloy's Y_W of 1.1 closes: both usual, and the profile shift "
+        f"comes out near zero ({iso('profile_shift'):.3f}). Not used for it: the contact stress of "
+        f"778 MPa in 7.2.4. A Hertz line contact comes to {stress:.0f} MPa, though the thesis does "
+        f"not say that it is one; the sigma_Hm of ISO/TR 14521 is {iso('sigma_Hm_MPa'):.0f} MPa.",
         {
             "mu_zm": friction,
             "eta_z": mesh,
@@ -123,6 +171,10 @@ CLAIMS = (
           "38 %, 31 %", _efficiency),
     Claim("3.2", "3.2.2", "Gearset 2: base friction mu_0T in mineral oil.", "0.0715",
           _base_friction),
+    Claim("3.4", "3.2.3", "U raised by over 27 % or m_x1 by over 37 % makes the calculation of "
+          "gearset 2 fail.", "h* <= 0", _failures),
+    Claim("3.5", "3.2.3", "alpha_n, c, n_1 raise eta_z; U, q_1, m_x1, Ra_1 lower it; alpha_n and "
+          "Ra_1 little, c most.", "signs", _signs),
     Claim("3.7", "3.3.4", "T_G,all > M_26k for gearsets 1 to 3; eta_AGMA is much higher than "
           "eta_z.", "order", _standards),
     Claim("3.8", "7.2.4, 7.4", "Gearset 3: mu_zm, eta_z, v_g.", "0.1344, 73 %, 1510.8 mm/s",

@@ -39,7 +39,8 @@ CHAPTERS = (
         "The thesis's calculation sheet (its Appendix C), its Tables 3.1 to 3.7 and the oil's "
         "properties (Table 6.9) are lost but for the numbers in the text. Gearsets 2 and 3 are "
         "reconstructed from these: what was inferred from a number cannot be tested by it, and "
-        "each claim and table says so. Gearsets 1 and 4 are lost and are not invented.",
+        "each claim and table says so. Gearsets 1 and 4 are lost and are not invented. The "
+        "centre distance a and the ratio u of ISO/TR 14521 are the thesis's c and U.",
     ),
     Chapter("4", "The sliding body", f"With Appendix A. {_SLIDING}"),
     Chapter("7", "The worm gearset under vibration", "So far, the stiffness of the worm shaft."),

@@ -2,14 +2,18 @@
 
 import numpy as np
 
-from asperity.gearset.parameters import Gearset
-from asperity.rating import Operation
 from asperity.rating.variants import variants
 from asperity.thesis import drawings_rating as drawings
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
-from asperity.thesis.gearsets import GEARSETS
+from asperity.thesis.gearsets import GEARSET_2, GEARSETS, sensitivity_of
 
 _CASES = tuple(gear.case for gear in GEARSETS.values())
+
+
+def figure_3_2() -> Drawn:
+    """Efficiency over each input of gearset 2."""
+    study = sensitivity_of(GEARSET_2)
+    return Drawn(study.plot(), study.to_dataset(), [GEARSET_2.command("sensitivity")])
 
 
 def figure_3_3() -> Drawn:
@@ -17,11 +21,10 @@ def figure_3_3() -> Drawn:
     velocity = np.geomspace(0.02, 20.0, 601)
     curves, agma, at = [], [], []
     for gear in GEARSETS.values():
-        case = gear.read()
-        gearset, operation = case.require(Gearset), case.require(Operation)
+        gearset, operation, options = gear.tables()
         own = gear.number("iso14521", "sliding_velocity_m_s")
         found = variants(
-            gearset, operation, standards=("iso14521", "agma6034"), capacity=False,
+            gearset, operation, options, standards=("iso14521", "agma6034"), capacity=False,
             worm_speed=operation.worm_speed * velocity / own,
         )  # fmt: skip
         curves.append(found["iso14521.mu_zm"])
@@ -44,6 +47,13 @@ def figure_3_3() -> Drawn:
 
 
 FIGURES = (
+    FigureOf(
+        "3.2", "Efficiency of gearset 2 over each of its inputs",
+        "By ISO/TR 14521; one input is raised at a time, in steps of 5 %, with the centre distance "
+        "as it is. Crosses: above these the film parameter h* is not above zero, and there is no "
+        "answer.",
+        (GEARSET_2.case,), figure_3_2,
+    ),
     FigureOf(
         "3.3", "Friction by two standards",
         "Base friction by ISO/TR 14521 in mineral oil, tooth friction of gearsets 2 and 3 with its "

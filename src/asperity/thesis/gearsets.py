@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Case, Table, read_case
-from asperity.rating import STANDARDS, Rated, rate_case
+from asperity.gearset import Gearset
+from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case
 from asperity.rating.result import Rating
+from asperity.rating.studies.sensitivity import Sensitivity, sensitivity
 from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.slider.tables import TABLES as SLIDER_TABLES
 
@@ -29,6 +31,11 @@ class Gear:
     def read(self) -> Case:
         """The case."""
         return read_case(self.case, CASE_TABLES, self.settings)
+
+    def tables(self) -> tuple[Gearset, Operation, RatingOptions]:
+        """What the ratings and their studies take."""
+        case = self.read()
+        return case.require(Gearset), case.require(Operation), case.require(RatingOptions)
 
     def rated(self) -> Rated:
         """Its rating by all standards."""
@@ -51,6 +58,12 @@ class Gear:
         """The same on the command line."""
         settings = [f"--set {shlex.quote(setting)}" for setting in self.settings]
         return " ".join(["asperity", verb, self.case, *settings])
+
+
+@functools.cache
+def sensitivity_of(gear: Gear) -> Sensitivity:
+    """Its efficiency over each of its inputs."""
+    return sensitivity(*gear.tables())
 
 
 @functools.cache

@@ -15,6 +15,16 @@ from asperity.thesis.files import FigureFiles, TableFiles
 from asperity.thesis.ledger import Entry
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
+_GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "μ", "nu": "ν", "sigma": "σ"}
+_SIGNS = {
+    "<=": "≤",
+    r"\+-": "±",
+    r"\bmu\b": "µ",
+    r"\bdegC\b": "°C",
+    r"\bum\b": "µm",
+    r"\bmm2\b": "mm²",
+    **{rf"\b{name}_": f"{letter}_" for name, letter in _GREEK.items()},
+}
 _TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
@@ -88,9 +98,11 @@ def typeset(text: str) -> Any:
     """
     from markupsafe import Markup, escape
 
-    text = text.replace("<=", "≤").replace("+-", "±")
-    text = re.sub(r"\bmu\b", "µ", re.sub(r"\beta_", "η_", text))
-    return Markup(re.sub(r"\b([A-Za-zη])_(\w+)", r"\1<sub>\2</sub>", str(escape(text))))
+    for plain, sign in _SIGNS.items():
+        text = re.sub(plain, sign, text)
+    return Markup(
+        re.sub(r"\b([A-Za-z\u0370-\u03ff])_(\w+(?:,\w+)?)", r"\1<sub>\2</sub>", str(escape(text)))
+    )
 
 
 def _data(picture: Path) -> str:

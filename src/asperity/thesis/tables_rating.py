@@ -1,10 +1,11 @@
 """Tables 3.2 to 3.7, as far as their inputs survive, each row with what the thesis says of it."""
 
+import math
 from typing import NamedTuple
 
 from asperity.rating.result import Entry
 from asperity.thesis.exhibits import Grid, TableOf
-from asperity.thesis.gearsets import GEARSET_2, GEARSETS, Gear
+from asperity.thesis.gearsets import GEARSET_2, GEARSETS, Gear, sensitivity_of
 
 
 class _Row(NamedTuple):
@@ -53,6 +54,16 @@ _TABLE_3_2 = (
     _Row("iso14521", "loss_seal_W"),
     _Row("iso14521", "eta_ges", "31 % (3.2.1)"),
 )
+
+_EFFECTS = {
+    "pressure_angle": "raises, small",
+    "centre_distance": "raises, most of all",
+    "worm_speed": "raises",
+    "gear_ratio": "lowers; fails above 27 %",
+    "diameter_factor": "lowers",
+    "axial_module": "lowers; fails above 37 %",
+    "worm_roughness": "lowers, small",
+}
 
 _INFERRED = "inferred"
 _TABLE_3_5 = (
@@ -104,6 +115,33 @@ def table_3_2() -> Grid:
     return Grid(columns, tuple(rows), (GEARSET_2.command(),))
 
 
+def table_3_4() -> Grid:
+    """What each input does to the efficiency of gearset 2."""
+    rows = []
+    for found in sensitivity_of(GEARSET_2).influences:
+        what = found.quantity
+        last = float(found.efficiency[-1])
+        rows.append(
+            (
+                what.symbol,
+                what.meaning,
+                float(found.values[0]),
+                what.unit,
+                found.effect,
+                found.size,
+                found.elasticity,
+                "" if math.isnan(last) else last,
+                "" if found.fails_above is None else 100.0 * found.fails_above,
+                _EFFECTS[what.name],
+            )
+        )
+    columns = (
+        "symbol", "quantity", "value", "unit", "effect", "size", "elasticity",
+        "eta_z at +40 %", "fails above, %", "thesis",
+    )  # fmt: skip
+    return Grid(columns, tuple(rows), (GEARSET_2.command("sensitivity"),))
+
+
 def table_3_5() -> Grid:
     """Inputs and results of gearsets 2 and 3 as they are."""
     rows = []
@@ -123,6 +161,12 @@ TABLES = (
         "By ISO/TR 14521. The thesis's table is lost; its column holds what the text repeats of "
         "it, the last one where the number here is from.",
         (GEARSET_2.case,), table_3_2,
+    ),
+    TableOf(
+        "3.4", "What each input does to the efficiency of gearset 2",
+        "The thesis's table is lost; its column holds what the text of 3.2.3 says. Elasticity: "
+        "relative change of the efficiency over that of the input, at the gearset as it is.",
+        (GEARSET_2.case,), table_3_4,
     ),
     TableOf(
         "3.5", "Efficiency and load capacity of gearsets 2 and 3 as they are",

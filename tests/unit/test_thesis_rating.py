@@ -1,0 +1,104 @@
+"""The worm gearsets of the thesis: tables on disk and on the page, and the gearsets' commands."""
+
+import csv
+import io
+import json
+
+import pytest
+
+from asperity.thesis import contents, report
+from asperity.thesis.contents import CHAPTERS, CLAIMS, FIGURES, TABLES, chapter_of
+from asperity.thesis.exhibits import Grid, TableOf
+from asperity.thesis.gearsets import GEARSET_2, Gear
+from asperity.thesis.reproduce import run
+
+GRID = Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("a, b", 60), ("gone", "")), ("how",))
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """One table, and how often it was made."""
+    made = []
+
+    def make():
+        made.append("9.1")
+        return GRID
+
+    monkeypatch.setattr(contents, "FIGURES", {})
+    table = TableOf("9.1", "Title", "Caption.", ("gearset-2",), make)
+    monkeypatch.setattr(contents, "TABLES", {"9.1": table})
+    return made
+
+
+def test_a_table_loses_no_digit_in_csv_and_json():
+    rows = list(csv.reader(io.StringIO(GRID.to_csv())))
+    assert rows[0] == ["symbol", "value"]
+    assert float(rows[1][1]) == 1.0 / 3.0
+    assert rows[2] == ["a, b", "60"]
+    assert Grid.from_json(json.loads(json.dumps(GRID.to_json()))) == GRID
+
+
+def test_a_row_has_a_cell_for_every_column():
+    with pytest.raises(ValueError, match="'m' has 1 cells for 2 columns"):
+        Grid(("symbol", "value"), (("m",),), ())
+
+
+def test_a_table_that_is_there_and_true_is_used_again(tmp_path, counted):
+    lines = []
+    first = run(tmp_path, ["9.1"])
+    again = run(tmp_path, ["9.1"], lines.append)
+    assert counted == ["9.1"]
+    assert (first.tables[0].reused, again.tables[0].reused) == (False, True)
+    assert again.tables[0].grid == GRID
+    assert lines == ["table 9.1: there already"]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json"])
+def test_a_damaged_table_is_made_again(tmp_path, counted, suffix):
+    path = run(tmp_path, ["9.1"]).tables[0].path.with_suffix(suffix)
+    path.write_bytes(path.read_bytes()[:-3])
+    assert not run(tmp_path, ["9.1"]).tables[0].reused
+    assert counted == ["9.1", "9.1"]
+
+
+def test_other_tables_of_a_standard_make_a_table_again(tmp_path, counted, monkeypatch):
+    run(tmp_path, ["9.1"])
+    monkeypatch.setattr("asperity.thesis.files._data_hash", lambda: "changed")
+    assert not run(tmp_path, ["9.1"]).tables[0].reused
+
+
+def test_a_number_asks_for_the_figure_and_the_table_that_have_it():
+    figures, tables = contents.select(["3.2"])
+    assert [figure.title for figure in figures] == [FIGURES["3.2"].title]
+    assert [table.title for table in tables] == [TABLES["3.2"].title]
+
+
+def test_everything_belongs_to_a_chapter_of_the_page():
+    chapters = {chapter.number for chapter in CHAPTERS}
+    assert {chapter_of(claim.id) for claim in CLAIMS} <= chapters
+    assert {chapter_of(number) for number in (*FIGURES, *TABLES)} == chapters - {"7"}
+
+
+def test_claims_figures_and_tables_stand_in_the_order_of_the_thesis():
+    assert [claim.id for claim in CLAIMS] == [
+        *(f"3.{n}" for n in range(1, 9)), *(f"4.{n}" for n in range(1, 9)), "7.1",
+    ]  # fmt: skip
+    assert list(FIGURES)[3:8] == ["3.1", "3.2", "3.3", "3.4", "3.5"]
+    assert list(TABLES) == ["3.2", "3.3", "3.4", "3.5", "3.6", "3.7"]
+
+
+def test_cells_are_shown_to_five_digits_and_never_as_markup():
+    assert report.shown(1.0 / 3.0) == "0.33333"
+    assert report.shown(500000) == "500000"
+    assert report.shown("<b> m_x1") == "&lt;b&gt; m<sub>x1</sub>"
+
+
+def test_a_gearset_knows_its_command_and_its_numbers():
+    gear = Gear("gearset-2", ("rating.base_friction=0.055", "gearset.pressure_angle=25 deg"))
+    assert gear.command("rate") == (
+        "asperity rate gearset-2 --set rating.base_friction=0.055 "
+        "--set 'gearset.pressure_angle=25 deg'"
+    )
+    assert gear.number("iso14521", "mu_0T") == 0.055
+    assert gear.number("agma6034", "pressure_angle_deg") == pytest.approx(25.0)
+    assert GEARSET_2.number("iso14521", "mu_0T") == pytest.approx(0.0715, abs=5e-5)
