@@ -59,7 +59,7 @@ def wait_for(kept):
     """Wait until a sweep has kept so many results."""
 
     def wait(process, environment, least):
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 180
         while kept(environment) < least:
             assert process.poll() is None, process.communicate()
             assert time.monotonic() < deadline
@@ -93,7 +93,7 @@ def asperity(start):
 
     def run(*arguments, **options):
         process = start(*arguments, **options)
-        output, errors = process.communicate(timeout=120)
+        output, errors = process.communicate(timeout=300)
         return process.returncode, output, errors
 
     return run

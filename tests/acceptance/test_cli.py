@@ -254,7 +254,7 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
     os.close(read)
     process = start("cases", stdout=write)
     os.close(write)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=180)
     assert errors == ""
 
 
@@ -273,7 +273,7 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
 def test_what_a_command_does_not_need_is_not_loaded(environment, arguments, absent):
     ended = subprocess.run(
         [sys.executable, "-c", PROGRAM, *arguments],
-        env=environment, capture_output=True, text=True, timeout=60, check=True,
+        env=environment, capture_output=True, text=True, timeout=180, check=True,
     )  # fmt: skip
     loaded = set(ended.stderr.rpartition("loaded:")[2].split())
     assert "asperity.cli.main" in loaded

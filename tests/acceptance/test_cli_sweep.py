@@ -37,7 +37,7 @@ def test_a_sweep_interrupted_and_then_killed_loses_nothing_that_was_done(
     process = start_slowly(*LONG)
     wait_for(process, environment, 1)
     process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=120)
     interrupted = kept(environment)
     assert 0 < interrupted < POINTS
     assert (process.returncode, output) == (130, "")
@@ -49,7 +49,7 @@ def test_a_sweep_interrupted_and_then_killed_loses_nothing_that_was_done(
     process = start_slowly(*LONG)
     wait_for(process, environment, interrupted + 1)
     process.kill()
-    process.communicate(timeout=30)
+    process.communicate(timeout=120)
     killed = kept(environment)
     assert interrupted < killed < POINTS
 

@@ -46,7 +46,7 @@ def scheduler(dask, tmp_path):
     """Address of a scheduler without workers."""
     file = tmp_path / "scheduler.json"
     dask("scheduler", "--port", 0, "--no-dashboard", "--scheduler-file", file)
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         if file.exists() and (text := file.read_text()):
             return json.loads(text)["address"]
@@ -66,7 +66,7 @@ def test_a_sweep_outlives_a_worker_and_equals_that_of_this_machine(
     wait_for(process, environment, 1)
     victim.kill()
     assert kept(environment) < POINTS
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=180)
     assert (process.returncode, errors) == (0, "")
     there = json.loads(output)
     assert (there["points"], there["cached"]) == (POINTS, 0)
@@ -83,7 +83,7 @@ def test_an_interrupted_cluster_keeps_what_is_done(
     process = start(*SWEEP, "--cluster", scheduler, env=environment)
     wait_for(process, environment, 1)
     process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=120)
     assert (process.returncode, output) == (130, "")
     assert errors.startswith(f"interrupted: {kept(environment)} of {POINTS} points are kept")
 
@@ -96,7 +96,7 @@ def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
     process = start(*SWEEP, "--cluster", scheduler, env=environment)
     wait_for(process, environment, 1)
     processes[0].kill()
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=180)
     assert (process.returncode, output) == (2, "")
     assert errors.count("\n") == 1
     assert "the scheduler is gone" in errors
@@ -110,4 +110,4 @@ def test_an_address_where_no_scheduler_answers_is_one_line(asperity, address):
     assert (code, output) == (2, "")
     assert errors.startswith(f"--cluster {address}: no scheduler answers (")
     assert errors.count("\n") == 1
-    assert time.monotonic() - began < 20
+    assert time.monotonic() - began < 30
