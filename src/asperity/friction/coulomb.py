@@ -4,6 +4,8 @@ import math
 
 from asperity.compiled import kernel
 
+_SLIPS = 1.0 - 1e-9  # square of the share from which the contact slips
+
 
 @kernel
 def project(free_x, free_y, give_x, give_y, last_x, last_y):
@@ -62,30 +64,58 @@ def project(free_x, free_y, give_x, give_y, last_x, last_y):
 
 
 @kernel
-def mean_share(before_x, before_y, after_x, after_y, smooth, last_x, last_y):
-    r"""Mean friction share around a time node for a prescribed slip.
+def _reversal(before, free, give):
+    """Mean share along a line while a steady push slows, stops, holds or turns the slip.
 
-    A sign taken at the node would place a reversal only to within a step.
+    Continuous in every argument, which a share taken at the end of the step is not.
+    """
+    sign = 1.0 if before >= 0.0 else -1.0
+    start = abs(before)
+    push = sign * free - start
+    after = start + push - give
+    if after >= 0.0:
+        return sign
+    if push >= -give:
+        return sign * (start + push) / give
+    stop = start / (give - push)
+    return sign * (2.0 * stop - 1.0)
+
+
+@kernel
+def mean_share(
+    before_x, before_y, free_x, free_y, give_x, give_y, smooth, last_x, last_y
+):  # fmt: skip
+    r"""Mean friction share around a time node, from the slip of the steps on both sides of it.
+
+    `project` decides whether the body sticks; a share taken at the node alone would place a
+    reversal of the slip, and a turn of its direction, only to within a step.
 
     Parameters
     ----------
-    before_x, before_y, after_x, after_y : float
-        Slip of the steps before and after the node.
+    before_x, before_y : float
+        Slip of the step before the node.
+    free_x, free_y, give_x, give_y, last_x, last_y : float
+        The step after it, as in `project`.
     smooth : bool
-        Whether the velocity goes straight from one to the other, or jumps at the node.
-    last_x, last_y : float
-        Share to keep where nothing slips.
+        Whether the slip velocity changes steadily, or jumps at the node.
 
     Returns
     -------
     tuple of 2 floats
         Friction force over :math:`\mu F_N`, by component, in the direction of the slip.
     """
+    if smooth and before_x != 0.0 and before_y == 0.0 and free_y == 0.0:
+        return _reversal(before_x, free_x, give_x), 0.0
+    share_x, share_y = project(free_x, free_y, give_x, give_y, last_x, last_y)
+    if share_x * share_x + share_y * share_y < _SLIPS:
+        return share_x, share_y
+    after_x = free_x - give_x * share_x
+    after_y = free_y - give_y * share_y
     before = math.sqrt(before_x * before_x + before_y * before_y)
     after = math.sqrt(after_x * after_x + after_y * after_y)
-    if before == 0.0 and after == 0.0:
-        return last_x, last_y
-    if smooth or before == 0.0 or after == 0.0:
+    if before == 0.0 or after == 0.0:
+        return share_x, share_y
+    if smooth:
         return (before_x + after_x) / (before + after), (before_y + after_y) / (before + after)
     return (
         0.5 * (before_x / before + after_x / after),

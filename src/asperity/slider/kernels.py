@@ -190,12 +190,9 @@ def march_block(state, sums, p, increments, steps, model, law):
         elif model == COULOMB:
             ahead = increments[n + 1]
             wx1 = keep * wx + give_x * free
-            next_dx = wx1 - p[BASE_X] * ahead
-            next_dy = own * wy1 - p[BASE_Y] * ahead
-            if give_x == 0.0 and give_y == 0.0:
-                fx, fy = mean_share(dx, dy, next_dx, next_dy, smooth, fx, fy)
-            else:
-                fx, fy = project(next_dx, next_dy, give_x, own * give_y, fx, fy)
+            free_dx = wx1 - p[BASE_X] * ahead
+            free_dy = own * wy1 - p[BASE_Y] * ahead
+            fx, fy = mean_share(dx, dy, free_dx, free_dy, give_x, own * give_y, smooth, fx, fy)
             wx1 -= give_x * fx
             wy1 -= give_y * fy
         else:
