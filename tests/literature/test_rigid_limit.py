@@ -165,18 +165,36 @@ def test_the_power_of_an_elastic_contact_goes_to_the_rigid_power(k, theta, total
     assert errors[-1] < 3e-3 * exact
 
 
+MASS = {"slider__drive_stiffness": 96068.0, "friction__law": "vector"}
+
+
+@pytest.mark.parametrize(("k", "theta"), [(2, 60), (6, 60), (6, 90)])
+def test_rigid_friction_of_a_body_with_mass_converges_with_order_two(k, theta):
+    settings = ("friction.model=coulomb", "slider.lateral=free", *along(k, theta))
+    ratios = [
+        guided(*settings, solve__step=1.0 / (3000.0 * n), **MASS).ratio
+        for n in (400, 800, 1600, 3200)
+    ]
+    changes = np.abs(np.diff(ratios))
+    assert np.log2(changes[:-1] / changes[1:]) == pytest.approx(2.0, abs=0.4)
+    assert changes[-1] < 1e-5
+
+
+@pytest.mark.parametrize("k", [2, 6])
+def test_rigid_friction_of_a_body_with_mass_is_right_at_its_reversals(k):
+    settings = ("friction.model=coulomb", "slider.lateral=free", *along(k, 0))
+    coarse, fine = (
+        guided(*settings, solve__step=1.0 / (3000.0 * n), **MASS).ratio for n in (300, 6000)
+    )
+    assert coarse == pytest.approx(fine, rel=2e-4)
+
+
 def test_friction_of_a_body_with_mass_is_the_limit_of_a_stiff_asperity():
     settings = ("slider.lateral=free", *along(6, 60), "solve.step=0.1 us")
-    values = {"slider__drive_stiffness": 96068.0, "friction__law": "vector"}
-    rigid = [
-        guided(*settings, "friction.model=coulomb", solve__step=step, **values).ratio
-        for step in (0.25e-6, 0.125e-6)
-    ]
-    # The implicit step of a body with mass is of order one.
-    limit = 2.0 * rigid[1] - rigid[0]
+    limit = guided(*settings, "friction.model=coulomb", **MASS).ratio
     errors = [
-        guided(*settings, friction__max_deflection=limit_, **values).ratio - limit
-        for limit_ in (4e-9, 1e-9, 0.25e-9)
+        guided(*settings, friction__max_deflection=deflection, **MASS).ratio - limit
+        for deflection in (4e-9, 1e-9, 0.25e-9)
     ]
     assert np.log(np.divide(errors[:-1], errors[1:])) / np.log(4.0) == pytest.approx(1.0, abs=0.25)
     assert abs(errors[-1]) < 2e-3

@@ -6,7 +6,7 @@ import pytest
 from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.friction import LAWS, SPLIT, UNSPLIT, VECTOR, Friction, update
-from asperity.friction.coulomb import project
+from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import (
     OVERSHOOT_BOUND,
     SERIES_BOUND,
@@ -206,6 +206,43 @@ def test_a_slip_prescribed_along_one_axis_takes_all_friction_from_a_body_free_ac
     slip = (1.0, 0.5 - 2.0 * y)
     assert (x, y) == pytest.approx(tuple(np.array(slip) / np.hypot(*slip)), abs=1e-12)
     assert project(1.0, 0.0, 0.0, 2.0, 0.0, 0.0) == (1.0, 0.0)
+
+
+@kernel
+def pushed_in_parts(before, free, give, parts):
+    """Mean share of a steady push in many parts: the sign of the slip, or the share that holds."""
+    push, slip, total = (free - before) / parts, before, 0.0
+    for _ in range(parts):
+        share, _ = project(slip + push, 0.0, give / parts, 0.0, 0.0, 0.0)
+        slip += push - give / parts * share
+        total += share
+    return total / parts
+
+
+@pytest.mark.parametrize("before", [-1.0, 0.4, 1.0])
+@pytest.mark.parametrize("free", [-3.0, -0.6, -0.2, 0.3, 0.9, 2.5])
+@pytest.mark.parametrize("give", [1e-9, 0.3, 1.0, 2.0])
+def test_along_a_line_the_mean_share_is_that_of_a_steady_push(before, free, give):
+    share, across = mean_share(before, 0.0, free, 0.0, give, give, True, 0.0, 0.0)
+    assert share == pytest.approx(pushed_in_parts(before, free, give, 1_000_000), abs=1e-5)
+    assert across == 0.0
+
+
+def test_where_the_slip_velocity_jumps_both_sides_count_half():
+    assert mean_share(-1.0, 0.0, 3.0, 0.0, 0.0, 0.0, False, 0.0, 0.0) == (0.0, 0.0)
+    assert mean_share(0.0, 2.0, 3.0, 0.0, 0.0, 0.0, False, 0.0, 0.0) == (0.5, 0.5)
+
+
+def test_where_the_slip_velocity_turns_steadily_the_mean_share_is_its_mean_direction():
+    ways = np.linspace([0.3, 1.0], [0.5, 0.9], 100_001)
+    mean = np.mean(ways / np.hypot(*ways.T)[:, None], axis=0)
+    share = mean_share(0.3, 1.0, 0.5, 0.9, 0.0, 0.0, True, 0.0, 0.0)
+    assert share == pytest.approx(tuple(mean), abs=4e-3)
+    # A quarter of the error for half the turn: order two.
+    near = np.linspace([0.3, 1.0], [0.4, 0.95], 100_001)
+    closer = np.mean(near / np.hypot(*near.T)[:, None], axis=0)
+    half = mean_share(0.3, 1.0, 0.4, 0.95, 0.0, 0.0, True, 0.0, 0.0)
+    assert math.dist(half, closer) < 0.3 * math.dist(share, mean)
 
 
 def test_stiffness_and_deflection_limit_are_two_forms_of_one_thing():

@@ -1,0 +1,189 @@
+import math
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.errors import ConvergenceError
+from asperity.friction import Friction
+from asperity.slider import TABLES, Model, Slider, Solve, solve
+from asperity.slider.periodic import cycle_steps
+from asperity.slider.shooting import ACCEPTED
+from asperity.vibration import Vibration
+
+LAWS = ["split", "unsplit", "vector"]
+RIGID = {"slider.drive_stiffness": None, "slider.drive_damping": None}
+
+
+def body(name, *settings, **values):
+    case = read_case(name, TABLES, ["solve.method=periodic", *settings])
+    return Model.from_case(case.replace_values(values))
+
+
+def solved(name, *settings, history=False, **values):
+    return solve(body(name, *settings, **values), history=history)
+
+
+def falling(stribeck_velocity, static_mu):
+    """A slow body on a soft drive whose friction falls with speed."""
+    slider = Slider(drive_velocity=0.5e-3, normal_force=50.0, mass=1.0, drive_stiffness=1e4)
+    friction = Friction(
+        model="lugre", mu=0.1, static_mu=static_mu, stribeck_velocity=stribeck_velocity,
+        max_deflection=7e-8,
+    )  # fmt: skip
+    vibration = Vibration(frequency=3e3, velocity_ratio=0.2)
+    return Model(slider, friction, vibration, Solve(method="periodic"))
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("lateral", ["free", "guided"])
+@pytest.mark.parametrize("theta", [0, 20, 45, 80, 90])
+def test_the_state_repeats_itself(theta, lateral, law):
+    settings = f"vibration.direction={theta} deg", f"slider.lateral={lateral}"
+    answer = solved("table-4.4", *settings, f"friction.law={law}", history=True)
+    assert answer.residual <= ACCEPTED
+    history = answer.history
+    # The rows begin a step after the state at which the cycle starts and ends.
+    first = history.drive_force[0] - history.drive_force[-1]
+    steps = np.abs(np.diff(history.drive_force)).max()
+    assert abs(first) <= 1.1 * steps
+    assert answer.ledger.stored == 0.0
+    assert answer.ledger.residual < 1e-6
+
+
+@pytest.mark.parametrize("case", ["table-4.3", "table-4.4"])
+@pytest.mark.parametrize("law", LAWS)
+def test_marching_on_from_the_periodic_state_stays_there(case, law):
+    periodic = solved(case, f"friction.law={law}", "vibration.direction=30 deg")
+    marched = solved(
+        case, f"friction.law={law}", "vibration.direction=30 deg", "solve.method=march",
+        "solve.duration=3 s",
+    )  # fmt: skip
+    assert periodic.ratio == pytest.approx(marched.ratio, rel=1e-3)
+    for name in ("friction_mean", "friction_max", "friction_min"):
+        here, there = getattr(periodic, name), getattr(marched, name)
+        assert here == pytest.approx(there, abs=3e-3 * marched.static_drive_force)
+    assert periodic.ledger.vibration == pytest.approx(marched.ledger.vibration, rel=2e-3)
+    assert periodic.ledger.friction == pytest.approx(marched.ledger.friction, rel=2e-3)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.25, 0.99, 1.0])
+@pytest.mark.parametrize("theta", [0, 180])
+def test_where_the_slip_never_reverses_friction_sits_at_its_limit(theta, k):
+    answer = solved(
+        "table-4.3", f"vibration.velocity_ratio={k}", f"vibration.direction={theta} deg"
+    )
+    assert answer.ratio == 1.0
+    assert answer.friction_max == (5.5, 0.0)
+    assert answer.friction_min == (5.5, 0.0)
+    assert answer.residual < 1e-12
+
+
+def test_just_above_it_the_ratio_falls_without_a_jump():
+    ratios = [
+        solved("table-4.3", f"vibration.velocity_ratio={k}").ratio
+        for k in (1.0, 1.0001, 1.01, 1.05, 1.2)
+    ]
+    assert ratios[0] == 1.0
+    assert np.all(np.diff(ratios) <= 1e-9)
+    assert ratios[1] == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("exponent", [0, 0.5, 1, 1.5, 2])
+@pytest.mark.parametrize("law", LAWS)
+def test_every_exponent_has_its_periodic_state(law, exponent):
+    settings = f"friction.law={law}", f"friction.exponent={exponent}", "vibration.direction=60 deg"
+    answer = solved("table-4.4", *settings, history=True)
+    assert np.hypot(*answer.history.friction.T).max() <= 5.08 * (1.0 + 1e-12)
+    assert 0.0 < answer.ratio < 1.0
+
+
+@pytest.mark.parametrize("theta", [0, 60])
+def test_it_needs_no_mass_and_no_drive_stiffness(theta):
+    settings = "slider.lateral=guided", f"vibration.direction={theta} deg"
+    periodic = solved("table-4.4", *settings, **RIGID)
+    marched = solved("table-4.4", *settings, "solve.method=march", **RIGID)
+    assert periodic.ratio == pytest.approx(marched.ratio, rel=2e-4)
+
+
+def test_a_body_free_across_a_rigid_drive_has_one_too():
+    settings = "slider.lateral=free", "vibration.direction=60 deg"
+    periodic = solved("table-4.4", *settings, **RIGID)
+    marched = solved("table-4.4", *settings, "solve.method=march", **RIGID)
+    assert periodic.ratio == pytest.approx(marched.ratio, rel=2e-4)
+
+
+@pytest.mark.parametrize("theta", [0, 45, 90])
+def test_rigid_friction_with_mass_has_its_periodic_state(theta):
+    settings = "friction.model=coulomb", f"vibration.direction={theta} deg"
+    periodic = solved("table-4.4", *settings, "solve.step=0.5 us")
+    marched = solved("table-4.4", *settings, "solve.step=0.5 us", "solve.method=march")
+    assert periodic.ratio == pytest.approx(marched.ratio, rel=2e-4)
+
+
+def test_start_and_duration_have_no_meaning():
+    plain = solved("table-4.4")
+    other = solved("table-4.4", "vibration.start=0 s", "solve.duration=1 ms")
+    assert other.ratio == plain.ratio
+    assert plain.breakaway_time is None
+
+
+@pytest.mark.parametrize("waveform", ["triangle", "square"])
+def test_kinks_of_the_waveform_meet_the_steps(waveform):
+    settings = [f"vibration.waveform={waveform}", "vibration.direction=45 deg"]
+    if waveform == "square":
+        settings.append("vibration.rise_time=50 us")
+    model = body("table-4.4", *settings)
+    assert cycle_steps(model) % 4 == 0
+    coarse = solve(model, history=False).ratio
+    fine = solved("table-4.4", *settings, "solve.step=0.05 us").ratio
+    assert coarse == pytest.approx(fine, rel=2e-3)
+
+
+def test_at_least_256_steps_make_a_cycle():
+    assert cycle_steps(body("table-4.3", "solve.step=10 us", "vibration.velocity_ratio=1")) == 256
+    assert cycle_steps(body("table-4.3", "solve.step=0.1 us")) == 2500
+
+
+def test_the_history_is_one_cycle():
+    answer = solved("table-4.3", history=True)
+    history = answer.history
+    assert history.time[-1] == pytest.approx(1.0 / 4000.0, rel=1e-12)
+    assert history.drive_force.mean() == pytest.approx(answer.drive_force, rel=1e-9)
+    mean_velocity = history.velocity[:, 0].mean()
+    assert mean_velocity == pytest.approx(0.5e-3, rel=1e-9)
+
+
+def test_it_takes_few_cycles():
+    counts = [
+        solved(
+            "table-4.4", f"vibration.velocity_ratio={k}", f"vibration.direction={theta} deg"
+        ).cycles
+        for k in (2, 6, 20)
+        for theta in (0, 45, 90)
+    ]
+    assert max(counts) <= 30
+
+
+def test_an_unstable_state_is_told():
+    answer = solve(falling(stribeck_velocity=5e-3, static_mu=0.15), history=False)
+    assert any("unstable" in note for note in answer.notes)
+    assert solved("table-4.4").notes == ()
+
+
+def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_periodic_state():
+    with pytest.raises(ConvergenceError) as raised:
+        solve(falling(stribeck_velocity=1e-3, static_mu=0.2))
+    error = raised.value
+    assert len(str(error).splitlines()) == 1
+    assert "solve.method 'march' shows what it does" in str(error)
+    assert error.reached["residual"] > ACCEPTED
+    assert error.reached["cycles"] > 0
+
+
+def test_the_untransferred_motion_of_a_free_vibrated_body_is_no_obstacle():
+    settings = "vibration.applied_to=body", "friction.transfer=0", "vibration.direction=50 deg"
+    answer = solved("table-4.4", *settings)
+    guided = solved("table-4.4", *settings, "slider.lateral=guided")
+    assert answer.ratio == pytest.approx(guided.ratio, rel=1e-9)
+    assert math.isfinite(answer.ledger.untransferred)
