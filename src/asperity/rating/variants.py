@@ -20,7 +20,7 @@ from asperity.rating.varied import varied
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Variants(Mapping[str, npt.NDArray[np.float64]]):
+class Variants:
     """Ratings of many variants: an array for each number, by standard and key.
 
     ``variants["iso14521.eta_z1_2"]`` has the numbers that `asperity.rating.rate` gives for each
@@ -50,6 +50,9 @@ class Variants(Mapping[str, npt.NDArray[np.float64]]):
         everywhere = np.broadcast_to(self._values[key], self._impossible.shape).astype(np.float64)
         everywhere[self._impossible] = np.nan
         return everywhere.reshape(self.shape)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._values
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)

@@ -4,10 +4,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.rating.studies.design import VARIABLES
+from asperity.rating.studies.quantities import quantity
+
 if TYPE_CHECKING:
     import xarray as xr
 
     from asperity.rating.studies.sensitivity import Sensitivity
+    from asperity.rating.studies.tradeoff import TradeOff
 
 Labelled = tuple[tuple[str, ...], Any, str, str]
 
@@ -66,4 +70,24 @@ def sensitivity_dataset(study: "Sensitivity") -> "xr.Dataset":
         },
     )  # fmt: skip
     dataset.attrs["eta_z1_2"] = study.efficiency
+    return dataset
+
+
+def trade_off_dataset(curve: "TradeOff") -> "xr.Dataset":
+    """Return the designs over the permissible torque."""
+    over = ("torque",)
+    dataset = labelled(
+        f"Efficiency and permissible torque of {curve.name or 'a worm gearset'}",
+        {"torque": (over, curve.torque, "N m", "permissible torque, by wear and strength")},
+        eta_z1_2=(over, curve.efficiency, "1", "highest efficiency of the teeth"),
+        h_star=(over, curve.numbers["h_star"], "1", "parameter of the lubricant film"),
+        M_w=(over, curve.numbers["M_w_Nm"], "N m", "torque permitted by wear"),
+        M_s=(over, curve.numbers["M_s_Nm"], "N m", "torque permitted by strength"),
+        **{
+            what.name: (over, curve.numbers[what.key], what.unit or "1", what.meaning)
+            for what in map(quantity, (*VARIABLES, "profile_shift"))
+        },
+    )
+    given = {f"given.{key}": value for key, value in curve.given.items()}
+    dataset.attrs |= given | {"required_torque_Nm": curve.required_torque}
     return dataset

@@ -38,10 +38,14 @@ class Quantity(NamedTuple):
         """Return a value in the unit of results."""
         return value / _TO_SI.get(self.unit, 1.0)
 
+    def shown(self, value: float) -> float:
+        """Return a number in SI in the unit of results, to 14 digits: 30 deg come back as 30."""
+        return float(f"{self.from_si(value):.14g}")
+
     def of(self, given: Inputs) -> float:
         """Return what a gearset has, in the unit of results."""
         value: Any = getattr(given, self.name)
-        return math.degrees(value) if self.unit == "deg" else float(value)
+        return self.shown(value) if self.unit == "deg" else float(value)
 
     def text(self, value: float) -> str:
         """Return a value with its unit for people."""

@@ -1,0 +1,187 @@
+"""``asperity rate`` as a user runs it."""
+
+import csv
+import json
+
+import pytest
+
+KEYS = {
+    "geometry": {"lead_angle_deg", "profile_shift", "worm_pitch_diameter_mm"},
+    "iso14521": {
+        "sliding_velocity_m_s", "mu_0T", "mu_zm", "Y_S", "Y_G", "Y_W", "Y_R", "h_star", "p_m_star",
+        "s_star", "eta_z1_2", "eta_z2_1", "eta_ges", "input_power_W", "input_torque_Nm",
+        "loss_meshing_W", "loss_idle_W", "loss_bearing_W", "loss_seal_W", "sigma_Hm_MPa",
+        "safety_wear", "safety_pitting", "safety_deflection", "safety_root", "safety_temperature",
+    },
+    "bs721": {"M_26k_Nm", "M_w_Nm", "M_s_Nm"},
+    "agma6034": {
+        "mu", "eta", "allowable_torque_Nm", "bending_stress_MPa", "C_s", "C_m", "C_v",
+    },
+}  # fmt: skip
+OWN = """
+# A gearset of the user's own, with no more than what is required
+
+[gearset]
+starts = 2
+wheel_teeth = 40
+centre_distance = "100 mm"
+axial_module = "4 mm"
+diameter_factor = 10
+worm_material = "case-hardened steel"
+wheel_material = "CuSn12-C-GZ"
+
+[operation]
+worm_speed = "1500 rpm"
+output_torque = "300 N m"
+lubricant = { base_oil = "mineral", viscosity_40 = "220 mm^2/s", viscosity_100 = "19 mm^2/s" }
+"""
+
+
+@pytest.fixture
+def own(tmp_path):
+    file = tmp_path / "own.toml"
+    file.write_text(OWN)
+    return file
+
+
+def one_object(output):
+    assert output.count("\n") == 1
+    return json.loads(output, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+
+
+@pytest.mark.parametrize("name", ["gearset-2", "gearset-3", "gearset-3b"])
+def test_gearsets_that_ship_print_one_object_with_the_keys_of_the_contract(asperity, name):
+    code, output, errors = asperity("rate", name, "--json")
+    assert (code, errors) == (0, "")
+    answer = one_object(output)
+    for part, keys in KEYS.items():
+        assert answer[part].keys() >= keys
+    assert answer["notes"] == []
+
+
+def test_gearset_3_through_the_command_line(asperity):
+    answer = one_object(asperity("rate", "gearset-3", "--json")[1])
+    assert answer["iso14521"]["mu_zm"] == pytest.approx(0.1344, abs=5e-5)
+    assert answer["iso14521"]["eta_z1_2"] == pytest.approx(0.73, abs=5e-3)
+    assert answer["geometry"]["lead_angle_deg"] == pytest.approx(26.0, abs=0.05)
+
+
+def test_file_with_no_more_than_what_is_required_is_rated_and_tells_the_rest(asperity, own):
+    code, output, errors = asperity("rate", own, "--json")
+    assert (code, errors) == (0, "")
+    answer = one_object(output)
+    assert answer["assumed"]["operation.seals"] == "2"
+    assert "seals" in answer["iso14521"]["assumed"]
+    assert "nu_40_mm2_s" not in answer["iso14521"]["assumed"]
+
+
+def test_standard_asked_for_alone_leaves_the_others_null(asperity, own):
+    answer = one_object(asperity("rate", own, "--standard", "bs721", "--json")[1])
+    assert answer["bs721"]["M_w_Nm"] > 0.0
+    assert answer["iso14521"] is None
+    assert answer["agma6034"] is None
+
+
+def test_all_is_the_default(asperity, own):
+    default, everything = (
+        asperity("rate", own, "--json"),
+        asperity("rate", own, "--standard", "all", "--json"),
+    )
+    assert default == everything
+
+
+def test_table_names_symbol_value_unit_equation_and_trust(asperity):
+    code, output, errors = asperity("rate", "gearset-3")
+    assert (code, errors) == (0, "")
+    lines = output.splitlines()
+    assert max(map(len, lines)) <= 100
+    assert output.isascii()
+    (line,) = (line for line in lines if line.startswith("Y_S "))
+    assert line.split() == ["Y_S", "1.1552", "size", "factor", "sqrt(100/a)", "verified"]
+    assert any(line.startswith("- from memory, check before use:") for line in lines)
+    assert any(line.startswith("- outside its validity: lead angle") for line in lines)
+    assert any(line.startswith("Self-locking at a lead angle of 26") for line in lines)
+
+
+def test_files_hold_the_same_numbers(asperity, own, tmp_path):
+    folder = tmp_path / "new" / "out"
+    code, output, errors = asperity("rate", own, "--json", "--out", folder)
+    assert code == 0
+    assert errors == f"written to {folder}: rate.json, rate.html, rate.csv\n"
+    answer = one_object(output)
+    assert json.loads((folder / "rate.json").read_text()) == answer
+    with (folder / "rate.csv").open(newline="") as file:
+        rows = {(row["standard"], row["key"]): row for row in csv.DictReader(file)}
+    for name in ("iso14521", "bs721", "agma6034"):
+        for key in KEYS[name]:
+            assert float(rows[name, key]["value"]) == answer[name][key]
+    assert rows["iso14521", "mu_zm"]["symbol"] == "mu_zm"
+    assert "<table" in (folder / "rate.html").read_text("utf-8")
+
+
+def test_standard_that_cannot_be_applied_is_null_with_a_note(asperity, own):
+    iron = ("--set", "gearset.wheel_material=EN-GJS-400-15", "--json")
+    code, output, errors = asperity("rate", own, *iron)
+    assert (code, errors) == (0, "")
+    answer = one_object(output)
+    assert answer["agma6034"] is None
+    assert answer["iso14521"]["mu_zm"] > 0.0
+    assert any(note.startswith("agma6034: ") for note in answer["notes"])
+    code, output, errors = asperity("rate", own, *iron, "--standard", "agma6034")
+    assert (code, output) == (2, "")
+    assert errors.startswith(f"{own}: gearset.wheel_material is 'EN-GJS-400-15'")
+
+
+def test_end_of_h_star_is_one_line_with_the_effect_of_ratio_and_module(asperity):
+    code, output, errors = asperity(
+        "rate", "gearset-2", "--set", "gearset.wheel_teeth=77", "--standard", "iso14521"
+    )
+    assert (code, output) == (2, "")
+    assert errors.count("\n") == 1
+    assert errors.startswith("gearset-2: h* is -0.00126; it must be above 0")
+    assert "U below" in errors
+    assert "m_x1 below" in errors
+
+
+@pytest.mark.parametrize(
+    ("setting", "line"),
+    [
+        ("gearset.centre_distance=80 mm", "gearset.centre_distance is 80 mm; with 60 teeth"),
+        ("gearset.profile_shift=0.5", "gearset.centre_distance is 74.93 mm; 60 teeth"),
+        ("gearset.wheel_teeth=60.5", "gearset.wheel_teeth is 60.5; it must be a whole number"),
+        ("gearset.wheel_material=CuSn12-C-GX", "did you mean 'CuSn12-C-GZ'?"),
+        ("gearset.worm_material=steel", "gearset.worm_material is 'steel'; no worm material"),
+        ("operation.lubricant=ISO VG 69 mineral", "did you mean 'ISO VG 68 mineral'?"),
+        ("operation.worm_speed=1440 mm", "such as '1440 rpm'"),
+        ("operation.worm_sped=1440 rpm", "did you mean 'worm_speed'?"),
+        ("rating.friction=-0.1", "rating.friction is -0.1"),
+        ("rating.bs721_tables=none.toml", "none.toml cannot be read"),
+    ],
+)
+def test_mistakes_are_one_line_and_exit_2(asperity, setting, line):
+    code, output, errors = asperity("rate", "gearset-3", "--set", setting, "--json")
+    assert (code, output) == (2, "")
+    assert errors.count("\n") == 1
+    assert line in errors
+    assert errors.startswith(("--set", "gearset-3: "))
+
+
+def test_case_without_a_gearset_is_told_which_table_is_missing(asperity):
+    code, output, errors = asperity("rate", "table-4.3")
+    assert (code, output) == (2, "")
+    assert errors == "table-4.3: the table [gearset] is missing; add it\n"
+
+
+def test_unknown_standard_is_named_with_the_near_one(asperity):
+    code, _, errors = asperity("rate", "gearset-3", "--standard", "agma634")
+    assert code == 2
+    assert errors.startswith("--standard agma634: it must be one of ")
+    assert "did you mean 'agma6034'?" in errors
+
+
+def test_edition_may_be_set_as_a_number(asperity):
+    code, output, _ = asperity(
+        "rate", "gearset-3", "--set", "rating.iso14521_edition=1998", "--json"
+    )
+    assert code == 0
+    assert one_object(output)["iso14521"]["standard"] == "DIN 3996:1998"
