@@ -104,9 +104,9 @@ def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
 
 
 @pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:1"])
-def test_an_address_where_no_scheduler_answers_is_one_line(asperity, address):
+def test_an_address_where_no_scheduler_answers_is_one_line(asperity, new_user, address):
     began = time.monotonic()
-    code, output, errors = asperity(*SWEEP, "--cluster", address)
+    code, output, errors = asperity(*SWEEP, "--cluster", address, env=new_user())
     assert (code, output) == (2, "")
     assert errors.startswith(f"--cluster {address}: no scheduler answers (")
     assert errors.count("\n") == 1
