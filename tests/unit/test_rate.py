@@ -1,6 +1,7 @@
 """Rating a gearset: what stands in a result, what is assumed, and what happens when it fails."""
 
 import dataclasses
+import doctest
 import json
 import math
 import re
@@ -11,7 +12,15 @@ import pytest
 from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.gearset import Gearset
-from asperity.rating import STANDARDS, Operation, RatingOptions, rate, rate_case, variants
+from asperity.rating import (
+    STANDARDS,
+    Operation,
+    RatingOptions,
+    rate,
+    rate_case,
+    self_locking,
+    variants,
+)
 from asperity.rating.bs721 import equivalent_hours
 from asperity.rating.facts import facts, starts_from, words
 from asperity.rating.inputs import inputs
@@ -26,7 +35,8 @@ PLAIN = {
     "X_b1", "X_c1", "Z_0", "a", "and", "at", "b_e", "by", "c", "c_0", "c_1", "c_2", "c_k",
     "casting", "cycle", "duty", "else", "fan", "flanks", "for", "form", "h_a1", "h_f1", "h_f2",
     "in", "input", "linear", "n_i", "of", "or", "over", "polynomial", "required", "rho", "s",
-    "sum", "table", "the", "through", "times", "turns", "value", "wheel", "with", "without", "worm", "y",
+    "sum", "table", "the", "through", "times", "turns", "value", "wheel", "with", "without", "worm",
+    "y",
 }  # fmt: skip
 MINIMAL = {
     "starts": 2,
@@ -399,6 +409,12 @@ def test_inputs_are_in_the_units_of_the_standards_to_the_last_digit():
     assert (given.worm_speed, given.centre_distance, given.worm_roughness) == (1440.0, 74.93, 1.6)
     assert (given.ambient_temperature, given.sump_limit) == (20.0, 90.0)
     assert dataclasses.replace(given, starts=2).starts == 2
+
+
+def test_examples_of_self_locking_say_what_they_print():
+    results = doctest.testmod(self_locking)
+    assert results.attempted > 0
+    assert results.failed == 0
 
 
 class TestVariants:
