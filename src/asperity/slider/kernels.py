@@ -135,9 +135,18 @@ def prime(state, p, increments, model, law):
         state[WY] -= p[GIVE_Y] * fy
         state[FX] = fx
         state[FY] = fy
-    else:
+    elif model == DAHL:
         state[FX] = state[SX]
         state[FY] = state[SY]
+    else:
+        # LuGre's damping meets a vibration that starts at full speed; implicit, as in the march.
+        tau = p[RATE_DAMPING] + p[SLIP_DAMPING]
+        half_x = 0.5 * p[GIVE_X] * tau
+        half_y = 0.5 * p[GIVE_Y] * tau
+        state[WX] = (state[WX] + half_x * ux) / (1.0 + half_x)
+        state[WY] = half_y * uy / (1.0 + half_y * own)
+        state[FX] = tau * (state[WX] - ux)
+        state[FY] = tau * (own * state[WY] - uy)
     state[FD] = state[FX] if p[RIGID] > 0.0 else free
 
 
