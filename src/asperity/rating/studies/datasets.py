@@ -1,5 +1,6 @@
 """The studies as labelled datasets, every variable with ``units`` and ``long_name``."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,9 @@ from asperity.rating.studies.quantities import quantity
 if TYPE_CHECKING:
     import xarray as xr
 
+    from asperity.rating.studies.comparison import Compared, Comparison
     from asperity.rating.studies.sensitivity import Sensitivity
+    from asperity.rating.studies.shaken import Shaken
     from asperity.rating.studies.tradeoff import TradeOff
 
 Labelled = tuple[tuple[str, ...], Any, str, str]
@@ -90,4 +93,51 @@ def trade_off_dataset(curve: "TradeOff") -> "xr.Dataset":
     )
     given = {f"given.{key}": value for key, value in curve.given.items()}
     dataset.attrs |= given | {"required_torque_Nm": curve.required_torque}
+    return dataset
+
+
+def comparison_dataset(comparison: "Comparison") -> "xr.Dataset":
+    """Return friction, efficiencies and vibrations over the methods."""
+    rows, over = comparison.rows, ("method",)
+
+    def column(get: Callable[["Compared"], float]) -> Any:
+        return np.array([get(row) for row in rows])
+
+    def imposed(get: Callable[["Shaken"], float]) -> Any:
+        return np.array([np.nan if r.vibration is None else get(r.vibration) for r in rows])
+
+    dataset = labelled(
+        f"Ways to less friction in {comparison.name or 'a worm gearset'}",
+        {"method": (over, words(r.key for r in rows), "1", "way to less friction")},
+        name=(over, words(r.name for r in rows), "1", "what it is"),
+        kind=(over, words(r.kind for r in rows), "1", "family"),
+        source=(over, words(str(r.source) for r in rows), "1", "who reports its friction"),
+        mu_0T=(over, column(lambda r: r.base_friction), "1", "base coefficient of friction"),
+        mu_zm=(over, column(lambda r: r.friction), "1", "mean coefficient of tooth friction"),
+        eta_z1_2=(over, column(lambda r: r.efficiency), "1", "efficiency of the teeth"),
+        eta_ges=(over, column(lambda r: r.total_efficiency), "1", "efficiency of the gearbox"),
+        eta_z2_1=(
+            over, column(lambda r: r.back_driving_efficiency), "1",
+            "efficiency of the teeth, wheel driving",
+        ),
+        velocity_ratio=(
+            over, imposed(lambda v: v.velocity_ratio), "1",
+            "peak velocity of the vibration over the sliding velocity",
+        ),
+        velocity_amplitude=(
+            over, imposed(lambda v: v.velocity), "m/s", "peak velocity of the vibration",
+        ),
+        vibration_power=(
+            over, column(lambda r: r.vibration_power), "W", "power of the vibration",
+        ),
+        eta_z1_2_with_power=(
+            over, column(lambda r: r.efficiency_with_vibration), "1",
+            "efficiency of the teeth with the power of the vibration counted",
+        ),
+    )  # fmt: skip
+    dataset.attrs |= {
+        "sliding_velocity_m_s": comparison.sliding_velocity,
+        "output_power_W": comparison.output_power,
+        "notes": "; ".join(comparison.notes),
+    }
     return dataset

@@ -4,15 +4,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.rating.studies.optimise import design_numbers
 from asperity.slider.plots import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, legend, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from asperity.rating.studies.comparison import Comparison
+    from asperity.rating.studies.optimise import Optimum
     from asperity.rating.studies.sensitivity import Sensitivity
+    from asperity.rating.studies.tradeoff import TradeOff
 
 _COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+_KINDS = {
+    "as it is": BLACK,
+    "oil": BLUE,
+    "additive": GREEN,
+    "coating": ORANGE,
+    "vibration": VERMILION,
+}
 _SYMBOLS = {
     "pressure_angle": r"$\alpha_n$",
     "centre_distance": r"$a$",
@@ -56,4 +67,65 @@ def plot_sensitivity(study: "Sensitivity") -> "Figure":
     axes.set_xlabel("rise of the input (%)")
     axes.set_ylabel(r"efficiency of the teeth $\eta_{z1-2}$ (%)")
     legend(axes, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return figure
+
+
+def plot_comparison(comparison: "Comparison") -> "Figure":
+    """Draw the efficiency with each method; a mark is where it is with a vibration's power."""
+    rows = comparison.rows[::-1]
+    figure, (axes,) = panels(width=8.0, height=1.2 + 0.32 * len(rows))
+    for place, row in enumerate(rows):
+        computed = row.vibration is not None and row.vibration.computed
+        axes.barh(
+            place, 100.0 * row.efficiency, height=0.7, color=_KINDS.get(row.kind, SKY),
+            hatch="///" if computed else None, edgecolor="white", linewidth=0.0,
+        )  # fmt: skip
+        axes.annotate(
+            f"{100.0 * row.efficiency:.1f}", (100.0 * row.efficiency, place), (4, 0),
+            textcoords="offset points", va="center",
+        )  # fmt: skip
+    counted = [
+        (100.0 * row.efficiency_with_vibration, place)
+        for place, row in enumerate(rows)
+        if row.vibration is not None
+    ]
+    if counted:
+        axes.plot(
+            *zip(*counted, strict=True), linestyle="none", marker="D", markersize=8.0,
+            color=BLACK, markeredgecolor="white", label="with the vibration's power counted",
+        )  # fmt: skip
+    axes.axvline(100.0 * comparison.rows[0].efficiency, color=BLACK, dashes=(4, 3), linewidth=1.0)
+    axes.set_yticks(range(len(rows)), [row.name for row in rows])
+    axes.tick_params(axis="y", length=0.0)
+    axes.grid(visible=False, axis="y")
+    axes.set_xlim(0.0, 105.0)
+    axes.set_ylim(-0.6, len(rows) - 0.4)
+    axes.set_xlabel(r"efficiency of the teeth $\eta_{z1-2}$ (%)")
+    if counted:
+        legend(axes, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    return figure
+
+
+def plot_trade_off(curve: "TradeOff", optimum: "Optimum | None" = None) -> "Figure":
+    """Draw the highest efficiency over the permissible torque, and where the gearset is."""
+    figure, (axes,) = panels(height=4.4)
+    axes.plot(
+        curve.torque, 100.0 * curve.efficiency, color=BLUE, marker="o", markersize=5.0,
+        label="most efficient designs",
+    )  # fmt: skip
+    axes.plot(
+        curve.given["M_permissible_Nm"], 100.0 * curve.given["eta_z1_2"], linestyle="none",
+        marker="s", markersize=9.0, color=VERMILION, label="as it is",
+    )  # fmt: skip
+    if optimum is not None:
+        after = design_numbers(optimum.after)
+        axes.plot(
+            after["bs721"]["M_permissible_Nm"], 100.0 * after["iso14521"]["eta_z1_2"],
+            linestyle="none", marker="D", markersize=9.0, color=GREEN,
+            label=r"optimum, $M_w$ and $M_s$ kept",
+        )  # fmt: skip
+    axes.margins(x=0.08, y=0.12)
+    axes.set_xlabel(r"permissible torque, the lower of $M_w$ and $M_s$ (N m)")
+    axes.set_ylabel(r"efficiency of the teeth $\eta_{z1-2}$ (%)")
+    legend(axes, loc="best")
     return figure

@@ -1,0 +1,160 @@
+"""Ways to less friction side by side: what each is worth in one gearset."""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from asperity.errors import InputError, nearest
+from asperity.rating.studies.shaken import Shaken
+from asperity.sources import Source
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from rich.console import Group
+
+
+@dataclasses.dataclass(frozen=True)
+class Compared:
+    """A gearset with one way to less friction.
+
+    Attributes
+    ----------
+    key, name : str
+        Short name, and what it is.
+    kind : {'as it is', 'oil', 'additive', 'coating', 'vibration'}
+        Family.
+    base_friction, friction : float
+        Base and mean coefficient of tooth friction.
+    efficiency, total_efficiency : float
+        Of the teeth and of the gearbox, the worm driving; the power of a vibration does not count.
+    back_driving_efficiency : float
+        Of the teeth, the wheel driving; the worm locks itself where it is not above zero.
+    gain : float
+        Rise of the efficiency of the teeth, as a share of one.
+    source : Source
+        Who reports the friction.
+    vibration : Shaken or None
+        What is imposed.
+    vibration_power : float
+        Power that it puts into the contact, W.
+    efficiency_with_vibration : float
+        Efficiency of the teeth with that power counted.
+    """
+
+    key: str
+    name: str
+    kind: str
+    base_friction: float
+    friction: float
+    efficiency: float
+    total_efficiency: float
+    back_driving_efficiency: float
+    gain: float
+    source: Source
+    vibration: Shaken | None
+    vibration_power: float
+    efficiency_with_vibration: float
+
+    @property
+    def locks(self) -> bool:
+        """Whether the worm locks itself while it slides."""
+        return self.back_driving_efficiency <= 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return everything by key; the units are part of the keys."""
+        answer: dict[str, Any] = {
+            "key": self.key,
+            "name": self.name,
+            "kind": self.kind,
+            "mu_0T": self.base_friction,
+            "mu_zm": self.friction,
+            "eta_z1_2": self.efficiency,
+            "eta_ges": self.total_efficiency,
+            "eta_z2_1": self.back_driving_efficiency,
+            "self_locking": self.locks,
+            "gain_points": 100.0 * self.gain,
+            "source": self.source.name,
+            "confidence": self.source.confidence,
+            "note": self.source.note,
+            "vibration": None,
+        }
+        if self.vibration is not None:
+            answer["vibration"] = {
+                "direction_deg": math.degrees(self.vibration.direction),
+                "frequency_Hz": self.vibration.frequency,
+                "velocity_amplitude_m_s": self.vibration.velocity,
+                "displacement_amplitude_um": 1e6 * self.vibration.amplitude,
+                "velocity_ratio": self.vibration.velocity_ratio,
+                "friction_share": self.vibration.share,
+                "computed": self.vibration.computed,
+                "power_W": self.vibration_power,
+                "eta_z1_2_with_power": self.efficiency_with_vibration,
+            }
+        return answer
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Comparison:
+    """Ways to less friction in one gearset.
+
+    Attributes
+    ----------
+    name : str
+        Of the gearset.
+    sliding_velocity : float
+        At its mean diameter, m/s.
+    output_power : float
+        At the wheel, W.
+    rows : tuple of Compared
+        The gearset as it is, then one for each way.
+    assumed : mapping of str to str
+        What was assumed for the tables of a case file that were left out, by table.
+    notes : tuple of str
+        What a reader of the numbers should know.
+    """
+
+    name: str
+    sliding_velocity: float
+    output_power: float
+    rows: tuple[Compared, ...]
+    assumed: Mapping[str, str]
+    notes: tuple[str, ...]
+
+    def __getitem__(self, key: str) -> Compared:
+        """Return a row by its key."""
+        for row in self.rows:
+            if row.key == key:
+                return row
+        known = nearest(key, [row.key for row in self.rows])
+        raise InputError(f"{key!r} is not compared here{known}")
+
+    def to_json(self) -> dict[str, Any]:
+        """Return everything by key; the units are part of the keys."""
+        return {
+            "name": self.name,
+            "sliding_velocity_m_s": self.sliding_velocity,
+            "output_power_W": self.output_power,
+            "methods": [row.to_json() for row in self.rows],
+            "assumed": dict(self.assumed),
+            "notes": list(self.notes),
+        }
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return friction and efficiency over the methods, labelled."""
+        from asperity.rating.studies.datasets import comparison_dataset
+
+        return comparison_dataset(self)
+
+    def to_rich(self) -> "Group":
+        """Return a table of the methods with the notes, for the terminal."""
+        from asperity.rating.studies.reports import comparison_report
+
+        return comparison_report(self)
+
+    def plot(self) -> "Figure":
+        """Draw the efficiency with each method."""
+        from asperity.rating.studies.plots import plot_comparison
+
+        return plot_comparison(self)

@@ -1,0 +1,173 @@
+"""What stays free in a worm gearset once place, ratio, drive and materials are given.
+
+Thesis 3.2.3: with centre distance, ratio and worm speed as they are, pressure angle, diameter
+factor, axial module and roughness remain. The profile shift makes up for the centre distance.
+"""
+
+import dataclasses
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity.errors import InputError
+from asperity.gearset.parameters import Gearset
+from asperity.rating.formula import FloatArray
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.rate import rate
+from asperity.rating.variants import variants
+from asperity.sources import Source
+
+VARIABLES = ("pressure_angle", "diameter_factor", "axial_module", "worm_roughness")
+"""What is free: alpha_n, q1, m_x1, Ra1."""
+
+NEEDED = ("iso14521", "bs721")
+"""Standards that judge a design: the efficiency, and the permissible torques."""
+
+ASSUMED = Source(
+    "default of asperity", "one source", "Table 3.6 of the thesis, which has them, is lost"
+)
+"""Where the default bounds come from."""
+
+_NUMBERS = {
+    "eta_z1_2": "iso14521.eta_z1_2",
+    "h_star": "iso14521.h_star",
+    "M_w_Nm": "bs721.M_w_Nm",
+    "M_s_Nm": "bs721.M_s_Nm",
+}
+
+Span = tuple[float, float]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Bounds:
+    r"""How far a design may be changed. The defaults are assumed, see `ASSUMED`.
+
+    A gearset that lies outside as it is widens them, so that it is a design like the others.
+
+    Parameters
+    ----------
+    pressure_angle : tuple of float
+        :math:`\alpha_n`, rad.
+    diameter_factor : tuple of float
+        :math:`q_1`.
+    module_change : tuple of float
+        Change of :math:`m_{x1}` in parts of itself.
+    worm_roughness : tuple of float
+        :math:`Ra_1`, m.
+    profile_shift : tuple of float
+        :math:`x_2`, which follows from the others.
+    """
+
+    pressure_angle: Span = (math.radians(14.5), math.radians(30.0))
+    diameter_factor: Span = (6.0, 12.0)
+    module_change: Span = (-0.05, 0.05)
+    worm_roughness: Span = (0.8e-6, 1.6e-6)
+    profile_shift: Span = (-0.5, 0.5)
+
+    def __post_init__(self) -> None:
+        for name, (lower, upper) in dataclasses.asdict(self).items():
+            if not (math.isfinite(lower) and math.isfinite(upper) and lower <= upper):
+                raise InputError(
+                    f"the bounds of {name} are {lower:g} and {upper:g}; give the lower one first"
+                )
+
+
+class Space:
+    """All designs of a gearset within bounds, as points of a unit cube.
+
+    Parameters
+    ----------
+    gearset, operation, options
+        As in `asperity.rating.rate`.
+    bounds : Bounds, optional
+        How far the design may be changed.
+    folder : path, optional
+        Where a relative file name among the options starts.
+
+    Attributes
+    ----------
+    lower, upper : ndarray
+        Bounds of the `VARIABLES` in SI.
+    profile_shift : tuple of float
+        Bounds of the profile shift.
+    start : ndarray
+        The gearset as it is, as a point.
+    """
+
+    def __init__(
+        self,
+        gearset: Gearset,
+        operation: Operation,
+        options: RatingOptions | None = None,
+        bounds: Bounds | None = None,
+        folder: Path | None = None,
+    ) -> None:
+        self.gearset, self.operation = gearset, operation
+        self.options, self.folder = options or RatingOptions(), folder
+        for standard in NEEDED:
+            # Alone, because then one that cannot be applied says why.
+            rate(gearset, operation, self.options, (standard,), folder=folder)
+        bounds = bounds or Bounds()
+        geometry = gearset.geometry
+        module = 1e-3 * geometry.axial_module
+        spans = {
+            "pressure_angle": bounds.pressure_angle,
+            "diameter_factor": bounds.diameter_factor,
+            "axial_module": tuple(module * (1.0 + change) for change in bounds.module_change),
+            "worm_roughness": bounds.worm_roughness,
+        }
+        now = np.array(
+            [gearset.pressure_angle, geometry.diameter_factor, module, gearset.worm_roughness]
+        )
+        self.lower = np.minimum([spans[name][0] for name in VARIABLES], now)
+        self.upper = np.maximum([spans[name][1] for name in VARIABLES], now)
+        shift = geometry.profile_shift
+        self.profile_shift = (
+            min(bounds.profile_shift[0], shift),
+            max(bounds.profile_shift[1], shift),
+        )
+        self.start = (now - self.lower) / self._width
+
+    @property
+    def _width(self) -> FloatArray:
+        # A variable without room has a point's coordinate all the same.
+        width = self.upper - self.lower
+        return np.where(width > 0.0, width, 1.0)
+
+    def values(self, points: FloatArray) -> dict[str, Any]:
+        """Return the variables at points, in SI."""
+        inside = np.clip(self.lower + points * self._width, self.lower, self.upper)
+        return dict(zip(VARIABLES, np.moveaxis(inside, -1, 0), strict=True))
+
+    def numbers(self, points: FloatArray) -> dict[str, FloatArray]:
+        """Return what the designs at points are worth, by the keys of a rating.
+
+        NaN stands for designs without an answer.
+        """
+        found = variants(
+            self.gearset,
+            self.operation,
+            self.options,
+            NEEDED,
+            capacity=False,
+            folder=self.folder,
+            **self.values(points),
+        )
+        shift = np.broadcast_to(found.given.profile_shift, found.shape)
+        return {key: found[path] for key, path in _NUMBERS.items()} | {"profile_shift": shift}
+
+    def room(self, shift: FloatArray) -> list[FloatArray]:
+        """Return by how much the profile shift keeps its bounds, two numbers not below zero."""
+        return [shift - self.profile_shift[0], self.profile_shift[1] - shift]
+
+    def gearset_at(self, point: FloatArray) -> Gearset:
+        """Return the design at a point as a gearset."""
+        old = self.gearset
+        given = {key: getattr(old, key) for key in old.model_fields_set}
+        for key in ("worm_pitch_diameter", "profile_shift"):
+            given.pop(key, None)
+        values = {name: float(value) for name, value in self.values(point).items()}
+        distance = 1e-3 * old.geometry.centre_distance
+        return Gearset.model_validate({**given, "centre_distance": distance, **values})

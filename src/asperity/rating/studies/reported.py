@@ -1,0 +1,110 @@
+"""Ways to less friction and what is reported of them, from ``data/methods.toml``."""
+
+import functools
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, SkipValidation
+
+from asperity.casefile import Table
+from asperity.errors import InputError, choices, suggestion
+from asperity.gearset.materials import BaseOilName
+from asperity.sources import Source
+from asperity.units import Quantity
+
+Kind = Literal["oil", "additive", "coating", "vibration"]
+
+_SHIPPED = Path(__file__).parent / "data" / "methods.toml"
+_TEXT_ONLY = {"text_only": True}
+
+
+class Method(Table):
+    r"""A way to less friction between the teeth.
+
+    Parameters
+    ----------
+    key, name : str
+        Short name, and what it is.
+    kind : {'oil', 'additive', 'coating', 'vibration'}
+        Family.
+    base_oil : str
+        Takes the :math:`\mu_{0T}` of ISO/TR 14521 for this base oil. Exactly one of three.
+    base_friction : float
+        Takes this :math:`\mu_{0T}`.
+    reduction : float
+        Lowers :math:`\mu_{0T}` by this share of it.
+    velocity_ratio : float, optional
+        Of a vibration: peak velocity over the sliding velocity with which it was reported.
+    direction : float or str, optional
+        Of a vibration: angle from the sliding, rad.
+    source : Source
+        Who reports it.
+    """
+
+    table: ClassVar[str] = "method"
+    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("base_oil", "base_friction", "reduction"),
+    )
+
+    key: str
+    name: str
+    kind: Kind
+    base_oil: BaseOilName | None = None
+    base_friction: Annotated[float, Field(gt=0.0, lt=1.0)] | None = None
+    reduction: Annotated[float, Field(ge=0.0, lt=1.0)] | None = None
+    velocity_ratio: Annotated[float, Field(gt=0.0)] | None = None
+    direction: Annotated[float, Quantity("rad", what="an angle", example="90 deg")] | None = None
+    source: SkipValidation[Source]
+
+
+def reported_methods(path: str | os.PathLike[str] | None = None) -> tuple[Method, ...]:
+    """Return the methods of a data file; of the one that ships if none is named.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or a method in it is wrong.
+    """
+    return _shipped() if path is None else _read(Path(path))
+
+
+@functools.cache
+def _shipped() -> tuple[Method, ...]:
+    return _read(_SHIPPED)
+
+
+def _read(path: Path) -> tuple[Method, ...]:
+    try:
+        raw = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(
+            f"{path} is not a file of methods: {' '.join(str(error).split())}"
+        ) from None
+    sources = {}
+    for key, values in raw.get("source", {}).items():
+        try:
+            sources[key] = Source(**values)
+        except (TypeError, InputError) as error:
+            raise InputError(f"{path.name}: [source.{key}]: {error}") from None
+    return tuple(
+        _method(path.name, key, values, sources) for key, values in raw.get("method", {}).items()
+    )
+
+
+def _method(file: str, key: str, values: Any, sources: Mapping[str, Source]) -> Method:
+    given = dict(values)
+    name = given.pop("from", None)
+    if name not in sources:
+        raise InputError(
+            f"{file}: [method.{key}]: from is {name!r}; it must be one of {choices(sources)}"
+            f"{suggestion(str(name), sources)}"
+        )
+    try:
+        return Method.model_validate(
+            {**given, "key": key, "source": sources[name]}, context=_TEXT_ONLY
+        )
+    except InputError as error:
+        raise InputError(f"{file}: [method.{key}]: {error}") from None

@@ -1,0 +1,185 @@
+"""How much efficiency a higher permissible torque costs, and the other way round.
+
+The highest efficiency is sought for one required torque after the other (epsilon-constraint), from
+that of the most efficient design of all to the highest torque that any design within the bounds
+bears. The permissible torque is the lower of those for wear and strength by BS 721.
+"""
+
+import dataclasses
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asperity.errors import InputError
+from asperity.gearset.parameters import Gearset
+from asperity.rating.formula import FloatArray
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.studies.climb import Top, climb, spread
+from asperity.rating.studies.design import VARIABLES, Bounds, Space
+from asperity.rating.studies.quantities import quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from rich.table import Table
+
+    from asperity.rating.studies.optimise import Optimum
+
+POINTS = 11
+"""Required torques on the curve."""
+
+_STARTS = 4
+_MOST = 10.0
+"""Torque that no design is expected to reach, over that of the gearset as it is."""
+_FLAT = 1e-6
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TradeOff:
+    """The most efficient designs for rising permissible torques.
+
+    Attributes
+    ----------
+    name : str
+        Of the gearset.
+    torque : ndarray
+        Permissible torque, N m, rising.
+    efficiency : ndarray
+        Highest efficiency of the teeth with it.
+    numbers : dict of str to ndarray
+        The designs: what is free, profile shift, h*, torques permitted by wear and strength; the
+        units are part of the keys.
+    given : dict of str to float
+        The same of the gearset as it is.
+    required_torque : float
+        Rated torque times the application factor, N m.
+    """
+
+    name: str
+    torque: FloatArray
+    efficiency: FloatArray
+    numbers: dict[str, FloatArray]
+    given: dict[str, float]
+    required_torque: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the curve by key; the units are part of the keys."""
+        return {
+            "M_permissible_Nm": self.torque.tolist(),
+            "eta_z1_2": self.efficiency.tolist(),
+            **{key: values.tolist() for key, values in self.numbers.items()},
+            "required_torque_Nm": self.required_torque,
+        }
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the curve over the permissible torque, labelled."""
+        from asperity.rating.studies.datasets import trade_off_dataset
+
+        return trade_off_dataset(self)
+
+    def to_rich(self) -> "Table":
+        """Return the designs as a table for the terminal."""
+        from asperity.rating.studies.reports import trade_off_report
+
+        return trade_off_report(self)
+
+    def plot(self, optimum: "Optimum | None" = None) -> "Figure":
+        """Draw the curve, with the gearset as it is and perhaps an optimum."""
+        from asperity.rating.studies.plots import plot_trade_off
+
+        return plot_trade_off(self, optimum)
+
+
+def trade_off(
+    gearset: Gearset,
+    operation: Operation,
+    options: RatingOptions | None = None,
+    bounds: Bounds | None = None,
+    *,
+    points: int = POINTS,
+    folder: Path | None = None,
+) -> TradeOff:
+    """Find the highest efficiency for each of several permissible torques.
+
+    Parameters
+    ----------
+    gearset, operation, options, bounds, folder
+        As in `asperity.rating.studies.optimise.optimise`.
+    points : int
+        Required torques on the curve, at least 2.
+
+    Raises
+    ------
+    InputError
+        The gearset cannot be rated as it is, by ISO/TR 14521 or by BS 721.
+    """
+    if points < 2:
+        raise InputError(f"points is {points}; a curve needs at least 2")
+    space = Space(gearset, operation, options, bounds, folder)
+    now = space.numbers(space.start)
+    unit = min(float(now["M_w_Nm"]), float(now["M_s_Nm"]))
+    begin = [space.start, *spread(len(VARIABLES), _STARTS)]
+    first = _most_efficient(space, begin, 0.0)
+    strongest = _strongest(space, [first.point, *begin], unit)
+    lowest, highest = _permissible(space, first.point), _permissible(space, strongest.point)
+    required = np.linspace(lowest, highest, points)
+    if highest - lowest <= _FLAT * unit:
+        required = required[:1]
+    tops = [first]
+    for torque in required[1:]:
+        # From both neighbours, because a weak design cannot always be climbed from.
+        tops.append(
+            _most_efficient(space, [tops[-1].point, strongest.point], torque * (1.0 - 1e-8))
+        )
+    found = np.array([top.point for top in tops])
+    numbers = space.numbers(found)
+    designs = space.values(found)
+    return TradeOff(
+        name=gearset.name,
+        torque=np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"]),
+        efficiency=numbers["eta_z1_2"],
+        numbers={
+            **{quantity(n).key: quantity(n).from_si(designs[n]) for n in VARIABLES},
+            **{key: value for key, value in numbers.items() if key != "eta_z1_2"},
+        },
+        given={
+            **{quantity(n).key: quantity(n).shown(v) for n, v in space.values(space.start).items()},
+            **{key: float(value) for key, value in now.items()},
+            "M_permissible_Nm": unit,
+        },
+        required_torque=operation.application_factor * operation.output_torque,
+    )
+
+
+def _permissible(space: Space, point: FloatArray) -> float:
+    found = space.numbers(point)
+    return min(float(found["M_w_Nm"]), float(found["M_s_Nm"]))
+
+
+def _most_efficient(space: Space, begin: list[FloatArray], torque: float) -> Top:
+    def merit(points: FloatArray) -> FloatArray:
+        found = space.numbers(points)
+        rows = [found["eta_z1_2"]]
+        if torque > 0.0:
+            rows += [found[key] / torque - 1.0 for key in ("M_w_Nm", "M_s_Nm")]
+        return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
+
+    top = climb(merit, begin)
+    assert top is not None  # one of the starts bears the torque
+    return top
+
+
+def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
+    # The lower of two torques has a kink where they meet; a torque that both exceed has none.
+    def merit(points: FloatArray) -> FloatArray:
+        found = space.numbers(points[:, :-1])
+        torque = _MOST * points[:, -1]
+        rows = [torque, *(found[key] / unit - torque for key in ("M_w_Nm", "M_s_Nm"))]
+        return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
+
+    top = climb(
+        merit, [np.append(point, _permissible(space, point) / (_MOST * unit)) for point in begin]
+    )
+    assert top is not None  # the gearset as it is bears its own torque
+    return dataclasses.replace(top, point=top.point[:-1])
