@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from asperity.slider.plots import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, legend, panels
 
 if TYPE_CHECKING:
@@ -35,4 +37,44 @@ def friction(dataset: "xr.Dataset") -> "Figure":
     axes.set_xlabel("sliding velocity (m/s)")
     axes.set_ylabel("coefficient of friction")
     legend(axes, loc="upper right")
+    return figure
+
+
+_HATCHES = ("", "///")
+_SHARES = {"eta_z": r"$\eta_{z1-2}$", "eta_AGMA": r"$\eta_{AGMA}$"}
+_TORQUES = {"M_26k": "$M_{26k}$", "M_w": "$M_w$", "M_s": "$M_s$", "T_G_all": "$T_{G,all}$"}
+
+
+def efficiencies(dataset: "xr.Dataset") -> "Figure":
+    """Draw a bar for each gearset, standard and design."""
+    return _bars(100.0 * dataset, _SHARES, "efficiency of the teeth (%)", "{:.1f}")
+
+
+def torques(dataset: "xr.Dataset") -> "Figure":
+    """Draw a bar for each gearset, torque and design."""
+    return _bars(dataset, _TORQUES, "torque of the wheel (N m)", "{:.0f}")
+
+
+def _bars(dataset: "xr.Dataset", names: dict[str, str], label: str, shown: str) -> "Figure":
+    gearsets, designs = (dataset[name].values for name in ("gearset", "design"))
+    figure, all_axes = panels(1, len(gearsets), height=4.2)
+    places = np.arange(len(names))
+    top = 1.18 * max(float(dataset[name].max()) for name in names)
+    for axes, gearset in zip(all_axes, gearsets, strict=True):
+        for index, design in enumerate(designs):
+            heights = [float(dataset[name].sel(gearset=gearset, design=design)) for name in names]
+            bars = axes.bar(
+                places + 0.4 * (index - 0.5), heights, 0.36, color=(SKY, ORANGE)[index],
+                edgecolor=BLACK, linewidth=0.6, hatch=_HATCHES[index], label=str(design),
+            )  # fmt: skip
+            axes.bar_label(
+                bars, [shown.format(height) for height in heights], padding=2, fontsize=9.5
+            )
+        axes.set_xticks(places, list(names.values()))
+        axes.tick_params(axis="x", length=0.0, pad=6.0)
+        axes.grid(visible=False, axis="x")
+        axes.set_title(str(gearset), loc="left")
+        axes.set_ylim(0.0, top)
+    all_axes[0].set_ylabel(label)
+    legend(all_axes[0], loc="upper left")
     return figure

@@ -10,6 +10,10 @@ from asperity.casefile import Case, Table, read_case
 from asperity.gearset import Gearset
 from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case
 from asperity.rating.result import Rating
+from asperity.rating.studies.comparison import Comparison
+from asperity.rating.studies.methods import compare_case
+from asperity.rating.studies.optimise import Optimum, optimise
+from asperity.rating.studies.reported import Method, reported_methods
 from asperity.rating.studies.sensitivity import Sensitivity, sensitivity
 from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.slider.tables import TABLES as SLIDER_TABLES
@@ -60,10 +64,27 @@ class Gear:
         return " ".join(["asperity", verb, self.case, *settings])
 
 
+def methods_of_thesis() -> tuple[Method, ...]:
+    """The ways to less friction in its Table 3.3, which has no oil by the standard's formula."""
+    return tuple(method for method in reported_methods() if method.base_oil is None)
+
+
 @functools.cache
 def sensitivity_of(gear: Gear) -> Sensitivity:
     """Its efficiency over each of its inputs."""
     return sensitivity(*gear.tables())
+
+
+@functools.cache
+def comparison_of(gear: Gear) -> Comparison:
+    """Its efficiency with each way to less friction."""
+    return compare_case(gear.read())
+
+
+@functools.cache
+def optimum_of(gear: Gear) -> Optimum:
+    """Its most efficient design that keeps the permissible torques."""
+    return optimise(*gear.tables())
 
 
 @functools.cache

@@ -1,11 +1,22 @@
 """Tables 3.2 to 3.7, as far as their inputs survive, each row with what the thesis says of it."""
 
+import dataclasses
 import math
 from typing import NamedTuple
 
+from asperity.rating import Rated
 from asperity.rating.result import Entry
-from asperity.thesis.exhibits import Grid, TableOf
-from asperity.thesis.gearsets import GEARSET_2, GEARSETS, Gear, sensitivity_of
+from asperity.thesis.exhibits import Cell, Grid, TableOf
+from asperity.thesis.gearsets import (
+    GEARSET_2,
+    GEARSETS,
+    comparison_of,
+    methods_of_thesis,
+    optimum_of,
+    sensitivity_of,
+)
+
+_BY = {"agma6034": ", AGMA 6034", "bs721": ", BS 721"}
 
 
 class _Row(NamedTuple):
@@ -16,8 +27,10 @@ class _Row(NamedTuple):
     thesis: str = "lost"
     here: str = "computed"
 
-    def entry(self, gear: Gear) -> Entry:
-        return gear.ratings()[self.standard].entry(self.key)
+    def entry(self, rated: Rated) -> Entry:
+        entry = rated.found[self.standard].entry(self.key)
+        by = _BY.get(self.standard, "")
+        return dataclasses.replace(entry, meaning=f"{entry.meaning}{by}")
 
 
 _FROM_ETA = "inferred from eta_z, with the other two of q_1, m_x1 and a"
@@ -54,6 +67,43 @@ _TABLE_3_2 = (
     _Row("iso14521", "loss_seal_W"),
     _Row("iso14521", "eta_ges", "31 % (3.2.1)"),
 )
+
+
+def table_3_3() -> Grid:
+    """Friction and efficiency of gearset 2 with each way to less friction."""
+    study = comparison_of(GEARSET_2)
+    quoted = {method.key: method for method in methods_of_thesis()}
+    rows = []
+    for row in study.rows:
+        method, thesis = quoted.get(row.key), "not in the thesis"
+        if row is study.rows[0]:
+            thesis = "0.0715"
+        elif method is not None and method.reduction is not None:
+            thesis = f"{100.0 * method.reduction:.0f} % less"
+        elif method is not None:
+            thesis = f"{method.base_friction:.4f}"
+        moved = row.vibration
+        rows.append(
+            (
+                row.name,
+                row.kind,
+                thesis,
+                row.base_friction,
+                row.friction,
+                row.efficiency,
+                100.0 * row.gain,
+                "" if moved is None else moved.velocity_ratio,
+                "" if moved is None else row.efficiency_with_vibration,
+                str(row.source),
+            )
+        )
+    columns = (
+        "method", "kind", "mu_0T by the thesis", "mu_0T", "mu_zm", "eta_z", "gain, points",
+        "v_a over v_g",
+        "eta_z with the vibration's power", "source",
+    )  # fmt: skip
+    return Grid(columns, tuple(rows), (GEARSET_2.command("methods"),))
+
 
 _EFFECTS = {
     "pressure_angle": "raises, small",
@@ -109,7 +159,7 @@ def table_3_2() -> Grid:
     """Inputs and results of the efficiency of gearset 2."""
     rows = []
     for row in _TABLE_3_2:
-        entry = row.entry(GEARSET_2)
+        entry = row.entry(GEARSET_2.rated())
         rows.append((entry.symbol, entry.meaning, entry.value, entry.unit, row.thesis, row.here))
     columns = ("symbol", "quantity", "value", "unit", "thesis", "here")
     return Grid(columns, tuple(rows), (GEARSET_2.command(),))
@@ -146,13 +196,89 @@ def table_3_5() -> Grid:
     """Inputs and results of gearsets 2 and 3 as they are."""
     rows = []
     for row in _TABLE_3_5:
-        entries = [row.entry(gear) for gear in GEARSETS.values()]
+        entries = [row.entry(gear.rated()) for gear in GEARSETS.values()]
         first, values = entries[0], [entry.value for entry in entries]
         rows.append((first.symbol, first.meaning, first.unit, *values, row.thesis, row.here))
     columns = ("symbol", "quantity", "unit", *GEARSETS, "thesis", "here")
     return Grid(columns, tuple(rows), tuple(gear.command() for gear in GEARSETS.values()))
 
 
+_BOUNDS = {
+    "M_w": ("not lower than before (3.3.5)", "stated"),
+    "M_s": ("not lower than before (3.3.5)", "stated"),
+    "h*": ("lost", "the standard's own"),
+    "alpha_n": ("30 deg reached (3.3.5)", "assumed"),
+    "q_1": ("6 to 12 advised (3.2.1)", "assumed"),
+    "m_x1": ("changes are small (3.3.5)", "assumed: 5 %"),
+    "Ra_1": ("0.8 um reached (3.3.5)", "assumed"),
+    "x_2": ("lost", "assumed"),
+}
+
+
+def table_3_6() -> Grid:
+    """Constraints of the optimum."""
+    rows = []
+    for name, gear in GEARSETS.items():
+        limits = optimum_of(gear).limits
+        for symbol in dict.fromkeys(limit.symbol for limit in limits):
+            own = [limit for limit in limits if limit.symbol == symbol]
+            below: list[Cell] = [limit.bound for limit in own if limit.relation != "<="]
+            above: list[Cell] = [limit.bound for limit in own if limit.relation == "<="]
+            active = [limit for limit in own if limit.active]
+            thesis, here = _BOUNDS[symbol]
+            rows.append(
+                (
+                    name,
+                    symbol,
+                    *(below or [""]),
+                    *(above or [""]),
+                    own[0].value,
+                    "holds it back" if active else "",
+                    thesis,
+                    here,
+                )
+            )
+    columns = (
+        "gearset", "symbol", "at least", "at most", "optimum", "effect", "thesis", "bounds here",
+    )  # fmt: skip
+    return Grid(columns, tuple(rows), _OPTIMISED)
+
+
+_TABLE_3_7 = (
+    _Row("iso14521", "pressure_angle_deg", "30 for all"),
+    _Row("iso14521", "diameter_factor", "rises for gearset 3 only"),
+    _Row("iso14521", "axial_module_mm", "changes are small"),
+    _Row("iso14521", "worm_roughness_um", "0.8"),
+    _Row("iso14521", "profile_shift"),
+    _Row("iso14521", "mu_zm"),
+    _Row("iso14521", "eta_z1_2", "rises for all; 7 % more, to 45 % (3.4)"),
+    _Row("iso14521", "eta_ges"),
+    _Row("agma6034", "mu"),
+    _Row("agma6034", "eta", "does not rise for all"),
+    _Row("bs721", "M_26k_Nm", "close to T_G,all"),
+    _Row("bs721", "M_w_Nm", "rises slightly"),
+    _Row("bs721", "M_s_Nm", "unchanged"),
+    _Row("agma6034", "allowable_torque_Nm"),
+    _Row("agma6034", "bending_stress_MPa", "rises for gearset 3 only"),
+    _Row("iso14521", "sigma_line_MPa"),
+)
+
+
+def table_3_7() -> Grid:
+    """Gearsets 2 and 3 as they are and at the optimum."""
+    designs: dict[str, Rated] = {}
+    for name, gear in GEARSETS.items():
+        optimum = optimum_of(gear)
+        designs |= {name: optimum.before, f"{name}, optimum": optimum.after}
+    rows = []
+    for row in _TABLE_3_7:
+        entries = [row.entry(rated) for rated in designs.values()]
+        first, values = entries[0], [entry.value for entry in entries]
+        rows.append((first.symbol, first.meaning, first.unit, *values, row.thesis))
+    return Grid(("symbol", "quantity", "unit", *designs, "thesis"), tuple(rows), _OPTIMISED)
+
+
+_OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
 _CASES = tuple(gear.case for gear in GEARSETS.values())
 
 TABLES = (
@@ -161,6 +287,13 @@ TABLES = (
         "By ISO/TR 14521. The thesis's table is lost; its column holds what the text repeats of "
         "it, the last one where the number here is from.",
         (GEARSET_2.case,), table_3_2,
+    ),
+    TableOf(
+        "3.3", "Friction and efficiency of gearset 2 with each way to less friction",
+        "What the thesis has of the oils' viscosities is lost, and without influence on the "
+        "efficiency. Rows that are not in the thesis: oils by the formulas of ISO/TR 14521, and "
+        "vibration by our own friction model.",
+        (GEARSET_2.case,), table_3_3,
     ),
     TableOf(
         "3.4", "What each input does to the efficiency of gearset 2",
@@ -174,5 +307,17 @@ TABLES = (
         "table is lost, gearsets 1 and 4 with it. The required life is 500 000 turns of the wheel, "
         "a tenth of it for strength (3.3.1).",
         _CASES, table_3_5,
+    ),
+    TableOf(
+        "3.6", "Constraints of the optimum",
+        "The thesis's table is lost. The bounds of alpha_n, q_1, m_x1, Ra_1 and x_2 are assumed; "
+        "that M_w and M_s may not fall is the thesis's.",
+        _CASES, table_3_6,
+    ),
+    TableOf(
+        "3.7", "Efficiency and load capacity of gearsets 2 and 3 at the optimum",
+        "As Table 3.5, within the constraints of Table 3.6. The thesis's table is lost; its column "
+        "holds what the text of 3.3.5 says.",
+        _CASES, table_3_7,
     ),
 )  # fmt: skip
