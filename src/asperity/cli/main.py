@@ -177,6 +177,59 @@ def rate(
 
 @app.command()
 @reported
+def sensitivity(
+    case: CaseArgument,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Raise each input of a worm gearset alone, to 40 %, and follow its efficiency.
+
+    With --out also sensitivity.nc, sensitivity.png and sensitivity.json.
+    """
+    from asperity.cli.studies import run_sensitivity
+
+    run_sensitivity(case, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
+def methods(
+    case: CaseArgument,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Compare oils, additives, coatings and vibration by a worm gearset's efficiency.
+
+    The vibration is that of the case's [vibration], with the law of [friction].
+    With --out also methods.nc, methods.png and methods.json.
+    """
+    from asperity.cli.studies import run_methods
+
+    run_methods(case, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
+def optimise(
+    case: CaseArgument,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Find a worm gearset's most efficient design that keeps its load capacity.
+
+    Pressure angle, diameter factor, module and roughness are free. Also what a higher permissible
+    torque costs. With --out also optimise.nc, optimise.png and optimise.json.
+    """
+    from asperity.cli.studies import run_optimise
+
+    run_optimise(case, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
 def thesis(
     only: Annotated[
         list[str] | None,

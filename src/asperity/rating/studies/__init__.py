@@ -1,5 +1,6 @@
 """Studies of a worm gearset: sensitivity, ways to less friction, optimum, trade-off, catalogue."""
 
+from asperity.rating.studies.catalogue import Catalogue, search
 from asperity.rating.studies.comparison import Compared, Comparison
 from asperity.rating.studies.design import Bounds
 from asperity.rating.studies.methods import compare, compare_case
@@ -10,6 +11,7 @@ from asperity.rating.studies.tradeoff import TradeOff, trade_off
 
 __all__ = [
     "Bounds",
+    "Catalogue",
     "Compared",
     "Comparison",
     "Influence",
@@ -22,6 +24,7 @@ __all__ = [
     "compare_case",
     "optimise",
     "reported_methods",
+    "search",
     "sensitivity",
     "trade_off",
 ]

@@ -11,10 +11,26 @@ from asperity.rating.studies.quantities import quantity
 if TYPE_CHECKING:
     import xarray as xr
 
+    from asperity.rating.studies.catalogue import Catalogue
     from asperity.rating.studies.comparison import Compared, Comparison
     from asperity.rating.studies.sensitivity import Sensitivity
     from asperity.rating.studies.shaken import Shaken
     from asperity.rating.studies.tradeoff import TradeOff
+
+_CATALOGUE = {
+    "starts": ("1", "threads of the worm"),
+    "wheel_teeth": ("1", "teeth of the wheel"),
+    "diameter_factor": ("1", "diameter factor"),
+    "axial_module_mm": ("mm", "axial module"),
+    "profile_shift": ("1", "profile shift of the wheel"),
+    "mu_zm": ("1", "mean coefficient of tooth friction"),
+    "eta_z1_2": ("1", "efficiency of the teeth"),
+    "eta_ges": ("1", "efficiency of the gearbox"),
+    "M_w_Nm": ("N m", "torque permitted by wear"),
+    "M_s_Nm": ("N m", "torque permitted by strength"),
+    "safety_wear": ("1", "permitted torque over the one required, wear"),
+    "safety_strength": ("1", "permitted torque over the one required, strength"),
+}
 
 Labelled = tuple[tuple[str, ...], Any, str, str]
 
@@ -141,3 +157,21 @@ def comparison_dataset(comparison: "Comparison") -> "xr.Dataset":
         "notes": "; ".join(comparison.notes),
     }
     return dataset
+
+
+def catalogue_dataset(catalogue: "Catalogue") -> "xr.Dataset":
+    """Return the proposals over ratio and centre distance."""
+    both = ("ratio", "centre_distance")
+    named = {key: (both, values, *_CATALOGUE[key]) for key, values in catalogue.numbers.items()}
+    return labelled(
+        "Most efficient worm gearsets of a catalogue",
+        {
+            "ratio": (("ratio",), catalogue.ratios, "1", "gear ratio asked for"),
+            "centre_distance": (
+                ("centre_distance",), catalogue.centre_distances, "m", "centre distance",
+            ),
+        },
+        candidates=(both, catalogue.candidates, "1", "gearsets that were rated"),
+        reason=(both, catalogue.reason, "1", "why there is no proposal"),
+        **{key.removesuffix("_Nm").removesuffix("_mm"): value for key, value in named.items()},
+    )  # fmt: skip
