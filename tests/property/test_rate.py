@@ -117,31 +117,50 @@ def test_worm_at_its_limit_locks_and_a_little_less_friction_sets_it_free(lead, n
     assert locks(lead, limit * (1.0 + nudge)) == (nudge > 0.0)
 
 
-@given(tables(), st.data())
-def test_a_variant_in_an_array_is_the_gearset_alone(case, data):
-    gearset, operation, _ = case
-    g = gearset.geometry
-    q = data.draw(st.floats(6.0, 18.0))
-    values = {
-        "diameter_factor": [g.diameter_factor, q],
-        "axial_module": [gearset.axial_module] * 2,
-        "centre_distance": [g.centre_distance * 1e-3] * 2,
-        "worm_speed": [operation.worm_speed] * 2,
-        "output_torque": [operation.output_torque] * 2,
-        "worm_roughness": [gearset.worm_roughness] * 2,
-        "pressure_angle": [gearset.pressure_angle] * 2,
-    }
-    rated, found = rate(*case), variants(*case, **values)
+def assert_first_is_alone(rated, found):
     for name, rating in rated.found.items():
         alone = numbers_of(rating)
         for key in found:
             standard, _, number = key.partition(".")
-            if standard != name:
-                continue
-            if number in alone:
-                assert found[key][0] == pytest.approx(alone[number], rel=1e-13, abs=1e-300)
-            elif "worm" not in number:
-                assert math.isnan(found[key][0])
+            if standard == name and number in alone:
+                assert found[key][0] == pytest.approx(alone[number], rel=1e-13, abs=1e-300), key
+            elif standard == name and "worm" not in number:
+                assert math.isnan(found[key][0]), key
+
+
+@given(tables(), st.floats(6.0, 18.0))
+def test_a_variant_in_an_array_is_the_gearset_alone(case, q):
+    gearset, operation, options = case
+    found = variants(
+        *case,
+        starts=[gearset.starts] * 2,
+        wheel_teeth=[gearset.wheel_teeth] * 2,
+        diameter_factor=[gearset.diameter_factor, q],
+        pressure_angle=[gearset.pressure_angle] * 2,
+        output_torque=[operation.output_torque] * 2,
+        friction_factor=[options.friction_factor, 1.0],
+    )
+    assert_first_is_alone(rate(*case), found)
+
+
+@given(tables(), st.floats(6.0, 18.0))
+def test_efficiency_of_a_variant_whose_numbers_come_in_si_is_that_of_the_gearset_alone(case, q):
+    # Not all numbers: a difference of near ones multiplies the last digit of a conversion.
+    gearset, operation, _ = case
+    found = variants(
+        *case,
+        ("iso14521",),
+        capacity=False,
+        diameter_factor=[gearset.diameter_factor, q],
+        axial_module=[gearset.axial_module] * 2,
+        centre_distance=[gearset.geometry.centre_distance * 1e-3] * 2,
+        worm_speed=[operation.worm_speed] * 2,
+        worm_roughness=[gearset.worm_roughness] * 2,
+    )
+    iso = rate(*case).iso14521
+    assume(iso is not None and iso["h_star"] > 0.02)
+    for key in ("sliding_velocity_m_s", "mu_zm", "eta_z1_2", "eta_ges", "input_power_W"):
+        assert found[f"iso14521.{key}"][0] == pytest.approx(iso[key], rel=1e-13)
 
 
 @given(tables())
