@@ -1,5 +1,6 @@
 """The thesis as a user reproduces it, with the numbers it must give."""
 
+import csv
 import json
 import re
 
@@ -9,6 +10,10 @@ import pytest
 from asperity.store import read_dataset
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES
+
+
+# Where a method is no vibration, and where an input is raised too far, there is no such number.
+GAPS = {"3.1": ("velocity_ratio", "velocity_amplitude"), "3.2": ("eta_z1_2", "fails_above")}
 
 
 @pytest.fixture(scope="module")
@@ -24,15 +29,34 @@ def test_every_figure_has_a_picture_and_its_numbers(result):
     for figure in result.figures:
         assert figure.picture.read_bytes().startswith(b"\x89PNG")
         dataset = read_dataset(figure.dataset)
-        for variable in dataset.variables.values():
+        for name, variable in dataset.variables.items():
             assert variable.attrs["units"]
             assert variable.attrs["long_name"]
-            assert variable.dtype.kind != "f" or np.all(np.isfinite(variable.values))
+            if variable.dtype.kind == "f" and name not in GAPS.get(figure.number, ()):
+                assert np.all(np.isfinite(variable.values)), name
+
+
+def test_every_table_has_its_rows_and_no_empty_number(result):
+    assert [table.number for table in result.tables] == list(TABLES)
+    for table in result.tables:
+        with table.path.open(encoding="utf-8", newline="") as file:
+            columns, *rows = csv.reader(file)
+        assert len(rows) == len(table.grid.rows) > 0
+        assert tuple(columns) == table.grid.columns
+        assert "nan" not in table.path.read_text("utf-8").replace("nanoparticles", "")
 
 
 @pytest.mark.parametrize(
     ("claim", "verdict"),
     [
+        ("3.1", "reproduced"),
+        ("3.2", "reproduced"),
+        ("3.3", "reproduced"),
+        ("3.4", "reproduced"),
+        ("3.5", "reproduced"),
+        ("3.6", "reproduced"),
+        ("3.7", "reproduced"),
+        ("3.8", "reproduced"),
         ("4.1", "reproduced"),
         ("4.2", "reproduced"),
         ("4.3", "reproduced"),
@@ -41,6 +65,7 @@ def test_every_figure_has_a_picture_and_its_numbers(result):
         ("4.6", "differs"),
         ("4.7", "reproduced"),
         ("4.8", "differs"),
+        ("7.1", "reproduced"),
     ],
 )
 def test_each_claim_has_its_verdict(result, claim, verdict):
@@ -51,6 +76,19 @@ def test_each_claim_has_its_verdict(result, claim, verdict):
 @pytest.mark.parametrize(
     ("claim", "name", "value", "tolerance"),
     [
+        ("3.1", "eta_z", 0.379, 2e-3),
+        ("3.1", "eta_ges", 0.312, 2e-3),
+        ("3.2", "mu_0T", 0.0715, 5e-4),
+        ("3.2", "sliding_velocity_m_s", 1.390, 5e-4),
+        ("3.3", "polyalphaolefin_gain", 0.064, 5e-3),
+        ("3.3", "velocity_amplitude_for_k_20_m_s", 27.8, 1e-3),
+        ("3.6", "gearset_2_gain_module_kept_points", 6.4, 2e-2),
+        ("3.7", "gearset_3_T_G_all_Nm", 195.0, 5e-3),
+        ("3.7", "gearset_3_eta_AGMA", 0.907, 2e-3),
+        ("3.8", "mu_zm", 0.1344, 3e-4),
+        ("3.8", "eta_z", 0.7326, 1e-3),
+        ("3.8", "sliding_velocity_m_s", 1.5108, 3e-5),
+        ("7.1", "torsional_stiffness_Nm_per_rad", 4394.0, 1e-4),
         ("4.1", "L2_drive_force_N", 1.693, 2e-3),
         ("4.1", "L4_drive_force_N", 1.809, 1e-3),
         ("4.1", "L5_drive_force_N", 3.187, 1e-3),
@@ -77,6 +115,28 @@ def test_the_ledger_has_the_reference_numbers(result, claim, name, value, tolera
 def test_lugre_without_its_extras_is_dahl_to_the_last_bit(result):
     (entry,) = [entry for entry in result.claims if entry.id == "4.7"]
     assert entry.finding.numbers["largest_difference"] < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("claim", "words"),
+    [
+        ("3.1", "No test of the formulas by itself"),
+        ("3.3", "that takes v_a = 27.8 m/s"),
+        ("3.4", "were used to find the wheel's teeth"),
+        ("3.6", "The bounds are assumed, Table 3.6 is lost"),
+        ("3.7", "Judged for gearsets 2 and 3 only"),
+        ("3.8", "reconstructed from these three numbers"),
+    ],
+)
+def test_a_claim_that_rests_on_a_reconstruction_says_so(result, claim, words):
+    (entry,) = [entry for entry in result.claims if entry.id == claim]
+    assert words in entry.finding.reason
+
+
+def test_the_calculation_of_gearset_2_fails_where_the_thesis_says(result):
+    (entry,) = [entry for entry in result.claims if entry.id == "3.4"]
+    assert 0.27 <= entry.finding.numbers["gear_ratio_rise"] < 0.28
+    assert 0.37 <= entry.finding.numbers["axial_module_rise"] < 0.38
 
 
 def figure(result, number):
@@ -156,6 +216,52 @@ def test_every_direction_is_drawn_at_every_k_and_lugre_lies_on_dahl(result):
     assert dataset["lugre"].values == pytest.approx(dahl, abs=1e-12)
 
 
+def test_agma_has_less_friction_than_iso_at_every_sliding_velocity_shown(result):
+    dataset = figure(result, "3.3")
+    assert bool(np.all(dataset["mu_zm"] > dataset["mu_AGMA"]))
+    at = dataset.interp(velocity=1.5108)
+    assert float(at["mu_zm"].sel(gearset="gearset 3")) == pytest.approx(0.1344, rel=1e-3)
+    assert float(at["mu_AGMA"]) == pytest.approx(0.0367, rel=2e-3)
+
+
+def test_the_optimum_raises_efficiency_and_keeps_the_permissible_torques(result):
+    shares, torques = figure(result, "3.4"), figure(result, "3.5")
+    before, after = ({"design": name} for name in ("as it is", "optimum"))
+    assert np.all(shares["eta_z"].sel(after) > shares["eta_z"].sel(before) + 0.05)
+    for name in ("M_w", "M_s"):
+        assert np.all(torques[name].sel(after) >= torques[name].sel(before) * (1.0 - 1e-9)), name
+
+
+def cells(result, number, column):
+    (table,) = [table for table in result.tables if table.number == number]
+    at = table.grid.columns.index(column)
+    return {row[0]: row[at] for row in table.grid.rows}
+
+
+def test_the_tables_say_what_is_stated_what_inferred_and_what_lost(result):
+    thesis, here = (cells(result, "3.2", column) for column in ("thesis", "here"))
+    assert thesis["eta_z1_2"] == "38 % (3.2.1)"
+    assert here["z_1"] == "stated"
+    assert here["q_1"].startswith("inferred")
+    assert here["n_1"].startswith("assumed")
+    assert thesis["q_1"] == "lost"
+    page = result.index.read_text("utf-8")
+    assert page.count("The thesis’s table is lost") + page.count("table is lost") >= 5
+
+
+def test_the_numbers_of_the_tables_are_those_of_the_reconstruction(result):
+    values = cells(result, "3.2", "value")
+    assert values["mu_0T"] == pytest.approx(0.0715, abs=5e-5)
+    assert values["eta_z1_2"] == pytest.approx(0.379, abs=5e-4)
+    friction = cells(result, "3.3", "mu_0T")
+    assert friction["polyalphaolefin, by tests"] == 0.0550
+    assert cells(result, "3.4", "effect")["Ra_1"] == "lowers"
+    assert cells(result, "3.5", "gearset 3")["sigma_c"] == pytest.approx(778.0, rel=2e-3)
+    optimum = cells(result, "3.7", "gearset 2, optimum")
+    assert optimum["alpha_n"] == pytest.approx(30.0)
+    assert optimum["Ra_1"] == pytest.approx(0.8)
+
+
 def test_the_page_is_one_file_that_fetches_nothing(result):
     page = result.index.read_text("utf-8")
     assert "<script" not in page
@@ -170,15 +276,28 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
     page = result.index.read_text("utf-8")
     for entry in result.claims:
         assert f'id="claim-{entry.id}"' in page
-    assert page.count("✓ reproduced") == 6
+    assert page.count("✓ reproduced") == 15
     assert page.count("≠ differs") == 2
     assert "asperity slide table-4.3 --set solve.method=periodic" in page
+    assert "asperity sensitivity gearset-2" in page
+
+
+def test_the_page_goes_chapter_by_chapter_with_claims_figures_and_tables(result):
+    page = result.index.read_text("utf-8")
+    places = [
+        page.index(f'id="{name}"')
+        for name in (
+            "chapter-2", "figure-2.7", "chapter-3", "claim-3.8", "figure-3.5", "table-3.2",
+            "table-3.7", "chapter-4", "claim-4.8", "figure-4.23", "chapter-7", "claim-7.1",
+        )
+    ]  # fmt: skip
+    assert places == sorted(places)
 
 
 def test_a_second_run_finds_everything_and_says_so(result):
     lines = []
     again = run(result.index.parent, progress=lines.append)
-    assert all(files.reused for files in again.figures)
+    assert all(files.reused for files in (*again.figures, *again.tables))
     assert [entry.to_json() for entry in again.claims] == [e.to_json() for e in result.claims]
     assert len(lines) == len(FIGURES) + len(TABLES) + len(CLAIMS)
     assert all(line.endswith("there already") for line in lines)

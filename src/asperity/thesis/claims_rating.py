@@ -78,11 +78,11 @@ def _methods() -> Finding:
         f"What a transducer gives, {1e6 * given.amplitude:.0f} um at {1e-3 * given.frequency:.0f} "
         f"kHz (assumed), is k = {given.velocity_ratio:.2f}: by our own friction model "
         f"{own['longitudinal'].efficiency:.1%} along and {own['transverse'].efficiency:.1%} across "
-        "the sliding, below polyglycol. The thesis leaves the power of the vibration out. With what "
-        "of it goes into the contact counted, longitudinal vibration comes to "
+        "the sliding. The thesis leaves the power of the vibration out; with what of it goes into "
+        "the contact counted, longitudinal vibration comes to "
         f"{along.efficiency_with_vibration:.1%} as quoted and to "
-        f"{own['longitudinal'].efficiency_with_vibration:.1%} with the transducer, less than "
-        "without vibration.",
+        f"{own['longitudinal'].efficiency_with_vibration:.1%} with the transducer, the gearset as "
+        f"it is to {study['as_is'].efficiency:.1%}.",
         {f"{key}_eta_z": row.efficiency for key, row in (reported | own).items()}
         | {"polyalphaolefin_gain": olefin.gain, "velocity_amplitude_for_k_20_m_s": needed.velocity},
         [GEARSET_2.command("methods")],
