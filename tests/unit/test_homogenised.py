@@ -7,6 +7,7 @@ from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.slider import TABLES, Model, homogenise, solve
 from asperity.slider import kernels as k
+from asperity.slider.closed_forms import transverse_ratio
 from asperity.slider.homogenised import interpolate
 from asperity.slider.march import Timetable, Walk
 
@@ -128,6 +129,17 @@ def test_far_beyond_the_vibration_friction_is_full(law):
     assert np.all(law(speeds) <= full)
     end = law.velocity[-1]
     assert law(end * (1.0 + 1e-9)) == pytest.approx(law(end * (1.0 - 1e-9)), rel=1e-8)
+
+
+def test_beyond_the_table_what_is_missing_of_full_friction_falls_with_the_square_of_the_speed():
+    across = homogenise(body("table-4.4", "slider.lateral=guided"))
+    peak, full = 3e-3, across.full_friction
+    end = across.velocity[-1]
+    assert across(end * (1.0 + 1e-9)) == pytest.approx(across(end * (1.0 - 1e-9)), abs=1e-9)
+    for speed in (1.5 * end, 4.0 * end, -2.0 * end):
+        missing = 1.0 - abs(across(speed)) / full
+        exact = 1.0 - transverse_ratio(0.71 * peak / abs(speed))
+        assert missing == pytest.approx(exact, rel=2e-2)
 
 
 def test_more_speed_never_means_less_friction(law):

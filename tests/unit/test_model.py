@@ -1,7 +1,6 @@
 import dataclasses
 import math
 
-import numpy as np
 import pytest
 
 from asperity.casefile import read_case
@@ -216,4 +215,4 @@ def test_a_square_wave_needs_a_fine_step_only_for_its_flanks():
     square = {"waveform": "square", "rise_time": 5e-5, "frequency": 1e3, "velocity_ratio": 2.0}
     model = body(friction=DAHL | {"max_deflection": 1e-6}, vibration=square)
     assert model.step == pytest.approx(2e-6)
-    assert np.isfinite(solve(model, history=False).ratio)
+    assert 0.0 < solve(model, history=False).ratio < 1.0
