@@ -11,7 +11,6 @@ from asperity.store import read_dataset
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES
 
-
 # Where a method is no vibration, and where an input is raised too far, there is no such number.
 GAPS = {"3.1": ("velocity_ratio", "velocity_amplitude"), "3.2": ("eta_z1_2", "fails_above")}
 

@@ -233,14 +233,14 @@ def optimise(
 def thesis(
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", metavar="FIGURE", help="Only this figure, such as 4.17."),
+        typer.Option("--only", metavar="NUMBER", help="Only this figure or table, as 4.17."),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder to write to.")] = Path(
         "out/thesis"
     ),
     as_json: JsonOption = False,
 ) -> None:
-    """Reproduce the thesis's claims and figures into one page, index.html."""
+    """Reproduce the thesis's claims, figures and tables into one page, index.html."""
     from asperity.cli import show
     from asperity.thesis import run
 
