@@ -9,7 +9,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Self, TypeVar, overload
+from typing import Any, ClassVar, Self, TypeVar, get_args, overload
 
 import pydantic
 from pydantic_core import ErrorDetails
@@ -238,7 +238,8 @@ def read_case(
         Every table a case file may have; all that are present are validated.
     settings : sequence of str
         ``table.key=value`` to add or replace. A bare number takes the unit of the text it
-        replaces; for an angle without one it is in degrees.
+        replaces; for an angle without one it is in degrees. A relative file name starts at the
+        working directory, where one in the file starts at the file's folder.
 
     Raises
     ------
@@ -317,6 +318,12 @@ def same_thing(model: type[Table], key: str) -> set[str]:
     return {key}.union(*(group for group in groups if key in group))
 
 
+def names_file(model: type[Table], key: str) -> bool:
+    """Whether a key's value is the name of a file."""
+    field = model.model_fields.get(key)
+    return field is not None and Path in (field.annotation, *get_args(field.annotation))
+
+
 def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     path, equals, text = setting.partition("=")
     parts = _KEY.fullmatch(path.strip())
@@ -326,6 +333,8 @@ def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     model = _known_table(name, known, f"--set {setting}")
     entries = raw.setdefault(name, {})
     value = _with_unit(model, key, _toml_value(text.strip()), entries.get(key), setting)
+    if isinstance(value, str) and names_file(model, key):
+        value = str(Path(value).absolute())
     for other in same_thing(model, key):
         entries.pop(other, None)
     entries[key] = value

@@ -37,6 +37,8 @@ SQUARE = 2
 SAMPLED = 3
 _CODES = {"sine": SINE, "triangle": TRIANGLE, "square": SQUARE, "sampled": SAMPLED}
 _TABLE_POINTS = 8192
+_STEPS_A_TURN = 16
+_STEPS_A_FLANK = 4
 _NO_TABLE = np.zeros(2)
 
 FloatArray = npt.NDArray[np.float64]
@@ -87,7 +89,8 @@ class Vibration(Table):
     waveform : {'sine', 'triangle', 'square', 'sampled'}
         Shape of the displacement.
     frequency : float or str, optional
-        Hz. Left out, a sampled waveform takes the period of its samples.
+        Hz. Left out, a sampled waveform takes the period of its samples; given, it must agree with
+        them to 1e-6.
     velocity_ratio : float, optional
         Peak velocity over drive velocity, k = v_a/v_d. Exactly one of the three amplitudes.
     velocity_amplitude : float or str, optional
@@ -171,7 +174,7 @@ class Vibration(Table):
         if self.waveform == "sampled":
             if self.samples is None:
                 raise InputError("vibration.samples is missing")
-            path = (folder or Path()) / self.samples
+            path = ((folder or Path()) / self.samples).absolute()
             try:
                 stamp = path.stat().st_mtime_ns
             except OSError:
@@ -179,20 +182,21 @@ class Vibration(Table):
             shape = _sampled(path, stamp)
             if self.frequency is None:
                 return shape
-            if abs(shape.frequency / self.frequency - 1.0) > 0.01:
+            if abs(shape.frequency / self.frequency - 1.0) > 1e-6:
                 raise InputError(
-                    f"vibration.frequency is {self.frequency:g} Hz, but the samples in "
-                    f"{path.name} span a period of {1 / shape.frequency:g} s "
-                    f"({shape.frequency:g} Hz); leave the frequency out or make them agree"
+                    f"vibration.frequency is {self.frequency:.10g} Hz, but the samples in {path} "
+                    f"span a period of {1 / shape.frequency:.10g} s ({shape.frequency:.10g} Hz); "
+                    "leave the frequency out or make them agree"
                 )
             return shape
         frequency = self.frequency or 0.0
         if self.waveform == "sine":
-            return Shape(SINE, frequency, 2.0 * math.pi, 0.0, _NO_TABLE)
+            return Shape(SINE, frequency, 2.0 * math.pi, _STEPS_A_TURN)
         if self.waveform == "triangle":
-            return Shape(TRIANGLE, frequency, 4.0, 0.0, _NO_TABLE)
+            return Shape(TRIANGLE, frequency, 4.0, _STEPS_A_TURN)
         rise = (self.rise_time or 0.0) * frequency
-        return Shape(SQUARE, frequency, 2.0 / rise, rise, _NO_TABLE)
+        least_steps = max(_STEPS_A_TURN, _STEPS_A_FLANK / rise)
+        return Shape(SQUARE, frequency, 2.0 / rise, least_steps, rise=rise)
 
     def displacement(self, shape: "Shape", drive_velocity: float) -> float:
         """Displacement amplitude u_a, m."""
@@ -220,6 +224,10 @@ class Shape:
         Hz.
     steepness : float
         Peak velocity over (amplitude times frequency).
+    least_steps : float
+        Time steps a period needs: 16 for a sine and a triangle; 4 to a flank of a square wave; so
+        many for a sampled wave that its velocity changes over a step by no more of itself, in the
+        root mean square, than that of a sine over 1/16 of its period.
     rise : float
         Rise time of a square wave in cycles.
     table : ndarray
@@ -227,11 +235,19 @@ class Shape:
     """
 
     def __init__(
-        self, code: int, frequency: float, steepness: float, rise: float, table: FloatArray
+        self,
+        code: int,
+        frequency: float,
+        steepness: float,
+        least_steps: float,
+        *,
+        rise: float = 0.0,
+        table: FloatArray = _NO_TABLE,
     ) -> None:
         self.code = code
         self.frequency = frequency
         self.steepness = steepness
+        self.least_steps = least_steps
         self.rise = rise
         self.table = table
 
@@ -250,7 +266,7 @@ class Shape:
 def _sampled(path: Path, stamp: int) -> Shape:
     """Read and check a samples file; cached by its time of change."""
     time, value = _read_samples(path)
-    name = f"vibration.samples: {path.name}"
+    name = f"vibration.samples: {path}"
     steps = np.diff(time)
     if np.any(steps <= 0.0):
         row = int(np.argmax(steps <= 0.0)) + 2
@@ -278,14 +294,29 @@ def _sampled(path: Path, stamp: int) -> Shape:
     table = spline(phase)
     table -= table[:-1].mean()
     half_range = 0.5 * (table.max() - table.min())
-    steepness = float(np.abs(spline(phase, 1)).max() / half_range)
-    return Shape(SAMPLED, 1.0 / period, steepness, 0.0, np.ascontiguousarray(table / half_range))
+    velocity = spline(phase, 1)
+    steepness = float(np.abs(velocity).max() / half_range)
+    table = np.ascontiguousarray(table / half_range)
+    return Shape(SAMPLED, 1.0 / period, steepness, _steps_to_follow(velocity[:-1]), table=table)
+
+
+def _steps_to_follow(velocity: FloatArray) -> float:
+    """Steps a period needs for a velocity given at equal intervals of it."""
+    # A velocity changes as a sine's does where it is correlated with itself as a sine's is.
+    correlation = np.fft.irfft(np.abs(np.fft.rfft(velocity)) ** 2)
+    correlation /= correlation[0]
+    least = math.cos(2.0 * math.pi / _STEPS_A_TURN)
+    past = int(np.argmax(correlation < least))
+    before, after = correlation[past - 1], correlation[past]
+    intervals = past - (least - after) / (before - after)
+    return max(float(_STEPS_A_TURN), float(velocity.size / intervals))
 
 
 def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
-    name = f"vibration.samples: {path.name}"
+    name = f"vibration.samples: {path}"
     try:
-        with path.open(newline="", encoding="utf-8") as file:
+        # Spreadsheets put a byte order mark in front of the first number.
+        with path.open(newline="", encoding="utf-8-sig") as file:
             rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or error
@@ -295,7 +326,7 @@ def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
         try:
             pair = float(row[0]), float(row[1])
         except (ValueError, IndexError):
-            if number == 1 and len(row) >= 2:
+            if number == 1 and len(row) >= 2 and not any(map(_is_number, row[:2])):
                 continue
             raise InputError(
                 f"{name}: row {number} is {','.join(row)!r}; it must hold two numbers: time in s, "
@@ -308,3 +339,11 @@ def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
         raise InputError(f"{name} holds {len(pairs)} samples; a period needs at least 8")
     data = np.array(pairs)
     return data[:, 0], data[:, 1]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

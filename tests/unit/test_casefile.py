@@ -196,7 +196,6 @@ def test_what_is_no_file_is_refused_in_one_line(case_file, name, message):
         ("body.cycles=3", "body.cycles", 3),
         ("shaking.ratio=2", "shaking.ratio", 2.0),
         ("shaking.direction=180", "shaking.direction", math.pi),
-        ("shaking.samples=a=b.csv", "shaking.samples", Path("a=b.csv")),
     ],
 )
 def test_a_setting_replaces_or_adds_a_value(case_file, setting, path, expected):
@@ -289,8 +288,20 @@ def test_equal_cases_have_equal_canonical_text(case_file):
     assert case.replace_values({"shaking.ratio": 6.5}).canonical() != case.canonical()
 
 
+def test_a_file_named_in_a_setting_is_looked_for_from_the_working_directory(tmp_path, monkeypatch):
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    file = tmp_path / "own.toml"
+    file.write_text('[shaking]\nratio = 1.0\nsamples = "wave.csv"\n')
+    set_here = read_case(file, TABLES, ["shaking.samples=a=b.csv"])
+    assert set_here.folder / set_here["shaking"].samples == elsewhere / "a=b.csv"
+    own = read_case(file, TABLES)
+    assert own.folder / own["shaking"].samples == tmp_path / "wave.csv"
+
+
 def test_canonical_text_follows_the_content_of_a_file_named_in_the_case(case_file, tmp_path):
-    case = read_case(case_file, TABLES, ["shaking.samples=wave.csv"])
+    case = read_case(case_file, TABLES, [f"shaking.samples={tmp_path / 'wave.csv'}"])
     (tmp_path / "wave.csv").write_text("0, 0\n")
     before = case.canonical()
     (tmp_path / "wave.csv").write_text("0, 1\n")

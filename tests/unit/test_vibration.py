@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError
+from asperity.friction import Friction
+from asperity.slider import Model, Slider, Solve
 from asperity.vibration import Vibration
 
 WAVES = {
@@ -172,6 +174,59 @@ def test_samples_need_no_equal_spacing(tmp_path):
     assert displacement(sampled, at) == pytest.approx(np.sin(2.0 * math.pi * at), abs=2e-5)
 
 
+def test_a_byte_order_mark_costs_no_sample(tmp_path):
+    shapes = []
+    for name, mark in (("plain.csv", b""), ("marked.csv", b"\xef\xbb\xbf")):
+        path = write_samples(
+            tmp_path / name, np.sin(np.linspace(0, 2 * math.pi, 16, False)), header=""
+        )
+        path.write_bytes(mark + path.read_bytes())
+        shapes.append(
+            Vibration(waveform="sampled", samples=name, velocity_ratio=1.0).shape(tmp_path)
+        )
+    assert shapes[0].frequency == shapes[1].frequency
+    assert np.array_equal(shapes[0].table, shapes[1].table)
+
+
+@pytest.mark.parametrize("first", ["0.0,zero", "zero,0.0"])
+def test_a_first_row_with_a_number_in_it_is_no_header(tmp_path, first):
+    (tmp_path / "wave.csv").write_text("".join(f"{row}\n" for row in [first, *rows_of()[1:]]))
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    assert f"row 1 is '{first}'" in refusal(vibration.shape, tmp_path)
+
+
+@pytest.mark.parametrize("cycles", [1, 20])
+def test_samples_of_a_sine_need_the_steps_of_a_sine_for_each_of_its_cycles(tmp_path, cycles):
+    phase = 2.0 * math.pi * np.arange(1000) / 1000
+    write_samples(tmp_path / "wave.csv", np.sin(cycles * phase))
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
+    sine = Vibration(velocity_ratio=1.0, **WAVES["sine"]).shape()
+    assert shape.least_steps == pytest.approx(cycles * sine.least_steps, rel=1e-3)
+
+
+def test_samples_of_a_square_wave_need_at_least_the_steps_of_the_square_wave(tmp_path):
+    square = Vibration(velocity_ratio=1.0, **WAVES["square"]).shape()
+    write_samples(tmp_path / "wave.csv", displacement(square, np.linspace(0.0, 1.0, 1001))[:-1])
+    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
+    assert square.least_steps == 4.0 / square.rise == 50.0
+    assert square.least_steps < sampled.least_steps < 4.0 * square.least_steps
+
+
+def test_a_step_that_passes_over_what_the_samples_contain_is_refused(tmp_path):
+    phase = 2.0 * math.pi * np.arange(1000) / 1000
+    write_samples(tmp_path / "wave.csv", np.sin(phase) + 0.1 * np.sin(20.0 * phase))
+    body = Slider(drive_velocity=5e-4, normal_force=55.0)
+    contact = Friction(mu=0.1, max_deflection=1e-7)
+    vibration = Vibration(velocity_ratio=6.0, **WAVES["sampled"])
+    shape = vibration.shape(tmp_path)
+    coarse = Model(body, contact, vibration, Solve(step=1e-6), shape)
+    text = refusal(lambda: coarse.step)
+    assert "solve.step is 1e-06 s, too coarse for the vibration of 4000 Hz" in text
+    fine = Model(body, contact, vibration, Solve(step=8e-7), shape)
+    assert fine.step == 8e-7
+    assert Model(body, contact, vibration, Solve(), shape).step == 1.0 / (500 * shape.frequency)
+
+
 def test_changed_samples_are_read_anew(tmp_path):
     path = write_samples(tmp_path / "wave.csv", np.sin(np.linspace(0, 2 * math.pi, 32, False)))
     vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
@@ -225,7 +280,7 @@ def test_samples_that_are_no_period_are_refused(rows, message, tmp_path):
     vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
     text = refusal(vibration.shape, tmp_path)
     assert message in text
-    assert "wave.csv" in text
+    assert str(tmp_path / "wave.csv") in text
 
 
 def test_samples_that_cannot_be_read_are_refused(tmp_path):
@@ -241,7 +296,11 @@ def test_samples_that_cannot_be_read_are_refused(tmp_path):
 def test_a_frequency_that_contradicts_the_samples_is_refused(folder):
     vibration = Vibration(velocity_ratio=1.0, frequency=3000.0, **WAVES["sampled"])
     assert "leave the frequency out" in refusal(vibration.shape, folder)
-    agreeing = Vibration(velocity_ratio=1.0, frequency=4000.0, **WAVES["sampled"])
+    near = Vibration(velocity_ratio=1.0, frequency=4000.01, **WAVES["sampled"])
+    text = refusal(near.shape, folder)
+    assert "4000.01 Hz" in text
+    assert "(4000 Hz); leave the frequency out" in text
+    agreeing = Vibration(velocity_ratio=1.0, frequency=4000.001, **WAVES["sampled"])
     assert agreeing.shape(folder).frequency == pytest.approx(4000.0, rel=1e-12)
 
 

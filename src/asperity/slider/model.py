@@ -46,7 +46,6 @@ RIGID = 15
 SMOOTH = 16  # whether the vibration's velocity has no jumps
 PARAMETERS = 17
 
-_LEAST_STEPS_A_CYCLE = 16
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4
 _WINDOW_RINGS = 20
@@ -181,14 +180,11 @@ class Model:
     def step(self) -> float:
         """Time step as asked for, s; refused if it is too coarse for the waveform."""
         given = self.solve.step
-        if not self.vibrates:
+        if self.shape is None or not self.vibrates:
             return given if given is not None else 1e-6
+        most = 1.0 / (self.shape.least_steps * self.frequency)
         if given is None:
-            return 1.0 / (_STEPS_A_CYCLE * self.frequency)
-        most = 1.0 / (_LEAST_STEPS_A_CYCLE * self.frequency)
-        # A step that resolves a sine 16 times resolves a square wave's flank at least 4 times.
-        if self.shape is not None and self.shape.rise > 0.0:
-            most = min(most, self.shape.rise / self.frequency / 4.0)
+            return min(1.0 / (_STEPS_A_CYCLE * self.frequency), most)
         if given > most * (1.0 + 1e-9):
             raise InputError(
                 f"solve.step is {given:g} s, too coarse for the vibration of {self.frequency:g} Hz;"

@@ -6,9 +6,10 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
+from pathlib import Path
 from typing import NoReturn
 
-from asperity.casefile import Case, Table, bare_unit, read_case, same_thing
+from asperity.casefile import Case, Table, bare_unit, names_file, read_case, same_thing
 from asperity.errors import InputError, choices, nearest
 from asperity.slider.tables import TABLES as SWEPT
 from asperity.units import Quantity, quantity_of, split_unit, to_si
@@ -229,7 +230,11 @@ def _words(written: _Written) -> Axis:
         if isinstance(value, bool) or not isinstance(value, str | int | float):
             written.refuse(f"{written.path} is {part}; it must be words or numbers")
         values.append(value)
-    return _once(written, Axis(written.path, tuple(values), tuple(values)))
+    shown = tuple(values)
+    if names_file(written.model, written.key):
+        # As with a setting, and not from the case's folder.
+        values = [str(Path(str(value)).absolute()) for value in values]
+    return _once(written, Axis(written.path, tuple(values), shown))
 
 
 def _once(written: _Written, axis: Axis) -> Axis:
