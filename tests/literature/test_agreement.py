@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.slider import TABLES, Model, homogenise, solve, solve_many
+from asperity.slider import TABLES, Model, solve_many
 
 CASES = ["table-4.3", "table-4.4"]
 LAWS = ["split", "unsplit", "vector"]
