@@ -6,7 +6,9 @@ import re
 
 import numpy as np
 import pytest
+import typer
 
+from asperity.cli.main import app
 from asperity.store import read_dataset
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES
@@ -279,6 +281,15 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
     assert page.count("≠ differs") == 2
     assert "asperity slide table-4.3 --set solve.method=periodic" in page
     assert "asperity sensitivity gearset-2" in page
+
+
+def test_every_command_named_is_a_command(result):
+    how = [entry.finding.how for entry in result.claims]
+    how += [figure.how for figure in result.figures]
+    how += [table.grid.how for table in result.tables]
+    named = {line.split()[1] for lines in how for line in lines if line.startswith("asperity ")}
+    known = set(typer.main.get_command(app).commands)
+    assert {"rate", "methods", "sensitivity", "optimise", "slide", "sweep"} <= named <= known
 
 
 def test_the_page_goes_chapter_by_chapter_with_claims_figures_and_tables(result):

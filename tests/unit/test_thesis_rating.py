@@ -93,6 +93,24 @@ def test_cells_are_shown_to_five_digits_and_never_as_markup():
     assert report.shown("<b> m_x1") == "&lt;b&gt; m<sub>x1</sub>"
 
 
+@pytest.mark.parametrize(
+    ("plain", "html"),
+    [
+        ("mu_0T, eta_z", "µ<sub>0T</sub>, η<sub>z</sub>"),
+        ("T_G,all > M_26k", "T<sub>G,all</sub> &gt; M<sub>26k</sub>"),
+        ("q_1, m_x1, Ra_1", "q<sub>1</sub>, m<sub>x1</sub>, Ra<sub>1</sub>"),
+        ("20 um at 40 degC, mm2/s", "20 µm at 40 °C, mm²/s"),
+        ("maximum, number", "maximum, number"),
+    ],
+)
+def test_symbols_of_the_standards_are_set(plain, html):
+    assert report.typeset(plain) == html
+
+
+def test_a_column_with_a_number_is_a_column_of_numbers():
+    assert GRID.numeric == (False, True)
+
+
 def test_a_gearset_knows_its_command_and_its_numbers():
     gear = Gear("gearset-2", ("rating.base_friction=0.055", "gearset.pressure_angle=25 deg"))
     assert gear.command("rate") == (

@@ -47,6 +47,14 @@ class Grid:
             if len(row) != len(self.columns):
                 raise ValueError(f"{row[0]!r} has {len(row)} cells for {len(self.columns)} columns")
 
+    @property
+    def numeric(self) -> tuple[bool, ...]:
+        """Which columns hold numbers."""
+        return tuple(
+            any(not isinstance(cell, str) for cell in column)
+            for column in zip(*self.rows, strict=True)
+        )
+
     def to_csv(self) -> str:
         """As text, numbers to the last digit."""
         text = io.StringIO()

@@ -15,7 +15,7 @@ from asperity.thesis.files import FigureFiles, TableFiles
 from asperity.thesis.ledger import Entry
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
-_GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "μ", "nu": "ν", "sigma": "σ"}
+_GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "µ", "nu": "ν", "sigma": "σ"}
 _SIGNS = {
     "<=": "≤",
     r"\+-": "±",
@@ -25,6 +25,7 @@ _SIGNS = {
     r"\bmm2\b": "mm²",
     **{rf"\b{name}_": f"{letter}_" for name, letter in _GREEK.items()},
 }
+_INDEXED = r"\b(Ra|[A-Za-zµα-ω])_(\w+(?:,\w+)?)"
 _TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
@@ -100,9 +101,7 @@ def typeset(text: str) -> Any:
 
     for plain, sign in _SIGNS.items():
         text = re.sub(plain, sign, text)
-    return Markup(
-        re.sub(r"\b([A-Za-z\u0370-\u03ff])_(\w+(?:,\w+)?)", r"\1<sub>\2</sub>", str(escape(text)))
-    )
+    return Markup(re.sub(_INDEXED, r"\1<sub>\2</sub>", str(escape(text))))
 
 
 def _data(picture: Path) -> str:
