@@ -1,6 +1,7 @@
 """The command line: what it prints, how it ends, and what it says about a mistake."""
 
 import json
+import math
 import os
 import re
 import subprocess
@@ -74,6 +75,48 @@ def test_a_slide_writes_dataset_picture_and_scalars(asperity, tmp_path):
     dataset = read_dataset(folder / "slide.nc")
     assert dataset["drive_force"].attrs["units"] == "N"
     assert sorted(path.name for path in folder.iterdir()) == ["slide.json", "slide.nc", "slide.png"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["slide", "table-4.3", "--set", "friction.mu=-1"],
+        ["slide", "table-4.3", "--set", "solve.step=1 ms"],
+        ["slide", "table-4.3", "--set", "solve.duration=1 us"],
+        ["slide", "table-4.3", "--set", "solve.step=1 ms", "--set", "solve.method=periodic"],
+        ["sweep", "table-4.3", "--over", "friction.mu=-1,1"],
+    ],
+)
+def test_a_case_that_is_refused_leaves_no_folder_behind(tmp_path, capsys, arguments):
+    with pytest.raises(SystemExit) as ended:
+        main([*arguments, "--out", str(tmp_path / "out")])
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_samples_named_in_a_setting_are_looked_for_from_the_working_directory(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    waves = [
+        "table-4.4", "--set", "vibration.waveform=sampled", "--set", "solve.method=periodic",
+    ]  # fmt: skip
+    with pytest.raises(SystemExit) as ended:
+        main(["slide", *waves, "--set", "vibration.samples=wave.csv"])
+    assert ended.value.code == 2
+    assert f"vibration.samples: {tmp_path / 'wave.csv'} cannot be read" in capsys.readouterr().err
+    rows = [f"{n / 300e3!r},{math.sin(0.02 * math.pi * n)!r}\n" for n in range(101)]
+    (tmp_path / "wave.csv").write_text("".join(rows))
+    with pytest.raises(SystemExit) as ended:
+        main(["slide", *waves, "--set", "vibration.samples=wave.csv", "--json"])
+    assert not ended.value.code
+    alone = one_object(capsys.readouterr().out)["ratio"]
+    assert alone == pytest.approx(0.4046, rel=1e-3)
+    with pytest.raises(SystemExit) as ended:
+        main(["sweep", *waves, "--over", "vibration.samples=wave.csv", "--json"])
+    assert not ended.value.code
+    assert one_object(capsys.readouterr().out)["ratio"] == [pytest.approx(alone, rel=1e-9)]
 
 
 def test_a_file_of_the_users_own_works_like_a_case_that_ships(asperity, tmp_path):

@@ -68,12 +68,18 @@ def slide(
     from asperity.cli import show
     from asperity.cli.tables import TABLES
     from asperity.errors import ConvergenceError
+    from asperity.slider.march import Timetable
     from asperity.slider.methods import solve
     from asperity.slider.model import Model
     from asperity.store import output_folder
 
-    folder = output_folder(out) if out is not None else None
     model = Model.from_case(read_case(case, TABLES, settings or ()))
+    # A case that is refused leaves no folder behind, and a folder that is refused costs no time.
+    if model.solve.method == "march":
+        Timetable(model)
+    else:
+        _ = model.substeps
+    folder = output_folder(out) if out is not None else None
     try:
         result = solve(model, history=folder is not None)
     except ConvergenceError as error:
@@ -128,8 +134,8 @@ def sweep(
     from asperity.store import output_folder
     from asperity.sweep import read_grid, run
 
-    folder = output_folder(out) if out is not None else None
     first, axes = read_grid(case, TABLES, settings or [], over)
+    folder = output_folder(out) if out is not None else None
     with show.progress_bar() as progress:
         result = run(first, axes, cluster=cluster, progress=progress, notify=show.note)
     if folder is not None:
