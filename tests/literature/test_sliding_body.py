@@ -1,7 +1,7 @@
 """The thesis's sliding bodies (Tables 4.1, 4.3, 4.4): scheme by scheme, law by law.
 
 Sources: chapter 4 of the thesis on vibration-assisted worm gears this package replaces the models
-of (Tables 4.1-4.4, Figures 4.17-4.23), after W. Gutowski and M. Leus 2012, 2015. The numbers were
+of (Tables 4.1-4.4, Figures 4.17-4.23), after P. Gutowski and M. Leus 2012, 2015. The numbers were
 worked out independently: the explicit two-phase scheme as printed at 1 us, and the three laws
 integrated with ever shorter steps. Ratios are means of the drive force over the last 0.4 s (at
 least 20 periods of the drive's ringing), cut to whole cycles, over mu F_N.

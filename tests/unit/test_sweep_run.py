@@ -14,6 +14,7 @@ from asperity.slider import TABLES, Model, solve
 from asperity.store import read_dataset
 from asperity.sweep import Axis, Interrupted, SweepResult, parse_axes, read_grid, run
 from asperity.sweep.grid import Grid
+from asperity.sweep.tasks import solve_remote, versions
 
 SHORT = ["solve.duration=20 ms", "vibration.start=2 ms"]
 STICK_SLIP = [
@@ -229,3 +230,12 @@ def test_a_relative_samples_file_is_known_by_its_content(tmp_path):
     second = run(body, axes)
     assert second.cached == 0
     assert not np.allclose(first.arrays["ratio"], second.arrays["ratio"], rtol=1e-3)
+
+
+@pytest.mark.parametrize("name", ["asperity", "numba", "numpy"])
+def test_a_worker_with_another_version_refuses_the_work_and_names_it(name):
+    models = [Model.from_case(case("solve.method=periodic"))]
+    (row,) = solve_remote(models, versions())
+    assert row["ratio"] == pytest.approx(0.137, rel=1e-3)
+    with pytest.raises(InputError, match=f"^a worker runs another version of {name}; install"):
+        solve_remote(models, {**versions(), name: "another"})

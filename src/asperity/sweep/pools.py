@@ -8,11 +8,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from asperity.compiled import package_hash
 from asperity.errors import AsperityError, InputError, MissingExtraError, StorageError
 from asperity.slider.model import Model
 from asperity.sweep.cache import Row
-from asperity.sweep.tasks import solve_remote, solve_task
+from asperity.sweep.tasks import solve_remote, solve_task, versions
 
 _CONNECT_SECONDS = 5
 _RETRIES = 5
@@ -102,7 +101,6 @@ class Cluster:
         self._address = address
         self._notify = notify
         self._waits = False
-        self._sources = package_hash()
         try:
             # Looked at before, since a client that fails to begin with this takes long to end.
             scheme, place = distributed.comm.parse_address(address)
@@ -128,7 +126,7 @@ class Cluster:
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
         """See `Pool`."""
-        future: cf.Future[list[Row]] = self._executor.submit(solve_remote, models, self._sources)
+        future: cf.Future[list[Row]] = self._executor.submit(solve_remote, models, versions())
         return future
 
     def check(self) -> None:

@@ -2,8 +2,9 @@
 
 import dataclasses
 import functools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+import numba
 import numpy as np
 
 from asperity.compiled import package_hash
@@ -82,17 +83,25 @@ def solve_task(models: Sequence[Model], stop: np.ndarray | None = None) -> list[
     return [_row(answer) for answer in solve_many(models, stop=stop)]
 
 
-def solve_remote(models: Sequence[Model], sources: str) -> list[Row]:
-    """Solve a task on a worker, which must run the same sources as who asked."""
-    # Otherwise results of other code would be kept as results of this one.
-    if _own_sources() != sources:
-        raise InputError("a worker runs another version of asperity; install the same everywhere")
-    return solve_task(models)
-
-
 @functools.cache
-def _own_sources() -> str:
-    return package_hash()
+def versions() -> dict[str, str]:
+    """Return the versions that two machines must share to get the same results."""
+    # The processor is not among them, though it is in the key a result is kept under: which
+    # instructions it has moves the last bits of a result, and a cluster may well be of several
+    # kinds.
+    return {"asperity": package_hash(), "numba": numba.__version__, "numpy": np.__version__}
+
+
+def solve_remote(models: Sequence[Model], asked: Mapping[str, str]) -> list[Row]:
+    """Solve a task on a worker, which must have the `versions` of who asked."""
+    # Otherwise results of other code would be kept as results of this one.
+    own = versions()
+    if different := [name for name in asked if own.get(name) != asked[name]]:
+        raise InputError(
+            f"a worker runs another version of {' and '.join(different)}; install the same "
+            "everywhere"
+        )
+    return solve_task(models)
 
 
 def _row(answer: SlideResult | AsperityError) -> Row:
