@@ -39,7 +39,7 @@ def stick_slip():
     solver = Solve(step=1e-5, duration=14.5)
     model = Model(slider, Friction(**CANUDAS), None, solver)
     table = Timetable(model)
-    walk = Walk(model, table)
+    walk = Walk(model, table, record=True)
     for begin, end in ((7.3, 7.6), (13.7, 13.9)):
         walk.to(round(begin / table.step), 1000)
         walk.to(round(end / table.step), 10)

@@ -11,6 +11,7 @@ from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, Stopped, solve, solve_many
 from asperity.slider.lanes import BLOCK, LANES
+from asperity.slider.march import march
 from asperity.vibration import Vibration
 
 LAWS = ["split", "unsplit", "vector"]
@@ -217,3 +218,25 @@ def test_a_march_of_no_whole_number_of_blocks_ends_with_a_short_one():
     ]  # fmt: skip
     assert solve(models[0]).steps == steps
     assert_all_same(models)
+
+
+def test_a_batch_of_bodies_that_break_away_at_other_times_answers_as_each_alone():
+    case = read_case("table-4.3", TABLES, ["solve.duration=0.2 s"])
+    models = [
+        Model.from_case(case.replace_values({"vibration.start": start})) for start in (0.0, 0.15)
+    ]
+    together = solve_many(models)
+    alone = [march(model, history=False) for model in models]
+    assert [one.breakaway_time for one in together] == [one.breakaway_time for one in alone]
+    assert alone[1].breakaway_time == pytest.approx(0.11526, abs=1e-5)
+
+
+def test_a_batch_keeps_greatest_and_least_friction_across_apart():
+    case = read_case("table-4.4", TABLES, ["slider.lateral=guided", "solve.duration=0.4 s"])
+    models = [
+        Model.from_case(case.replace_values({"vibration.direction": angle})) for angle in (0.8, 2.0)
+    ]
+    for one, single in zip(solve_many(models), models, strict=True):
+        other = march(single, history=False)
+        assert one.friction_max == pytest.approx(other.friction_max, rel=1e-9)
+        assert one.friction_min == pytest.approx(other.friction_min, rel=1e-9)

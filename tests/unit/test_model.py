@@ -164,10 +164,14 @@ def test_a_step_that_had_to_be_divided_too_often_is_refused():
     assert "give a step of at most" in text
 
 
-def test_rigid_friction_needs_no_parts_for_the_contact():
-    coulomb = {"model": "coulomb", "mu": 0.1}
-    assert body(BODY, coulomb, step=1e-6).substeps == 1
-    assert body(COMPLIANT, coulomb, step=1e-6).substeps == 1
+def test_rigid_friction_on_a_prescribed_slip_needs_no_parts():
+    assert body(BODY, {"model": "coulomb", "mu": 0.1}, step=1e-6).substeps == 1
+
+
+def test_rigid_friction_on_a_compliant_drive_is_bounded_by_the_turn_of_the_slip():
+    model = body(COMPLIANT, {"model": "coulomb", "mu": 0.1}, step=1e-6)
+    turn = 2.0 * math.pi * model.frequency * model.peak_velocity * 1e-6
+    assert model.substeps == math.ceil(turn / (0.1 * model.slider.drive_velocity))
 
 
 @pytest.mark.parametrize("law", ["unsplit", "vector"])

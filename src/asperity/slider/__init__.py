@@ -10,8 +10,9 @@
 0.159
 """
 
-from asperity.slider.batch import Stopped, solve_many
+from asperity.slider.batch import solve_many
 from asperity.slider.homogenised import HomogenisedLaw, homogenise
+from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.parameters import Slider, Solve

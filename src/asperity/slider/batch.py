@@ -10,16 +10,12 @@ from asperity.errors import AsperityError, ConvergenceError
 from asperity.slider import kernels as k
 from asperity.slider import lanes as ln
 from asperity.slider import model as m
-from asperity.slider.march import Timetable, energies, march_notes, summarise
+from asperity.slider.march import Stopped, Timetable, energies, march, march_notes, summarise
+from asperity.slider.methods import solve
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.methods import solve
 
 _FEWEST = 2  # a batch of two costs no more than two single marches
-
-
-class Stopped(Exception):  # noqa: N818 - being told to stop is no error
-    """The batch was told to stop before it was done."""
 
 
 def solve_many(
@@ -71,7 +67,7 @@ def solve_many(
         if flag[0]:
             raise Stopped
         try:
-            answers[index] = solve(models[index], history=False)
+            answers[index] = solve(models[index], history=False, stop=flag)
         except AsperityError as error:
             answers[index] = error
     return [answer for answer in answers if answer is not None]
@@ -127,9 +123,8 @@ def _march(
         for lane, table in enumerate(tables):
             if table.window_start == edge:
                 buffer[ln.SUM_FREE : ln.MAX_FX, lane] = 0.0
-                buffer[ln.MAX_FX, lane] = -1e300
-                buffer[ln.MIN_FX, lane] = 1e300
-                buffer[ln.MAX_FY, lane] = 0.0
+                buffer[[ln.MAX_FX, ln.MAX_FY], lane] = -1e300
+                buffer[[ln.MIN_FX, ln.MIN_FY], lane] = 1e300
                 state = _state(buffer, lane, parameters[lane])
                 start_energies[lane] = energies(state, parameters[lane], elastic=True)
                 start_free[lane] = state[k.FD]
@@ -151,15 +146,20 @@ def _march(
         second = (sums[k.SUM_FD] - first_half[lane]) / (table.window - half)
         waited = buffer[ln.WAITED, lane]
         broke = buffer[ln.WAITING, lane] == 0.0 and not model.slider.rigid
+        if not broke and not model.slider.rigid and buffer[ln.MAX_FREE, lane] >= 1.0:
+            # It broke away where the lanes take sums and do not wait, which is rare.
+            answers.append(march(model, history=False, stop=flag))
+            continue
+        residual = abs(float(second - first))
         answer = summarise(
             model, table.step, sums, start_energies[lane], energies(state, p, elastic=True),
-            residual=abs(float(second - first)),
+            residual=residual,
             steps=table.steps,
             cycles=table.cycles,
             seconds=seconds,
             breakaway_time=float(waited) * table.step if broke else None,
             substeps=model.substeps,
-            notes=march_notes(model),
+            notes=march_notes(model, table, residual),
         )  # fmt: skip
         answers.append(answer)
     return answers
@@ -230,5 +230,6 @@ def _sums(buffer: FloatArray, lane: int, p: FloatArray, steps: int, start: float
     sums[k.MAX_FX] = buffer[ln.MAX_FX, lane]
     sums[k.MIN_FX] = buffer[ln.MIN_FX, lane]
     sums[k.MAX_FY] = buffer[ln.MAX_FY, lane]
+    sums[k.MIN_FY] = buffer[ln.MIN_FY, lane]
     sums[k.STEPS] = steps
     return sums

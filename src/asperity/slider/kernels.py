@@ -62,9 +62,10 @@ SUM_DRAG = 6  # work lost in the drive's damper
 MAX_FX = 7
 MIN_FX = 8
 MAX_FY = 9
-STEPS = 10
-BREAKAWAY = 11  # steps up to the first full drive force; negative while it has not come
-SUMS = 12
+MIN_FY = 10
+STEPS = 11
+BREAKAWAY = 12  # steps up to the first full drive force; negative while it has not come
+SUMS = 13
 
 
 @kernel
@@ -74,6 +75,8 @@ def clear(sums):
         sums[i] = 0.0
     sums[MAX_FX] = -1e300
     sums[MIN_FX] = 1e300
+    sums[MAX_FY] = -1e300
+    sums[MIN_FY] = 1e300
 
 
 @kernel
@@ -234,7 +237,8 @@ def march_block(state, sums, p, increments, steps, model, law):
         sums[SUM_SLIP] += mx * dx + my * dy
         sums[MAX_FX] = max(sums[MAX_FX], fx)
         sums[MIN_FX] = min(sums[MIN_FX], fx)
-        sums[MAX_FY] = max(sums[MAX_FY], abs(fy))
+        sums[MAX_FY] = max(sums[MAX_FY], fy)
+        sums[MIN_FY] = min(sums[MIN_FY], fy)
         sums[STEPS] += 1.0
         if sums[BREAKAWAY] < 0.0:
             sums[BREAKAWAY] -= 1.0

@@ -21,9 +21,9 @@ LANES = 32
     STRETCH, WX, WY, SX, SY,
     DRIVE, KAPPA, GIVE_X, GIVE_Y, BASE_X, BASE_Y,
     SUM_FREE, SUM_FX, SUM_FY, SUM_VX, SUM_VY, SUM_SLIP,
-    MAX_FX, MIN_FX, MAX_FY, WAITING, WAITED,
+    MAX_FX, MIN_FX, MAX_FY, MIN_FY, MAX_FREE, WAITING, WAITED,
     ROWS,
-) = range(23)  # fmt: skip
+) = range(25)  # fmt: skip
 
 BLOCK = 64  # steps whose increments are made at a time: 16 kB, they stay in the first cache
 
@@ -132,9 +132,12 @@ def _make_block(law: int, window: bool) -> Any:
                     b[MAX_FX * LANES + j] = top if top > sx1 else sx1
                     low = b[MIN_FX * LANES + j]
                     b[MIN_FX * LANES + j] = low if low < sx1 else sx1
-                    side = b[MAX_FY * LANES + j]
-                    size = abs(sy1)
-                    b[MAX_FY * LANES + j] = side if side > size else size
+                    top = b[MAX_FY * LANES + j]
+                    b[MAX_FY * LANES + j] = top if top > sy1 else sy1
+                    low = b[MIN_FY * LANES + j]
+                    b[MIN_FY * LANES + j] = low if low < sy1 else sy1
+                    top = b[MAX_FREE * LANES + j]
+                    b[MAX_FREE * LANES + j] = top if top > free else free
                 else:
                     waiting = b[WAITING * LANES + j]
                     b[WAITED * LANES + j] += waiting

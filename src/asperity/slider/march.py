@@ -4,6 +4,7 @@ import math
 import time
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
@@ -17,6 +18,9 @@ _RECORDS = 4000
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
 _BLOCK = 1024
+_STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
+_MOST_STEPS = 1e10
+_UNSTEADY = 1e-3
 _NO_TABLE = np.zeros(2)
 
 
@@ -34,7 +38,7 @@ class Timetable:
                 raise InputError(
                     f"solve.duration is {model.duration:g} s; with the vibration of "
                     f"{model.frequency:g} Hz from {model.start:g} s on it must be at least "
-                    f"{model.start + 1.5 / model.frequency:.3g} s"
+                    f"{model.start + 1.5 / model.frequency:.7g} s"
                 )
             window = round(self.cycles / (model.frequency * model.step))
             tail = round(_TAIL_CYCLES / (model.frequency * model.step))
@@ -46,6 +50,12 @@ class Timetable:
             raise InputError(
                 f"solve.duration is {model.duration:g} s; it must be at least 8 steps of "
                 f"{model.step:g} s"
+            )
+        if whole * model.substeps > _MOST_STEPS:
+            raise InputError(
+                f"solve.duration is {model.duration:g} s, {whole * model.substeps:.3g} steps of "
+                f"{model.step / model.substeps:.3g} s; a march takes at most {_MOST_STEPS:g}: give "
+                "a shorter duration or a larger step, or solve.method 'periodic'"
             )
         window = min(window, whole)
         tail = min(tail, window // 2, _TAIL_RECORDS)
@@ -59,10 +69,23 @@ class Timetable:
         self.tail = tail * parts
 
 
+class Stopped(Exception):  # noqa: N818 - being told to stop is no error
+    """A march was told to stop before it was done."""
+
+
 class Walk:
     """State, sums and recorded rows of one march as it goes on."""
 
-    def __init__(self, model: Model, table: Timetable) -> None:
+    def __init__(
+        self,
+        model: Model,
+        table: Timetable,
+        *,
+        record: bool = False,
+        stop: npt.NDArray[np.int64] | None = None,
+    ) -> None:
+        self.record = record
+        self.stop = stop
         self.model = model
         self.table = table
         self.p = model.parameters(table.step)
@@ -105,10 +128,11 @@ class Walk:
 
     def to(self, target: int, stride: int) -> None:
         """March to a step, recording every ``stride`` steps and at the end."""
-        records, rest = divmod(target - self.done, stride)
-        for count, length in ((records, stride), (1 if rest else 0, rest)):
-            if count == 0:
-                continue
+        while self.done < target:
+            if self.stop is not None and self.stop[0]:
+                raise Stopped
+            length = min(stride, target - self.done)
+            count = max(1, min((target - self.done) // length, _STRETCH // length))
             history = np.empty((count, k.STATE))
             room = np.empty(length + 1)
             if self.two_phase:
@@ -122,8 +146,9 @@ class Walk:
                     self.cycles_per_step, count, length, room, history,
                     m.MODELS[self.model.friction.model], self._law,
                 )  # fmt: skip
-            self.rows.append(history)
-            self.at.append(self.done + length * np.arange(1.0, count + 1.0))
+            if self.record:
+                self.rows.append(history)
+                self.at.append(self.done + length * np.arange(1.0, count + 1.0))
             self.done += count * length
         if not finite(self.state):
             raise ConvergenceError(
@@ -133,7 +158,9 @@ class Walk:
             )
 
 
-def march(model: Model, *, history: bool = True) -> SlideResult:
+def march(
+    model: Model, *, history: bool = True, stop: npt.NDArray[np.int64] | None = None
+) -> SlideResult:
     """Integrate a sliding body from rest over the case's duration.
 
     Parameters
@@ -142,6 +169,8 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
         The body; ``model.solve.scheme`` selects the integrator.
     history : bool
         Whether to keep motion and forces over time (a few thousand rows at any length).
+    stop : ndarray of int64, shape (1,), optional
+        Set it to 1 from another thread to have the call raise `Stopped` soon.
 
     Raises
     ------
@@ -152,11 +181,10 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
     """
     began = time.perf_counter()
     table = Timetable(model)
-    walk = Walk(model, table)
+    walk = Walk(model, table, record=history, stop=stop)
     stride = max(1, table.steps // table.parts // _RECORDS) * table.parts if history else _BLOCK
     walk.to(table.window_start, stride)
     start = walk.energies()
-    breakaway = walk.sums[k.BREAKAWAY]
     k.clear(walk.sums)
     walk.to(table.middle, stride)
     first_half = walk.sums.copy()
@@ -165,29 +193,49 @@ def march(model: Model, *, history: bool = True) -> SlideResult:
         walk.to(table.steps - table.tail, stride)
     walk.to(table.steps, table.parts if history else stride)
     second_half = walk.sums.copy()
+    breakaway = second_half[k.BREAKAWAY]
     sums = first_half + second_half
-    sums[k.MAX_FX] = max(first_half[k.MAX_FX], second_half[k.MAX_FX])
-    sums[k.MIN_FX] = min(first_half[k.MIN_FX], second_half[k.MIN_FX])
-    sums[k.MAX_FY] = max(first_half[k.MAX_FY], second_half[k.MAX_FY])
+    for most in (k.MAX_FX, k.MAX_FY):
+        sums[most] = max(first_half[most], second_half[most])
+    for least in (k.MIN_FX, k.MIN_FY):
+        sums[least] = min(first_half[least], second_half[least])
     end = walk.energies()
     halves = [s[k.SUM_FD] / s[k.STEPS] for s in (first_half, second_half)]
+    residual = abs(float(halves[1] - halves[0]))
     return summarise(
         model, table.step, sums, start, end,
-        residual=abs(float(halves[1] - halves[0])),
+        residual=residual,
         breakaway_time=float(breakaway) * table.step if breakaway >= 0.0 else None,
         steps=table.steps,
         cycles=table.cycles,
         history=_history(model, table.step, walk) if history else None,
-        notes=march_notes(model),
+        notes=march_notes(model, table, residual),
         substeps=model.substeps,
         seconds=time.perf_counter() - began,
     )  # fmt: skip
 
 
-def march_notes(model: Model) -> tuple[str, ...]:
+def march_notes(model: Model, table: Timetable, residual: float) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
     notes = []
-    if model.substeps > 1:
+    span = table.window * table.step
+    if model.vibrates and span < 0.999 * model.window - 1.0 / model.frequency:
+        notes.append(
+            f"the means are over {span:.3g} s: solve.duration has no room for the usual "
+            f"{model.window:.3g} s"
+        )
+    if residual > _UNSTEADY:
+        notes.append(
+            "not steady: from the first to the second half of the window the mean drive force "
+            f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"
+        )
+    if model.substeps > 1 and model.friction.model == "coulomb":
+        notes.append(
+            f"each step of {model.step:g} s was divided by {model.substeps}: the vibration's "
+            f"velocity must not change by more than {m.COULOMB_BOUND:g} of the drive velocity in a "
+            f"step, nor the step exceed {m.RING_BOUND:g} over the body's angular frequency"
+        )
+    elif model.substeps > 1:
         notes.append(
             f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
             f"must not exceed {m.SLIP_BOUND:g} max_deflection, nor change by more than "
@@ -242,7 +290,7 @@ def summarise(
         drive_force=float(sums[k.SUM_FD] / count * force),
         friction_mean=mean_pair(sums[k.SUM_FX] / count, sums[k.SUM_FY] / count, force),
         friction_max=mean_pair(sums[k.MAX_FX], sums[k.MAX_FY], force),
-        friction_min=mean_pair(sums[k.MIN_FX], -sums[k.MAX_FY], force),
+        friction_min=mean_pair(sums[k.MIN_FX], sums[k.MIN_FY], force),
         breakaway_time=breakaway_time,
         ledger=_ledger(model, step, sums, end[0] - start[0], end[1] - start[1]),
         residual=residual,

@@ -1,5 +1,8 @@
 """One call for one body: `march`, `periodic` or `homogenised`, as the case says."""
 
+import numpy as np
+import numpy.typing as npt
+
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.march import march
 from asperity.slider.model import Model
@@ -7,7 +10,9 @@ from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
 
 
-def solve(model: Model, *, history: bool = True) -> SlideResult:
+def solve(
+    model: Model, *, history: bool = True, stop: npt.NDArray[np.int64] | None = None
+) -> SlideResult:
     """Solve a sliding body by the method its case names.
 
     Parameters
@@ -16,6 +21,8 @@ def solve(model: Model, *, history: bool = True) -> SlideResult:
         The body.
     history : bool
         Whether to keep motion and forces over time.
+    stop : ndarray of int64, shape (1,), optional
+        Set it to 1 from another thread to have a march raise `Stopped` soon.
 
     Raises
     ------
@@ -28,4 +35,4 @@ def solve(model: Model, *, history: bool = True) -> SlideResult:
         return solve_periodic(model, history=history)
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
-    return march(model, history=history)
+    return march(model, history=history, stop=stop)

@@ -53,6 +53,7 @@ WINDOW_SHARE = 0.75
 SLIP_BOUND = 0.5
 CHANGE_BOUND = 1.2e-3
 RING_BOUND = 0.25
+COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _MOST_SUBSTEPS = 1000
 
@@ -200,12 +201,18 @@ class Model:
         part at most 0.12 % of it, for the friction where the slip reverses (coarser, the ratio is
         wrong by up to 0.15 % at high speed ratios); a part at most a quarter of the reciprocal of
         the body's angular frequency on asperities and drive. The two-phase scheme is not divided,
-        but refused where it is unstable.
+        but refused where it is unstable. Coulomb friction has no deflection: there the vibration's
+        velocity changes by at most a tenth of the drive velocity from part to part, unless the
+        slip is prescribed (rigid drive, guided body).
         """
         if self.friction.model == "coulomb":
-            # Nothing elastic in the contact: only the drive's own ring bounds the step.
+            # Nothing elastic in the contact: the drive's own ring bounds the step, and the turn
+            # of the slip where the vibration passes the drive velocity.
             ring = 2.0 * math.pi / self.ring_period if self.ring_period > 0.0 else 0.0
-            return self._parts(self.step * ring / RING_BOUND)
+            turn = 2.0 * math.pi * self.frequency * self.peak_velocity / self.slider.drive_velocity
+            if self.slider.rigid and not self.slider.free:
+                turn = 0.0
+            return self._parts(self.step * max(ring / RING_BOUND, turn / COULOMB_BOUND))
         limit = self.friction.deflection_limit(self.slider.normal_force)
         slip = (self.slider.drive_velocity + self.peak_velocity) * self.step / limit
         if self.solve.scheme == "two-phase":
@@ -227,14 +234,13 @@ class Model:
         return self._parts(needed)
 
     def _parts(self, needed: float) -> int:
-        parts = max(1, math.ceil(needed * (1.0 - 1e-9)))
-        if parts > _MOST_SUBSTEPS:
+        if not needed <= _MOST_SUBSTEPS:
             raise InputError(
-                f"solve.step is {self.step:g} s; the march would have to divide it by {parts}, "
-                f"more than {_MOST_SUBSTEPS}: give a step of at most "
-                f"{self.step * _MOST_SUBSTEPS / parts:.3g} s"
+                f"solve.step is {self.step:g} s; the march would have to divide it by "
+                f"{needed:.3g}, more than {_MOST_SUBSTEPS}: give a step of at most "
+                f"{self.step * _MOST_SUBSTEPS / needed:.3g} s"
             )
-        return parts
+        return max(1, math.ceil(needed * (1.0 - 1e-9)))
 
     def length(self, step: float) -> float:
         """Unit of length of the scaled problem, m."""

@@ -21,6 +21,7 @@ from asperity.slider.kernels import (
     MAX_FX,
     MAX_FY,
     MIN_FX,
+    MIN_FY,
     STATE,
     STEPS,
     STRETCH,
@@ -112,7 +113,8 @@ def march_two_phase(
                 sums[SUM_DRAG] += drag * (p[DRIVE] - wx)
             sums[MAX_FX] = max(sums[MAX_FX], state[FX])
             sums[MIN_FX] = min(sums[MIN_FX], state[FX])
-            sums[MAX_FY] = max(sums[MAX_FY], abs(state[FY]))
+            sums[MAX_FY] = max(sums[MAX_FY], state[FY])
+            sums[MIN_FY] = min(sums[MIN_FY], state[FY])
             sums[STEPS] += 1.0
             if sums[BREAKAWAY] < 0.0:
                 sums[BREAKAWAY] -= 1.0
