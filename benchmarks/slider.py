@@ -109,17 +109,27 @@ def lsoda_seconds(model, span):
 
     stretch = 0.4 * force / slider.drive_stiffness
     start = [-stretch, slider.drive_velocity, 0.0, 0.4 * limit, 0.0]
-    began = time.perf_counter()
+    began = time.thread_time()
     answer = solve_ivp(
         rates, (0.0, span), start, method="LSODA", rtol=1e-6, atol=[1e-12, 1e-9, 1e-9, 1e-13, 1e-13]
     )
     if not answer.success:
         raise RuntimeError(answer.message)
-    return time.perf_counter() - began
+    return time.thread_time() - began
 
 
 def best(function):
-    """Shortest of a few runs, in seconds."""
+    """Shortest of a few runs, in seconds of this thread."""
+    times = []
+    for _ in range(REPEATS):
+        began = time.thread_time()
+        function()
+        times.append(time.thread_time() - began)
+    return min(times)
+
+
+def best_wall(function):
+    """Shortest of a few runs, in seconds on the wall."""
     times = []
     for _ in range(REPEATS):
         began = time.perf_counter()
@@ -129,7 +139,11 @@ def best(function):
 
 
 def march_batches(report):
-    """Batches of 32 against a plain loop and LSODA."""
+    """Batches of 32 against a plain loop and LSODA.
+
+    Up to a velocity ratio of 7.5 a step of 1 us need not be divided; above, the march takes more
+    steps than asked for, and a batch over all ratios falls into several.
+    """
     for law in ("vector", "split"):
         case = read_case("table-4.4", TABLES, [f"friction.law={law}"])
         models = [
@@ -223,10 +237,12 @@ def command_line(report):
         command = [sys.executable, "-m", "asperity", *arguments]
         subprocess.run(command, check=True, capture_output=True)
         report[f"asperity {name}"] = {
-            "seconds": best(lambda c=command: subprocess.run(c, check=True, capture_output=True))
+            "seconds": best_wall(
+                lambda c=command: subprocess.run(c, check=True, capture_output=True)
+            )
         }
     bare = [sys.executable, "-c", "import numba"]
-    report["asperity slide"]["import_numba_s"] = best(lambda: subprocess.run(bare, check=True))
+    report["asperity slide"]["import_numba_s"] = best_wall(lambda: subprocess.run(bare, check=True))
 
 
 def main():
