@@ -97,6 +97,7 @@ def test_cells_are_shown_to_five_digits_and_never_as_markup():
     ("plain", "html"),
     [
         ("mu_0T, eta_z", "µ<sub>0T</sub>, η<sub>z</sub>"),
+        ("eta_z1_2", "η<sub>z1‑2</sub>"),
         ("T_G,all > M_26k", "T<sub>G,all</sub> &gt; M<sub>26k</sub>"),
         ("q_1, m_x1, Ra_1", "q<sub>1</sub>, m<sub>x1</sub>, Ra<sub>1</sub>"),
         ("20 um at 40 degC, mm2/s", "20 µm at 40 °C, mm²/s"),

@@ -111,7 +111,7 @@ def _failures() -> Finding:
         },
         f"h* <= 0 from U + {percent[0]}, m_x1 + {percent[1]}",
         "The two limits were used to find the wheel's teeth, between 57 and 63, of which 60 is "
-        "the usual number with a profile shift near zero. No other input ends the calculation.",
+        "the usual number with a profile shift near zero.",
         {"gear_ratio_rise": ends[0], "axial_module_rise": ends[1]},
         [GEARSET_2.command("sensitivity")],
     )
@@ -173,7 +173,7 @@ def _optimum() -> Finding:
         f"{gains['gearset 2']:+.1f} points, gearset 3 {gains['gearset 3']:+.1f} points",
         "The bounds are assumed, Table 3.6 is lost. The gain of gearset 2 is "
         f"{100.0 * kept.gain:.1f} points with the module kept and {gains['gearset 2']:.1f} "
-        f"with 5 % more or less; 7 lies between. Held back by: {held}. Of the rest of 3.3.5 holds: "
+        f"with 5 % more or less. Held back by: {held}. Of the rest of 3.3.5 holds: "
         f"{'; '.join(words for words, holds in besides.items() if holds)}. Does not: "
         f"{'; '.join(words for words, holds in besides.items() if not holds) or 'nothing'}.",
         {f"{name.replace(' ', '_')}_gain_points": gain for name, gain in gains.items()}

@@ -23,9 +23,11 @@ _SIGNS = {
     r"\bdegC\b": "°C",
     r"\bum\b": "µm",
     r"\bmm2\b": "mm²",
+    # A hyphen that does not break, between the side that drives and the side that is driven.
+    r"\beta_z(\d)_(\d)": r"eta_z\1‑\2",
     **{rf"\b{name}_": f"{letter}_" for name, letter in _GREEK.items()},
 }
-_INDEXED = r"\b(Ra|[A-Za-zµα-ω])_(\w+(?:,\w+)?)"
+_INDEXED = r"\b(Ra|[A-Za-zµα-ω])_(\w+(?:[,‑]\w+)?)"
 _TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 

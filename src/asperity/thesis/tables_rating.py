@@ -204,14 +204,14 @@ def table_3_5() -> Grid:
 
 
 _BOUNDS = {
-    "M_w": ("not lower than before (3.3.5)", "stated"),
-    "M_s": ("not lower than before (3.3.5)", "stated"),
-    "h*": ("lost", "the standard's own"),
-    "alpha_n": ("30 deg reached (3.3.5)", "assumed"),
-    "q_1": ("6 to 12 advised (3.2.1)", "assumed"),
-    "m_x1": ("changes are small (3.3.5)", "assumed: 5 %"),
-    "Ra_1": ("0.8 um reached (3.3.5)", "assumed"),
-    "x_2": ("lost", "assumed"),
+    "M_w": ("N m", "not lower than before (3.3.5)", "stated"),
+    "M_s": ("N m", "not lower than before (3.3.5)", "stated"),
+    "h*": ("", "lost", "the standard's own"),
+    "alpha_n": ("deg", "30 deg reached (3.3.5)", "assumed"),
+    "q_1": ("", "6 to 12 advised (3.2.1)", "assumed"),
+    "m_x1": ("mm", "changes are small (3.3.5)", "assumed: 5 %"),
+    "Ra_1": ("um", "0.8 um reached (3.3.5)", "assumed"),
+    "x_2": ("", "lost", "assumed"),
 }
 
 
@@ -225,7 +225,7 @@ def table_3_6() -> Grid:
             below: list[Cell] = [limit.bound for limit in own if limit.relation != "<="]
             above: list[Cell] = [limit.bound for limit in own if limit.relation == "<="]
             active = [limit for limit in own if limit.active]
-            thesis, here = _BOUNDS[symbol]
+            unit, thesis, here = _BOUNDS[symbol]
             rows.append(
                 (
                     name,
@@ -233,13 +233,15 @@ def table_3_6() -> Grid:
                     *(below or [""]),
                     *(above or [""]),
                     own[0].value,
+                    unit,
                     "holds it back" if active else "",
                     thesis,
                     here,
                 )
             )
     columns = (
-        "gearset", "symbol", "at least", "at most", "optimum", "effect", "thesis", "bounds here",
+        "gearset", "symbol", "at least", "at most", "optimum", "unit", "effect", "thesis",
+        "bounds here",
     )  # fmt: skip
     return Grid(columns, tuple(rows), _OPTIMISED)
 
