@@ -90,7 +90,7 @@ def select(only: Sequence[str]) -> tuple[list[FigureOf], list[TableOf]]:
         if number not in FIGURES and number not in TABLES:
             raise InputError(
                 f"{number!r} is neither a figure nor a table that is reproduced"
-                f"{nearest(number, [*FIGURES, *TABLES])}"
+                f"{nearest(number, sorted({*FIGURES, *TABLES}, key=_order))}"
             )
     figures = [figure for number, figure in FIGURES.items() if not only or number in only]
     tables = [table for number, table in TABLES.items() if not only or number in only]
