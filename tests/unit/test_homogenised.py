@@ -34,7 +34,7 @@ def law():
 def cycle_mean_force(model, begin, end):
     """Middle of every cycle-long window and the mean drive force over it, from a march."""
     table = Timetable(model)
-    walk = Walk(model, table)
+    walk = Walk(model, table, record=True)
     walk.to(round(begin / table.step), round(begin / table.step))
     walk.rows.clear()
     walk.at.clear()
