@@ -194,9 +194,10 @@ def search(
 def _positive(name: str, given: npt.ArrayLike, above: float) -> FloatArray:
     values = np.atleast_1d(np.asarray(given, dtype=np.float64))
     wrong = values[~(np.isfinite(values) & (values > above))]
-    if values.ndim != 1 or not values.size or wrong.size:
-        shown = f"{wrong[0]:g} among them" if wrong.size else f"of shape {values.shape}"
-        raise InputError(f"{name} has {shown}; it must be a list of numbers above {above:g}")
+    if wrong.size:
+        raise InputError(f"{name} has {wrong[0]:g} among them; each must be above {above:g}")
+    if values.ndim != 1 or not values.size:
+        raise InputError(f"{name} is of shape {values.shape}; it must be a list of numbers")
     return values
 
 

@@ -17,6 +17,7 @@ _STEP = 1e-6
 _MARGIN = 1e-9
 _SLACK = 1e-12
 _SAME = 1e-6
+_BACK: FloatArray = np.array([0.0, *np.geomspace(1e-9, 1.0, 37)])
 _IMPOSSIBLE = -1.0
 _ITERATIONS = 200
 
@@ -44,6 +45,8 @@ def spread(dimensions: int, count: int) -> FloatArray:
     """Return points that fill the unit cube evenly, the same ones every time."""
     from scipy.stats.qmc import Sobol
 
+    if dimensions == 0:
+        return np.empty((1, 0))
     points: FloatArray = Sobol(dimensions, scramble=False).random(count)
     return points
 
@@ -56,34 +59,46 @@ def climb(merit: Merit, starts: Iterable[FloatArray]) -> Top | None:
     Top or None
         The highest of the tops that keep all constraints; None if there is none.
     """
-    from scipy.optimize import minimize
-
-    tops = []
-    for start in starts:
-        slope = _Slope(merit)
-        answer = minimize(
-            lambda point, s=slope: -s(point)[0][0],
-            start,
-            jac=lambda point, s=slope: -s(point)[1][0],
-            method="SLSQP",
-            bounds=[(0.0, 1.0)] * len(start),
-            constraints={
-                "type": "ineq",
-                "fun": lambda point, s=slope: s(point)[0][1:] - _MARGIN,
-                "jac": lambda point, s=slope: s(point)[1][1:],
-            },
-            options={"ftol": 1e-12, "maxiter": _ITERATIONS},
-        )
-        # The start itself is kept where the climb leads out of what is allowed.
-        for point in (np.clip(answer.x, 0.0, 1.0), start):
-            row = merit(point[None])[0]
-            if np.all(np.isfinite(row)) and np.all(row[1:] >= -_SLACK):
-                tops.append((float(row[0]), point))
-                break
+    tops = [top for start in starts if (top := _allowed(merit, start)) is not None]
     if not tops:
         return None
     height, point = max(tops, key=lambda top: top[0])
     return Top(point, height, sum(height - other <= _SAME for other, _ in tops))
+
+
+def _allowed(merit: Merit, start: FloatArray) -> tuple[float, FloatArray] | None:
+    """Return the height and the place of the end of a climb that keeps all constraints."""
+    end = _top(merit, start) if start.size else start
+    # Where a constraint has a kink the climb may end a little beyond it: then back to the start,
+    # as far as needed.
+    ways = end + _BACK[:, None] * (start - end)
+    rows = merit(ways)
+    kept = np.all(np.isfinite(rows), axis=1) & np.all(rows[:, 1:] >= -_SLACK, axis=1)
+    if not kept.any():
+        return None
+    best = int(np.argmax(np.where(kept, rows[:, 0], -np.inf)))
+    return float(rows[best, 0]), ways[best]
+
+
+def _top(merit: Merit, start: FloatArray) -> FloatArray:
+    from scipy.optimize import minimize
+
+    slope = _Slope(merit)
+    answer = minimize(
+        lambda point: -slope(point)[0][0],
+        start,
+        jac=lambda point: -slope(point)[1][0],
+        method="SLSQP",
+        bounds=[(0.0, 1.0)] * len(start),
+        constraints={
+            "type": "ineq",
+            "fun": lambda point: slope(point)[0][1:] - _MARGIN,
+            "jac": lambda point: slope(point)[1][1:],
+        },
+        options={"ftol": 1e-12, "maxiter": _ITERATIONS},
+    )
+    top: FloatArray = np.clip(answer.x, 0.0, 1.0)
+    return top
 
 
 class _Slope:

@@ -114,7 +114,7 @@ def trade_off_dataset(curve: "TradeOff") -> "xr.Dataset":
 
 def comparison_dataset(comparison: "Comparison") -> "xr.Dataset":
     """Return friction, efficiencies and vibrations over the methods."""
-    rows, over = comparison.rows, ("method",)
+    rows, over = comparison.rows, ("way",)
 
     def column(get: Callable[["Compared"], float]) -> Any:
         return np.array([get(row) for row in rows])
@@ -124,7 +124,7 @@ def comparison_dataset(comparison: "Comparison") -> "xr.Dataset":
 
     dataset = labelled(
         f"Ways to less friction in {comparison.name or 'a worm gearset'}",
-        {"method": (over, words(r.key for r in rows), "1", "way to less friction")},
+        {"way": (over, words(r.key for r in rows), "1", "way to less friction")},
         name=(over, words(r.name for r in rows), "1", "what it is"),
         kind=(over, words(r.kind for r in rows), "1", "family"),
         source=(over, words(str(r.source) for r in rows), "1", "who reports its friction"),

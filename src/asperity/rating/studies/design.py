@@ -5,6 +5,7 @@ factor, axial module and roughness remain. The profile shift makes up for the ce
 """
 
 import dataclasses
+import functools
 import math
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
+from asperity.rating.studies.climb import spread
 from asperity.rating.variants import variants
 from asperity.sources import Source
 
@@ -29,6 +31,8 @@ ASSUMED = Source(
     "default of asperity", "one source", "Table 3.6 of the thesis, which has them, is lost"
 )
 """Where the default bounds come from."""
+
+_SAMPLE = 2**11
 
 _NUMBERS = {
     "eta_z1_2": "iso14521.eta_z1_2",
@@ -57,7 +61,7 @@ class Bounds:
     worm_roughness : tuple of float
         :math:`Ra_1`, m.
     profile_shift : tuple of float
-        :math:`x_2`, which follows from the others.
+        :math:`x_2`, which follows from the others and needs room.
     """
 
     pressure_angle: Span = (math.radians(14.5), math.radians(30.0))
@@ -72,10 +76,17 @@ class Bounds:
                 raise InputError(
                     f"the bounds of {name} are {lower:g} and {upper:g}; give the lower one first"
                 )
+        if self.profile_shift[0] == self.profile_shift[1]:
+            raise InputError(
+                f"the bounds of profile_shift are both {self.profile_shift[0]:g}; it follows from "
+                "the others and needs room: give it some, such as -0.01 and 0.01"
+            )
 
 
 class Space:
     """All designs of a gearset within bounds, as points of a unit cube.
+
+    A variable whose bounds are one number is not a dimension of it.
 
     Parameters
     ----------
@@ -128,17 +139,20 @@ class Space:
             min(bounds.profile_shift[0], shift),
             max(bounds.profile_shift[1], shift),
         )
-        self.start = (now - self.lower) / self._width
+        self._free = np.flatnonzero(self.upper > self.lower)
+        self.start = ((now - self.lower)[self._free]) / (self.upper - self.lower)[self._free]
 
     @property
-    def _width(self) -> FloatArray:
-        # A variable without room has a point's coordinate all the same.
-        width = self.upper - self.lower
-        return np.where(width > 0.0, width, 1.0)
+    def dimensions(self) -> int:
+        """How many of the `VARIABLES` have room within their bounds."""
+        return len(self._free)
 
     def values(self, points: FloatArray) -> dict[str, Any]:
         """Return the variables at points, in SI."""
-        inside = np.clip(self.lower + points * self._width, self.lower, self.upper)
+        shares = np.zeros((*points.shape[:-1], len(VARIABLES)))
+        shares[..., self._free] = points
+        inside = self.lower + shares * (self.upper - self.lower)
+        inside = np.clip(inside, self.lower, self.upper)
         return dict(zip(VARIABLES, np.moveaxis(inside, -1, 0), strict=True))
 
     def numbers(self, points: FloatArray) -> dict[str, FloatArray]:
@@ -156,7 +170,31 @@ class Space:
             **self.values(points),
         )
         shift = np.broadcast_to(found.given.profile_shift, found.shape)
-        return {key: found[path] for key, path in _NUMBERS.items()} | {"profile_shift": shift}
+        numbers = {key: found[path] for key, path in _NUMBERS.items()} | {"profile_shift": shift}
+        return numbers | {"M_permissible_Nm": np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"])}
+
+    @functools.cached_property
+    def sample(self) -> tuple[FloatArray, dict[str, FloatArray]]:
+        """Points all over the cube that keep the bounds of the profile shift, and their worth."""
+        points = spread(self.dimensions, _SAMPLE)
+        found = self.numbers(points)
+        inside = np.all(np.stack(self.room(found["profile_shift"])) >= 0.0, axis=0)
+        return points[inside], {key: values[inside] for key, values in found.items()}
+
+    def best_of_sample(self, height: str, **least: float) -> list[FloatArray]:
+        """Return the best point of the sample, if there is one.
+
+        Parameters
+        ----------
+        height : str
+            What is to be high, by its key.
+        **least : float
+            Least numbers by key.
+        """
+        points, found = self.sample
+        allowed = np.all([found[key] >= bound for key, bound in least.items()], axis=0)
+        worth = np.where(allowed & ~np.isnan(found[height]), found[height], -np.inf)
+        return [points[int(np.argmax(worth))]] if np.any(worth > -np.inf) else []
 
     def room(self, shift: FloatArray) -> list[FloatArray]:
         """Return by how much the profile shift keeps its bounds, two numbers not below zero."""

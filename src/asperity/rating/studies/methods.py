@@ -149,13 +149,13 @@ class _Contact:
         self.base_friction, self.friction = number("mu_0T"), number("mu_zm")
         self.lead_angle = gearset.geometry.lead_angle
 
-    def friction_power(self, mean: float) -> float:
-        """Return what full friction would take, W, where the mean along the sliding is less.
+    def normal_force(self, mean: float) -> float:
+        """Return the load on the flanks, N, where the mean friction along the sliding is this.
 
-        The load on the flank is that which turns the wheel; mean friction helps or hinders.
+        It turns the wheel against the friction, as the standard's efficiency has it.
         """
         sin, cos = math.sin(self.lead_angle), math.cos(self.lead_angle)
-        return self.power * self.friction / (sin * (cos - mean * sin))
+        return self.power / (self.velocity * sin * (cos - mean * sin))
 
     def as_is(self, options: RatingOptions) -> _Entry:
         oil = self.operation.lubricant.base_oil
@@ -215,15 +215,16 @@ class _Contact:
         directions = {"transverse": math.pi / 2.0, "longitudinal": 0.0}
         if abs(math.sin(2.0 * given.direction)) > _QUARTER:
             directions["given"] = given.direction
-        force = normal_force or self.friction_power(self.friction) / (self.friction * self.velocity)
+        force = normal_force or self.normal_force(self.friction)
         entries = []
         for key, direction in directions.items():
             moved = shaken.shake(
                 given, direction, self.velocity, friction=friction, normal_force=force,
                 folder=folder,
             )  # fmt: skip
-            where = f"at {math.degrees(direction):.4g} deg" if key == "given" else key
-            name = f"{where} vibration, k = {moved.velocity_ratio:.3g}"
+            turned = f"vibration at {math.degrees(direction):.4g} deg"
+            what = turned if key == "given" else f"{key} vibration"
+            name = f"{what}, k = {moved.velocity_ratio:.3g}"
             less = moved.share * self.base_friction
             entries.append(_Entry(key, name, "vibration", less, OWN, moved))
         return entries
@@ -249,7 +250,8 @@ class _Contact:
         for entry, (mean, efficiency, total, back) in zip(entries, columns, strict=True):
             given = 0.0
             if entry.vibration is not None:
-                given = entry.vibration.power * self.friction_power(mean)
+                full = self.friction * self.normal_force(mean) * self.velocity
+                given = entry.vibration.power * full
             rows.append(
                 Compared(
                     key=entry.key,

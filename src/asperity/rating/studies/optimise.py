@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
@@ -165,16 +166,20 @@ def optimise(
     InputError
         The gearset cannot be rated as it is, by ISO/TR 14521 or by BS 721.
     """
+    if starts < 1 or starts & (starts - 1):
+        raise InputError(f"starts is {starts}; it must be a power of two, such as {STARTS}")
     space = Space(gearset, operation, options, bounds, folder)
     kept = space.numbers(space.start)
 
     def merit(points: FloatArray) -> FloatArray:
         found = space.numbers(points)
         rows = [found["eta_z1_2"]]
-        rows += [found[key] / kept[key] - 1.0 for key in ("M_w_Nm", "M_s_Nm")]
+        rows += [found[key] / bound - 1.0 for key, bound in least.items()]
         return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
 
-    begin = [space.start, *spread(len(VARIABLES), starts)]
+    least = {key: float(kept[key]) for key in ("M_w_Nm", "M_s_Nm")}
+    begin = [space.start, *spread(space.dimensions, starts)]
+    begin += space.best_of_sample("eta_z1_2", **least)
     top = climb(merit, begin)
     assert top is not None  # the gearset as it is keeps its own load capacity
     design = space.gearset_at(top.point)

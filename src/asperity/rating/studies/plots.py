@@ -87,7 +87,7 @@ def plot_comparison(comparison: "Comparison") -> "Figure":
     counted = [
         (100.0 * row.efficiency_with_vibration, place)
         for place, row in enumerate(rows)
-        if row.vibration is not None
+        if row.vibration_power > 0.0
     ]
     if counted:
         axes.plot(

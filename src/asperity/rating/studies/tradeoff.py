@@ -33,6 +33,7 @@ _STARTS = 4
 _MOST = 10.0
 """Torque that no design is expected to reach, over that of the gearset as it is."""
 _FLAT = 1e-6
+_ROOM = 1e-8
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -118,8 +119,8 @@ def trade_off(
         raise InputError(f"points is {points}; a curve needs at least 2")
     space = Space(gearset, operation, options, bounds, folder)
     now = space.numbers(space.start)
-    unit = min(float(now["M_w_Nm"]), float(now["M_s_Nm"]))
-    begin = [space.start, *spread(len(VARIABLES), _STARTS)]
+    unit = float(now["M_permissible_Nm"])
+    begin = [space.start, *spread(space.dimensions, _STARTS)]
     first = _most_efficient(space, begin, 0.0)
     strongest = _strongest(space, [first.point, *begin], unit)
     lowest, highest = _permissible(space, first.point), _permissible(space, strongest.point)
@@ -128,33 +129,30 @@ def trade_off(
         required = required[:1]
     tops = [first]
     for torque in required[1:]:
-        # From both neighbours, because a weak design cannot always be climbed from.
-        tops.append(
-            _most_efficient(space, [tops[-1].point, strongest.point], torque * (1.0 - 1e-8))
-        )
+        # From both ends, because a weak design cannot always be climbed from.
+        begin = [tops[-1].point, strongest.point]
+        tops.append(_most_efficient(space, begin, torque * (1.0 - _ROOM)))
     found = np.array([top.point for top in tops])
     numbers = space.numbers(found)
     designs = space.values(found)
     return TradeOff(
         name=gearset.name,
-        torque=np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"]),
+        torque=numbers["M_permissible_Nm"],
         efficiency=numbers["eta_z1_2"],
         numbers={
             **{quantity(n).key: quantity(n).from_si(designs[n]) for n in VARIABLES},
-            **{key: value for key, value in numbers.items() if key != "eta_z1_2"},
+            **{key: numbers[key] for key in ("h_star", "M_w_Nm", "M_s_Nm", "profile_shift")},
         },
         given={
             **{quantity(n).key: quantity(n).shown(v) for n, v in space.values(space.start).items()},
             **{key: float(value) for key, value in now.items()},
-            "M_permissible_Nm": unit,
         },
         required_torque=operation.application_factor * operation.output_torque,
     )
 
 
 def _permissible(space: Space, point: FloatArray) -> float:
-    found = space.numbers(point)
-    return min(float(found["M_w_Nm"]), float(found["M_s_Nm"]))
+    return float(space.numbers(point)["M_permissible_Nm"])
 
 
 def _most_efficient(space: Space, begin: list[FloatArray], torque: float) -> Top:
@@ -165,7 +163,7 @@ def _most_efficient(space: Space, begin: list[FloatArray], torque: float) -> Top
             rows += [found[key] / torque - 1.0 for key in ("M_w_Nm", "M_s_Nm")]
         return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
 
-    top = climb(merit, begin)
+    top = climb(merit, begin + space.best_of_sample("eta_z1_2", M_permissible_Nm=torque))
     assert top is not None  # one of the starts bears the torque
     return top
 
@@ -178,6 +176,7 @@ def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
         rows = [torque, *(found[key] / unit - torque for key in ("M_w_Nm", "M_s_Nm"))]
         return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
 
+    begin = begin + space.best_of_sample("M_permissible_Nm", h_star=0.0)
     top = climb(
         merit, [np.append(point, _permissible(space, point) / (_MOST * unit)) for point in begin]
     )
