@@ -1,0 +1,108 @@
+"""What README and the page on case files say is what happens."""
+
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+from asperity.slider import TABLES
+from asperity.store import read_dataset
+from asperity.units import quantity_of, to_si
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text("utf-8")
+PROGRAM = ".venv/bin/asperity "
+
+
+def blocks(language):
+    every = re.findall(r"^```(\w*)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+    return [block for written, block in every if written == language]
+
+
+COMMANDS = [
+    line.removeprefix(PROGRAM)
+    for block in blocks("")
+    for line in block.replace("\\\n", "").splitlines()
+    if line.startswith(PROGRAM)
+]
+
+
+def keys_on_the_page():
+    """Each table's keys, with the default beside them."""
+    page = (ROOT / "docs" / "case-file.rst").read_text("utf-8")
+    parts = re.split(r"^``\[(\w+)\]``", page, flags=re.MULTILINE)
+    row = re.compile(r"^   \* - ``(\w+)``\n     - .*\n     - (.*)\n", re.MULTILINE)
+    return {parts[n]: dict(row.findall(parts[n + 1])) for n in range(1, len(parts), 2)}
+
+
+def test_the_python_block_runs_and_comes_to_its_numbers(tmp_path, monkeypatch, capsys):
+    (block,) = blocks("python")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    with matplotlib.rc_context({"backend": "agg"}):
+        exec(compile(block, "README.md", "exec"), names)
+    assert names["result"].ratio == pytest.approx(0.1370, rel=1e-3)
+    assert (tmp_path / "slide.png").read_bytes().startswith(b"\x89PNG")
+    # At the drive velocity the law is what is left of the drive force.
+    assert names["law"](0.5e-3) == pytest.approx(names["result"].drive_force, rel=1e-3)
+    assert len(capsys.readouterr().out.splitlines()) == 2
+
+
+def test_the_case_file_works_as_it_stands(asperity, tmp_path):
+    (block,) = blocks("toml")
+    assert tomllib.loads(block).keys() == {"slider", "friction", "vibration", "solve"}
+    (tmp_path / "own.toml").write_text(block, "utf-8")
+    code, output, errors = asperity("slide", "own.toml", cwd=tmp_path)
+    assert (code, errors) == (0, "")
+    assert re.search(r"^.*ratio.* 0\.1\d+", output, re.MULTILINE | re.IGNORECASE)
+
+
+def test_the_readme_has_the_commands_below():
+    assert {command.split()[0] for command in COMMANDS} >= {"slide", "sweep"}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_command_runs(asperity, tmp_path, command):
+    arguments = shlex.split(command)
+    code, output, errors = asperity(*arguments, cwd=tmp_path)
+    assert code == 0, errors
+    assert output
+    if "--out" in arguments:
+        folder = tmp_path / arguments[arguments.index("--out") + 1]
+        assert read_dataset(folder / f"{arguments[0]}.nc").attrs
+
+
+def test_each_target_of_make_that_the_readme_names_exists():
+    rules = (ROOT / "Makefile").read_text("utf-8")
+    targets = set(re.findall(r"^make (\w+)|`make (\w+)`", README, re.MULTILINE))
+    named = {name for pair in targets for name in pair if name}
+    assert named >= {"run", "test"}
+    assert named <= set(re.findall(r"^(\w+):", rules, re.MULTILINE))
+
+
+def test_each_file_that_the_readme_names_exists():
+    named = re.findall(r"\]\(([\w./-]+)\)|`?((?:docs|examples)/[\w.-]+\.py)", README)
+    for name in {name for pair in named for name in pair if name}:
+        assert (ROOT / name).is_file(), name
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_the_page_on_case_files_has_each_key_with_its_default(name):
+    model = TABLES[name]
+    page = keys_on_the_page()[name]
+    assert page.keys() == model.model_fields.keys()
+    for key, text in page.items():
+        field = model.model_fields[key]
+        written = re.match(r"``(.*?)``", text)
+        if field.is_required():
+            assert text == "required", key
+        elif field.default is None:
+            assert not re.fullmatch(r"|``.*``|required", text), key
+        else:
+            value = tomllib.loads(f"value = {written[1]}")["value"]
+            quantity = quantity_of(model, key)
+            has_unit = quantity is not None and quantity.unit
+            assert (to_si(value, quantity.unit) if has_unit else value) == field.default, key
