@@ -8,13 +8,16 @@ BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 PYTEST_OPTIONS ?= -n auto
 
-.PHONY: run test lint types floors docs examples bench clean
+.PHONY: run test slow lint types floors docs examples bench clean
 
 run: .venv/.runtime
 	$(BIN)/asperity thesis
 
 test: .venv/.dev
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
+
+slow: .venv/.dev
+	$(BIN)/python -m pytest -m slow $(PYTEST_OPTIONS)
 
 lint: .venv/.dev
 	$(BIN)/ruff format --check .
