@@ -21,7 +21,12 @@ def example():
 
 def test_every_example_is_tested():
     names = {path.stem for path in EXAMPLES.glob("*.py")}
-    assert names == {"a_first_slide", "every_direction", "friction_law_across_the_drive"}
+    assert names == {
+        "a_first_slide",
+        "every_direction",
+        "friction_law_across_the_drive",
+        "which_friction_reduction_helps",
+    }
 
 
 def test_a_first_slide(example):
@@ -39,3 +44,9 @@ def test_friction_law_across_the_drive(example):
     assert names["across"]["split"][23] == pytest.approx(0.40459, rel=1e-3)
     assert names["spread_along"] < 1e-6
     assert names["spread_across"] == pytest.approx(0.357, abs=5e-3)
+
+
+def test_which_friction_reduction_helps(example):
+    names = example("which_friction_reduction_helps")
+    assert names["efficiency"]["longitudinal"][20] == pytest.approx(0.62281, rel=1e-4)
+    assert names["best"] == pytest.approx(0.37920, rel=1e-4)

@@ -202,7 +202,7 @@ class _Contact:
             method.direction or 0.0,
             self.velocity,
             frequency,
-            self._reported(method) / self.base_friction,
+            round(1.0 - (method.reduction or 0.0), 12),
         )
 
     def imposed(
