@@ -37,7 +37,7 @@ SQUARE = 2
 SAMPLED = 3
 _CODES = {"sine": SINE, "triangle": TRIANGLE, "square": SQUARE, "sampled": SAMPLED}
 _TABLE_POINTS = 8192
-_STEPS_A_TURN = 16
+STEPS_A_TURN = 16
 _STEPS_A_FLANK = 4
 _NO_TABLE = np.zeros(2)
 
@@ -191,11 +191,11 @@ class Vibration(Table):
             return shape
         frequency = self.frequency or 0.0
         if self.waveform == "sine":
-            return Shape(SINE, frequency, 2.0 * math.pi, _STEPS_A_TURN)
+            return Shape(SINE, frequency, 2.0 * math.pi, STEPS_A_TURN)
         if self.waveform == "triangle":
-            return Shape(TRIANGLE, frequency, 4.0, _STEPS_A_TURN)
+            return Shape(TRIANGLE, frequency, 4.0, STEPS_A_TURN)
         rise = (self.rise_time or 0.0) * frequency
-        least_steps = max(_STEPS_A_TURN, _STEPS_A_FLANK / rise)
+        least_steps = max(STEPS_A_TURN, _STEPS_A_FLANK / rise)
         return Shape(SQUARE, frequency, 2.0 / rise, least_steps, rise=rise)
 
     def displacement(self, shape: "Shape", drive_velocity: float) -> float:
@@ -280,10 +280,11 @@ def _sampled(path: Path, stamp: int) -> Shape:
     span = value.max() - value.min()
     if span <= 0.0:
         raise InputError(f"{name}: the displacement does not change")
-    if abs(value[-1] - value[0]) > 0.02 * span:
+    # A gap small beside the span can still be a jump beside the steps between the samples.
+    if abs(value[-1] - value[0]) > 0.05 * np.abs(np.diff(value)).max():
         raise InputError(
             f"{name}: the last displacement, {value[-1]:g}, must repeat the first, {value[0]:g}, "
-            "to close the period"
+            "to close the period; if the samples stop one short of it, add that row"
         )
     from scipy.interpolate import CubicSpline
 
@@ -305,11 +306,11 @@ def _steps_to_follow(velocity: FloatArray) -> float:
     # A velocity changes as a sine's does where it is correlated with itself as a sine's is.
     correlation = np.fft.irfft(np.abs(np.fft.rfft(velocity)) ** 2)
     correlation /= correlation[0]
-    least = math.cos(2.0 * math.pi / _STEPS_A_TURN)
+    least = math.cos(2.0 * math.pi / STEPS_A_TURN)
     past = int(np.argmax(correlation < least))
     before, after = correlation[past - 1], correlation[past]
     intervals = past - (least - after) / (before - after)
-    return max(float(_STEPS_A_TURN), float(velocity.size / intervals))
+    return max(float(STEPS_A_TURN), float(velocity.size / intervals))
 
 
 def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:

@@ -266,7 +266,7 @@ def test_a_mistake_is_one_line_and_ends_with_2(folder, monkeypatch, capsys, argu
 def test_a_mistake_ends_the_process_with_2(asperity):
     code, output, errors = asperity("slide", "table-4.3", "--set", "friction.mu=-1", "--json")
     assert (code, output) == (2, "")
-    assert errors == "--set friction.mu=-1: friction.mu is -1; it must be positive\n"
+    assert errors == "--set friction.mu=-1: friction.mu is -1; it must be above 0 and at most 100\n"
 
 
 @pytest.fixture(scope="module")

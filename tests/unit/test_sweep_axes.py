@@ -71,7 +71,7 @@ def test_words_are_a_list_of_words(case):
         ("friction.mu=1e9999", "friction.mu is '1e9999'"),
         ("friction.mu=0.1,nan", "friction.mu is 'nan'"),
         ("friction.mu=0.1,0.10", "friction.mu=0.1 is given twice"),
-        ("friction.mu=0.1,-0.2", "friction.mu is -0.2; it must be positive"),
+        ("friction.mu=0.1,-0.2", "friction.mu is -0.2; it must be above 0 and at most 100"),
         ("friction.law=split,split", "friction.law=split is given twice"),
         ("vibration.frequency=1,2 kN", "it must be a frequency such as '4 kHz'"),
         ("vibration.frequency=1 kHz,2", "give it with the last one, or with each"),

@@ -87,6 +87,11 @@ def slide(
             show.print_json({"error": str(error), "reached": error.reached})
         raise
     answer = result.to_json()
+    # Shown before it is written: what was solved is not lost to a disk that is full.
+    if as_json:
+        show.print_json(answer)
+    else:
+        show.print_slide(case, answer)
     if folder is not None:
         from asperity.store import write_dataset
 
@@ -94,10 +99,6 @@ def slide(
         show.write_picture(result.plot(), folder / "slide.png")
         show.write_json(answer, folder / "slide.json")
         show.note(f"written to {folder}: slide.nc, slide.png, slide.json")
-    if as_json:
-        show.print_json(answer)
-    else:
-        show.print_slide(case, answer)
 
 
 @app.command()

@@ -6,6 +6,7 @@ import itertools
 import json
 import math
 import sys
+import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -37,6 +38,8 @@ _SLIDE = (
     ("power_vibration_W", "power of the vibration", "P_v", "W"),
     ("power_friction_W", "power lost to friction", "P_f", "W"),
     ("power_damping_W", "power lost to damping", "P_h", "W"),
+    ("power_stored_W", "power stored", "P_s", "W"),
+    ("power_untransferred_W", "power of the untransferred vibration", "P_u", "W"),
     ("power_residual", "error of the power balance", "", ""),
     ("residual", "residual of the method", "", ""),
 )
@@ -95,7 +98,7 @@ def print_slide(case: str, answer: Mapping[str, Any]) -> None:
             table.add_row(name, symbol, f"{answer[key]:.5g}", unit)
     _print(table)
     for line in answer["notes"]:
-        print_text(f"\nNote: {line}.")
+        print_text("\n" + textwrap.fill(f"Note: {line}.", 79))
 
 
 def print_sweep(result: "SweepResult") -> None:

@@ -46,7 +46,9 @@ class Friction(Table):
     )
 
     model: Literal["coulomb", "dahl", "lugre"] = "dahl"
-    mu: Annotated[float, Quantity("", what="a coefficient of friction", example="0.1", gt=0)]
+    mu: Annotated[
+        float, Quantity("", what="a coefficient of friction", example="0.1", gt=0, le=100)
+    ]
     max_deflection: (
         Annotated[float, Quantity("m", what="a deflection", example="68.75 nm", gt=0)] | None
     ) = None

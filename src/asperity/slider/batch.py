@@ -10,7 +10,7 @@ from asperity.errors import AsperityError, ConvergenceError
 from asperity.slider import kernels as k
 from asperity.slider import lanes as ln
 from asperity.slider import model as m
-from asperity.slider.march import Stopped, Timetable, energies, march, march_notes, summarise
+from asperity.slider.march import Stopped, Timetable, energies, march_notes, summarise
 from asperity.slider.methods import solve
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import SlideResult
@@ -44,7 +44,7 @@ def solve_many(
     alone: list[int] = []
     for index, model in enumerate(models):
         try:
-            table = Timetable(model) if _fits(model) else None
+            table = Timetable(model) if fits_lanes(model) else None
         except AsperityError as error:
             answers[index] = error
             continue
@@ -73,8 +73,8 @@ def solve_many(
     return [answer for answer in answers if answer is not None]
 
 
-def _fits(model: Model) -> bool:
-    """Whether the lanes can march this model."""
+def fits_lanes(model: Model) -> bool:
+    """Whether the model can be marched in a batch, in vector instructions."""
     return (
         model.solve.method == "march"
         and model.solve.scheme == "exponential"
@@ -113,9 +113,10 @@ def _march(
     edges = {t.window_start for t in tables} | {t.middle for t in tables}
     first_window = min(t.window_start for t in tables)
     for edge in sorted(edges | {tables[0].steps}):
+        waiting = bool(np.any(buffer[ln.WAITING] > 0.0))
         ln.march_lanes(
             flat, waves, shapes, shared, increments, edge - done, own_1, own_2,
-            lead.friction.law_code, done >= first_window, flag,
+            lead.friction.law_code, done >= first_window, waiting, flag,
         )  # fmt: skip
         if flag[0]:
             raise Stopped
@@ -146,10 +147,6 @@ def _march(
         second = (sums[k.SUM_FD] - first_half[lane]) / (table.window - half)
         waited = buffer[ln.WAITED, lane]
         broke = buffer[ln.WAITING, lane] == 0.0 and not model.slider.rigid
-        if not broke and not model.slider.rigid and buffer[ln.MAX_FREE, lane] >= 1.0:
-            # It broke away where the lanes take sums and do not wait, which is rare.
-            answers.append(march(model, history=False, stop=flag))
-            continue
         residual = abs(float(second - first))
         answer = summarise(
             model, table.step, sums, start_energies[lane], energies(state, p, elastic=True),
@@ -159,7 +156,7 @@ def _march(
             seconds=seconds,
             breakaway_time=float(waited) * table.step if broke else None,
             substeps=model.substeps,
-            notes=march_notes(model, table, residual),
+            notes=march_notes(model, table, residual, broke=broke),
         )  # fmt: skip
         answers.append(answer)
     return answers

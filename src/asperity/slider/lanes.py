@@ -21,14 +21,18 @@ LANES = 32
     STRETCH, WX, WY, SX, SY,
     DRIVE, KAPPA, GIVE_X, GIVE_Y, BASE_X, BASE_Y,
     SUM_FREE, SUM_FX, SUM_FY, SUM_VX, SUM_VY, SUM_SLIP,
-    MAX_FX, MIN_FX, MAX_FY, MIN_FY, MAX_FREE, WAITING, WAITED,
+    MAX_FX, MIN_FX, MAX_FY, MIN_FY, WAITING, WAITED,
     ROWS,
-) = range(25)  # fmt: skip
+) = range(24)  # fmt: skip
 
 BLOCK = 64  # steps whose increments are made at a time: 16 kB, they stay in the first cache
 
 _FAST = {"contract", "nsz", "arcp"}
 _TINY = 1e-300
+
+
+# Before the window; in it with bodies that have not broken away; in it without.
+_STAGES = ((False, True), (True, True), (True, False))
 
 
 @kernel(fastmath=_FAST)
@@ -71,8 +75,8 @@ def _fill(waves, tables, shared, increments, steps):
         waves[2, lane] += steps * waves[3, lane]
 
 
-def _make_block(law: int, window: bool) -> Any:
-    """Compile the loop for one law, with or without the sums of the window.
+def _make_block(law: int, window: bool, wait: bool) -> Any:
+    """Compile the loop for one law: sums of the window, wait for the breakaway, or both.
 
     A factory, since the vectoriser turns a branch on an argument into masked work on both sides.
     """
@@ -136,9 +140,7 @@ def _make_block(law: int, window: bool) -> Any:
                     b[MAX_FY * LANES + j] = top if top > sy1 else sy1
                     low = b[MIN_FY * LANES + j]
                     b[MIN_FY * LANES + j] = low if low < sy1 else sy1
-                    top = b[MAX_FREE * LANES + j]
-                    b[MAX_FREE * LANES + j] = top if top > free else free
-                else:
+                if wait:
                     waiting = b[WAITING * LANES + j]
                     b[WAITED * LANES + j] += waiting
                     b[WAITING * LANES + j] = waiting if free < 1.0 else 0.0
@@ -146,33 +148,49 @@ def _make_block(law: int, window: bool) -> Any:
     return block
 
 
-_VECTOR, _VECTOR_WINDOW = _make_block(VECTOR, False), _make_block(VECTOR, True)
-_SPLIT, _SPLIT_WINDOW = _make_block(SPLIT, False), _make_block(SPLIT, True)
-_UNSPLIT, _UNSPLIT_WINDOW = _make_block(UNSPLIT, False), _make_block(UNSPLIT, True)
+_VECTOR_WAIT, _VECTOR_BOTH, _VECTOR_WINDOW = (
+    _make_block(VECTOR, window, wait) for window, wait in _STAGES
+)
+_SPLIT_WAIT, _SPLIT_BOTH, _SPLIT_WINDOW = (
+    _make_block(SPLIT, window, wait) for window, wait in _STAGES
+)
+_UNSPLIT_WAIT, _UNSPLIT_BOTH, _UNSPLIT_WINDOW = (
+    _make_block(UNSPLIT, window, wait) for window, wait in _STAGES
+)
 
 
 @kernel
 def march_lanes(
-    buffer, waves, tables, shared, increments, steps, own_1, own_2, law, window, stop
+    buffer, waves, tables, shared, increments, steps, own_1, own_2, law, window, waiting, stop
 ):  # fmt: skip
     """March a batch ``steps`` steps; gives up between blocks once ``stop[0]`` is not zero.
 
-    With ``window`` the sums are taken, without it the breakaway is waited for.
+    With ``window`` the sums are taken; without it, or while any is ``waiting``, the breakaway is
+    waited for.
     """
     left = steps
     while left > 0 and stop[0] == 0:
         count = min(left, BLOCK)
         _fill(waves, tables, shared, increments, count)
-        if law == VECTOR and window:
-            _VECTOR_WINDOW(buffer, increments, count, own_1, own_2)
-        elif law == VECTOR:
-            _VECTOR(buffer, increments, count, own_1, own_2)
-        elif law == SPLIT and window:
-            _SPLIT_WINDOW(buffer, increments, count, own_1, own_2)
+        if law == VECTOR:
+            if not window:
+                _VECTOR_WAIT(buffer, increments, count, own_1, own_2)
+            elif waiting:
+                _VECTOR_BOTH(buffer, increments, count, own_1, own_2)
+            else:
+                _VECTOR_WINDOW(buffer, increments, count, own_1, own_2)
         elif law == SPLIT:
-            _SPLIT(buffer, increments, count, own_1, own_2)
-        elif window:
-            _UNSPLIT_WINDOW(buffer, increments, count, own_1, own_2)
+            if not window:
+                _SPLIT_WAIT(buffer, increments, count, own_1, own_2)
+            elif waiting:
+                _SPLIT_BOTH(buffer, increments, count, own_1, own_2)
+            else:
+                _SPLIT_WINDOW(buffer, increments, count, own_1, own_2)
         else:
-            _UNSPLIT(buffer, increments, count, own_1, own_2)
+            if not window:
+                _UNSPLIT_WAIT(buffer, increments, count, own_1, own_2)
+            elif waiting:
+                _UNSPLIT_BOTH(buffer, increments, count, own_1, own_2)
+            else:
+                _UNSPLIT_WINDOW(buffer, increments, count, own_1, own_2)
         left -= count

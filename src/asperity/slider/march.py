@@ -209,13 +209,13 @@ def march(
         steps=table.steps,
         cycles=table.cycles,
         history=_history(model, table.step, walk) if history else None,
-        notes=march_notes(model, table, residual),
+        notes=march_notes(model, table, residual, broke=breakaway >= 0.0),
         substeps=model.substeps,
         seconds=time.perf_counter() - began,
     )  # fmt: skip
 
 
-def march_notes(model: Model, table: Timetable, residual: float) -> tuple[str, ...]:
+def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
     notes = []
     span = table.window * table.step
@@ -224,6 +224,8 @@ def march_notes(model: Model, table: Timetable, residual: float) -> tuple[str, .
             f"the means are over {span:.3g} s: solve.duration has no room for the usual "
             f"{model.window:.3g} s"
         )
+    if not (broke or model.vibrates or model.slider.rigid):
+        notes.append("the body has not broken away; give a longer solve.duration")
     if residual > _UNSTEADY:
         notes.append(
             "not steady: from the first to the second half of the window the mean drive force "

@@ -17,7 +17,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.slider.parameters import Slider, Solve
-from asperity.vibration import SAMPLED, SINE, Shape, Vibration
+from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -209,7 +209,7 @@ class Model:
             # Nothing elastic in the contact: the drive's own ring bounds the step, and the turn
             # of the slip where the vibration passes the drive velocity.
             ring = 2.0 * math.pi / self.ring_period if self.ring_period > 0.0 else 0.0
-            turn = 2.0 * math.pi * self.frequency * self.peak_velocity / self.slider.drive_velocity
+            turn = self._sharpness * self.peak_velocity / self.slider.drive_velocity
             if self.slider.rigid and not self.slider.free:
                 turn = 0.0
             return self._parts(self.step * max(ring / RING_BOUND, turn / COULOMB_BOUND))
@@ -223,7 +223,7 @@ class Model:
                     f"most {self.step * _TWO_PHASE_BOUND / slip:.3g} s here"
                 )
             return 1
-        turn = 2.0 * math.pi * self.frequency * self.step
+        turn = self._sharpness * self.step
         change = self.peak_velocity * self.step / limit * turn
         needed = max(slip / SLIP_BOUND, math.sqrt(change / CHANGE_BOUND))
         if self.slider.mass is not None and (not self.slider.rigid or self.slider.free):
@@ -232,6 +232,12 @@ class Model:
             stiffness += self.slider.drive_stiffness or 0.0
             needed = max(needed, self.step * math.sqrt(stiffness / self.slider.mass) / RING_BOUND)
         return self._parts(needed)
+
+    @property
+    def _sharpness(self) -> float:
+        """Rate at which the vibration's velocity changes, 1/s: 2 pi f for a sine, or more."""
+        least = self.shape.least_steps if self.shape is not None else STEPS_A_TURN
+        return 2.0 * math.pi * self.frequency * least / STEPS_A_TURN
 
     def _parts(self, needed: float) -> int:
         if not needed <= _MOST_SUBSTEPS:
@@ -275,4 +281,9 @@ class Model:
         p[SLIP_DAMPING] = friction.viscous_damping * length / (step * force)
         p[STATIC_RATIO] = (friction.static_mu or friction.mu) / friction.mu
         p[STRIBECK] = friction.stribeck_velocity * step / length
+        if not np.all(np.isfinite(p)):
+            raise InputError(
+                "the numbers of this case are too far apart to calculate with; look for a value "
+                "with a wrong unit or exponent"
+            )
         return p

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from asperity.errors import ConvergenceError
+from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
 from asperity.slider import model as m
 from asperity.slider.march import energies, summarise
@@ -15,6 +15,7 @@ from asperity.slider.shooting import ACCEPTED, shoot
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64
+_MOST_STEPS = 1e6
 _UNSTABLE = 1.0 + 1e-3
 
 
@@ -23,6 +24,11 @@ def cycle_steps(model: Model) -> int:
     if not model.vibrates:
         return _REST_STEPS
     asked = model.substeps / (model.frequency * model.step)
+    if asked > _MOST_STEPS:
+        raise InputError(
+            f"solve.step is {model.step:g} s, {asked:.3g} steps a vibration cycle; a periodic "
+            f"state is found with at most {_MOST_STEPS:g}: give a larger step"
+        )
     return 4 * math.ceil(max(asked * (1.0 - 1e-9), _LEAST_STEPS) / 4)
 
 

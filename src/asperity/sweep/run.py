@@ -15,7 +15,7 @@ from asperity.sweep.cache import Cache, Row
 from asperity.sweep.grid import Grid, Point
 from asperity.sweep.pools import Cluster, Cores, Pool
 from asperity.sweep.result import Answers, SweepResult
-from asperity.sweep.tasks import FAILED, REFUSED, TASK
+from asperity.sweep.tasks import FAILED, REFUSED, task_size
 
 _CHUNK = 1024
 _LOOK_SECONDS = 5.0
@@ -183,8 +183,11 @@ class _Sweep:
         missing = missing[np.argsort(self._kind_of[missing], kind="stable")]
         edges = np.flatnonzero(np.diff(self._kind_of[missing])) + 1
         for group in np.split(missing, edges):
-            for first in range(0, len(group), TASK):
-                yield group[first : first + TASK].tolist()
+            if group.size == 0:
+                continue
+            size = task_size(next(iter(self.grid.points(group[:1].tolist()))).model)
+            for first in range(0, len(group), size):
+                yield group[first : first + size].tolist()
 
     def _keep(self, points: Sequence[Point], rows: Sequence[Row]) -> None:
         solved = [pair for pair in zip(points, rows, strict=True) if REFUSED not in pair[1]]

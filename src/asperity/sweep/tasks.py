@@ -9,13 +9,12 @@ import numpy as np
 
 from asperity.compiled import package_hash
 from asperity.errors import AsperityError, ConvergenceError, InputError
-from asperity.slider.batch import solve_many
+from asperity.slider.batch import fits_lanes, solve_many
 from asperity.slider.lanes import LANES
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.sweep.cache import Row
 
-TASK = LANES
 FAILED = "failed"
 REFUSED = "refused"
 
@@ -70,13 +69,20 @@ VARIABLES = (
 )  # fmt: skip
 
 
+def task_size(model: Model) -> int:
+    """Points solved before they are kept: a batch of lanes, or one where each is slow."""
+    if fits_lanes(model) or model.solve.method == "periodic":
+        return LANES
+    return 1
+
+
 def solve_task(models: Sequence[Model], stop: np.ndarray | None = None) -> list[Row]:
     """Solve a few points and return the scalars of each, or why there are none.
 
     Parameters
     ----------
     models : sequence of Model
-        At best of one kind and not more than `TASK`.
+        At best of one kind and not more than `task_size`.
     stop : ndarray of int64, shape (1,), optional
         As for :func:`asperity.slider.batch.solve_many`.
     """
