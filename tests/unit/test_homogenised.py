@@ -1,11 +1,14 @@
 import math
+from dataclasses import asdict
 
 import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.errors import InputError
+from asperity.errors import ConvergenceError, InputError
 from asperity.slider import TABLES, Model, homogenise, solve
+from asperity.slider import homogenised as slow
+from asperity.slider import homogenised_law as hl
 from asperity.slider import kernels as k
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.slider.homogenised import interpolate
@@ -202,7 +205,250 @@ def test_the_residual_is_the_largest_of_the_table(law):
     assert 0.0 <= law.residual <= 1e-9
 
 
-def test_nothing_to_homogenise_is_refused():
-    still = body("table-4.3", "vibration.velocity_ratio=0")
-    with pytest.raises(InputError, match="needs a vibration"):
-        homogenise(still)
+POWERS = ["drive", "vibration", "friction", "damping"]
+
+
+def assert_same_cycle(answer, periodic, rel):
+    assert answer.ratio == pytest.approx(periodic.ratio, rel=rel)
+    for kind in ("friction_mean", "friction_max", "friction_min"):
+        expected = getattr(periodic, kind)
+        assert getattr(answer, kind) == pytest.approx(expected, rel=rel, abs=1e-6)
+    found, expected = asdict(answer.ledger), asdict(periodic.ledger)
+    for power in (*POWERS, "untransferred"):
+        assert found[power] == pytest.approx(expected[power], rel=rel, abs=1e-12)
+    assert answer.ledger.residual < rel
+
+
+# The slow motion of a strongly damped drive ends after some h_d/k_d.
+@pytest.mark.parametrize(("damping", "duration"), [(0.0, 1), (1e2, 1), (1e4, 3), (1e6, 120)])
+@pytest.mark.parametrize("case", ["table-4.3", "table-4.4"])
+def test_with_a_damped_drive_it_ends_in_the_periodic_state(case, damping, duration):
+    settings = f"slider.drive_damping={damping} N s/m", f"solve.duration={duration} s"
+    answer = solve(body(case, "solve.method=homogenised", *settings), history=False)
+    periodic = solve(body(case, "solve.method=periodic", *settings), history=False)
+    assert_same_cycle(answer, periodic, 1e-3)
+
+
+@pytest.mark.parametrize("mass", ["0.5 kg", "1 g"])
+@pytest.mark.parametrize("damping", [1e4, 1e5, 1e6])
+def test_a_damper_takes_from_the_slow_motion_and_from_the_shaking(damping, mass):
+    # Within a second a strong damper still holds part of the spring's force.
+    marched, answer = both(
+        "table-4.3", f"slider.drive_damping={damping} N s/m", f"slider.mass={mass}"
+    )
+    assert answer.ratio == pytest.approx(marched.ratio, rel=1e-3)
+    for power in POWERS:
+        expected = getattr(marched.ledger, power)
+        assert getattr(answer.ledger, power) == pytest.approx(expected, rel=1e-3)
+    assert answer.ledger.residual < 1e-3
+
+
+def test_a_drive_force_that_still_changes_is_noted():
+    answer = solve(
+        body(
+            "table-4.4", "solve.method=homogenised", "slider.drive_damping=1e4 N s/m",
+            "solve.duration=0.3 s",
+        ),
+        history=False,
+    )  # fmt: skip
+    assert any(note.startswith("not steady") for note in answer.notes)
+
+
+@pytest.mark.parametrize("law_name", LAWS)
+@pytest.mark.parametrize("direction", [45, -45, 135])
+@pytest.mark.parametrize("case", ["table-4.3", "table-4.4"])
+def test_a_guided_body_shaken_askew_feels_a_mean_force_across(case, direction, law_name):
+    settings = [
+        "slider.lateral=guided", f"vibration.direction={direction} deg",
+        f"friction.law={law_name}",
+    ]  # fmt: skip
+    answer = solve(body(case, "solve.method=homogenised", *settings))
+    periodic = solve(body(case, "solve.method=periodic", *settings), history=False)
+    assert abs(periodic.friction_mean[1]) > 0.2
+    assert_same_cycle(answer, periodic, 1e-3)
+    across = answer.history.friction[-1, 1]
+    assert across == pytest.approx(periodic.friction_mean[1], rel=1e-3)
+
+
+def test_backwards_the_forces_are_those_of_a_vibration_turned_by_half_a_turn(tmp_path):
+    turn = np.linspace(0.0, 2.0 * math.pi, 61)
+    wave = np.sin(turn) + 0.4 * np.sin(2.0 * turn + 1.0)
+    path = tmp_path / "wave.csv"
+    np.savetxt(path, np.column_stack([turn / turn[-1] * 2.5e-4, wave]), delimiter=",")
+    text = path.read_text().splitlines()
+    path.write_text("\n".join([*text[:-1], f"2.5e-4,{text[0].split(',')[1]}"]))
+    settings = [
+        "vibration.waveform=sampled", f"vibration.samples={path}", "slider.lateral=guided",
+    ]  # fmt: skip
+    here = homogenise(body("table-4.3", *settings, "vibration.direction=30 deg"))
+    there = homogenise(body("table-4.3", *settings, "vibration.direction=210 deg"))
+    speeds = np.linspace(1e-4, 5e-3, 20)
+    for column in (hl.FORCE_Y, hl.POWER_IN, hl.POWER_LOST, hl.POWER_DAMPED):
+        sign = -1.0 if column == hl.FORCE_Y else 1.0
+        backwards = there.column(column, -speeds)
+        assert backwards == pytest.approx(sign * here.column(column, speeds), rel=1e-9)
+    for high, low in ((hl.HIGHEST_X, hl.LOWEST_X), (hl.HIGHEST_Y, hl.LOWEST_Y)):
+        backwards = there.column(high, -speeds)
+        assert backwards == pytest.approx(-here.column(low, speeds), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("case", "settings"),
+    [
+        ("table-4.4", ["friction.exponent=0.5"]),
+        ("table-4.4", ["slider.mass=1 g"]),
+        ("table-4.3", ["slider.mass=1 g"]),
+    ],
+)
+def test_single_velocities_without_a_periodic_state_are_interpolated_over(case, settings):
+    marched, answer = both(case, *settings)
+    assert answer.ratio == pytest.approx(marched.ratio, rel=1e-3)
+    (note,) = [note for note in answer.notes if "interpolated over" in note]
+    assert "mean velocities" in note
+    assert "m/s" in note
+
+
+def failing(monkeypatch, fails):
+    """Have no periodic state found where ``fails`` says so of the mean velocity."""
+
+    def attempt(model, *, history):
+        if fails(model.slider.drive_velocity):
+            raise ConvergenceError("no periodic state found", reached={"residual": 1e-3})
+        return solved(model, history=history)
+
+    solved = hl.solve_periodic
+    monkeypatch.setattr(hl, "solve_periodic", attempt)
+
+
+def test_the_note_counts_what_is_missing_and_names_the_nearest_first(monkeypatch, law):
+    around = law.velocity[(law.velocity > 0.4e-3) & (law.velocity < 0.6e-3)]
+    failing(monkeypatch, lambda v: v in around)
+    model = body("table-4.3")
+    holes = homogenise(model)
+    assert sorted(holes.missing) == pytest.approx(sorted([*around, *-around]))
+    assert len(holes.velocity) == len(law.velocity) - 2 * len(around)
+    (note,) = holes.notes
+    assert f"{2 * len(around)} of {len(law.velocity) - 1} mean velocities" in note
+    assert "interpolated over: 0.0005, " in note
+    assert note.endswith(f" m/s and {2 * len(around) - 4} more")
+    assert holes(0.5e-3) == pytest.approx(law(0.5e-3), rel=1e-3)
+    assert law.notes == ()
+
+
+def test_more_than_a_fifth_missing_is_refused(monkeypatch):
+    failing(monkeypatch, lambda v: v < 2e-3)
+    with pytest.raises(ConvergenceError, match="more than a fifth of 121 mean velocities") as e:
+        homogenise(body("table-4.3"))
+    assert e.value.reached == {"residual": 1e-3}
+
+
+def test_a_drive_velocity_outside_of_what_was_found_is_refused(monkeypatch):
+    failing(monkeypatch, lambda v: v > 0.049)
+    with pytest.raises(ConvergenceError, match=r"slider.drive_velocity is 0.05 m/s and no"):
+        homogenise(
+            body("table-4.3", "vibration.velocity_ratio=0.06", "slider.drive_velocity=5 cm/s")
+        )
+
+
+def test_what_the_case_itself_forbids_is_not_interpolated_over():
+    with pytest.raises(InputError, match=r"solve\.step is"):
+        homogenise(body("table-4.3", "solve.step=100 us"))
+
+
+def test_without_a_finite_answer_there_is_none(monkeypatch):
+    def lost(*arguments):
+        arguments[-1].fill(math.nan)
+        return -1
+
+    monkeypatch.setattr(slow, "_integrate", lost)
+    with pytest.raises(ConvergenceError, match="left the finite numbers"):
+        solve(body("table-4.3", "solve.method=homogenised"))
+
+
+@pytest.mark.parametrize(
+    "still",
+    [{"vibration.velocity_ratio": 0.0}, {"vibration.velocity_ratio": None,
+     "vibration.displacement_amplitude": 0.0}],
+)  # fmt: skip
+def test_without_vibration_friction_is_full(still):
+    model = body("table-4.3", "solve.method=homogenised", **still)
+    answer = solve(model)
+    marched = solve(body("table-4.3", **still), history=False)
+    assert answer.ratio == 1.0
+    assert answer.friction_mean == (model.full_friction, 0.0)
+    assert answer.breakaway_time == marched.breakaway_time
+    assert answer.ledger.residual < 1e-12
+    assert "nothing vibrates" in answer.notes[0]
+    law = homogenise(model)
+    for speed in (1e-6, 0.5e-3, 1.0, 100.0):
+        assert law(speed) == pytest.approx(5.5, rel=1e-12)
+        assert law(-speed) == pytest.approx(-5.5, rel=1e-12)
+
+
+def test_without_vibration_and_without_breakaway_a_note_says_so():
+    settings = "vibration.velocity_ratio=0", "solve.duration=0.05 s"
+    answer = solve(body("table-4.3", "solve.method=homogenised", *settings), history=False)
+    assert answer.breakaway_time is None
+    assert any("not broken away" in note for note in answer.notes)
+
+
+LUGRE = [
+    "friction.model=lugre", "friction.static_mu=0.15", "friction.stribeck_velocity=1 mm/s",
+    "friction.viscous_damping=100 N s/m",
+]  # fmt: skip
+
+
+def test_without_vibration_lugre_friction_is_its_steady_curve():
+    law = homogenise(body("table-4.3", *LUGRE, "vibration.velocity_ratio=0"))
+    for speed in (1e-5, 0.5e-3, 1e-3, 4e-3, 0.01, 10.0):
+        steady = 5.5 * (1.0 + 0.5 * math.exp(-((speed / 1e-3) ** 2))) + 100.0 * speed
+        assert law(speed) == pytest.approx(steady, rel=1e-3)
+        assert law(-speed) == -law(speed)
+    rigid = {"slider.drive_stiffness": None, "slider.drive_damping": None}
+    settings = *LUGRE, "vibration.velocity_ratio=0"
+    answer, periodic = (
+        solve(body("table-4.3", *settings, f"solve.method={method}", **rigid), history=False)
+        for method in ("homogenised", "periodic")
+    )
+    assert answer.ratio == pytest.approx(periodic.ratio, rel=1e-9)
+
+
+def test_far_beyond_the_vibration_viscous_friction_adds_to_full_friction():
+    law = homogenise(body("table-4.3", *LUGRE))
+    end = law.velocity[-1]
+    assert law(end * (1.0 + 1e-9)) == pytest.approx(law(end * (1.0 - 1e-9)), rel=1e-8)
+    assert law(5.0) == pytest.approx(5.5 + 500.0, rel=1e-6)
+    assert law(-5.0) == pytest.approx(-5.5 - 500.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("speed", [0.21, 0.33, 2.0])
+@pytest.mark.parametrize("settings", [(), LUGRE])
+def test_the_slope_of_the_law_is_its_derivative(settings, speed):
+    arguments = homogenise(body("table-4.3", *settings)).arguments
+    for v in (1e-2 * speed, -1e-2 * speed, speed, -speed):
+        step = 1e-6 * abs(v)
+        ends = [interpolate(v + side * step, *arguments) for side in (-1.0, 1.0)]
+        slope = hl.value_and_slope(v, *arguments)[1]
+        assert slope == pytest.approx((ends[1] - ends[0]) / (2.0 * step), rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("case", "settings"),
+    [
+        ("table-4.3", ["vibration.velocity_ratio=0.5", "vibration.start=0 s"]),
+        ("table-4.3", ["vibration.velocity_ratio=0.9", "vibration.start=0 s"]),
+        ("table-4.4", ["vibration.velocity_ratio=0.5", "vibration.start=0.05 s"]),
+        ("table-4.3", ["vibration.velocity_ratio=0.5", "vibration.start=0.1 s"]),
+    ],
+)
+def test_a_body_can_break_away_after_the_vibrations_start(case, settings):
+    marched, answer = both(case, *settings)
+    assert answer.breakaway_time > marched.model.start
+    # The cycle's own share of the drive force comes on top in the march.
+    assert answer.breakaway_time == pytest.approx(marched.breakaway_time, abs=2e-3)
+
+
+def test_a_body_the_vibration_keeps_from_full_friction_never_breaks_away():
+    marched, answer = both("table-4.3", "vibration.velocity_ratio=6", "vibration.start=0 s")
+    assert marched.breakaway_time is None
+    assert answer.breakaway_time is None

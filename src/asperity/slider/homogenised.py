@@ -1,332 +1,314 @@
-r"""The cycle-mean friction law: what a body that moves slowly against the vibration feels.
+r"""Marching a body with the cycle-mean friction law in place of the vibrating contact.
 
-Over one vibration cycle a body at the mean velocity :math:`v` feels the mean force :math:`F(v)`.
-Tabulated once from periodic states, it replaces the vibrating contact in a model whose own motion
-is slow against the vibration,
+.. math:: m\ddot X = k_d(v_d t - X) + h_d(v_d - \dot X) - F(\dot X)
 
-.. math:: m\ddot X = k_d(v_d t - X) + h_d(v_d - \dot X) - F(\dot X) .
-
-The body's own answer to the vibration (it shakes a little with the base) is in the table.
+where the body's own motion is slow against the vibration.
 """
 
 import dataclasses
-import functools
 import math
 import time
-from typing import Any, overload
 
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.errors import ConvergenceError, InputError
+from asperity.errors import ConvergenceError
+from asperity.slider import homogenised_law as hl
 from asperity.slider import kernels as k
-from asperity.slider.march import Timetable, Walk
+from asperity.slider.homogenised_law import (
+    HomogenisedLaw,
+    homogenise,
+    interpolate,
+    value_and_slope,
+)
+from asperity.slider.march import Timetable, Walk, march_notes
 from asperity.slider.model import FloatArray, Model
-from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import History, PowerLedger, SlideResult
 
-_POINTS_BELOW = 64
-_POINTS_ABOVE = 56
-_HIGHEST = 50.0
-_LOWEST = 1e-4
-_RECORDS = 4000
+__all__ = ["HomogenisedLaw", "homogenise", "interpolate", "solve_homogenised"]
 
-# Columns of the table.
-FORCE, HIGHEST_X, LOWEST_X, HIGHEST_Y, POWER_IN, POWER_LOST, UNTRANSFERRED = range(7)
-
-
-@kernel
-def interpolate(velocity, breaks, coefficients):
-    """Cubic interpolation in a table; beyond its ends as ``1 - c/v^2`` off the limit of 1."""
-    last = breaks.size - 1
-    if velocity >= breaks[last] or velocity <= breaks[0]:
-        end = breaks[last] if velocity > 0.0 else breaks[0]
-        piece = last - 1 if velocity > 0.0 else 0
-        x = end - breaks[piece]
-        value = coefficients[0, piece]
-        for i in range(1, 4):
-            value = value * x + coefficients[i, piece]
-        full = 1.0 if velocity > 0.0 else -1.0
-        return full + (value - full) * (end / velocity) ** 2
-    piece = np.searchsorted(breaks, velocity, side="right") - 1
-    x = velocity - breaks[piece]
-    value = coefficients[0, piece]
-    for i in range(1, 4):
-        value = value * x + coefficients[i, piece]
-    return value
+_RECORDS = 2000
+_BLOCK = 1024
+_RING_SHARE = 0.02
+_FAST_STEPS = 200_000
+# Alexander's diagonally implicit Runge-Kutta method of order 3, three stages, L-stable.
+_G = 0.43586652150845967
+_A21 = 0.5 * (1.0 - _G)
+_B1 = -1.5 * _G * _G + 4.0 * _G - 0.25
+_B2 = 1.5 * _G * _G - 5.0 * _G + 1.25
 
 
 @kernel
-def _integrate(x, v, steps, h, drive, stiffness, damping, mass, force, breaks, c, stride, rows):
-    """Runge-Kutta of order 4 for stretch and velocity; rows of (stretch, velocity, F share)."""
-    for n in range(steps):
-        sx, sv = 0.0, 0.0
-        kx, kv = 0.0, 0.0
-        for stage in range(4):
-            at = 0.0 if stage == 0 else (1.0 if stage == 3 else 0.5)
-            xs = x + at * h * kx
-            vs = v + at * h * kv
-            kx = drive - vs
-            pull = stiffness * xs + damping * kx
-            kv = (pull - force * interpolate(vs, breaks, c)) / mass
-            weight = 1.0 if stage == 0 or stage == 3 else 2.0
-            sx += weight * kx
-            sv += weight * kv
-        x += h * sx / 6.0
-        v += h * sv / 6.0
-        if (n + 1) % stride == 0:
-            row = (n + 1) // stride - 1
-            rows[row, 0] = x
-            rows[row, 1] = v
-            rows[row, 2] = interpolate(v, breaks, c)
-    return x, v
+def _stage(x0, v0, w, drive, stiffness, damping, mass, force, breaks, c, viscous):
+    """Solve ``v = v0 + w dv/dt`` where the stretch is ``x0 + w (drive - v)``; returns v.
 
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class HomogenisedLaw:
-    r"""Cycle-mean friction as a function of the mean velocity.
-
-    Call it with a velocity in m/s, scalar or array, for the force in N. In a compiled model use
-    `interpolate` with `arguments`, times ``full_friction``.
-
-    Attributes
-    ----------
-    velocity : ndarray, shape (n,)
-        Tabulated mean velocities, m/s, increasing, both signs.
-    table : ndarray, shape (n, 7)
-        Mean force, highest and lowest friction along and highest across the drive, over
-        :math:`\mu F_N`; power of the vibration, dissipated and untransferred power, W.
-    full_friction : float
-        :math:`\mu F_N`, N; approached at velocities far above the vibration's.
-    residual : float
-        Largest change of a state over its cycle in the table.
+    Newton within a bracket: the law bends, and Newton alone can go back and forth at a bend.
     """
-
-    velocity: FloatArray
-    table: FloatArray
-    full_friction: float
-    residual: float
-
-    @functools.cached_property
-    def arguments(self) -> tuple[FloatArray, FloatArray]:
-        """Breakpoints and coefficients of the mean force share, for `interpolate`."""
-        return self._pieces(FORCE)
-
-    def _pieces(self, column: int) -> tuple[FloatArray, FloatArray]:
-        from scipy.interpolate import PchipInterpolator
-
-        cubic: Any = PchipInterpolator(self.velocity, self.table[:, column])
-        return np.ascontiguousarray(cubic.x), np.ascontiguousarray(cubic.c)
-
-    @overload
-    def __call__(self, velocity: float) -> float: ...
-    @overload
-    def __call__(self, velocity: FloatArray) -> FloatArray: ...
-    def __call__(self, velocity: float | FloatArray) -> float | FloatArray:
-        """Mean friction force in N at mean velocities in m/s."""
-        values = np.atleast_1d(np.asarray(velocity, dtype=float))
-        if not np.all(np.isfinite(values)):
-            raise InputError("the velocity is not finite; give finite velocities in m/s")
-        force = self.full_friction * np.array(
-            [interpolate(v, *self.arguments) for v in values.ravel()]
-        )
-        return float(force[0]) if np.ndim(velocity) == 0 else force.reshape(values.shape)
-
-    def column(self, column: int, velocity: FloatArray) -> FloatArray:
-        """One column of the table at some velocities (inside the table's range)."""
-        breaks, c = self._pieces(column)
-        inside = np.clip(velocity, breaks[0], breaks[-1] * (1.0 - 1e-12))
-        return np.array([interpolate(v, breaks, c) for v in inside])
+    give = w / mass
+    low = -math.inf
+    high = math.inf
+    v = v0
+    for _ in range(80):
+        share, slope = value_and_slope(v, breaks, c, viscous)
+        pull = stiffness * (x0 + w * (drive - v)) + damping * (drive - v)
+        rest = v - v0 - give * (pull - force * share)
+        if rest == 0.0:
+            break
+        if rest > 0.0:
+            high = v
+        else:
+            low = v
+        steep = 1.0 + give * (stiffness * w + damping + force * slope)
+        new = v - rest / steep if steep > 0.0 else 0.5 * (low + high)
+        if not low < new < high and math.isfinite(high - low):
+            new = 0.5 * (low + high)
+        done = abs(new - v) <= 1e-14 * (abs(v) + drive)
+        v = new
+        if done:
+            break
+    return v
 
 
-def homogenise(model: Model) -> HomogenisedLaw:
-    """Tabulate the cycle-mean friction of a body with its mass, drive and vibration.
+@kernel
+def _rates(x, v, drive, stiffness, damping, mass, force, breaks, c, viscous):
+    pull = stiffness * x + damping * (drive - v)
+    return drive - v, (pull - force * interpolate(v, breaks, c, viscous)) / mass
 
-    Raises
-    ------
-    InputError
-        Nothing vibrates.
-    ConvergenceError
-        A velocity in the table has no periodic state; the message names it.
+
+@kernel
+def _integrate(
+    x, v, h, drive, stiffness, damping, mass, force, breaks, c, viscous, stride, rows
+):  # fmt: skip
+    """March ``stride`` steps for each of ``rows``, which become (stretch, velocity, F share).
+
+    Implicit, for a strong damper or a light body is far faster than what is looked for. Returns
+    the number of steps up to the first full drive force, -1 where it does not come.
     """
-    if not model.vibrates:
-        raise InputError("solve.method 'homogenised' needs a vibration; give [vibration]")
-    speeds = _grid(model.peak_velocity)
-    ahead = [_row(model, v, 0.0) for v in speeds]
-    symmetric = model.vibration is not None and model.vibration.waveform != "sampled"
-    # F(-v) is -F(v) with the vibration turned by half a turn, and a wave whose halves mirror each
-    # other does not notice that.
-    behind = ahead if symmetric else [_row(model, v, math.pi) for v in speeds]
-    mirror = np.array([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0])
-    back = np.array([row[[0, 2, 1, 3, 4, 5, 6]] for row, _ in behind]) * mirror
-    front = np.array([row for row, _ in ahead])
-    rest = 0.5 * (front[:1] + back[:1])
-    return HomogenisedLaw(
-        velocity=np.concatenate([-speeds[::-1], [0.0], speeds]),
-        table=np.concatenate([back[::-1], rest, front]),
-        full_friction=model.full_friction,
-        residual=max(residual for _, residual in ahead + behind),
-    )
-
-
-def _grid(peak: float) -> FloatArray:
-    # Rigid friction goes as asin(v/v_a): even spacing in the angle follows its steep end.
-    below = peak * np.sin(0.5 * math.pi * np.arange(1, _POINTS_BELOW + 1) / _POINTS_BELOW)
-    above = peak * np.geomspace(1.0, _HIGHEST, _POINTS_ABOVE + 1)[1:]
-    return np.concatenate([[_LOWEST * peak], below, above])
-
-
-def _row(model: Model, velocity: float, turn: float) -> tuple[FloatArray, float]:
-    if model.vibration is None:
-        raise InputError("nothing vibrates")
-    slider = model.slider.model_copy(update={"drive_velocity": float(velocity)})
-    vibration = model.vibration.model_copy(
-        update={
-            "velocity_ratio": None,
-            "velocity_amplitude": None,
-            "displacement_amplitude": model.amplitude,
-            "direction": model.direction + turn,
-        }
-    )
-    at = dataclasses.replace(model, slider=slider, vibration=vibration)
-    try:
-        answer = solve_periodic(at, history=False)
-    except ConvergenceError as error:
-        raise ConvergenceError(
-            f"at the mean velocity {velocity:.4g} m/s: {error}", reached=error.reached
-        ) from None
-    force = model.full_friction
-    ledger = answer.ledger
-    if ledger is None:
-        raise ConvergenceError("a periodic state came without its ledger")
-    row = [
-        answer.ratio, answer.friction_max[0] / force, answer.friction_min[0] / force,
-        answer.friction_max[1] / force, ledger.vibration, ledger.friction, ledger.untransferred,
-    ]  # fmt: skip
-    return np.array(row), answer.residual
+    w = h * _G
+    broke = -1
+    done = 0
+    for row in range(len(rows)):
+        for _ in range(stride):
+            v1 = _stage(x, v, w, drive, stiffness, damping, mass, force, breaks, c, viscous)
+            x1 = x + w * (drive - v1)
+            ax, av = _rates(x1, v1, drive, stiffness, damping, mass, force, breaks, c, viscous)
+            x0 = x + h * _A21 * ax
+            v0 = v + h * _A21 * av
+            v2 = _stage(x0, v0, w, drive, stiffness, damping, mass, force, breaks, c, viscous)
+            x2 = x0 + w * (drive - v2)
+            bx, bv = _rates(x2, v2, drive, stiffness, damping, mass, force, breaks, c, viscous)
+            x0 = x + h * (_B1 * ax + _B2 * bx)
+            v0 = v + h * (_B1 * av + _B2 * bv)
+            v = _stage(x0, v0, w, drive, stiffness, damping, mass, force, breaks, c, viscous)
+            x = x0 + w * (drive - v)
+            done += 1
+            if broke < 0 and stiffness * x + damping * (drive - v) >= force:
+                broke = done
+        rows[row, 0] = x
+        rows[row, 1] = v
+        rows[row, 2] = interpolate(v, breaks, c, viscous)
+    return broke
 
 
 def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     """March a body with the cycle-mean friction in place of the vibrating contact.
 
     Up to the start of the vibration the full model is marched. A rigid drive needs no march: the
-    answer is the law at the drive velocity. Friction extremes are those of the cycle at the mean
-    velocity. The first cycles after the start are not resolved.
+    answer is the law at the drive velocity. Nor has a body without vibration a slow motion of its
+    own: there it is steady sliding. Friction extremes are those of the cycle at the mean velocity.
+    The first cycles after the start are not resolved.
+
+    Raises
+    ------
+    InputError
+        The case cannot be solved this way.
+    ConvergenceError
+        There is no law (see `homogenise`), or the march left the finite numbers.
     """
     began = time.perf_counter()
     law = homogenise(model)
     if model.slider.rigid:
-        return _result(model, law, np.array([model.slider.drive_velocity]), None, began)
+        return _steady(model, law, began)
     table = Timetable(model)
     walk = Walk(model, table)
+    if not model.vibrates:
+        walk.to(table.steps, _BLOCK)
+        broke = _breakaway(walk)
+        answer = _steady(model, law, began, broke, table.steps)
+        notes = march_notes(model, table, 0.0, broke=broke is not None)
+        return dataclasses.replace(answer, notes=(*answer.notes, *notes))
     begin = min(round(model.start / table.step), table.window_start)
-    walk.to(begin, max(1, begin))
-    slider = model.slider
+    walk.to(begin, _BLOCK)
+    breakaway = _breakaway(walk)
     length, step = model.length(table.step), table.step
-    stretch = float(walk.state[k.STRETCH]) * length
-    velocity = float(walk.state[k.WX]) * length / step
-    h, count = _ode_step(model, law, (table.steps - begin) * step)
-    stride = max(1, count // _RECORDS)
-    rows = np.zeros((count // stride, 3))
-    _integrate(
-        stretch, velocity, count, h, slider.drive_velocity, slider.drive_stiffness or 0.0,
-        slider.drive_damping, slider.mass or 1.0, law.full_friction, *law.arguments, stride, rows,
+    slider = model.slider
+    at = begin * step
+    row = np.array(
+        [float(walk.state[k.STRETCH]) * length, float(walk.state[k.WX]) * length / step, 0.0]
+    )
+    row[2] = law(row[1]) / law.full_friction
+    parts = [np.append(at, row)[None]]
+    taken = begin
+    for end in (table.window_start * step, table.steps * step):
+        if end <= at:
+            continue
+        h, stride, count = _division(model, law, end - at)
+        rows = np.zeros((count, 3))
+        full = _integrate(
+            row[0], row[1], h, slider.drive_velocity, slider.drive_stiffness or 0.0,
+            slider.drive_damping, slider.mass or 1.0, law.full_friction, *law.arguments,
+            stride, rows,
+        )  # fmt: skip
+        if breakaway is None and full >= 0:
+            breakaway = at + h * full
+        parts.append(np.column_stack([at + h * stride * np.arange(1, count + 1), rows]))
+        taken += count * stride
+        at, row = end, rows[-1]
+    # The window starts at the last row of what was before it.
+    window = np.concatenate([parts[-2][-1:], parts[-1]])
+    record = _history(model, law, np.concatenate(parts[1:])) if history else None
+    answer = _marched(model, law, window, began, breakaway, taken)
+    first, second = (
+        np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
+    )
+    unsteady = abs(float(second - first))
+    notes = march_notes(model, table, unsteady, broke=breakaway is not None)
+    return dataclasses.replace(
+        answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes)
+    )
+
+
+def _breakaway(walk: Walk) -> float | None:
+    steps = float(walk.sums[k.BREAKAWAY])
+    return steps * walk.table.step if steps >= 0.0 else None
+
+
+def _division(model: Model, law: HomogenisedLaw, span: float) -> tuple[float, int, int]:
+    """Step, steps a row and rows: the drive's ring resolved, and what is faster if affordable."""
+    slope = float(np.max(np.abs(np.diff(law.table[:, hl.FORCE]) / np.diff(law.velocity))))
+    rate = slope * law.full_friction + model.slider.drive_damping
+    rate /= model.slider.mass or 1.0
+    ring = math.ceil(span * 2.0 * math.pi / model.ring_period / _RING_SHARE)
+    steps = max(8, ring, math.ceil(min(span * rate, _FAST_STEPS)))
+    rows = min(_RECORDS, steps)
+    stride = math.ceil(steps / rows)
+    return span / (rows * stride), stride, rows
+
+
+def _steady(
+    model: Model,
+    law: HomogenisedLaw,
+    began: float,
+    breakaway: float | None = None,
+    steps: int = 0,
+) -> SlideResult:
+    """Steady sliding at the drive velocity."""
+    drive = model.slider.drive_velocity
+    row = np.array([[0.0, law(drive) / (model.slider.drive_stiffness or 1.0), drive, 0.0]])
+    row[0, 3] = law(drive) / law.full_friction
+    return _result(model, law, row, began, breakaway, steps, pull=row[:, 3] * law.full_friction)
+
+
+def _marched(
+    model: Model,
+    law: HomogenisedLaw,
+    rows: FloatArray,
+    began: float,
+    breakaway: float | None,
+    steps: int,
+) -> SlideResult:
+    slider = model.slider
+    at, stretch, velocity, _ = rows.T
+    energy = 0.5 * (slider.drive_stiffness or 0.0) * stretch**2
+    energy = energy + 0.5 * (slider.mass or 0.0) * velocity**2
+    return _result(
+        model, law, rows, began, breakaway, steps, pull=_pull(model, rows),
+        damping=slider.drive_damping * (slider.drive_velocity - velocity) ** 2,
+        stored=float(energy[-1] - energy[0]) / float(at[-1] - at[0]),
     )  # fmt: skip
-    at = begin * step + h * stride * np.arange(1, len(rows) + 1)
-    rows = np.column_stack([at, rows])
-    breakaway = float(walk.sums[k.BREAKAWAY])
-    broke = breakaway * step if breakaway >= 0.0 else None
-    return _result(model, law, None, rows, began, broke, begin + count, history)
 
 
-def _ode_step(model: Model, law: HomogenisedLaw, span: float) -> tuple[float, int]:
-    """Step of the slow motion: bounded by the law's steepest slope and by the drive's ring."""
-    breaks, _ = law.arguments
-    slope = float(np.max(np.abs(np.diff(law.table[:, FORCE]) / np.diff(breaks))))
-    rate = slope * law.full_friction / (model.slider.mass or 1.0)
-    ring = 2.0 * math.pi / model.ring_period
-    h = min(1.0 / rate, 0.02 / ring)
-    count = max(8, math.ceil(span / h))
-    return span / count, count
+def _pull(model: Model, rows: FloatArray) -> FloatArray:
+    slider = model.slider
+    pull = (slider.drive_stiffness or 0.0) * rows[:, 1]
+    return pull + slider.drive_damping * (slider.drive_velocity - rows[:, 2])
 
 
 def _result(
     model: Model,
     law: HomogenisedLaw,
-    velocity: FloatArray | None,
-    rows: FloatArray | None,
+    rows: FloatArray,
     began: float,
-    breakaway: float | None = None,
-    steps: int = 0,
-    history: bool = False,
+    breakaway: float | None,
+    steps: int,
+    *,
+    pull: FloatArray,
+    damping: FloatArray | float = 0.0,
+    stored: float = 0.0,
 ) -> SlideResult:
     force = law.full_friction
-    drive = model.slider.drive_velocity
-    stored = 0.0
-    damping = 0.0
-    record = None
-    if rows is None:
-        if velocity is None:
-            raise InputError("no velocity to evaluate the law at")
-        share = law(velocity) / force
-        pull = share * force
-        cycles = 0
-        residual = law.residual
-    else:
-        table = Timetable(model)
-        inside = rows[rows[:, 0] >= table.window_start * table.step - 1e-12]
-        _, stretch, velocity, share = inside.T
-        pull = (model.slider.drive_stiffness or 0.0) * stretch
-        pull = pull + model.slider.drive_damping * (drive - velocity)
-        damping = model.slider.drive_damping * float(np.mean((drive - velocity) ** 2))
-        energy = 0.5 * (model.slider.drive_stiffness or 0.0) * stretch**2
-        energy = energy + 0.5 * (model.slider.mass or 0.0) * velocity**2
-        span = inside[-1, 0] - inside[0, 0]
-        stored = float(energy[-1] - energy[0]) / span
-        cycles, residual = table.cycles, law.residual
-        record = _history(model, rows) if history else None
+    weights = np.ones(len(rows))
+    if len(rows) > 1:
+        weights[[0, -1]] = 0.5
 
-    def mean(column: int) -> float:
-        return float(np.mean(law.column(column, np.asarray(velocity))))
+    def mean(values: FloatArray | float) -> float:
+        return float(np.average(np.broadcast_to(values, weights.shape), weights=weights))
 
-    return SlideResult(
+    def column(column: int) -> float:
+        return mean(law.column(column, rows[:, 2]))
+
+    drive_force = mean(pull)
+    answer = SlideResult(
         model=model,
-        ratio=float(np.mean(pull)) / force,
-        drive_force=float(np.mean(pull)),
-        friction_mean=(float(np.mean(share)) * force, 0.0),
-        friction_max=(mean(HIGHEST_X) * force, mean(HIGHEST_Y) * force),
-        friction_min=(mean(LOWEST_X) * force, -mean(HIGHEST_Y) * force),
+        ratio=drive_force / force,
+        drive_force=drive_force,
+        friction_mean=(mean(rows[:, 3]) * force, column(hl.FORCE_Y) * force),
+        friction_max=(column(hl.HIGHEST_X) * force, column(hl.HIGHEST_Y) * force),
+        friction_min=(column(hl.LOWEST_X) * force, column(hl.LOWEST_Y) * force),
         breakaway_time=breakaway,
         ledger=PowerLedger(
-            drive=float(np.mean(pull)) * drive,
-            vibration=mean(POWER_IN),
-            friction=mean(POWER_LOST),
-            damping=damping,
+            drive=drive_force * model.slider.drive_velocity,
+            vibration=column(hl.POWER_IN),
+            friction=column(hl.POWER_LOST),
+            damping=mean(damping) + column(hl.POWER_DAMPED),
             stored=stored,
-            untransferred=mean(UNTRANSFERRED),
+            untransferred=column(hl.UNTRANSFERRED),
         ),
-        residual=residual,
+        residual=law.residual,
         steps=steps,
-        cycles=cycles,
+        cycles=0,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
-        history=record,
-        notes=("friction and powers are means over a vibration cycle, from a table",),
+        notes=(_what_it_is(model), *law.notes),
+    )
+    numbers = [value for value in answer.to_json().values() if isinstance(value, float)]
+    if not np.all(np.isfinite(numbers)):
+        raise ConvergenceError(
+            "the march with the cycle-mean law left the finite numbers; solve.method 'march' shows "
+            "what the body does"
+        )
+    return answer
+
+
+def _what_it_is(model: Model) -> str:
+    if model.vibrates:
+        return "friction and powers are means over a vibration cycle, from a table"
+    return (
+        "nothing vibrates: this is steady sliding at the drive velocity; solve.method 'march' "
+        "shows the motion"
     )
 
 
-def _history(model: Model, rows: FloatArray) -> History:
-    at, stretch, velocity, share = rows.T
-    drive = model.slider.drive_velocity
+def _history(model: Model, law: HomogenisedLaw, rows: FloatArray) -> History:
+    at, stretch, velocity, along = rows.T
     none = np.zeros_like(at)
     limit = model.length(1.0) if model.friction.model != "coulomb" else 0.0
-    pull = (model.slider.drive_stiffness or 0.0) * stretch
-    pull = pull + model.slider.drive_damping * (drive - velocity)
+    share = np.column_stack([along, law.column(hl.FORCE_Y, velocity)])
     return History(
         time=at,
-        drive_force=pull,
-        friction=np.column_stack([share * model.full_friction, none]),
-        deflection=np.column_stack([share * limit, none]),
-        position=np.column_stack([drive * at - stretch, none]),
+        drive_force=_pull(model, rows),
+        friction=share * law.full_friction,
+        deflection=share * limit,
+        position=np.column_stack([model.slider.drive_velocity * at - stretch, none]),
         velocity=np.column_stack([velocity, none]),
     )

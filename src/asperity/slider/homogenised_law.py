@@ -1,0 +1,289 @@
+r"""The cycle-mean friction law: what a body that moves slowly against the vibration feels.
+
+Over one vibration cycle a body at the mean velocity :math:`v` feels the mean force :math:`F(v)`.
+It is tabulated once from periodic states. The body's own answer to the vibration (it shakes a
+little with the base) is in the table.
+"""
+
+import dataclasses
+import functools
+import math
+from collections.abc import Iterable
+from typing import Any, overload
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.errors import ConvergenceError, InputError
+from asperity.friction.lugre import stribeck_share
+from asperity.slider.model import FloatArray, Model
+from asperity.slider.periodic import solve_periodic
+
+_POINTS_BELOW = 64
+_POINTS_ABOVE = 56
+_HIGHEST = 50.0
+_LOWEST = 1e-4
+_MOST_MISSING = 0.2
+_NAMED = 4
+
+# Columns of the table.
+(
+    FORCE, HIGHEST_X, LOWEST_X, FORCE_Y, HIGHEST_Y, LOWEST_Y,
+    POWER_IN, POWER_LOST, POWER_DAMPED, UNTRANSFERRED,
+    COLUMNS,
+) = range(11)  # fmt: skip
+# F(-v) is -F(v) under a vibration turned by half a turn; what was highest is lowest there.
+_SWAPPED = [
+    FORCE, LOWEST_X, HIGHEST_X, FORCE_Y, LOWEST_Y, HIGHEST_Y,
+    POWER_IN, POWER_LOST, POWER_DAMPED, UNTRANSFERRED,
+]  # fmt: skip
+_MIRROR = np.where(np.arange(COLUMNS) < POWER_IN, -1.0, 1.0)
+
+
+@kernel
+def value_and_slope(velocity, breaks, coefficients, viscous):
+    """Cubic interpolation in a table and its derivative.
+
+    Beyond the table's ends what is missing of 1 plus the viscous part falls as ``1/v^2``.
+    """
+    last = breaks.size - 1
+    at = min(max(velocity, breaks[0]), breaks[last])
+    piece = np.searchsorted(breaks, at, side="right") - 1
+    piece = min(piece, last - 1)
+    x = at - breaks[piece]
+    value = coefficients[0, piece]
+    slope = 0.0
+    for i in range(1, 4):
+        slope = slope * x + value
+        value = value * x + coefficients[i, piece]
+    if at == velocity:
+        return value, slope
+    full = 1.0 if velocity > 0.0 else -1.0
+    gap = value - viscous * at - full
+    share = (at / velocity) ** 2
+    return full + viscous * velocity + gap * share, viscous - 2.0 * gap * share / velocity
+
+
+@kernel
+def interpolate(velocity, breaks, coefficients, viscous):
+    """Mean force over the full friction force; the arguments are those of a law."""
+    return value_and_slope(velocity, breaks, coefficients, viscous)[0]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class HomogenisedLaw:
+    r"""Cycle-mean friction as a function of the mean velocity.
+
+    Call it with a velocity in m/s, scalar or array, for the force in N. In a compiled model use
+    `interpolate` with `arguments`, times ``full_friction``.
+
+    Attributes
+    ----------
+    velocity : ndarray, shape (n,)
+        Tabulated mean velocities, m/s, increasing, both signs; the drive velocity among them.
+    table : ndarray, shape (n, 10)
+        Mean, highest and lowest friction along the drive, the same across, over
+        :math:`\mu F_N`; power of the vibration, dissipated by friction, dissipated in the drive's
+        damper by what the vibration shakes, and untransferred, W.
+    full_friction : float
+        :math:`\mu F_N`, N; approached at velocities far above the vibration's.
+    residual : float
+        Largest change of a state over its cycle in the table.
+    viscous : float
+        Viscous friction over :math:`\mu F_N`, s/m, which adds to it at high velocities.
+    missing : tuple of float
+        Mean velocities without a periodic state, m/s, over which is interpolated; those next to
+        the drive velocity first.
+    """
+
+    velocity: FloatArray
+    table: FloatArray
+    full_friction: float
+    residual: float
+    viscous: float = 0.0
+    missing: tuple[float, ...] = ()
+
+    @functools.cached_property
+    def arguments(self) -> tuple[FloatArray, FloatArray, float]:
+        """Breakpoints, coefficients and viscous part of the mean force, for `interpolate`."""
+        return *self._pieces(FORCE), self.viscous
+
+    def _pieces(self, column: int) -> tuple[FloatArray, FloatArray]:
+        from scipy.interpolate import PchipInterpolator
+
+        cubic: Any = PchipInterpolator(self.velocity, self.table[:, column])
+        return np.ascontiguousarray(cubic.x), np.ascontiguousarray(cubic.c)
+
+    @overload
+    def __call__(self, velocity: float) -> float: ...
+    @overload
+    def __call__(self, velocity: FloatArray) -> FloatArray: ...
+    def __call__(self, velocity: float | FloatArray) -> float | FloatArray:
+        """Mean friction force in N at mean velocities in m/s."""
+        values = np.atleast_1d(np.asarray(velocity, dtype=float))
+        if not np.all(np.isfinite(values)):
+            raise InputError("the velocity is not finite; give finite velocities in m/s")
+        force = self.full_friction * np.array(
+            [interpolate(v, *self.arguments) for v in values.ravel()]
+        )
+        return float(force[0]) if np.ndim(velocity) == 0 else force.reshape(values.shape)
+
+    def column(self, column: int, velocity: FloatArray) -> FloatArray:
+        """One column of the table at some velocities; beyond its ends, that of the end."""
+        breaks, c = self._pieces(column)
+        inside = np.clip(velocity, breaks[0], breaks[-1])
+        return np.array([interpolate(v, breaks, c, 0.0) for v in inside])
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of the law's numbers should know."""
+        if not self.missing:
+            return ()
+        count = len(self.missing)
+        places = ", ".join(f"{velocity:.3g}" for velocity in self.missing[:_NAMED])
+        more = f" and {count - _NAMED} more" if count > _NAMED else ""
+        return (
+            f"no periodic state was found at {count} of {count + len(self.velocity) - 1} mean "
+            f"velocities, which are interpolated over: {places} m/s{more}",
+        )
+
+
+def homogenise(model: Model) -> HomogenisedLaw:
+    """Tabulate the cycle-mean friction of a body with its mass, drive and vibration.
+
+    Without vibration it is the friction of steady sliding. Single mean velocities without a
+    periodic state are interpolated over.
+
+    Raises
+    ------
+    InputError
+        The case cannot be solved for its periodic state.
+    ConvergenceError
+        More than a fifth of the mean velocities have no periodic state, or the drive velocity is
+        not between those that have one.
+    """
+    if not model.vibrates:
+        return _without_vibration(model)
+    speeds = _grid(model)
+    # A wave whose halves mirror each other does not notice half a turn.
+    symmetric = model.vibration is not None and model.vibration.waveform != "sampled"
+    tried = speeds if symmetric else np.concatenate([speeds, -speeds])
+    rows, missing, residual = _rows(model, tried)
+    front = {v: row for v, row in rows.items() if v > 0.0}
+    back = {v: row[_SWAPPED] * _MIRROR for v, row in rows.items() if v < 0.0}
+    if symmetric:
+        back = {-v: row[_SWAPPED] * _MIRROR for v, row in front.items()}
+        missing += [-v for v in missing]
+    drive = model.slider.drive_velocity
+    if not front or not back or not drive <= max(front):
+        raise ConvergenceError(
+            f"slider.drive_velocity is {drive:g} m/s and no periodic state was found at or above "
+            "it; solve.method 'march' shows what the body does"
+        )
+    found = np.array(sorted([*back, 0.0, *front]))
+    rest = 0.5 * (front[min(front)] + back[max(back)])
+    return HomogenisedLaw(
+        velocity=found,
+        table=np.array([(rest if v == 0.0 else front[v] if v > 0.0 else back[v]) for v in found]),
+        full_friction=model.full_friction,
+        residual=residual,
+        viscous=model.friction.viscous_damping / model.full_friction,
+        missing=tuple(sorted(missing, key=lambda v: abs(v - drive))),
+    )
+
+
+def _grid(model: Model) -> FloatArray:
+    peak, drive = model.peak_velocity, model.slider.drive_velocity
+    # Rigid friction goes as asin(v/v_a): even spacing in the angle follows its steep end.
+    below = peak * np.sin(0.5 * math.pi * np.arange(1, _POINTS_BELOW + 1) / _POINTS_BELOW)
+    highest = max(_HIGHEST * peak, 4.0 * drive, 4.0 * model.friction.stribeck_velocity)
+    above = np.geomspace(peak, highest, _POINTS_ABOVE + 1)[1:]
+    # Near rest Coulomb's force is proportional to the velocity, and a cycle takes many steps.
+    first = [] if model.friction.model == "coulomb" else [_LOWEST * peak]
+    return _with_drive(np.concatenate([first, below, above]), drive)
+
+
+def _with_drive(speeds: FloatArray, drive: float) -> FloatArray:
+    # A steady march ends at the drive velocity, where the table is then exact.
+    speeds[np.argmin(np.abs(speeds - drive))] = drive
+    return speeds
+
+
+def _rows(
+    model: Model, velocities: Iterable[float]
+) -> tuple[dict[float, FloatArray], list[float], float]:
+    """Rows of the table by velocity, the velocities without one, and the largest residual."""
+    velocities = [float(v) for v in velocities]
+    rows: dict[float, FloatArray] = {}
+    missing: list[float] = []
+    residual = 0.0
+    for velocity in velocities:
+        try:
+            rows[velocity], left = _row(model, velocity)
+        except (ConvergenceError, InputError) as error:
+            # A step can be too coarse at the table's ends; at the drive velocity it is the case's.
+            if isinstance(error, InputError) and velocity == model.slider.drive_velocity:
+                raise
+            missing.append(velocity)
+            if len(missing) > _MOST_MISSING * len(velocities):
+                raise ConvergenceError(
+                    f"no periodic state was found at more than a fifth of {len(velocities)} mean "
+                    f"velocities, at {velocity:.4g} m/s: {error}",
+                    reached=getattr(error, "reached", None),
+                ) from None
+        else:
+            residual = max(residual, left)
+    return rows, missing, residual
+
+
+def _row(model: Model, velocity: float) -> tuple[FloatArray, float]:
+    if model.vibration is None:
+        raise InputError("nothing vibrates")
+    slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)})
+    vibration = model.vibration.model_copy(
+        update={
+            "velocity_ratio": None,
+            "velocity_amplitude": None,
+            "displacement_amplitude": model.amplitude,
+            "direction": model.direction + (math.pi if velocity < 0.0 else 0.0),
+        }
+    )
+    at = dataclasses.replace(model, slider=slider, vibration=vibration)
+    answer = solve_periodic(at, history=False)
+    force = model.full_friction
+    ledger = answer.ledger
+    if ledger is None:
+        raise ConvergenceError("a periodic state came without its ledger")
+    row = np.empty(COLUMNS)
+    row[[FORCE, FORCE_Y]] = answer.ratio, answer.friction_mean[1] / force
+    row[[HIGHEST_X, HIGHEST_Y]] = np.array(answer.friction_max) / force
+    row[[LOWEST_X, LOWEST_Y]] = np.array(answer.friction_min) / force
+    row[[POWER_IN, POWER_LOST]] = ledger.vibration, ledger.friction
+    # The drive of a periodic state goes at the body's mean velocity: its damper takes the shaking
+    # alone. What a slow motion against the drive loses there comes on top.
+    row[[POWER_DAMPED, UNTRANSFERRED]] = ledger.damping, ledger.untransferred
+    return row, answer.residual
+
+
+def _without_vibration(model: Model) -> HomogenisedLaw:
+    friction, drive = model.friction, model.slider.drive_velocity
+    force = model.full_friction
+    scales = [v for v in (drive, friction.stribeck_velocity) if v > 0.0]
+    points = _POINTS_BELOW + _POINTS_ABOVE
+    speeds = np.geomspace(_LOWEST * min(scales), _HIGHEST * max(scales), points)
+    speeds = _with_drive(speeds, drive)
+    ratio = (friction.static_mu or friction.mu) / friction.mu
+    viscous = friction.viscous_damping / force
+    share = np.array([stribeck_share(v, ratio, friction.stribeck_velocity) for v in speeds])
+    share += viscous * speeds
+    front = np.zeros((points, COLUMNS))
+    front[:, [FORCE, HIGHEST_X, LOWEST_X]] = share[:, None]
+    front[:, POWER_LOST] = share * force * speeds
+    back = front[::-1, _SWAPPED] * _MIRROR
+    return HomogenisedLaw(
+        velocity=np.concatenate([-speeds[::-1], [0.0], speeds]),
+        table=np.concatenate([back, np.zeros((1, COLUMNS)), front]),
+        full_friction=force,
+        residual=0.0,
+        viscous=viscous,
+    )
