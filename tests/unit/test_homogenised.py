@@ -333,6 +333,8 @@ def test_the_note_counts_what_is_missing_and_names_the_nearest_first(monkeypatch
     assert note.endswith(f" m/s and {2 * len(around) - 4} more")
     assert holes(0.5e-3) == pytest.approx(law(0.5e-3), rel=1e-3)
     assert law.notes == ()
+    answer = solve(body("table-4.3", "solve.method=homogenised"), history=False)
+    assert "without a state at the drive velocity" in answer.notes[0]
 
 
 def test_more_than_a_fifth_missing_is_refused(monkeypatch):

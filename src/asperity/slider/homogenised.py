@@ -279,7 +279,7 @@ def _result(
         cycles=0,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
-        notes=(_what_it_is(model), *law.notes),
+        notes=(_what_it_is(model, law), *law.notes),
     )
     numbers = [value for value in answer.to_json().values() if isinstance(value, float)]
     if not np.all(np.isfinite(numbers)):
@@ -290,9 +290,12 @@ def _result(
     return answer
 
 
-def _what_it_is(model: Model) -> str:
+def _what_it_is(model: Model, law: HomogenisedLaw) -> str:
     if model.vibrates:
-        return "friction and powers are means over a vibration cycle, from a table"
+        means = "friction and powers are means over a vibration cycle, from a table"
+        if model.slider.drive_velocity not in law.missing:
+            return means
+        return f"{means} without a state at the drive velocity itself: compare solve.method 'march'"
     return (
         "nothing vibrates: this is steady sliding at the drive velocity; solve.method 'march' "
         "shows the motion"
