@@ -529,3 +529,10 @@ class TestVariants:
             *minimal(run={"through_travel_torque": "80 N m"}), output_torque=[300.0, 600.0]
         ).given
         assert given.through_travel_torque == 80.0
+
+
+def test_a_number_that_could_not_be_had_is_null_under_its_promised_key():
+    case = read_case("gearset-3", TABLES, ["operation.output_torque=1e9 N m"])
+    answer = rate_case(case, ("iso14521",)).to_json()["iso14521"]
+    assert answer["safety_wear"] is None
+    assert answer["eta_z1_2"] == pytest.approx(0.7326, abs=1e-4)

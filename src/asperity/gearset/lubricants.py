@@ -17,10 +17,14 @@ from asperity.units import Quantity
 _MM2 = 1e-6
 _ZERO_CELSIUS = 273.15
 
-Density = Annotated[float, Quantity("kg/m^3", what="a density", example="890 kg/m^3", gt=0)]
+Density = Annotated[
+    float, Quantity("kg/m^3", what="a density", example="890 kg/m^3", gt=300, lt=3000)
+]
 Viscosity = Annotated[
     float,
-    Quantity("m^2/s", what="a kinematic viscosity", example="68 mm^2/s", ge=oil.THINNEST * _MM2),
+    Quantity(
+        "m^2/s", what="a kinematic viscosity", example="68 mm^2/s", ge=oil.THINNEST * _MM2, le=0.1
+    ),
 ]
 
 

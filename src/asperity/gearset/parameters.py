@@ -138,9 +138,9 @@ class Gearset(Table):
     ] = math.radians(20.0)
     flank: Flank = "ZI"
     hand: Literal["right", "left"] = "right"
-    worm_roughness: Annotated[float, Quantity("m", what="a roughness", example="1.6 um", gt=0)] = (
-        0.5e-6
-    )
+    worm_roughness: Annotated[
+        float, Quantity("m", what="a roughness", example="1.6 um", gt=0, le=1e-4)
+    ] = 0.5e-6
     worm_material: WormMaterial
     wheel_material: WheelMaterial
     worm_face_width: Length | None = None

@@ -25,6 +25,21 @@ if TYPE_CHECKING:
     from rich.console import Group
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
+
+# Keys a reader of the JSON may count on: null where the number could not be had.
+PROMISED = {
+    "iso14521": (
+        "sliding_velocity_m_s", "mu_0T", "mu_zm", "Y_S", "Y_G", "Y_W", "Y_R", "h_star",
+        "p_m_star", "s_star", "eta_z1_2", "eta_z2_1", "eta_ges", "input_power_W",
+        "input_torque_Nm", "loss_meshing_W", "loss_idle_W", "loss_bearing_W", "loss_seal_W",
+        "sigma_Hm_MPa", "safety_wear", "safety_pitting", "safety_deflection", "safety_root",
+        "safety_temperature",
+    ),
+    "bs721": ("M_26k_Nm", "M_w_Nm", "M_s_Nm"),
+    "agma6034": (
+        "mu", "eta", "allowable_torque_Nm", "bending_stress_MPa", "C_s", "C_m", "C_v",
+    ),
+}  # fmt: skip
 """The standards, by the name they have in results."""
 
 
@@ -70,7 +85,10 @@ class Rated:
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""
-        found = {name: rating.to_json() for name, rating in self.found.items()}
+        found = {
+            name: dict.fromkeys(PROMISED[name]) | rating.to_json()
+            for name, rating in self.found.items()
+        }
         return {
             "name": self.gearset.name,
             "geometry": self.geometry.to_json(),
