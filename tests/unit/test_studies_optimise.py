@@ -277,3 +277,10 @@ def test_a_climb_without_an_allowed_point_has_no_top():
     assert (
         climb(lambda points: np.stack([points[:, 0], points[:, 0] - 2.0], -1), spread(1, 2)) is None
     )
+
+
+def test_a_fixed_tooth_friction_leaves_nothing_to_optimise():
+    case = read_case("gearset-2", TABLES, ["rating.friction=0.05"])
+    tables = case.require(Gearset), case.require(Operation), case.require(RatingOptions)
+    with pytest.raises(InputError, match=r"^rating.friction is 0.05, .* leave it out"):
+        optimise(*tables)

@@ -172,7 +172,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
 
 
 def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
-    notes = []
+    notes = ["the friction force W_f is taken as Shigley has it, so that losses and e_W agree"]
     if not given.gearset.worm_material.hardened:
         notes.append(
             f"the worm of {given.gearset.worm_material.name} is not known to be hardened to 58 HRC "

@@ -42,6 +42,9 @@ def rate_iso14521(given: Inputs) -> Rating:
     )
 
 
+_HOTTEST_GIVEN = 100.0
+
+
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     own = violations(
         centre_distance=given.centre_distance,
@@ -66,6 +69,26 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
         notes.append(
             "the oil temperature is that of a splash-lubricated gearbox, though the lubrication is "
             "by spray: give operation.oil_temperature"
+        )
+    worn = wear_constants(
+        given.gearset.wheel_material.family,
+        given.operation.lubrication,
+        given.operation.lubricant.base_oil,
+    )
+    if values["J_0T"] >= worn.cap:
+        notes.append(
+            f"the wear intensity stands at its cap of {worn.cap:g}: safety_wear rests on that"
+        )
+    if values["theta_M_degC"] > _HOTTEST_GIVEN:
+        notes.append(
+            f"the wheel's bulk temperature is {values['theta_M_degC']:.0f} degC: the oil's "
+            "viscosity is extrapolated beyond the 100 degC it is given at"
+        )
+    if given.oil_temperature is None and given.through_travel_torque < given.output_torque:
+        notes.append(
+            "the oil is as hot as under the rated torque all the time; wear goes by the "
+            "through-travel torque at that temperature: give operation.oil_temperature if it is "
+            "cooler"
         )
     return tuple(notes)
 

@@ -168,6 +168,11 @@ def optimise(
     """
     if starts < 1 or starts & (starts - 1):
         raise InputError(f"starts is {starts}; it must be a power of two, such as {STARTS}")
+    if options is not None and options.friction is not None:
+        raise InputError(
+            f"rating.friction is {options.friction:g}, on which pressure angle and roughness have "
+            "no say; leave it out, or use rating.base_friction or rating.friction_factor"
+        )
     space = Space(gearset, operation, options, bounds, folder)
     kept = space.numbers(space.start)
 
