@@ -205,7 +205,8 @@ def update(deflection, slip_1, slip_2, limit, exponent, law):
     Notes
     -----
     Thesis (17), (44)-(59) in the limit of small steps. ``vector`` is exact for slip of constant
-    direction and passive for any size of slip; the others are exponential midpoint steps.
+    direction, and the work put into it over a path is never less than what it stores; the others
+    are exponential midpoint steps.
     """
     sx = deflection[0] / limit
     sy = deflection[1] / limit

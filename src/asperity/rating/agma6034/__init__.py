@@ -24,7 +24,7 @@ from asperity.rating.agma6034.forces import (
     wheel_load_from_power,
     worm_tangential_load,
 )
-from asperity.rating.agma6034.limits import LIFE_HOURS, SOURCES, VALIDITY, Jump, jumps
+from asperity.rating.agma6034.limits import LIFE_HOURS, SOURCES, VALIDITY, jumps
 from asperity.rating.agma6034.mesh import (
     friction,
     maximum_lead_angle,
@@ -42,6 +42,7 @@ from asperity.rating.agma6034.thermal import (
     sump_temperature,
 )
 from asperity.rating.agma6034.units import Units
+from asperity.rating.jump import Jump
 
 __all__ = [
     "LIFE_HOURS",

@@ -1,6 +1,5 @@
 """Where AGMA 6034-B92 is valid, where its formulas jump, and how far each can be trusted."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping
 
@@ -9,6 +8,7 @@ import numpy as np
 from asperity.rating.agma6034.capacity import ratio_correction_factor, velocity_factor
 from asperity.rating.agma6034.mesh import friction
 from asperity.rating.agma6034.units import VELOCITY
+from asperity.rating.jump import Jump
 from asperity.sources import Range, Source
 
 LIFE_HOURS = 25000.0
@@ -57,34 +57,6 @@ VALIDITY: Mapping[str, Range] = {
     "worm_hardness": Range("hardness of the worm", 58.0, math.inf, "HRC", _FROM_MEMORY),
 }
 """Where the standard is valid, by the parameter; see also `maximum_lead_angle`."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Jump:
-    """A jump of a formula at one of its own branch points.
-
-    Attributes
-    ----------
-    formula : str
-        Name of the function.
-    at : float
-        Where, in ``unit``.
-    unit : str
-        Unit of ``at``; ``""`` for a ratio.
-    before, after : float
-        Values on both sides of it. At rest: at zero, and just above.
-    """
-
-    formula: str
-    at: float
-    unit: str
-    before: float
-    after: float
-
-    @property
-    def relative(self) -> float:
-        """Height of the jump over the value before it."""
-        return self.after / self.before - 1.0
 
 
 def _by_velocity(formula: Callable[..., float]) -> Callable[[float], float]:
