@@ -1,0 +1,1 @@
+"""Elastic bodies in contact: condensed to the nodes that touch, with friction of our own."""

@@ -1,0 +1,129 @@
+"""The `[block]` and `[contact]` tables: the elastic body and how its surface meets another."""
+
+import math
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, field_validator
+
+from asperity.casefile import Table
+from asperity.errors import InputError
+from asperity.units import Quantity
+
+# Ten times as stiff as the layer of elements it stands on: the overclosure then adds a tenth to
+# the squeeze of that layer, and the equations stay well conditioned.
+_PENALTY = 10.0
+
+_Length = Annotated[float, Quantity("m", what="a length", example="40 mm", gt=0)]
+_Count = Annotated[int, Field(strict=True, ge=1, le=1000)]
+
+
+class Block(Table):
+    r"""An elastic block on a base, meshed with hexahedra; thesis 5.3.1.
+
+    The mass is that of ``[slider]``: it makes the density.
+
+    Parameters
+    ----------
+    size : sequence of 3 floats or str
+        Edges along the drive (x), across it (y) and normal to the base (z), m.
+    youngs_modulus : float or str
+        :math:`E > 0`, Pa.
+    poissons_ratio : float
+        :math:`\nu`, 0 to below 0.5.
+    elements : sequence of 3 int
+        Elements along the three edges, 1 to 1000 each.
+    element : {'hex27', 'hex8', 'hex8i'}
+        27-node triquadratic (default), 8-node trilinear, or 8-node with incompatible modes.
+    modes : int
+        Fixed-interface modes that carry the inertia of the deformation (Craig-Bampton); 0 for
+        none: the block deforms as in statics and moves as a rigid body.
+    """
+
+    table: ClassVar[str] = "block"
+
+    size: tuple[_Length, _Length, _Length]
+    youngs_modulus: Annotated[float, Quantity("Pa", what="a modulus", example="209 GPa", gt=0)]
+    poissons_ratio: Annotated[float, Quantity("", what="a ratio", example="0.3", ge=0, lt=0.5)]
+    elements: tuple[_Count, _Count, _Count] = (8, 6, 6)
+    element: Literal["hex27", "hex8", "hex8i"] = "hex27"
+    modes: Annotated[int, Field(strict=True, ge=0, le=1000)] = 0
+
+    @field_validator("size", "elements", mode="before")
+    @classmethod
+    def _three(cls, value: object) -> object:
+        if not isinstance(value, list | tuple) or len(value) != 3:
+            raise ValueError("it must be a list of three: along the drive, across it, and upwards")
+        return value
+
+    @property
+    def area(self) -> float:
+        """Nominal contact area, m^2."""
+        return self.size[0] * self.size[1]
+
+    @property
+    def volume(self) -> float:
+        """Volume, m^3."""
+        return math.prod(self.size)
+
+    def density(self, mass: float) -> float:
+        """Density that gives the block a mass in kg, kg/m^3."""
+        return mass / self.volume
+
+    @property
+    def order(self) -> int:
+        """Polynomial order of the elements: 1 or 2."""
+        return 2 if self.element == "hex27" else 1
+
+
+class Contact(Table):
+    """How pressure grows where a surface meets another.
+
+    Parameters
+    ----------
+    normal : {'linear', 'two-stage', 'hard'}
+        Pressure in proportion to the overclosure (default); soft, then stiff, as in the thesis's
+        Figure 5.3; no overclosure (augmented Lagrangian).
+    stiffness : float or str, optional
+        Pressure per overclosure, Pa/m: of the straight line, of the final stage, or the penalty
+        the augmented Lagrangian starts from. Left out or ``"auto"``: see `normal_stiffness`.
+    """
+
+    table: ClassVar[str] = "contact"
+
+    normal: Literal["linear", "two-stage", "hard"] = "linear"
+    stiffness: (
+        Annotated[
+            float,
+            Quantity("Pa/m", what="'auto' or a pressure per length", example="40 GPa/um", gt=0),
+        ]
+        | None
+    ) = None
+
+    @field_validator("stiffness", mode="before")
+    @classmethod
+    def _automatic(cls, value: object) -> object:
+        return None if isinstance(value, str) and value.strip() == "auto" else value
+
+    def normal_stiffness(self, youngs_modulus: float, element_height: float) -> float:
+        """Pressure per overclosure, Pa/m: as given, or ten times that of the elements in contact.
+
+        Parameters
+        ----------
+        youngs_modulus : float
+            Of the softer body, Pa.
+        element_height : float
+            Height of its elements at the contact, normal to it, m.
+
+        Returns
+        -------
+        float
+            ``stiffness``, or ``10 E / h``.
+        """
+        if self.stiffness is not None:
+            return self.stiffness
+        if not (youngs_modulus > 0.0 and element_height > 0.0):
+            raise InputError(
+                f"youngs_modulus is {youngs_modulus:g} Pa and element_height {element_height:g} m; "
+                "both must be positive"
+            )
+        return _PENALTY * youngs_modulus / element_height
