@@ -1,0 +1,7 @@
+"""Meshes of hexahedra: what they are, and their files."""
+
+from asperity.mesh.box import box
+from asperity.mesh.hexmesh import HexMesh
+from asperity.mesh.merge import merged
+
+__all__ = ["HexMesh", "box", "merged"]
