@@ -1,0 +1,1 @@
+"""Worm, hob and enveloped wheel from the equation of meshing."""

@@ -1,0 +1,190 @@
+"""The tables that say how flanks are made and mounted: hob, grinding disc, modification, mount."""
+
+import math
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import BeforeValidator
+
+from asperity.casefile import Table
+from asperity.errors import InputError
+from asperity.sources import Source
+from asperity.units import Quantity, split_unit, to_si
+
+_MILLIMETRES = 1e3
+_LEAST_ROUNDING = 0.01
+
+DISC_DIAMETER = 0.5
+"""Diameter of the grinding disc of ZK and ZC, m, where none is given."""
+DISC_PROFILE_RADIUS = 6.0
+"""Radius of the disc's profile of ZC, in axial modules, where none is given."""
+HOB_TIP_RADIUS = 0.25
+"""Tip rounding of the hob, in axial modules, where none is given."""
+
+SOURCES = {
+    "disc.diameter": Source(
+        "common practice", "from memory", "a new disc of 500 mm; the flank changes little with it"
+    ),
+    "disc.profile_radius": Source("ISO/TR 10828", "from memory", "5 to 7 modules are common"),
+    "hob.tip_radius": Source("common practice", "from memory"),
+}
+"""Where the values come from that are assumed when none is given."""
+
+
+def _size(value: object) -> str:
+    """Return a size in modules or a length, as one text whatever way it was written."""
+    expected = "it must be a number of modules such as '0.25', or a length such as '0.5 mm'"
+    parts = split_unit(value) if isinstance(value, str) else None
+    try:
+        if parts is not None and parts[1]:
+            size, text = to_si(value, "m"), "{!r} m"
+        else:
+            size, text = to_si(value, ""), "{!r}"
+    except InputError:
+        raise InputError(expected) from None
+    if size < 0.0 or (text == "{!r}" and not _LEAST_ROUNDING <= size <= 1.0) or size == 0.0:
+        raise InputError(f"it must be positive, and from {_LEAST_ROUNDING:g} to 1 in modules")
+    return text.format(size)
+
+
+Size = Annotated[str, BeforeValidator(_size)]
+
+
+def size_in_mm(size: str, module: float) -> float:
+    """Return a size of a case file in mm, where it may be given in modules (mm)."""
+    parts = split_unit(size)
+    if parts is not None and parts[1]:
+        return to_si(size, "m") * _MILLIMETRES
+    return float(size) * module
+
+
+class Hob(Table):
+    r"""The hob that cuts the wheel; left out, it is the worm with a longer thread.
+
+    Parameters
+    ----------
+    oversize : float
+        Ratio of the pitch diameters of hob and worm; 1 if left out. The centre distance at which
+        the hob cuts follows.
+    rule : {'normal-module', 'axial-module'}
+        What an oversized hob has in common with the worm. With the normal module (left out) the
+        lead angle becomes smaller; with the axial module the wheel bears near a face edge.
+    tilt : float or str
+        Angle that the hob is turned by about the common normal of the axes, rad ("2 deg" in a
+        file); positive adds to its lead angle, for either hand.
+    tip_radius : str, optional
+        Rounding of its thread in the axial section: a number of axial modules ("0.25") or a length
+        ("0.5 mm"). Left out: 0.25 modules, or as much as the thread's tip has room for.
+    """
+
+    table: ClassVar[str] = "hob"
+
+    oversize: Annotated[
+        float, Quantity("", what="a ratio of diameters", example="1.12", ge=1.0, le=2.0)
+    ] = 1.0
+    rule: Literal["normal-module", "axial-module"] = "normal-module"
+    tilt: Annotated[
+        float,
+        Quantity(
+            "rad",
+            what="an angle",
+            example="2 deg",
+            ge=-math.radians(20.0),
+            le=math.radians(20.0),
+        ),
+    ] = 0.0
+    tip_radius: Size | None = None
+
+
+class Disc(Table):
+    r"""The disc that grinds a ZK or ZC worm, straight-sided or with a convex arc as profile.
+
+    Its axis stands at the worm's lead angle, and its middle plane cuts the worm in the normal
+    section of the thread space. The hob's flanks are made with the same disc.
+
+    Parameters
+    ----------
+    diameter : float or str
+        Where the disc touches the pitch cylinder, m; 500 mm if left out.
+    profile_radius : float or str, optional
+        Radius of the arc of ZC, m. Left out: 6 axial modules.
+    """
+
+    table: ClassVar[str] = "disc"
+
+    diameter: Annotated[float, Quantity("m", what="a length", example="500 mm", gt=0, le=5.0)] = (
+        DISC_DIAMETER
+    )
+    profile_radius: (
+        Annotated[float, Quantity("m", what="a length", example="13 mm", gt=0, le=5.0)] | None
+    ) = None
+
+
+class Modification(Table):
+    r"""How the worm's flanks deviate from those of its type, both alike; the hob's do not.
+
+    Parameters
+    ----------
+    lead_correction : float or str
+        Added to the lead angle at the pitch radius, rad ("0.05 deg" in a file). The pitch follows.
+    tip_relief : float or str
+        What is taken off at the tip, normal to the flank, m ("10 um" in a file).
+    tip_relief_start : float
+        Where the relief begins, as a fraction of the addendum: 0 at the pitch radius (the
+        modification of a worm that drives a yielding wheel), 0.5 if left out. It grows with the
+        third power of the distance from there, so that no edge arises.
+    tip_rounding : str
+        Rounding of the thread's tip: a number of axial modules or a length; 0.05 modules if left
+        out.
+    """
+
+    table: ClassVar[str] = "modification"
+
+    lead_correction: Annotated[
+        float,
+        Quantity(
+            "rad", what="an angle", example="0.05 deg", ge=-math.radians(5.0), le=math.radians(5.0)
+        ),
+    ] = 0.0
+    tip_relief: Annotated[
+        float, Quantity("m", what="a length", example="10 um", ge=0.0, le=1e-2)
+    ] = 0.0
+    tip_relief_start: Annotated[
+        float, Quantity("", what="a fraction of the addendum", example="0.5", ge=0.0, le=0.95)
+    ] = 0.5
+    tip_rounding: Size = "0.05"
+
+
+class Mount(Table):
+    r"""How the worm stands in the mesh; left out, where it should.
+
+    Parameters
+    ----------
+    centre_distance_error : float or str
+        Added to the centre distance, m.
+    axial_offset : float or str
+        Offset of the worm along the wheel's axis, m.
+    shaft_angle_error : float or str
+        Angle that the worm's axis is turned by about the common normal, rad, from the wheel's
+        tangent towards the wheel's axis.
+    backlash : float or str, optional
+        Least play between worm and wheel, normal to the flanks, m; it is made by the thickness of
+        the worm's threads. Left out: what hob and worm of nominal thickness leave.
+    """
+
+    table: ClassVar[str] = "mount"
+
+    centre_distance_error: Annotated[
+        float, Quantity("m", what="a length", example="0.05 mm", ge=-0.01, le=0.01)
+    ] = 0.0
+    axial_offset: Annotated[
+        float, Quantity("m", what="a length", example="0.1 mm", ge=-0.01, le=0.01)
+    ] = 0.0
+    shaft_angle_error: Annotated[
+        float,
+        Quantity(
+            "rad", what="an angle", example="0.1 deg", ge=-math.radians(5.0), le=math.radians(5.0)
+        ),
+    ] = 0.0
+    backlash: (
+        Annotated[float, Quantity("m", what="a length", example="0.05 mm", ge=0.0, le=0.01)] | None
+    ) = None
