@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case, variants
-from asperity.rating.tables import TABLES
 
 
 def rated(name, *settings):

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions
 from asperity.rating.studies import compare, optimise, sensitivity
-from asperity.rating.tables import TABLES
 
 RAISES = ("pressure_angle", "centre_distance", "worm_speed")
 LOWERS = ("gear_ratio", "diameter_factor", "axial_module", "worm_roughness")

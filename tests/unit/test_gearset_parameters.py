@@ -6,12 +6,12 @@ from math import cos
 import pytest
 
 from asperity.casefile import describe, read_case, shipped_cases
+from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.gearset.lubricants import lubricant
-from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.parameters import Operation
 
-TABLES = {table.table: table for table in (Gearset, Operation, RatingOptions)}
 STEEL, BRONZE = "case-hardened steel", "CuAl10Fe5Ni5-C-GZ"
 MACRO = {
     "centre_distance": "74.93 mm",

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import (
@@ -25,7 +26,6 @@ from asperity.rating.bs721 import equivalent_hours
 from asperity.rating.facts import facts, starts_from, words
 from asperity.rating.inputs import inputs
 from asperity.rating.iso14521 import FilmParameterError
-from asperity.rating.tables import TABLES
 
 FUNCTIONS = {"sqrt", "atan", "tan", "cos", "sin", "asin", "exp", "ln", "lg", "min", "max", "pi"}
 # Words of an equation that are neither functions nor symbols of numbers in the table: what a text

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.gearset.sizing import MODULES
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.studies import Bounds, search
-from asperity.rating.tables import TABLES
 from asperity.store import read_dataset, write_dataset
 
 RATIOS = [5.0, 10.0, 20.0, 40.0, 60.0, 100.0]

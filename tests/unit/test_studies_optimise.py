@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case
 from asperity.rating.studies import Bounds, optimise, trade_off
 from asperity.rating.studies.climb import climb, spread
 from asperity.rating.studies.design import VARIABLES, Space
-from asperity.rating.tables import TABLES
 from asperity.store import read_dataset, write_dataset
 
 

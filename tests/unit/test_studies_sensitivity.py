@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.studies import sensitivity
-from asperity.rating.tables import TABLES
 from asperity.store import read_dataset, write_dataset
 
 
