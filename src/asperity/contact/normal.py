@@ -1,0 +1,130 @@
+r"""Pressure against overclosure: linear, two-stage, hard.
+
+- ``linear``: :math:`p = k\,g` for an overclosure :math:`g > 0`.
+- ``two-stage``: stiffness :math:`k_i` up to :math:`g_1`, rising linearly with the overclosure to
+  :math:`k` at :math:`g_2`, and :math:`k` from there on: low initial, transition, high final
+  stiffness as in the thesis's Figure 5.3. Pressure and stiffness are continuous.
+- ``hard``: an augmented Lagrangian, :math:`p = \lambda + k\,g`, with multipliers
+  :math:`\lambda \ge 0` at the nodes that grow until the overclosure, averaged about each node, is
+  nil.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.compiled import kernel
+from asperity.errors import InputError, choices
+
+FloatArray = npt.NDArray[np.float64]
+
+LINEAR = 0
+TWO_STAGE = 1
+HARD = 2
+NORMALS = {"linear": LINEAR, "two-stage": TWO_STAGE, "hard": HARD}
+
+
+@kernel
+def pressure(over, multiplier, law):
+    """Contact pressure and its slope for an overclosure.
+
+    Parameters
+    ----------
+    over : float
+        Overclosure (minus the distance), m.
+    multiplier : float
+        The augmented Lagrangian's pressure at the point, Pa; 0 for the other laws.
+    law : ndarray
+        `NormalLaw.parameters`.
+
+    Returns
+    -------
+    pressure, slope : float
+        Pa and Pa/m; both 0 where the contact is open.
+    """
+    stiffness = law[1]
+    if law[0] == TWO_STAGE:
+        if over <= 0.0:
+            return 0.0, 0.0
+        soft = law[2]
+        first = law[3]
+        last = law[4]
+        if over <= first:
+            return soft * over, soft
+        rise = (stiffness - soft) / (last - first)
+        if over < last:
+            way = over - first
+            return soft * over + 0.5 * rise * way * way, soft + rise * way
+        way = last - first
+        return soft * last + 0.5 * rise * way * way + stiffness * (over - last), stiffness
+    value = multiplier + stiffness * over
+    if value <= 0.0:
+        return 0.0, 0.0
+    return value, stiffness
+
+
+@dataclass(frozen=True)
+class NormalLaw:
+    """How pressure grows with overclosure.
+
+    Attributes
+    ----------
+    name : {'linear', 'two-stage', 'hard'}
+        See the module.
+    stiffness : float
+        Pa/m: of the line, of the final stage, or the penalty of the augmented Lagrangian.
+    initial : float
+        ``two-stage``: initial stiffness, Pa/m.
+    start, end : float
+        ``two-stage``: overclosures between which the stiffness rises, m.
+    """
+
+    name: Literal["linear", "two-stage", "hard"] = "linear"
+    stiffness: float = 0.0
+    initial: float = 0.0
+    start: float = 0.0
+    end: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.name not in NORMALS:
+            raise InputError(f"normal law is {self.name!r}; allowed: {choices(NORMALS)}")
+        if not (np.isfinite(self.stiffness) and self.stiffness > 0.0):
+            raise InputError(
+                f"contact stiffness is {self.stiffness:g} Pa/m; it must be positive and finite"
+            )
+        if self.name == "two-stage":
+            if not 0.0 < self.initial <= self.stiffness:
+                raise InputError(
+                    f"initial stiffness is {self.initial:g} Pa/m; it must be positive and at most "
+                    f"the final {self.stiffness:g} Pa/m"
+                )
+            if not 0.0 <= self.start < self.end:
+                raise InputError(
+                    f"the stiffness rises from {self.start:g} m to {self.end:g} m; give "
+                    "0 <= start < end"
+                )
+
+    @classmethod
+    def two_stage(cls, stiffness: float, length: float) -> NormalLaw:
+        """Two stages by the size of the elements: a tenth of the stiffness up to 1 % of it.
+
+        Parameters
+        ----------
+        stiffness : float
+            Final stiffness, Pa/m.
+        length : float
+            Edge of an element in contact, m. The stiffness rises from 1 % to 3 % of it.
+        """
+        if not length > 0.0:
+            raise InputError(f"length is {length:g} m; it must be positive")
+        return cls("two-stage", stiffness, 0.1 * stiffness, 0.01 * length, 0.03 * length)
+
+    @property
+    def parameters(self) -> FloatArray:
+        """Code and numbers, as `pressure` takes them."""
+        code = float(NORMALS[self.name])
+        return np.array([code, self.stiffness, self.initial, self.start, self.end])

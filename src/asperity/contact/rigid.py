@@ -1,0 +1,121 @@
+"""Rigid counter-surfaces as signed distance with gradient and Hessian, and where they stand.
+
+Each surface has its own frame; a `Pose` puts it into space. The distance is positive outside the
+rigid material, so that its gradient is the normal along which the surface pushes.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.compiled import kernel
+from asperity.errors import InputError
+
+FloatArray = npt.NDArray[np.float64]
+
+PLANE = 0
+SPHERE = 1
+CYLINDER = 2
+
+
+@kernel
+def distance(x, y, z, surface):
+    """Signed distance of a point in the surface's own frame, with gradient and Hessian.
+
+    Parameters
+    ----------
+    x, y, z : float
+        The point, m.
+    surface : ndarray
+        `RigidSurface.parameters`.
+
+    Returns
+    -------
+    tuple of 10 floats
+        Distance, m; gradient (3); Hessian (xx, yy, zz, xy, xz, yz), 1/m.
+    """
+    code = int(surface[0])
+    if code == SPHERE:
+        size = math.sqrt(x * x + y * y + z * z)
+        side = surface[2]
+        if size == 0.0:
+            return -side * surface[1], 0.0, 0.0, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        nx = x / size
+        ny = y / size
+        nz = z / size
+        bend = side / size
+        return (
+            side * (size - surface[1]), side * nx, side * ny, side * nz,
+            bend * (1.0 - nx * nx), bend * (1.0 - ny * ny), bend * (1.0 - nz * nz),
+            -bend * nx * ny, -bend * nx * nz, -bend * ny * nz,
+        )  # fmt: skip
+    if code == CYLINDER:
+        size = math.sqrt(x * x + y * y)
+        side = surface[2]
+        if size == 0.0:
+            return -side * surface[1], side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        nx = x / size
+        ny = y / size
+        bend = side / size
+        return (
+            side * (size - surface[1]), side * nx, side * ny, 0.0,
+            bend * ny * ny, bend * nx * nx, 0.0, -bend * nx * ny, 0.0, 0.0,
+        )  # fmt: skip
+    return z, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class RigidSurface:
+    """A rigid surface in its own frame.
+
+    Attributes
+    ----------
+    name : str
+        What it is.
+    parameters : ndarray
+        Code and numbers, as `distance` takes them.
+    """
+
+    name: str
+    parameters: FloatArray
+
+    @classmethod
+    def plane(cls) -> RigidSurface:
+        """Plane z = 0 with the material below."""
+        return cls("plane", np.array([float(PLANE)]))
+
+    @classmethod
+    def sphere(cls, radius: float, *, inside: bool = False) -> RigidSurface:
+        """Sphere about the origin; ``inside``: a hollow, the material outside of it."""
+        return cls("sphere", _round(SPHERE, radius, inside))
+
+    @classmethod
+    def cylinder(cls, radius: float, *, inside: bool = False) -> RigidSurface:
+        """Cylinder about the z axis; ``inside``: a bore, the material outside of it."""
+        return cls("cylinder", _round(CYLINDER, radius, inside))
+
+
+def _round(code: int, radius: float, inside: bool) -> FloatArray:
+    if not (math.isfinite(radius) and radius > 0.0):
+        raise InputError(f"radius is {radius:g} m; it must be positive")
+    return np.array([float(code), radius, -1.0 if inside else 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where a surface stands: ``x = rotation @ own + translation``.
+
+    Attributes
+    ----------
+    rotation : ndarray, shape (3, 3)
+        Proper rotation.
+    translation : ndarray, shape (3,)
+        m.
+    """
+
+    rotation: FloatArray = field(default_factory=lambda: np.eye(3))
+    translation: FloatArray = field(default_factory=lambda: np.zeros(3))
