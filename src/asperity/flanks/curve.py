@@ -8,7 +8,7 @@ from there, so that both sides have the same curve.
 import math
 
 from asperity.compiled import kernel
-from asperity.flanks.profiles import axial
+from asperity.flanks.profiles import axial_at
 
 SIDE = 0
 LEAD = 1
@@ -25,13 +25,15 @@ RELIEF_FROM = 11
 RELIEF = 12
 BASE = 13
 COS_BASE = 14
-PROFILE = 15
+SIN_BASE = 15
+CLOSED_TO = 16
+PROFILE = 17
 
 
 @kernel
 def width(rho, params):
     """``(w, w', w'')``: half the thread space at a radius, as the flank goes on."""
-    w, w1, w2 = axial(rho, params[PROFILE:])
+    w, w1, w2 = axial_at(rho, params, PROFILE)
     w += params[SHIFT]
     x = rho - params[RELIEF_FROM]
     if x > 0.0:

@@ -237,9 +237,6 @@ class Helicoid:
         numbers[curve.ROUNDING] = self.tip_rounding
         numbers[curve.RELIEF_FROM] = start
         numbers[curve.RELIEF] = amount / (self.tip_radius - start) ** 3 if amount else 0.0
-        if base is not None:
-            numbers[curve.BASE] = base
-            numbers[curve.COS_BASE] = base / math.hypot(base, p)
         numbers[curve.PROFILE :] = self.profile.params
         end, middle, angle = self._tip_arc(numbers, self.tip_rounding)
         if middle >= self.half_pitch:
@@ -248,7 +245,12 @@ class Helicoid:
         numbers[curve.ARC_RADIUS] = self.tip_radius - self.tip_rounding
         numbers[curve.ARC_Z] = middle
         numbers[curve.ARC_ANGLE] = angle
-        numbers.setflags(write=False)
+        if base is not None:
+            numbers[curve.BASE] = base
+            numbers[curve.COS_BASE] = base / math.hypot(base, p)
+            numbers[curve.SIN_BASE] = p / math.hypot(base, p)
+            last = min(end, start)
+            numbers[curve.CLOSED_TO] = math.sqrt(max(last * last - base * base, 0.0))
         return numbers
 
     def _relief(self) -> tuple[float, float]:

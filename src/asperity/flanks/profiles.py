@@ -35,12 +35,12 @@ _HEADER = 4
 
 
 @kernel
-def ruled(rho, params):
+def ruled(rho, params, at):
     """``(f, f', f'')`` of a ruled flank; below the line's offset it goes on radially."""
-    p = params[1]
-    h = params[2]
-    slope = params[3]
-    excess = params[4]
+    p = params[at + 1]
+    h = params[at + 2]
+    slope = params[at + 3]
+    excess = params[at + 4]
     t2 = rho * rho - h * h
     if t2 <= 0.0:
         return -p * math.atan2(0.0, h), 0.0, 0.0
@@ -53,22 +53,22 @@ def ruled(rho, params):
 
 
 @kernel
-def tabulated(rho, params):
+def tabulated(rho, params, at):
     """``(f, f', f'')`` of a tabulated flank; parabolas go on beyond the ends."""
-    first = params[1]
-    step = params[2]
-    count = int(params[3])
+    first = params[at + 1]
+    step = params[at + 2]
+    count = int(params[at + 3])
     place = (rho - first) / step
     if place <= 0.0 or place >= count - 1:
         i = 0 if place <= 0.0 else count - 1
-        k = _HEADER + 3 * i
+        k = at + _HEADER + 3 * i
         x = rho - (first + i * step)
         curvature = params[k + 2]
         slope = params[k + 1] + curvature * x
         return params[k] + x * (params[k + 1] + 0.5 * curvature * x), slope, curvature
     i = int(place)
     x = place - i
-    k = _HEADER + 3 * i
+    k = at + _HEADER + 3 * i
     a0 = params[k]
     a1 = params[k + 1] * step
     a2 = 0.5 * params[k + 2] * step * step
@@ -87,11 +87,17 @@ def tabulated(rho, params):
 
 
 @kernel
+def axial_at(rho, params, at):
+    """`axial`, with the numbers of the profile from a place on: a view would cost more."""
+    if params[at] == RULED:
+        return ruled(rho, params, at)
+    return tabulated(rho, params, at)
+
+
+@kernel
 def axial(rho, params):
     """``(f, f', f'')`` of a flank at a radius, from the numbers of an `AxialProfile`."""
-    if params[0] == RULED:
-        return ruled(rho, params)
-    return tabulated(rho, params)
+    return axial_at(rho, params, 0)
 
 
 @kernel

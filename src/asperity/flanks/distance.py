@@ -1,0 +1,324 @@
+r"""Distance of any point to a worm, with gradient and Hessian, compiled.
+
+The worm is a solid: threads with flanks, rounded tips and tip lands, on a core. The distance
+:math:`d` is positive outside. It is exact where the nearest point of the surface is unique; where
+thread and core meet, the smaller of both distances is taken.
+
+For ZI the parallel surface of the flank is the flank itself, shifted along the axis. So the
+distance is a closed form, :math:`d = \cos\gamma_b\,[w(\rho) - s(\zeta - p\,\psi)]`, as long as the
+foot lies above the base cylinder; it is also the distance's own gradient that makes it fast. Any
+other flank, the tip's rounding and the radial flank below the base cylinder take Newton's method in
+two parameters (`asperity.flanks.foot`). With :math:`I` the metric of the surface,
+:math:`B_{ab} = g \cdot S_{,ab}` its curvature along the outward normal :math:`g`, and
+:math:`M = I - dB`, the Hessian is :math:`-S_{,a}\,(I^{-1} B M^{-1})_{ab}\,S_{,b}`.
+
+Coordinates are those of the worm's own frame with its axis along z, right-handed, in mm.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.compiled import kernel
+from asperity.errors import InputError
+from asperity.flanks.curve import (
+    ARC_ANGLE,
+    ARC_RADIUS,
+    ARC_Z,
+    BASE,
+    CLOSED_TO,
+    COS_BASE,
+    FLANK_END,
+    HALF_PITCH,
+    LEAD,
+    ROOT,
+    ROUNDING,
+    SHIFT,
+    SIDE,
+    SIN_BASE,
+    TIP,
+    width,
+)
+from asperity.flanks.foot import on_arc, on_flank
+from asperity.flanks.helicoid import Helicoid
+from asperity.flanks.profiles import FloatArray
+
+CLOSED = 0
+FLANK = 1
+ARC = 2
+CYLINDER = 3
+
+
+@kernel
+def place(rho, psi, z, params):
+    """``(s, v)``: the side that is nearest or asked for, and the axial place mirrored to s = 1."""
+    half = params[HALF_PITCH]
+    side = params[SIDE]
+    q = z - params[LEAD] * psi
+    if side == 0.0:
+        q -= 2.0 * half * math.floor(q / (2.0 * half) + 0.5)
+        if q < 0.0:
+            return -1.0, -q
+        return 1.0, q
+    q *= side
+    # The window reaches from inside the thread beyond the other flank of the space.
+    return side, q - 2.0 * half * math.floor(q / (2.0 * half) + 0.25)
+
+
+@kernel
+def reach(rho, v, params):
+    """``(kind, d, r, theta, w', w'')``: which surface is nearest, how far, and where its foot is.
+
+    On the flank ``r`` is the foot's radius and the derivatives are the flank's; on the tip's
+    rounding the fifth number is the arc's angle; on a cylinder ``r`` is the point's radius.
+    """
+    tip = params[TIP]
+    base = params[BASE]
+    root = params[ROOT]
+    if rho <= 0.5 * root:
+        return CYLINDER, rho - root, rho, 0.0, 0.0, 0.0
+    if rho >= tip and v >= params[ARC_Z]:
+        return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
+    kind = FLANK
+    radial = False
+    d = r = theta = w1 = w2 = 0.0
+    if base > 0.0:
+        t2 = rho * rho - base * base
+        radial = t2 <= 0.0
+        if not radial:
+            t = math.sqrt(t2)
+            slope = params[LEAD] / base
+            w = slope * t - params[LEAD] * math.atan2(t, base) + params[SHIFT]
+            d = params[COS_BASE] * (w - v)
+            foot = t - d * params[SIN_BASE]
+            radial = foot < 0.0
+            if not radial and foot <= params[CLOSED_TO]:
+                kind = CLOSED
+                r = rho
+                w1 = slope * t / rho
+                w2 = params[LEAD] * base / (t * rho * rho)
+    if kind == FLANK:
+        r, theta, w, w1, w2, _ = on_flank(rho, v, params, radial)
+        if r <= params[FLANK_END]:
+            p = params[LEAD]
+            normal = math.sqrt(1.0 + w1 * w1 + (p / r) ** 2)
+            dr = rho * math.cos(theta) - r
+            dt = -rho * math.sin(theta)
+            dz = v - w - p * theta
+            d = (w1 * dr + p / r * dt - dz) / normal
+        else:
+            kind = ARC
+            beta, theta, _ = on_arc(rho, v, params)
+            if beta < 0.0:
+                return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
+            beta = min(beta, params[ARC_ANGLE])
+            sine = math.sin(beta)
+            cosine = math.cos(beta)
+            p = params[LEAD]
+            r = params[ARC_RADIUS] + params[ROUNDING] * cosine
+            w1 = beta
+            dr = rho * math.cos(theta) - r
+            dt = -rho * math.sin(theta)
+            dz = v - params[ARC_Z] + params[ROUNDING] * sine - p * theta
+            lean = p * sine / r
+            d = (cosine * dr + lean * dt - sine * dz) / math.sqrt(1.0 + lean * lean)
+    if d < 0.0 and v >= params[ARC_Z] and rho - tip > d:
+        return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
+    if rho - root < d:
+        return CYLINDER, rho - root, rho, 0.0, 0.0, 0.0
+    return kind, d, r, theta, w1, w2
+
+
+@kernel
+def bend(a, b, a2, b2, r, p, gr, gt, gz, d):
+    """``K`` of the Hessian ``K_ab S_a S_b`` from the tangents (a, 0, b) and (0, r, p)."""
+    i11 = a * a + b * b
+    i12 = b * p
+    i22 = r * r + p * p
+    b11 = gr * a2 + gz * b2
+    b12 = gt * a
+    b22 = -gr * r
+    m11 = i11 - d * b11
+    m12 = i12 - d * b12
+    m22 = i22 - d * b22
+    m = m11 * m22 - m12 * m12
+    x11 = (b11 * m22 - b12 * m12) / m
+    x12 = (b12 * m11 - b11 * m12) / m
+    x21 = (b12 * m22 - b22 * m12) / m
+    x22 = (b22 * m11 - b12 * m12) / m
+    i = i11 * i22 - i12 * i12
+    k11 = -(i22 * x11 - i12 * x21) / i
+    k12 = -(i22 * x12 - i12 * x22) / i
+    k22 = -(i11 * x22 - i12 * x12) / i
+    return k11, k12, k22
+
+
+@kernel
+def distance_only(x, y, z, params):
+    """Distance of a point to the worm, mm; ``params`` from `Helicoid.distance_params`."""
+    rho = math.sqrt(x * x + y * y)
+    _, v = place(rho, math.atan2(y, x), z, params)
+    _, d, _, _, _, _ = reach(rho, v, params)
+    return d
+
+
+@kernel
+def distance(x, y, z, params):
+    """``(d, gx, gy, gz, hxx, hyy, hzz, hxy, hxz, hyz)`` of the distance to the worm, in mm.
+
+    ``params`` from `Helicoid.distance_params`. The gradient has unit length.
+    """
+    rho = math.sqrt(x * x + y * y)
+    s, v = place(rho, math.atan2(y, x), z, params)
+    kind, d, r, theta, w1, w2 = reach(rho, v, params)
+    cosine = 1.0
+    sine = 0.0
+    if rho > 0.0:
+        cosine = x / rho
+        sine = y / rho
+    p = params[LEAD]
+    if kind == CLOSED:
+        size = params[COS_BASE]
+        gr = size * w1
+        gt = size * s * p / rho
+        gz = -size * s
+        hrr = size * w2
+        htt = size * w1 / rho
+        hrt = -gt / rho
+        hrz = htz = hzz = 0.0
+    elif kind == CYLINDER:
+        gr = 1.0
+        gt = gz = hrr = hrt = hrz = htz = hzz = 0.0
+        htt = 1.0 / max(rho, 1e-9 * params[TIP])
+    else:
+        if kind == FLANK:
+            a, b, a2, b2 = 1.0, w1, 0.0, w2
+        else:
+            arc = params[ROUNDING]
+            a, b = arc * math.sin(w1), arc * math.cos(w1)
+            a2, b2 = -b, a
+        lean = p * a / r
+        size = math.sqrt(a * a + b * b + lean * lean)
+        gr = b / size
+        gt = lean / size
+        gz = -a / size
+        k11, k12, k22 = bend(a, b, a2, b2, r, p, gr, gt, gz, d)
+        hrr = k11 * a * a
+        htt = k22 * r * r
+        hzz = k11 * b * b + 2.0 * k12 * b * p + k22 * p * p
+        hrt = k12 * a * r * s
+        hrz = (k11 * b + k12 * p) * a * s
+        htz = (k12 * b + k22 * p) * r
+        gt *= s
+        gz *= s
+        turned = math.sin(theta) * s
+        straight = math.cos(theta)
+        cosine, sine = cosine * straight - sine * turned, sine * straight + cosine * turned
+    cc = cosine * cosine
+    ss = sine * sine
+    cs = cosine * sine
+    return (
+        d,
+        gr * cosine - gt * sine,
+        gr * sine + gt * cosine,
+        gz,
+        hrr * cc - 2.0 * hrt * cs + htt * ss,
+        hrr * ss + 2.0 * hrt * cs + htt * cc,
+        hzz,
+        (hrr - htt) * cs + hrt * (cc - ss),
+        hrz * cosine - htz * sine,
+        hrz * sine + htz * cosine,
+    )
+
+
+@kernel
+def distance_only_each(points, params, out):
+    """`distance_only` of every row of ``points``."""
+    for i in range(points.shape[0]):
+        out[i] = distance_only(points[i, 0], points[i, 1], points[i, 2], params)
+
+
+@kernel
+def distance_each(points, params, out):
+    """`distance` of every row of ``points``."""
+    for i in range(points.shape[0]):
+        (
+            out[i, 0],
+            out[i, 1],
+            out[i, 2],
+            out[i, 3],
+            out[i, 4],
+            out[i, 5],
+            out[i, 6],
+            out[i, 7],
+            out[i, 8],
+            out[i, 9],
+        ) = distance(points[i, 0], points[i, 1], points[i, 2], params)
+
+
+class Distances(NamedTuple):
+    """Distances to a worm with their derivatives.
+
+    Attributes
+    ----------
+    distance : ndarray
+        mm, positive outside.
+    gradient : ndarray
+        ``(..., 3)``, of unit length.
+    hessian : ndarray
+        ``(..., 3, 3)``, 1/mm.
+    """
+
+    distance: FloatArray
+    gradient: FloatArray
+    hessian: FloatArray
+
+
+def _rows(points: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
+    given = np.asarray(points, dtype=np.float64)
+    if given.shape[-1:] != (3,):
+        raise InputError(f"the points have the shape {given.shape}; it must end with 3")
+    if not np.isfinite(given).all():
+        raise InputError("a point is not finite; distances are between finite points")
+    return np.ascontiguousarray(given.reshape(-1, 3)), given.shape[:-1]
+
+
+def distances(points: npt.ArrayLike, helicoid: Helicoid, side: int = 0) -> FloatArray:
+    """Return the distances of points to a worm.
+
+    Parameters
+    ----------
+    points : array_like
+        ``(..., 3)`` in the worm's own frame, mm.
+    helicoid : Helicoid
+        The worm.
+    side : {0, 1, -1}
+        The flank of the thread space that counts; 0: the nearest.
+
+    Returns
+    -------
+    ndarray
+        ``(...)``, mm, positive outside.
+
+    Raises
+    ------
+    InputError
+        The points are not finite, or not points.
+    """
+    rows, shape = _rows(points)
+    out = np.empty(rows.shape[0])
+    distance_only_each(rows, helicoid.distance_params(side), out)
+    return out.reshape(shape)
+
+
+def distances_with_derivatives(
+    points: npt.ArrayLike, helicoid: Helicoid, side: int = 0
+) -> Distances:
+    """Return the distances of points to a worm with gradient and Hessian; see `distances`."""
+    rows, shape = _rows(points)
+    out = np.empty((rows.shape[0], 10))
+    distance_each(rows, helicoid.distance_params(side), out)
+    square = out[:, [4, 7, 8, 7, 5, 9, 8, 9, 6]].reshape(*shape, 3, 3)
+    return Distances(out[:, 0].reshape(shape), out[:, 1:4].reshape(*shape, 3), square)
