@@ -1,0 +1,261 @@
+"""Condensing an elastic body to its contact nodes: factorised once, kept on disk by content."""
+
+import dataclasses
+import time
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from asperity.contact.elastic import cache
+from asperity.contact.elastic.body import ElasticBody, elastic_body
+from asperity.contact.elastic.condensed import CondensedBody
+from asperity.contact.elastic.loads import Load
+from asperity.contact.elastic.material import ElasticMaterial
+from asperity.contact.elastic.solver import COLUMNS_AT_A_TIME, factor_bytes, installed_solver
+from asperity.errors import InputError
+from asperity.mesh import HexMesh
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+MEMORY_LIMIT = 8e9
+"""Default bound of the memory that condensing may need, bytes."""
+
+GRAVITY = ("gravity_x", "gravity_y", "gravity_z")
+"""The loads every body has: its mass times 1 m/s^2 along an axis."""
+
+_NO_LOADS: Mapping[str, Load] = MappingProxyType({})
+# Below this many unknowns all modes at once are as cheap as a few.
+_DENSE_UNKNOWNS = 600
+
+
+def condense(
+    mesh: HexMesh,
+    material: ElasticMaterial,
+    contact: str,
+    *,
+    element: str | None = None,
+    tied: str | None = None,
+    movable: bool = False,
+    loads: Mapping[str, Load] = _NO_LOADS,
+    modes: int = 0,
+    solver: str = "auto",
+    memory_limit: float = MEMORY_LIMIT,
+    use_cache: bool = True,
+) -> CondensedBody:
+    """Condense an elastic body to the nodes of its contact faces.
+
+    Parameters
+    ----------
+    mesh : HexMesh
+        One piece, in any unit; the result is in m.
+    material : ElasticMaterial
+        What it is made of.
+    contact : str
+        Name of the face set that may touch another body.
+    element : {'hex27', 'hex8', 'hex8i'}, optional
+        Default: 27 or 8 nodes as the mesh has.
+    tied : str, optional
+        Node set or face set that is tied to a rigid body; left out, the body is free.
+    movable : bool
+        Whether that rigid body moves, so that the result has rigid modes too. A free body always
+        has.
+    loads : mapping of str to Load, optional
+        Named loads beside gravity, see `asperity.contact.elastic.loads`.
+    modes : int
+        Elastic modes that will have inertia of their own, the lowest.
+    solver : {'auto', 'pypardiso', 'superlu'}
+        Direct solver.
+    memory_limit : float
+        Most memory this may need, bytes; estimated before anything is done.
+    use_cache : bool
+        Whether to look for, and keep, the result on disk. Its key is the content of everything
+        above and of the sources of this room.
+
+    Returns
+    -------
+    CondensedBody
+
+    Raises
+    ------
+    InputError
+        The body is not held or not one piece, a set is missing, modes are negative or too many, or
+        the estimated memory exceeds the limit.
+    """
+    if any(name in GRAVITY for name in loads):
+        raise InputError(f"a load is named like one of {', '.join(GRAVITY)}; choose another name")
+    unknowns = 3 * len(mesh.points)
+    if not 0 <= modes <= unknowns // 4:
+        raise InputError(f"modes is {modes}; allowed: 0 to {unknowns // 4} with this mesh")
+    mesh = mesh.converted("m")
+    if not len(mesh.face_set(contact)):
+        raise InputError(f"face set {contact!r} is empty; give the faces that may touch")
+    nodes = np.unique(mesh.face_nodes(contact))
+    names = (*GRAVITY, *loads)
+    pushed = np.array([loads[name].forces(mesh).reshape(-1) for name in loads])
+    pushed = pushed.reshape(-1, unknowns).T
+
+    folder = cache.folder() if use_cache else None
+    key = cache.key(
+        mesh.points,
+        mesh.cells,
+        nodes,
+        pushed,
+        _tied_nodes(mesh, tied),
+        repr((material, element, movable, names, modes, solver)),
+    )
+    if folder is not None and (kept := cache.load(folder, key)) is not None:
+        return kept
+
+    name = installed_solver(solver)
+    expected = memory_needed(mesh, len(nodes), modes=modes, solver=name)
+    if expected > memory_limit:
+        raise InputError(
+            f"condensing {unknowns} unknowns to {len(nodes)} contact nodes needs about "
+            f"{expected / 1e9:.2g} GB, more than the limit of {memory_limit / 1e9:.2g} GB; take "
+            "fewer elements, or raise memory_limit"
+        )
+    began = time.perf_counter()
+    body = elastic_body(mesh, material, element=element, tied=tied, solver=name)
+    condensed = _condense(body, nodes, names, pushed, movable or body.free, modes)
+    condensed = dataclasses.replace(condensed, seconds=time.perf_counter() - began)
+    if folder is not None:
+        cache.save(folder, key, condensed)
+    return condensed
+
+
+def memory_needed(
+    mesh: HexMesh, contact_nodes: int, *, modes: int = 0, solver: str = "pypardiso"
+) -> float:
+    """Return the memory that condensing is expected to need at most, bytes.
+
+    Parameters
+    ----------
+    mesh : HexMesh
+        What is condensed.
+    contact_nodes : int
+        Nodes it is condensed to.
+    modes : int
+        Elastic modes.
+    solver : {'pypardiso', 'superlu'}
+        Direct solver.
+    """
+    unknowns = 3 * len(mesh.points)
+    pairs = len(mesh.cells) * mesh.cells.shape[1] ** 2
+    # A pair of nodes of a cell: its place and what sorting takes; its 3 x 3 block twice while the
+    # matrix is put together; the matrix, its part that moves, and the upper triangle of that.
+    assembly = pairs * (4 * 8 + 2 * 9 * 8 + 2.5 * 9 * 12)
+    columns = min(3 * contact_nodes, COLUMNS_AT_A_TIME) + 2 * modes
+    dense = 8.0 * (6 * unknowns * columns + 3 * (3 * contact_nodes) ** 2)
+    return float(assembly + factor_bytes(unknowns, 9 * pairs, solver) + dense)
+
+
+def _tied_nodes(mesh: HexMesh, tied: str | None) -> Integers:
+    if tied is None:
+        return np.empty(0, dtype=np.int64)
+    return mesh.node_set(tied) if tied in mesh.node_sets else mesh.face_nodes(tied)
+
+
+def _condense(
+    body: ElasticBody,
+    nodes: Integers,
+    names: tuple[str, ...],
+    pushed: Floats,
+    movable: bool,
+    count: int,
+) -> CondensedBody:
+    rows = (3 * nodes[:, None] + np.arange(3)).reshape(-1)
+    size = 3 * len(body.mesh.points)
+    loads = np.concatenate([body.inertia[:, :3], pushed], axis=1)
+    answer = body.response(loads)
+    residual = body.residual(loads, answer)
+    load_flexibility, load_compliance = answer[rows], loads.T @ answer
+
+    flexibility = np.empty((len(rows), len(rows)))
+    for first in range(0, len(rows), COLUMNS_AT_A_TIME):
+        some = rows[first : first + COLUMNS_AT_A_TIME]
+        forces = np.zeros((size, len(some)))
+        forces[some, np.arange(len(some))] = 1.0
+        answer = body.response(forces)
+        flexibility[:, first : first + COLUMNS_AT_A_TIME] = answer[rows]
+    residual = max(residual, body.residual(forces, answer))
+
+    shapes, frequency = elastic_modes(body, count)
+    # A free body's modes do not move its centre of mass, and rigid accelerations do not strain it.
+    inertia = np.zeros((count, 6)) if body.free else shapes.T @ body.inertia
+    strained = np.zeros((len(rows), 6)) if body.free else body.response(body.inertia)[rows]
+    return CondensedBody(
+        nodes=nodes,
+        positions=body.mesh.points[nodes],
+        flexibility=0.5 * (flexibility + flexibility.T),
+        rigid=body.rigid[rows] if movable else np.empty((len(rows), 0)),
+        mass=body.rigid_mass,
+        centre=body.centre,
+        modes=shapes[rows],
+        mode_frequency=frequency,
+        mode_inertia=inertia,
+        inertia_response=strained,
+        load_names=names,
+        load_flexibility=load_flexibility,
+        load_compliance=0.5 * (load_compliance + load_compliance.T),
+        load_rigid=body.rigid.T @ loads,
+        load_modes=shapes.T @ loads,
+        unknowns=size,
+        solver=body.factorisation.solver,
+        residual=residual,
+        seconds=0.0,
+    )
+
+
+def elastic_modes(body: ElasticBody, count: int) -> tuple[Floats, Floats]:
+    """Return the lowest elastic modes of a body, with tied nodes held.
+
+    Parameters
+    ----------
+    body : ElasticBody
+        The body.
+    count : int
+        How many.
+
+    Returns
+    -------
+    shapes : ndarray, shape (3N, count)
+        Of unit generalised mass, 1/sqrt(kg); without the rigid modes of a free body.
+    frequency : ndarray, shape (count,)
+        Hz, ascending.
+    """
+    size = 3 * len(body.mesh.points)
+    if count == 0:
+        return np.empty((size, 0)), np.empty(0)
+    if size <= _DENSE_UNKNOWNS:
+        squared, shapes = _all_modes(body)
+    else:
+        # The static response times the mass has the eigenvalues 1/omega^2, and 0 for what is rigid
+        # or tied; a start of its own makes the answer the same every time.
+        start = body.response(np.random.default_rng(0).standard_normal(size))
+        operator = LinearOperator((size, size), matvec=body.response, dtype=np.float64)
+        mass = LinearOperator((size, size), matvec=body.mass_times, dtype=np.float64)
+        squared, shapes = eigsh(
+            operator, count, M=mass, sigma=0.0, OPinv=operator, which="LM", v0=start
+        )
+    order = np.argsort(squared)[:count]
+    shapes = shapes[:, order]
+    # The sign is a convention; this one does not depend on the solver.
+    strongest = np.abs(shapes).argmax(axis=0)
+    shapes = shapes * np.sign(shapes[strongest, np.arange(count)])
+    return shapes, np.sqrt(squared[order]) / (2.0 * np.pi)
+
+
+def _all_modes(body: ElasticBody) -> tuple[Floats, Floats]:
+    moving = np.arange(len(body.rigid)) if body.free else body.moving
+    stiffness = body.stiffness[moving][:, moving].toarray()
+    mass = body.mass_times(np.eye(len(body.rigid)))[np.ix_(moving, moving)]
+    squared, part = eigh(stiffness, mass)
+    shapes = np.zeros((len(body.rigid), len(squared)))
+    shapes[moving] = part
+    rigid = 6 if body.free else 0
+    return squared[rigid:], shapes[:, rigid:]

@@ -1,0 +1,170 @@
+r"""An elastic body reduced to the nodes that may touch another.
+
+With contact forces :math:`f` and loads :math:`g` the contact nodes move by
+
+.. math:: u = C f + C_g g + \Phi_r q_r + \sum_j \phi_j (q_j - q_j^{static}) ,
+
+exactly so in statics. Each mode whose inertia counts takes its own share
+:math:`\phi_j \phi_j^T/\omega_j^2` of the static flexibility: what is left is the residual
+flexibility. The rigid modes belong to a free body, or to the rigid one a tied body moves with.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity.errors import InputError, nearest
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class LoadResponse:
+    """What one load of unit size does.
+
+    Parameters
+    ----------
+    displacement : ndarray, shape (3n,)
+        Static displacement of the contact nodes, m per unit of load.
+    rigid : ndarray, shape (6,)
+        Force and moment about the centre of mass.
+    modes : ndarray, shape (k,)
+        Generalised force on each mode.
+    """
+
+    displacement: Floats
+    rigid: Floats
+    modes: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class CondensedBody:
+    r"""An elastic body reduced to its contact nodes; `condense` makes it.
+
+    Freedom 3 i + a is the displacement of contact node i along axis a. Loads are named; a load's
+    own displacement is the one it does work with.
+
+    Parameters
+    ----------
+    nodes : ndarray of int, shape (n,)
+        The contact nodes' numbers in the mesh, ascending.
+    positions : ndarray, shape (n, 3)
+        Where they are, m.
+    flexibility : ndarray, shape (3n, 3n)
+        :math:`C`, static, symmetric, m/N. A free body's loads are balanced by its inertia.
+    rigid : ndarray, shape (3n, 6) or (3n, 0)
+        Rigid modes at the contact nodes: shifts along and turns about x, y, z through `centre`;
+        none for a tied body that stands still.
+    mass : ndarray, shape (6, 6)
+        Mass and moments of inertia about `centre`, kg and kg m^2.
+    centre : ndarray, shape (3,)
+        Centre of mass, m.
+    modes : ndarray, shape (3n, k)
+        The lowest elastic modes of unit generalised mass at the contact nodes, 1/sqrt(kg): of the
+        free body, or of the one whose tied nodes stand still.
+    mode_frequency : ndarray, shape (k,)
+        Their natural frequencies, Hz, ascending.
+    mode_inertia : ndarray, shape (k, 6)
+        :math:`\Phi^T M R`, what couples modes to rigid accelerations, sqrt(kg); zero if free.
+    inertia_response : ndarray, shape (3n, 6)
+        Static displacement under the nodal forces M R of a unit rigid acceleration; zero if free.
+    load_names : tuple of str
+        L names, the first three ``gravity_x``, ``gravity_y``, ``gravity_z`` (unit: 1 m/s^2).
+    load_flexibility : ndarray, shape (3n, L)
+        Static displacement of the contact nodes under each unit load; its transpose gives the
+        loads' own displacements under contact forces.
+    load_compliance : ndarray, shape (L, L)
+        The loads' own static displacements under each other.
+    load_rigid : ndarray, shape (6, L)
+        Force and moment about `centre` of each unit load; its transpose gives the loads' own
+        displacements in the rigid modes.
+    load_modes : ndarray, shape (k, L)
+        Generalised force of each unit load on each mode; transposed as before.
+    unknowns : int
+        Freedoms of the whole mesh.
+    solver : str
+        Direct solver that was used.
+    residual : float
+        Largest relative residual of its answers.
+    seconds : float
+        Time condensing took, s.
+    from_cache : bool
+        Whether this was read back from disk.
+    """
+
+    nodes: Integers
+    positions: Floats
+    flexibility: Floats
+    rigid: Floats
+    mass: Floats
+    centre: Floats
+    modes: Floats
+    mode_frequency: Floats
+    mode_inertia: Floats
+    inertia_response: Floats
+    load_names: tuple[str, ...]
+    load_flexibility: Floats
+    load_compliance: Floats
+    load_rigid: Floats
+    load_modes: Floats
+    unknowns: int
+    solver: str
+    residual: float
+    seconds: float
+    from_cache: bool = False
+
+    @property
+    def mode_mass(self) -> Floats:
+        """Generalised masses of the modes, kg: 1 each."""
+        return np.ones(len(self.mode_frequency))
+
+    @property
+    def mode_stiffness(self) -> Floats:
+        """Generalised stiffness of the modes, N/m."""
+        return np.asarray((2.0 * np.pi * self.mode_frequency) ** 2)
+
+    @cached_property
+    def residual_flexibility(self) -> Floats:
+        """Static flexibility less the share of the modes, shape (3n, 3n), m/N."""
+        return self.flexibility - (self.modes / self.mode_stiffness) @ self.modes.T
+
+    @cached_property
+    def residual_load_flexibility(self) -> Floats:
+        """``load_flexibility`` less the share of the modes, shape (3n, L)."""
+        return self.load_flexibility - (self.modes / self.mode_stiffness) @ self.load_modes
+
+    @cached_property
+    def residual_load_compliance(self) -> Floats:
+        """``load_compliance`` less the share of the modes, shape (L, L)."""
+        share = (self.load_modes.T / self.mode_stiffness) @ self.load_modes
+        return np.asarray(self.load_compliance - share)
+
+    def load_index(self, name: str) -> int:
+        """Return the number of a load.
+
+        Raises
+        ------
+        InputError
+            There is no such load.
+        """
+        if name not in self.load_names:
+            raise InputError(f"the body has no load {name!r}{nearest(name, self.load_names)}")
+        return self.load_names.index(name)
+
+    def load_response(self, name: str) -> LoadResponse:
+        """Return what a load of unit size does."""
+        column = self.load_index(name)
+        return LoadResponse(
+            self.load_flexibility[:, column], self.load_rigid[:, column], self.load_modes[:, column]
+        )
+
+    def loads(self, sizes: Mapping[str, float]) -> Floats:
+        """Return a vector of loads, shape (L,), from sizes by name; the others are zero."""
+        vector = np.zeros(len(self.load_names))
+        for name, size in sizes.items():
+            vector[self.load_index(name)] = size
+        return vector

@@ -1,0 +1,204 @@
+"""The surface that may touch: contact faces with their quadrature, ready for kernels.
+
+Contact is integrated over the surface and not summed over nodes: pressure and friction are found
+at the quadrature points, from displacements interpolated there, and become nodal forces through
+the same shape functions. A constant pressure is then exactly in equilibrium on any mesh.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from asperity.errors import InputError, choices
+from asperity.mesh import HexMesh, shape
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSurface:
+    """Faces of an elastic body that may touch another, with a Gauss rule on each.
+
+    Parameters
+    ----------
+    nodes : ndarray of int, shape (n,)
+        The surface's nodes in the mesh, ascending: those of `CondensedBody.nodes`.
+    positions : ndarray, shape (n, 3)
+        Where they are, m.
+    faces : ndarray of int, shape (k, 4) or (k, 9)
+        Nodes of each face, numbered as in `nodes`, counterclockwise seen from outside.
+    shapes : ndarray, shape (q, 4) or (q, 9)
+        Shape functions at the quadrature points, the same for every face.
+    weights : ndarray, shape (k, q)
+        Quadrature weights times area, m^2.
+    normals : ndarray, shape (k, q, 3)
+        Unit normals at the quadrature points, out of the body.
+    """
+
+    nodes: Integers
+    positions: Floats
+    faces: Integers
+    shapes: Floats
+    weights: Floats
+    normals: Floats
+
+    @property
+    def area(self) -> float:
+        """Area of the surface, m^2."""
+        return float(self.weights.sum())
+
+    @cached_property
+    def points(self) -> Floats:
+        """The quadrature points, shape (k, q, 3), m."""
+        return self.to_points(self.positions)
+
+    @cached_property
+    def nodal_area(self) -> Floats:
+        """Area that belongs to each node, shape (n,), m^2; positive, and in all the area."""
+        return self.to_forces(np.ones_like(self.weights))
+
+    @cached_property
+    def nodal_normals(self) -> Floats:
+        """Unit normals at the nodes, shape (n, 3): the mean of those around, by area."""
+        mean = self.to_forces(self.normals)
+        return np.asarray(mean / np.linalg.norm(mean, axis=1, keepdims=True))
+
+    def to_points(self, nodal: Floats) -> Floats:
+        """Return a nodal field at the quadrature points.
+
+        Parameters
+        ----------
+        nodal : ndarray, shape (n, ...)
+
+        Returns
+        -------
+        ndarray, shape (k, q, ...)
+        """
+        return np.asarray(np.einsum("qa,ka...->kq...", self.shapes, nodal[self.faces]))
+
+    def integral(self, values: Floats) -> Floats:
+        """Return the integral over the surface of a field at the quadrature points.
+
+        Parameters
+        ----------
+        values : ndarray, shape (k, q, ...)
+        """
+        return np.asarray(np.einsum("kq,kq...->...", self.weights, values))
+
+    def to_forces(self, tractions: Floats) -> Floats:
+        """Return the nodal forces of tractions at the quadrature points.
+
+        Parameters
+        ----------
+        tractions : ndarray, shape (k, q, ...)
+            Force per area.
+
+        Returns
+        -------
+        ndarray, shape (n, ...)
+        """
+        shares = np.einsum("qa,kq,kq...->ka...", self.shapes, self.weights, tractions)
+        forces = np.zeros((len(self.nodes), *shares.shape[2:]))
+        np.add.at(forces, self.faces, shares)
+        return forces
+
+    def to_nodes(
+        self, values: Floats, method: Literal["average", "projection"] = "average"
+    ) -> Floats:
+        """Return a nodal field for a picture from values at the quadrature points.
+
+        Parameters
+        ----------
+        values : ndarray, shape (k, q, ...)
+            For example pressures.
+        method : {'average', 'projection'}
+            A mean around each node, weighted with its shape function, never leaves the range of
+            the values where shape functions are positive, and smooths. The projection is the
+            nearest field in the mean square: exact where the field is one of the surface's shape
+            functions, but it overshoots at the edge of a contact.
+
+        Returns
+        -------
+        ndarray, shape (n, ...)
+            With the same integral as the values.
+        """
+        right = self.to_forces(values)
+        if method == "average":
+            return right / self.nodal_area.reshape(-1, *[1] * (right.ndim - 1))
+        if method != "projection":
+            raise InputError(f"method is {method!r}; allowed: {choices(('average', 'projection'))}")
+        from scipy.sparse.linalg import splu
+
+        flat = right.reshape(len(right), -1)
+        return np.asarray(splu(self._mass).solve(flat).reshape(right.shape))
+
+    @cached_property
+    def _mass(self) -> sparse.csc_array:
+        local = np.einsum("qa,kq,qb->kab", self.shapes, self.weights, self.shapes)
+        rows = np.repeat(self.faces, self.faces.shape[1], axis=1)
+        columns = np.tile(self.faces, self.faces.shape[1])
+        size = len(self.nodes)
+        entries = (local.reshape(-1), (rows.reshape(-1), columns.reshape(-1)))
+        return sparse.csc_array(sparse.coo_array(entries, shape=(size, size)))
+
+    def resultant(self, forces: Floats, about: Floats) -> Floats:
+        """Return the resultant force and moment of nodal forces, shape (6,).
+
+        Parameters
+        ----------
+        forces : ndarray, shape (n, 3)
+            Nodal forces, N.
+        about : ndarray, shape (3,)
+            Point the moment is taken about, m.
+        """
+        moment = np.cross(self.positions - about, forces).sum(axis=0)
+        return np.concatenate([forces.sum(axis=0), moment])
+
+
+def contact_surface(mesh: HexMesh, faces: str, rule: int | None = None) -> ContactSurface:
+    """Return the contact surface of a set of faces.
+
+    Parameters
+    ----------
+    mesh : HexMesh
+        In any unit; the result is in m.
+    faces : str
+        Name of the face set.
+    rule : int, optional
+        Gauss points a direction, 1 to 10; default 2 on 4-node and 3 on 9-node faces.
+
+    Raises
+    ------
+    InputError
+        There is no such set, it is empty, a face is flat to a line, or the rule is out of range.
+    """
+    mesh = mesh.converted("m")
+    count = rule if rule is not None else mesh.order + 1
+    if not 1 <= count <= 10:
+        raise InputError(f"rule is {rule}; allowed: 1 to 10 Gauss points a direction")
+    global_faces = mesh.face_nodes(faces)
+    if not len(global_faces):
+        raise InputError(f"face set {faces!r} is empty; give the faces that may touch")
+    nodes, local = np.unique(global_faces, return_inverse=True)
+    local = np.ascontiguousarray(local.reshape(global_faces.shape))
+    at, weight = shape.gauss(count, 2)
+    values, slopes = shape.face_shapes(at, local.shape[1])
+    tangents = np.einsum("kni,qnd->kqid", mesh.points[global_faces], slopes, optimize=True)
+    normals = np.cross(tangents[..., 0], tangents[..., 1])
+    areas = np.linalg.norm(normals, axis=2)
+    if not (areas > 0.0).all():
+        bad = np.flatnonzero((areas <= 0.0).any(axis=1))
+        raise InputError(f"face {bad[0]} of set {faces!r} has no area; mend the mesh")
+    return ContactSurface(
+        nodes=nodes,
+        positions=mesh.points[nodes],
+        faces=local,
+        shapes=values,
+        weights=areas * weight,
+        normals=normals / areas[:, :, None],
+    )
