@@ -1,8 +1,22 @@
 """Settings shared by all tests."""
 
+import shutil
+
 import hypothesis
 
 # Without a deadline, because the first example may load a unit registry or compile a kernel; the
 # same examples every time, so that a failure is about the change at hand.
 hypothesis.settings.register_profile("asperity", deadline=None, derandomize=True, database=None)
 hypothesis.settings.load_profile("asperity")
+
+# Programs of others that some tests compare with: name of the program, files of tests.
+_NEEDS = {
+    "gfortran": ["literature/test_fric_subroutine.py"],
+    "ccx": ["literature/test_calculix.py"],
+}
+_absent = [program for program in _NEEDS if shutil.which(program) is None]
+collect_ignore = [name for program in _absent for name in _NEEDS[program]]
+
+
+def pytest_report_header() -> list[str]:
+    return [f"{program} is not installed: left out {_NEEDS[program]}" for program in _absent]

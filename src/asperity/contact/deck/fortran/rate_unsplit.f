@@ -1,0 +1,15 @@
+C
+      SUBROUTINE ASPRAT(EX,EY,SHARE,D1,D2,XI,DE,DSHARE,U1,U2,RATE,
+     1 DRATE)
+C     Relaxation over an increment with the two parts of the slip taken
+C     together (unsplit), and its derivative.
+      IMPLICIT DOUBLE PRECISION (A-H,O-Z)
+      DIMENSION D1(2),D2(2),DE(2),U1(2),U2(2),U(2)
+      RATE = 0.D0
+      DRATE = 0.D0
+      U(1) = U1(1)+U2(1)
+      U(2) = U1(2)+U2(2)
+      CALL ASPTRM(EX,EY,SHARE,D1(1)+D2(1),D1(2)+D2(2),XI,DE,DSHARE,U,
+     1 RATE,DRATE)
+      RETURN
+      END
