@@ -11,6 +11,7 @@ with the displacements :math:`u` and contact forces :math:`f` of the contact nod
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -28,9 +29,10 @@ from asperity.contact.increment_kernels import (
 )
 from asperity.contact.normal import NormalLaw
 from asperity.contact.rigid import Pose, RigidSurface
+from asperity.contact.surface import ContactSurface
+from asperity.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,13 +44,10 @@ class IncrementProblem:
     flexibility : ndarray, shape (3n, 3n)
         :math:`A`, displacement of the contact nodes by unit forces on them (number 3 node + axis),
         m/N. It belongs to one time step; in statics it is that of the held body.
-    nodes, shapes : ndarray, shape (q, m)
-        Nodes (0 to n-1) and shape values of each quadrature point of the contact.
-    weights : ndarray, shape (q,)
-        Area that each stands for, m^2.
-    places : ndarray, shape (q, 3)
-        Their undeformed positions, m.
-    surface : RigidSurface
+    surface : ContactSurface
+        The body's faces that may touch, with n nodes and q quadrature points in all; values at
+        points are numbered face by face.
+    counter : RigidSurface
         What the body meets.
     normal : NormalLaw
         Pressure against overclosure.
@@ -66,22 +65,36 @@ class IncrementProblem:
     """
 
     flexibility: FloatArray
-    nodes: IntArray
-    shapes: FloatArray
-    weights: FloatArray
-    places: FloatArray
-    surface: RigidSurface
+    surface: ContactSurface
+    counter: RigidSurface
     normal: NormalLaw
-    friction: PointFriction = PointFriction()
+    friction: PointFriction = field(default_factory=PointFriction)
     step: float = 0.0
     tolerance: float = 1e-9
     penetration: float = 1e-6
     most_iterations: int = 60
 
+    workspace: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        nodes = len(self.surface.positions)
+        if self.flexibility.shape != (3 * nodes, 3 * nodes):
+            raise InputError(
+                f"the flexibility has the shape {self.flexibility.shape}; the surface has {nodes} "
+                f"nodes, so give ({3 * nodes}, {3 * nodes})"
+            )
+        if not np.isfinite(self.flexibility).all():
+            raise InputError("the flexibility has an entry that is not finite")
+
     @property
-    def size(self) -> int:
-        """Number of contact nodes."""
-        return len(self.flexibility) // 3
+    def nodes(self) -> int:
+        """Number of contact nodes n."""
+        return len(self.surface.positions)
+
+    @property
+    def points(self) -> int:
+        """Number of quadrature points q."""
+        return self.surface.weights.size
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +124,7 @@ class ContactState:
     @classmethod
     def rest(cls, problem: IncrementProblem) -> ContactState:
         """Undeformed, unloaded, asperities straight."""
-        n, q = problem.size, len(problem.weights)
+        n, q = problem.nodes, problem.points
         return cls(np.zeros(3 * n), np.zeros(3 * n), np.zeros((q, 3)), np.zeros(q), np.zeros(n))
 
 

@@ -95,7 +95,7 @@ def _first_tangent(nx, ny, nz):
 
 @kernel
 def tractions(
-    u, u0, deflection0, size0, multiplier, nodes, shapes, weights, places,
+    u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
     surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
 ):  # fmt: skip
     """Evaluate the contact for a displacement of its nodes.
@@ -110,10 +110,12 @@ def tractions(
         Its signed size (two-phase scheme).
     multiplier : ndarray, shape (n,)
         Of the hard law, Pa.
-    nodes, shapes : ndarray, shape (q, m)
-        Nodes and shape values of each quadrature point.
+    faces : ndarray of int, shape (k, m)
+        Nodes of each face.
+    shapes : ndarray, shape (r, m)
+        Shape values at the quadrature points of a face; q = k r in all.
     weights : ndarray, shape (q,)
-        Area of each, m^2.
+        Area of each point, m^2.
     places : ndarray, shape (q, 3)
         Undeformed positions, m.
     surface, law, friction, motion : ndarray
@@ -136,8 +138,11 @@ def tractions(
     mu = friction[MU]
     touching = 0
     one_sided = motion[ONE_SIDED] > 0.0
-    width = nodes.shape[1]
-    for q in range(nodes.shape[0]):
+    width = faces.shape[1]
+    rule = shapes.shape[0]
+    for q in range(faces.shape[0] * rule):
+        face = q // rule
+        at = q - face * rule
         ux = 0.0
         uy = 0.0
         uz = 0.0
@@ -146,8 +151,8 @@ def tractions(
         dz = 0.0
         lam = 0.0
         for a in range(width):
-            i = nodes[q, a]
-            shape = shapes[q, a]
+            i = faces[face, a]
+            shape = shapes[at, a]
             j = 3 * i
             ux += shape * u[j]
             uy += shape * u[j + 1]
@@ -267,8 +272,8 @@ def tractions(
         points[q, TRACTION + 2] = tz
         weight = weights[q]
         for a in range(width):
-            j = 3 * nodes[q, a]
-            share = weight * shapes[q, a]
+            j = 3 * faces[face, a]
+            share = weight * shapes[at, a]
             force[j] += share * tx
             force[j + 1] += share * ty
             force[j + 2] += share * tz
@@ -307,25 +312,59 @@ def _tangent(
 
 
 @kernel
-def add_stiffness(stiffness, nodes, shapes, weights, local, matrix):
+def add_stiffness(stiffness, faces, shapes, weights, local, matrix):
     """Assemble the points' stiffness: ``matrix`` += sum of w N_a N_b k, at the nodes' numbers.
 
     ``local`` renumbers the nodes; a negative number leaves one out.
     """
-    width = nodes.shape[1]
-    for q in range(nodes.shape[0]):
+    width = faces.shape[1]
+    rule = shapes.shape[0]
+    for q in range(stiffness.shape[0]):
         k = stiffness[q]
         if not np.any(k != 0.0):
             continue
+        face = q // rule
+        at = q - face * rule
         for a in range(width):
-            i = local[nodes[q, a]]
+            i = local[faces[face, a]]
             if i < 0:
                 continue
             for b in range(width):
-                j = local[nodes[q, b]]
+                j = local[faces[face, b]]
                 if j < 0:
                     continue
-                share = weights[q] * shapes[q, a] * shapes[q, b]
+                share = weights[q] * shapes[at, a] * shapes[at, b]
                 for c in range(3):
                     for e in range(3):
                         matrix[3 * i + c, 3 * j + e] += share * k[c, e]
+
+
+@kernel
+def stiffness_forces(stiffness, faces, shapes, weights, w, out):
+    """Nodal forces ``K w`` of the points' stiffness on a displacement of the nodes."""
+    out[:] = 0.0
+    width = faces.shape[1]
+    rule = shapes.shape[0]
+    for q in range(stiffness.shape[0]):
+        face = q // rule
+        at = q - face * rule
+        x = 0.0
+        y = 0.0
+        z = 0.0
+        for a in range(width):
+            j = 3 * faces[face, a]
+            shape = shapes[at, a]
+            x += shape * w[j]
+            y += shape * w[j + 1]
+            z += shape * w[j + 2]
+        k = stiffness[q]
+        weight = weights[q]
+        tx = weight * (k[0, 0] * x + k[0, 1] * y + k[0, 2] * z)
+        ty = weight * (k[1, 0] * x + k[1, 1] * y + k[1, 2] * z)
+        tz = weight * (k[2, 0] * x + k[2, 1] * y + k[2, 2] * z)
+        for a in range(width):
+            j = 3 * faces[face, a]
+            shape = shapes[at, a]
+            out[j] += shape * tx
+            out[j + 1] += shape * ty
+            out[j + 2] += shape * tz

@@ -44,7 +44,7 @@ class _Evaluation:
         *,
         tangent: bool = True,
     ) -> None:
-        q = len(problem.weights)
+        q = problem.points
         self.u = u
         self.force = np.empty_like(u)
         self.deflection = np.empty((q, 3))
@@ -53,8 +53,8 @@ class _Evaluation:
         self.stiffness = np.empty((q, 3, 3)) if tangent else np.empty((0, 3, 3))
         self.touching = tractions(
             u, state.displacement, state.deflection, state.size, multiplier,
-            problem.nodes, problem.shapes, problem.weights, problem.places,
-            problem.surface.parameters, problem.normal.parameters,
+            problem.surface.faces, problem.surface.shapes, problem.surface.weights.ravel(),
+            problem.surface.points.reshape(-1, 3), problem.counter.parameters, problem.normal.parameters,
             problem.friction.parameters(problem.step), motion,
             self.force, self.deflection, self.size, self.points, self.stiffness, tangent,
         )  # fmt: skip
@@ -116,7 +116,7 @@ def solve_increment(
             return _result(now, multiplier, iterations, residual)
     raise ConvergenceError(
         f"no equilibrium of the contact after {iterations} iterations: relative residual "
-        f"{residual:.2g}, {now.touching} of {len(problem.weights)} points in contact",
+        f"{residual:.2g}, {now.touching} of {problem.points} points in contact",
         reached={
             "residual": residual, "iterations": iterations, "active": float(now.touching),
         },
@@ -129,7 +129,14 @@ def _newton_step(problem: IncrementProblem, now: _Evaluation) -> FloatArray:
     if not len(dofs):
         return -now.gap
     k = np.zeros((len(dofs), len(dofs)))
-    add_stiffness(now.stiffness, problem.nodes, problem.shapes, problem.weights, local, k)
+    add_stiffness(
+        now.stiffness,
+        problem.surface.faces,
+        problem.surface.shapes,
+        problem.surface.weights.ravel(),
+        local,
+        k,
+    )
     a = problem.flexibility[np.ix_(dofs, dofs)]
     part = scipy.linalg.solve(
         np.eye(len(dofs)) - a @ k, -now.gap[dofs], overwrite_a=True, check_finite=False
@@ -141,7 +148,14 @@ def _newton_step(problem: IncrementProblem, now: _Evaluation) -> FloatArray:
 def _force_change(problem: IncrementProblem, now: _Evaluation, change: FloatArray) -> FloatArray:
     local, dofs = _touched(problem, now.points[:, PRESSURE] > 0.0)
     k = np.zeros((len(dofs), len(dofs)))
-    add_stiffness(now.stiffness, problem.nodes, problem.shapes, problem.weights, local, k)
+    add_stiffness(
+        now.stiffness,
+        problem.surface.faces,
+        problem.surface.shapes,
+        problem.surface.weights.ravel(),
+        local,
+        k,
+    )
     promised: FloatArray = k @ change[dofs]
     return promised
 
@@ -150,8 +164,10 @@ def _touched(
     problem: IncrementProblem, active: npt.NDArray[np.bool_]
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """Nodes of the points in contact: their new numbers (-1: none) and their unknowns."""
-    touched = np.unique(problem.nodes[active])
-    local = np.full(problem.size, -1, dtype=np.int64)
+    touched = np.unique(
+        problem.surface.faces[np.flatnonzero(active) // len(problem.surface.shapes)]
+    )
+    local = np.full(problem.nodes, -1, dtype=np.int64)
     local[touched] = np.arange(len(touched))
     dofs = (3 * touched[:, None] + np.arange(3)).ravel()
     return local, dofs
