@@ -39,7 +39,6 @@ from asperity.flanks.curve import (
     SIDE,
     SIN_BASE,
     TIP,
-    width,
 )
 from asperity.flanks.foot import on_arc, on_flank
 from asperity.flanks.helicoid import Helicoid
@@ -51,12 +50,14 @@ ARC = 2
 CYLINDER = 3
 
 
-@kernel
-def place(rho, psi, z, params):
+# Both are small once inlined, and a call of each costs as much as what it does.
+@kernel(inline="always")
+def place(x, y, z, params):
     """``(s, v)``: the side that is nearest or asked for, and the axial place mirrored to s = 1."""
     half = params[HALF_PITCH]
     side = params[SIDE]
-    q = z - params[LEAD] * psi
+    # The wheel is where x is positive, and there the quotient's angle is twice as fast.
+    q = z - params[LEAD] * (math.atan(y / x) if x > 0.0 else math.atan2(y, x))
     if side == 0.0:
         q -= 2.0 * half * math.floor(q / (2.0 * half) + 0.5)
         if q < 0.0:
@@ -68,66 +69,64 @@ def place(rho, psi, z, params):
 
 
 @kernel
-def reach(rho, v, params):
+def search(rho, v, params, radial):
+    """`nearest` where there is no closed form."""
+    tip = params[TIP]
+    p = params[LEAD]
+    if rho <= 0.5 * params[ROOT]:
+        return CYLINDER, rho - params[ROOT], rho, 0.0, 0.0, 0.0
+    if rho >= tip and v >= params[ARC_Z]:
+        return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
+    kind = FLANK
+    r, theta, w, w1, w2, _ = on_flank(rho, v, params, radial)
+    a, b = 1.0, w1
+    if r > params[FLANK_END]:
+        beta, theta, _ = on_arc(rho, v, params)
+        if beta < 0.0:
+            return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
+        kind = ARC
+        w1 = min(beta, params[ARC_ANGLE])
+        a, b = math.sin(w1), math.cos(w1)
+        r = params[ARC_RADIUS] + params[ROUNDING] * b
+        w = params[ARC_Z] - params[ROUNDING] * a
+    dr = rho * math.cos(theta) - r
+    dt = -rho * math.sin(theta)
+    dz = v - w - p * theta
+    lean = p * a / r
+    d = (b * dr + lean * dt - a * dz) / math.sqrt(a * a + b * b + lean * lean)
+    return kind, d, r, theta, w1, w2
+
+
+@kernel(inline="always")
+def nearest(rho, v, params):
     """``(kind, d, r, theta, w', w'')``: which surface is nearest, how far, and where its foot is.
 
     On the flank ``r`` is the foot's radius and the derivatives are the flank's; on the tip's
     rounding the fifth number is the arc's angle; on a cylinder ``r`` is the point's radius.
     """
-    tip = params[TIP]
     base = params[BASE]
-    root = params[ROOT]
-    if rho <= 0.5 * root:
-        return CYLINDER, rho - root, rho, 0.0, 0.0, 0.0
-    if rho >= tip and v >= params[ARC_Z]:
-        return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
-    kind = FLANK
-    radial = False
-    d = r = theta = w1 = w2 = 0.0
+    t2 = rho * rho - base * base
+    closed = radial = False
+    kind = CLOSED
+    r = rho
+    d = theta = w1 = w2 = 0.0
     if base > 0.0:
-        t2 = rho * rho - base * base
         radial = t2 <= 0.0
         if not radial:
             t = math.sqrt(t2)
-            slope = params[LEAD] / base
-            w = slope * t - params[LEAD] * math.atan2(t, base) + params[SHIFT]
-            d = params[COS_BASE] * (w - v)
+            x = t / base
+            d = params[COS_BASE] * (params[LEAD] * (x - math.atan(x)) + params[SHIFT] - v)
             foot = t - d * params[SIN_BASE]
             radial = foot < 0.0
-            if not radial and foot <= params[CLOSED_TO]:
-                kind = CLOSED
-                r = rho
-                w1 = slope * t / rho
-                w2 = params[LEAD] * base / (t * rho * rho)
-    if kind == FLANK:
-        r, theta, w, w1, w2, _ = on_flank(rho, v, params, radial)
-        if r <= params[FLANK_END]:
-            p = params[LEAD]
-            normal = math.sqrt(1.0 + w1 * w1 + (p / r) ** 2)
-            dr = rho * math.cos(theta) - r
-            dt = -rho * math.sin(theta)
-            dz = v - w - p * theta
-            d = (w1 * dr + p / r * dt - dz) / normal
-        else:
-            kind = ARC
-            beta, theta, _ = on_arc(rho, v, params)
-            if beta < 0.0:
-                return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
-            beta = min(beta, params[ARC_ANGLE])
-            sine = math.sin(beta)
-            cosine = math.cos(beta)
-            p = params[LEAD]
-            r = params[ARC_RADIUS] + params[ROUNDING] * cosine
-            w1 = beta
-            dr = rho * math.cos(theta) - r
-            dt = -rho * math.sin(theta)
-            dz = v - params[ARC_Z] + params[ROUNDING] * sine - p * theta
-            lean = p * sine / r
-            d = (cosine * dr + lean * dt - sine * dz) / math.sqrt(1.0 + lean * lean)
-    if d < 0.0 and v >= params[ARC_Z] and rho - tip > d:
-        return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
-    if rho - root < d:
-        return CYLINDER, rho - root, rho, 0.0, 0.0, 0.0
+            closed = not radial and foot <= params[CLOSED_TO]
+            w1 = params[LEAD] * x / rho
+            w2 = params[LEAD] / (x * rho * rho)
+    if not closed:
+        kind, d, r, theta, w1, w2 = search(rho, v, params, radial)
+    if d < 0.0 and v >= params[ARC_Z] and rho - params[TIP] > d:
+        return CYLINDER, rho - params[TIP], rho, 0.0, 0.0, 0.0
+    if rho - params[ROOT] < d:
+        return CYLINDER, rho - params[ROOT], rho, 0.0, 0.0, 0.0
     return kind, d, r, theta, w1, w2
 
 
@@ -159,8 +158,8 @@ def bend(a, b, a2, b2, r, p, gr, gt, gz, d):
 def distance_only(x, y, z, params):
     """Distance of a point to the worm, mm; ``params`` from `Helicoid.distance_params`."""
     rho = math.sqrt(x * x + y * y)
-    _, v = place(rho, math.atan2(y, x), z, params)
-    _, d, _, _, _, _ = reach(rho, v, params)
+    _, v = place(x, y, z, params)
+    _, d, _, _, _, _ = nearest(rho, v, params)
     return d
 
 
@@ -171,8 +170,8 @@ def distance(x, y, z, params):
     ``params`` from `Helicoid.distance_params`. The gradient has unit length.
     """
     rho = math.sqrt(x * x + y * y)
-    s, v = place(rho, math.atan2(y, x), z, params)
-    kind, d, r, theta, w1, w2 = reach(rho, v, params)
+    s, v = place(x, y, z, params)
+    kind, d, r, theta, w1, w2 = nearest(rho, v, params)
     cosine = 1.0
     sine = 0.0
     if rho > 0.0:
