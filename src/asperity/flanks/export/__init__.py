@@ -1,0 +1,1 @@
+"""Bodies of smooth patches, and their files."""

@@ -1,0 +1,197 @@
+"""Solids of smooth patches through Open CASCADE: faces, sewing, checks.
+
+No solid is cut from another: every face is a spline surface through exact points or a plane, and
+faces that meet have the same curve there.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity.errors import ConvergenceError, MissingExtraError
+from asperity.flanks.export.patch import Body, Patch
+
+SEWING_TOLERANCE = 1e-6
+"""Distance in mm at which two edges are one; edges that meet differ by rounding."""
+
+_INTEGRATION = 1e-9
+
+
+@dataclass(frozen=True)
+class Check:
+    """What is known of a solid.
+
+    Attributes
+    ----------
+    valid : bool
+        Whether Open CASCADE finds nothing wrong with it.
+    free_edges : int
+        Edges that do not join exactly two faces; none in a closed solid.
+    faces : int
+        Number of its faces.
+    volume : float
+        Its volume, mm^3; positive where it is oriented with its outside outside.
+    area : float
+        The area of its skin, mm^2.
+    """
+
+    valid: bool
+    free_edges: int
+    faces: int
+    volume: float
+    area: float
+
+
+def require_cad() -> None:
+    """Raise unless the ``cad`` extra is installed.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not.
+    """
+    try:
+        import OCP.Geom  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(
+            "STEP needs the cad extra, which is not installed: pip install asperity[cad]"
+        ) from error
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A solid and what is known of it.
+
+    Attributes
+    ----------
+    shape : OCP.TopoDS.TopoDS_Solid
+        As Open CASCADE knows it.
+    check : Check
+        What was found when it was made.
+    """
+
+    shape: Any
+    check: Check
+
+
+def solid(body: Body) -> Solid:
+    """Return a body as a closed solid with its outside outside.
+
+    Raises
+    ------
+    MissingExtraError
+        The ``cad`` extra is not installed.
+    ConvergenceError
+        The faces do not close, or the solid is not valid.
+    """
+    require_cad()
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
+    from OCP.BRepLib import BRepLib
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    # Edges that meet are equal from end to end: none has to be cut, and looking for where to cut
+    # takes most of the time.
+    sewing = BRepBuilderAPI_Sewing(SEWING_TOLERANCE, option3=False)
+    for patch in body.patches:
+        sewing.Add(_face(patch))
+    for ring in body.rings:
+        sewing.Add(_cap(ring))
+    sewing.Perform()
+    shells = TopExp_Explorer(sewing.SewedShape(), TopAbs_ShapeEnum.TopAbs_SHELL)
+    count = len(body.patches) + len(body.rings)
+    if not shells.More():
+        raise ConvergenceError(f"the {body.name}'s faces do not join", reached={"faces": count})
+    shape = BRepBuilderAPI_MakeSolid(TopoDS.Shell(shells.Current())).Solid()
+    BRepLib.OrientClosedSolid_s(shape)
+    found = check(shape)
+    if not found.valid or found.free_edges or found.faces != count:
+        raise ConvergenceError(
+            f"the {body.name}'s {count} faces do not close to one valid solid: "
+            f"{found.faces} join and leave {found.free_edges} free edges",
+            reached={"free_edges": found.free_edges, "faces": found.faces},
+        )
+    return Solid(shape, found)
+
+
+def check(shape: Any) -> Check:
+    """Return what is known of a solid, whether made or read."""
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.BRepGProp import BRepGProp
+    from OCP.collections import (
+        IndexedDataMap_TopoDS_Shape_List_TopoDS_Shape_TopTools_ShapeMapHasher as OwnerMap,
+    )
+    from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
+    from OCP.GProp import GProp_GProps
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp
+
+    owners, faces = OwnerMap(), ShapeMap()
+    edge, face = TopAbs_ShapeEnum.TopAbs_EDGE, TopAbs_ShapeEnum.TopAbs_FACE
+    TopExp.MapShapesAndAncestors_s(shape, edge, face, owners)
+    TopExp.MapShapes_s(shape, face, faces)
+    free = sum(owners.FindFromIndex(index).Size() != 2 for index in range(1, owners.Extent() + 1))
+    volume, area = GProp_GProps(), GProp_GProps()
+    # Without a bound on its error the integration is slower and less exact.
+    BRepGProp.VolumeProperties_s(shape, volume, _INTEGRATION)
+    BRepGProp.SurfaceProperties_s(shape, area, _INTEGRATION)
+    return Check(
+        valid=bool(BRepCheck_Analyzer(shape).IsValid()),
+        free_edges=free,
+        faces=faces.Extent(),
+        volume=volume.Mass(),
+        area=area.Mass(),
+    )
+
+
+def _face(patch: Patch) -> Any:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.collections import Array2_gp_Pnt
+    from OCP.Geom import Geom_BSplineSurface
+    from OCP.gp import gp_Pnt
+
+    poles, *knots = patch.spline()
+    array = Array2_gp_Pnt(1, poles.shape[0], 1, poles.shape[1])
+    for i, row in enumerate(poles.tolist(), 1):
+        for j, pole in enumerate(row, 1):
+            array.SetValue(i, j, gp_Pnt(*pole))
+    (first, times), (second, more) = map(_knots, knots)
+    surface = Geom_BSplineSurface(array, first, second, times, more, *patch.degrees)
+    return BRepBuilderAPI_MakeFace(surface, SEWING_TOLERANCE).Face()
+
+
+def _cap(ring: Sequence[NDArray[np.float64]]) -> Any:
+    from OCP.BRepBuilderAPI import (
+        BRepBuilderAPI_MakeEdge,
+        BRepBuilderAPI_MakeFace,
+        BRepBuilderAPI_MakeWire,
+    )
+    from OCP.collections import Array1_gp_Pnt
+    from OCP.Geom import Geom_BSplineCurve
+    from OCP.gp import gp_Pnt
+
+    wire = BRepBuilderAPI_MakeWire()
+    for row in ring:
+        curve = Patch(np.stack([row, row]))
+        poles, _, knots = curve.spline()
+        array = Array1_gp_Pnt(1, len(row))
+        for number, pole in enumerate(poles[0].tolist(), 1):
+            array.SetValue(number, gp_Pnt(*pole))
+        spline = Geom_BSplineCurve(array, *_knots(knots), curve.degrees[1])
+        wire.Add(BRepBuilderAPI_MakeEdge(spline).Edge())
+    return BRepBuilderAPI_MakeFace(wire.Wire(), True).Face()
+
+
+def _knots(knots: NDArray[np.float64]) -> tuple[Any, Any]:
+    from OCP.collections import Array1_double, Array1_int
+
+    places, counts = np.unique(knots, return_counts=True)
+    values, times = Array1_double(1, len(places)), Array1_int(1, len(places))
+    for number, (place, count) in enumerate(zip(places.tolist(), counts.tolist(), strict=True), 1):
+        values.SetValue(number, place)
+        times.SetValue(number, count)
+    return values, times

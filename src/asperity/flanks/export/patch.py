@@ -1,0 +1,90 @@
+"""Smooth patches through grids of exact points: what solids and their skins are made of."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import make_interp_spline
+
+from asperity.mesh.surface import Surface
+
+Floats = NDArray[np.float64]
+
+_DEGREE = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A grid of points on a smooth surface, mm.
+
+    Patches that meet have the same points along their common edge, and so the same curve: a curve
+    depends on the points along it alone.
+
+    Attributes
+    ----------
+    points : ndarray, shape (i, j, 3)
+        Even steps in i and in j are what the surface is smooth in; i towards j turns about the
+        outer normal.
+    """
+
+    points: Floats
+
+    @property
+    def degrees(self) -> tuple[int, int]:
+        """Degrees of the spline along i and along j."""
+        first, second = self.points.shape[:2]
+        return _degree(first), _degree(second)
+
+    def spline(self) -> tuple[Floats, Floats, Floats]:
+        """Return the spline through the points: poles (i, j, 3), knots along i, knots along j."""
+        along = []
+        poles = self.points
+        for axis, degree in enumerate(self.degrees):
+            places = np.linspace(0.0, 1.0, poles.shape[axis])
+            fitted = make_interp_spline(places, np.moveaxis(poles, axis, 0), k=degree)
+            poles = np.moveaxis(fitted.c, 0, axis)
+            along.append(np.asarray(fitted.t))
+        return poles, along[0], along[1]
+
+    def moved(self, matrix: ArrayLike) -> "Patch":
+        """Return the patch with its points at ``matrix @ point``; its outside stays outside."""
+        matrix = np.asarray(matrix, dtype=float)
+        points = self.points @ matrix.T
+        return Patch(points if np.linalg.det(matrix) > 0 else points[::-1])
+
+    def surface(self) -> Surface:
+        """Return the grid as triangles."""
+        return Surface.of_grid(self.points, "mm")
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A body bounded by smooth patches and by planes, mm.
+
+    Attributes
+    ----------
+    name : str
+        What it is, for the files that hold it.
+    patches : sequence of Patch
+        Its smooth faces.
+    rings : sequence of sequences of ndarray, shape (k, 3)
+        The boundary of each plane face: rows of points in their order round it, each row the edge
+        of a patch.
+    """
+
+    name: str
+    patches: Sequence[Patch]
+    rings: Sequence[Sequence[Floats]]
+
+    def moved(self, matrix: ArrayLike) -> "Body":
+        """Return the body turned or mirrored by a matrix."""
+        matrix = np.asarray(matrix, dtype=float)
+        rings = [[row @ matrix.T for row in ring] for ring in self.rings]
+        return Body(self.name, [patch.moved(matrix) for patch in self.patches], rings)
+
+
+def _degree(count: int) -> int:
+    if count > 2 * _DEGREE:
+        return _DEGREE
+    return 3 if count > 3 else count - 1

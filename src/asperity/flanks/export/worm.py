@@ -1,0 +1,92 @@
+"""The body of a worm or hob: a few patches a start, between two planes."""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asperity.errors import InputError
+from asperity.flanks.export.patch import Body, Patch
+from asperity.flanks.helicoid import Helicoid
+
+Floats = NDArray[np.float64]
+
+# Points that leave a quintic through a helix of the worm's size within 1e-8 mm.
+_POINTS_PER_TURN = 60
+_POINTS_ON_FLANK = 17
+_POINTS_ON_ARC = 9
+
+
+def worm_body(worm: Helicoid, length: float) -> Body:
+    """Return a worm between two planes across its axis.
+
+    Parameters
+    ----------
+    worm : Helicoid
+        A right-handed worm or hob.
+    length : float
+        Length along the axis, mm; the middle of the thread space at angle 0 is its middle.
+
+    Returns
+    -------
+    Body
+        For each start root, flank, rounding of the tip, land, rounding and flank up to the root of
+        the next; i runs round the axis, j along it. Points are in the worm's frame, mm.
+
+    Raises
+    ------
+    InputError
+        The length is not positive.
+    """
+    if not (math.isfinite(length) and length > 0):
+        raise InputError(f"the worm's length is {length:g} mm; it must be positive")
+    p = worm.reduced_lead
+    count = max(8, 1 + math.ceil(_POINTS_PER_TURN * length / (2 * math.pi * p)))
+    along = np.linspace(-length / 2, length / 2, count)
+
+    def swept(radius: ArrayLike, axial: ArrayLike, start: int) -> Patch:
+        # A point of the axial section that stands `axial` beyond the space's middle.
+        turn = (along - np.asarray(axial)[:, None]) / p - 2 * math.pi * start / worm.starts
+        rho = np.broadcast_to(np.asarray(radius)[:, None], turn.shape)
+        points = [rho * np.cos(turn), rho * np.sin(turn), np.broadcast_to(along, turn.shape)]
+        # Angles fall as the axial place grows.
+        return Patch(np.stack(points, axis=-1)[::-1])
+
+    pieces = _axial_section(worm)
+    patches = []
+    for start in range(worm.starts):
+        for radius, axial in pieces:
+            patches.append(swept(radius, axial, start))
+    rings = [[patch.points[:, end] for patch in patches] for end in (0, -1)]
+    return Body(worm.name, patches, rings)
+
+
+def _axial_section(worm: Helicoid) -> list[tuple[Floats, Floats]]:
+    """Return radius and axial place of each piece of a start, in the order of their places."""
+    side = [worm.curve(u)[:2] for u in _flank_places(worm)]
+    if worm.tip_rounding > 0:
+        side.append(worm.curve(np.linspace(1.0, 2.0, _POINTS_ON_ARC))[:2])
+    inner = float(side[0][1][0])
+    outer = float(side[-1][1][-1])
+    even = np.linspace(-1.0, 1.0, _POINTS_ON_FLANK)
+    pitch = 2 * worm.half_pitch
+    root = (np.full_like(even, worm.root_radius), inner * even)
+    land = (np.full_like(even, worm.tip_radius), pitch / 2 + (pitch / 2 - outer) * even)
+    back = [(radius[::-1], pitch - axial[::-1]) for radius, axial in reversed(side)]
+    return [root, *side, land, *back]
+
+
+def _flank_places(worm: Helicoid) -> list[Floats]:
+    """Return places on the flank, even in what it is smooth in, split where it is not."""
+    base = worm.profile.base_radius
+    root, end = worm.root_radius, worm.flank_end
+    even = np.linspace(0.0, 1.0, _POINTS_ON_FLANK)
+    if base is None or base >= end:
+        return [even]
+    # An involute helicoid is smooth in the length of its generator, not in the radius.
+    least = max(root, base)
+    low, high = math.sqrt(least**2 - base**2), math.sqrt(end**2 - base**2)
+    radius = np.hypot(base, low + even * (high - low))
+    radius[[0, -1]] = least, end
+    flank = (radius - root) / (end - root)
+    return [flank] if least == root else [np.linspace(0.0, flank[0], _POINTS_ON_ARC), flank]
