@@ -15,14 +15,13 @@ from scipy.optimize import brentq
 
 from asperity.errors import InputError
 from asperity.flanks import curve
-from asperity.flanks.ground import profile
 from asperity.flanks.parameters import HOB_TIP_RADIUS, Disc, Hob, Modification, size_in_mm
 from asperity.flanks.profiles import AxialProfile, FloatArray
+from asperity.flanks.types import profile
 from asperity.gearset.geometry import Flank, Geometry
 
 _MILLIMETRES = 1e3
 _LEAST_LAND = 0.01
-_MARGIN = 0.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -116,7 +115,14 @@ class Helicoid:
         module = geometry.axial_module
         nominal = math.pi * module / 4.0
         shape = profile(
-            flank, r, gamma, geometry.pressure_angle, nominal, (root, tip + module), disc
+            flank,
+            pitch_radius=r,
+            lead_angle=gamma,
+            pressure_angle=geometry.pressure_angle,
+            half_space=nominal,
+            reach=(root, r - geometry.wheel_addendum, tip),
+            module=module,
+            disc=disc,
         )
         draft = cls(
             starts=geometry.starts,
@@ -187,12 +193,13 @@ class Helicoid:
             tip_rounding=0.0,
             profile=profile(
                 flank,
-                r,
-                gamma,
-                geometry.pressure_angle,
-                half_space,
-                (root, tip + _MARGIN * module),
-                disc,
+                pitch_radius=r,
+                lead_angle=gamma,
+                pressure_angle=geometry.pressure_angle,
+                half_space=half_space,
+                reach=(root, r - geometry.wheel_addendum, tip),
+                module=module,
+                disc=disc,
             ),
             half_space=half_space,
             lead_angle=gamma,

@@ -54,19 +54,18 @@ def ruled(rho, params, at):
 
 @kernel
 def tabulated(rho, params, at):
-    """``(f, f', f'')`` of a tabulated flank; parabolas go on beyond the ends."""
+    """``(f, f', f'')`` of a tabulated flank; straight lines go on beyond the ends."""
     first = params[at + 1]
     step = params[at + 2]
     count = int(params[at + 3])
     place = (rho - first) / step
-    if place <= 0.0 or place >= count - 1:
-        i = 0 if place <= 0.0 else count - 1
-        k = at + _HEADER + 3 * i
-        x = rho - (first + i * step)
-        curvature = params[k + 2]
-        slope = params[k + 1] + curvature * x
-        return params[k] + x * (params[k + 1] + 0.5 * curvature * x), slope, curvature
-    i = int(place)
+    if place < 0.0 or place > count - 1:
+        k = at + _HEADER
+        if place > 0.0:
+            k += 3 * (count - 1)
+            rho -= (count - 1) * step
+        return params[k] + params[k + 1] * (rho - first), params[k + 1], 0.0
+    i = min(int(place), count - 2)
     x = place - i
     k = at + _HEADER + 3 * i
     a0 = params[k]
