@@ -5,239 +5,226 @@ Whatever time integration stands above it, an increment reads
 .. math:: u = u^* + A\,f(u)
 
 with the displacements :math:`u` and contact forces :math:`f` of the contact nodes, the motion
-:math:`u^*` that the body would have without contact, and a constant flexibility :math:`A`.
+:math:`u^*` that the body would have without contact, and a constant flexibility :math:`A`. Normal
+force, bristle and tangential give of the body are solved together.
+
+While the contact keeps its extent, a frozen tangent and one matrix product an iteration do
+(`asperity.contact.newton_frozen`); where it changes, or converges slowly, consistent Newton steps
+(`asperity.contact.newton`). Both end at the same residual; which was used shows in the number of
+iterations alone.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
-from asperity.contact.friction_point import PointFriction
 from asperity.contact.increment_kernels import (
-    BASE_1,
-    BASE_2,
-    BODY_1,
-    BODY_2,
-    MOTION,
-    ONE_SIDED,
-    ROTATION,
-    TRANSLATION,
+    DISTANCE,
+    NORMAL,
+    POINT,
+    PRESSURE,
+    SLIP_1,
+    SLIP_2,
+    TRACTION,
+    stiffness_forces,
 )
-from asperity.contact.normal import NormalLaw
-from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.surface import ContactSurface
-from asperity.errors import InputError
+from asperity.contact.increment_state import (
+    ContactState,
+    Drift,
+    IncrementProblem,
+    IncrementResult,
+    SurfaceMotion,
+)
+from asperity.contact.newton import Trial, evaluate, solve
+from asperity.contact.newton_frozen import Frozen
+from asperity.contact.newton_kernels import CONVERGED, answer, frozen_iterations
+from asperity.errors import ConvergenceError, InputError
+
+__all__ = [
+    "ContactState",
+    "Drift",
+    "IncrementProblem",
+    "IncrementResult",
+    "SurfaceMotion",
+    "solve_increment",
+]
 
 FloatArray = npt.NDArray[np.float64]
 
+# Iterations with one frozen tangent, and how many make it worth while to look for a better one.
+_MOST_FROZEN = 20
+_MANY = 8
 
-@dataclass(frozen=True, eq=False)
-class IncrementProblem:
-    """What stays the same from increment to increment.
+_MOST_AUGMENTATIONS = 60
 
-    Attributes
+
+def solve_increment(
+    problem: IncrementProblem,
+    free: FloatArray,
+    motion: SurfaceMotion,
+    state: ContactState,
+) -> IncrementResult:
+    """Solve ``u = u* + A f(u)`` for one increment. The committed state is not changed.
+
+    Parameters
     ----------
-    flexibility : ndarray, shape (3n, 3n)
-        :math:`A`, displacement of the contact nodes by unit forces on them (number 3 node + axis),
-        m/N. It belongs to one time step; in statics it is that of the held body.
-    surface : ContactSurface
-        The body's faces that may touch, with n nodes and q quadrature points in all; values at
-        points are numbered face by face.
-    counter : RigidSurface
-        What the body meets.
-    normal : NormalLaw
-        Pressure against overclosure.
-    friction : PointFriction
-        Friction law.
-    step : float
-        Time step, s; 0 in statics (LuGre needs it).
-    tolerance : float
-        Relative residual at which an increment counts as solved, see `IncrementResult`.
-    penetration : float
-        Hard contact: the overclosure about a node times the penalty, over the largest pressure,
-        at which the multipliers count as found.
-    most_iterations : int
-        Iterations of one increment before it is given up.
-    """
-
-    flexibility: FloatArray
-    surface: ContactSurface
-    counter: RigidSurface
-    normal: NormalLaw
-    friction: PointFriction = field(default_factory=PointFriction)
-    step: float = 0.0
-    tolerance: float = 1e-9
-    penetration: float = 1e-6
-    most_iterations: int = 60
-
-    workspace: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        nodes = len(self.surface.positions)
-        if self.flexibility.shape != (3 * nodes, 3 * nodes):
-            raise InputError(
-                f"the flexibility has the shape {self.flexibility.shape}; the surface has {nodes} "
-                f"nodes, so give ({3 * nodes}, {3 * nodes})"
-            )
-        if not np.isfinite(self.flexibility).all():
-            raise InputError("the flexibility has an entry that is not finite")
-
-    @property
-    def nodes(self) -> int:
-        """Number of contact nodes n."""
-        return len(self.surface.positions)
-
-    @property
-    def points(self) -> int:
-        """Number of quadrature points q."""
-        return self.surface.weights.size
-
-
-@dataclass(frozen=True, eq=False)
-class ContactState:
-    """What an increment starts from: the committed history. Never changed by an iteration.
-
-    Attributes
-    ----------
-    displacement : ndarray, shape (3n,)
-        Of the contact nodes, m.
-    force : ndarray, shape (3n,)
-        Contact forces on the body, N.
-    deflection : ndarray, shape (q, 3)
-        Of the asperities, in space, m.
-    size : ndarray, shape (q,)
-        Two-phase scheme: its signed size over the limit.
-    multiplier : ndarray, shape (n,)
-        Hard contact: the nodes' multipliers, Pa.
-    """
-
-    displacement: FloatArray
-    force: FloatArray
-    deflection: FloatArray
-    size: FloatArray
-    multiplier: FloatArray
-
-    @classmethod
-    def rest(cls, problem: IncrementProblem) -> ContactState:
-        """Undeformed, unloaded, asperities straight."""
-        n, q = problem.nodes, problem.points
-        return cls(np.zeros(3 * n), np.zeros(3 * n), np.zeros((q, 3)), np.zeros(q), np.zeros(n))
-
-
-@dataclass(frozen=True, eq=False)
-class Drift:
-    """Displacement of the counter-surface's material over an increment, ``shift + turn @ x``.
-
-    Attributes
-    ----------
-    shift : ndarray, shape (3,)
-        m.
-    turn : ndarray, shape (3, 3)
-        On the position at the increment's end; of a rotation ``I - R_0 R_1^T``.
-    """
-
-    shift: FloatArray = field(default_factory=lambda: np.zeros(3))
-    turn: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
-
-    @classmethod
-    def between(cls, before: Pose, after: Pose) -> Drift:
-        """Whole displacement from one pose to another."""
-        back = before.rotation @ after.rotation.T
-        shift = back @ after.translation - before.translation
-        return cls(shift, np.eye(3) - back)
-
-
-@dataclass(frozen=True, eq=False)
-class SurfaceMotion:
-    """Where the counter-surface stands at the end of an increment, and what slip it makes.
-
-    The slip of the body on the surface is ``v_j = body_j @ (u - u_committed) - base_j(x)`` in its
-    two parts j = 1, 2, brought into the tangent plane. Usually the body moves in the first part
-    alone, the base's x motion stands in the first and its transferred y motion in the second.
-
-    Attributes
-    ----------
-    pose : Pose
-        At the end.
-    base_1, base_2 : Drift
-        The two parts of the surface's displacement, as the contact sees them (transferred).
-    body_1, body_2 : ndarray, shape (3, 3)
-        What each part sees of the body's own displacement.
-    one_sided : bool
-        Two-phase scheme: the increment ends no later than the vibration starts.
-    """
-
-    pose: Pose = field(default_factory=Pose)
-    base_1: Drift = field(default_factory=Drift)
-    base_2: Drift = field(default_factory=Drift)
-    body_1: FloatArray = field(default_factory=lambda: np.eye(3))
-    body_2: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
-    one_sided: bool = False
-
-    def parameters(self) -> FloatArray:
-        """Numbers as the kernels take them."""
-        m = np.empty(MOTION)
-        m[ROTATION:TRANSLATION] = self.pose.rotation.ravel()
-        m[TRANSLATION:BASE_1] = self.pose.translation
-        m[BASE_1 : BASE_1 + 3] = self.base_1.shift
-        m[BASE_1 + 3 : BASE_2] = self.base_1.turn.ravel()
-        m[BASE_2 : BASE_2 + 3] = self.base_2.shift
-        m[BASE_2 + 3 : BODY_1] = self.base_2.turn.ravel()
-        m[BODY_1:BODY_2] = self.body_1.ravel()
-        m[BODY_2:ONE_SIDED] = self.body_2.ravel()
-        m[ONE_SIDED] = 1.0 if self.one_sided else 0.0
-        return m
-
-
-@dataclass(frozen=True, eq=False)
-class IncrementResult:
-    """A solved increment. Nothing is committed: the caller goes on from `state` if it accepts.
-
-    Attributes
-    ----------
+    problem : IncrementProblem
+        What stays the same; it keeps what speeds up its later increments.
+    free : ndarray, shape (3n,)
+        :math:`u^*`, displacement of the contact nodes without contact forces, m.
+    motion : SurfaceMotion
+        Of the counter-surface over the increment.
     state : ContactState
-        Trial state at the end.
-    pressure : ndarray, shape (q,)
-        Pa, 0 where open.
-    distance : ndarray, shape (q,)
-        To the surface, m, negative for an overclosure.
-    normal : ndarray, shape (q, 3)
-        Of the surface.
-    traction : ndarray, shape (q, 3)
-        On the body, Pa.
-    slip_1, slip_2 : ndarray, shape (q, 3)
-        The two parts of the slip, in the tangent plane, m.
-    iterations : int
-        Evaluations of the contact.
-    residual : float
-        Norm of what the next correction would change of the nodal forces, over that of the forces.
+        Committed state at its start.
+
+    Returns
+    -------
+    IncrementResult
+        Trial state, tractions and what it took.
+
+    Raises
+    ------
+    InputError
+        ``free`` has the wrong shape or is not finite.
+    ConvergenceError
+        No equilibrium, or no multipliers without overclosure; with residual, iterations and
+        points in contact.
     """
+    free = np.ascontiguousarray(free, dtype=np.float64)
+    if free.shape != (3 * problem.nodes,) or not np.isfinite(free).all():
+        raise InputError(
+            f"the free displacement has the shape {free.shape}; give ({3 * problem.nodes},), finite"
+        )
+    numbers = motion.parameters()
+    foretold = state.trend.foretold(problem.flexibility)
+    if foretold is None:
+        assumed = state.force
+        way = np.empty_like(free)
+        answer(problem.flexibility, assumed, way)
+    else:
+        assumed, way = foretold
+    multiplier = state.multiplier
+    iterations = 0
+    for _ in range(_MOST_AUGMENTATIONS):
+        solved, residual, took = _solve_once(
+            problem, free, numbers, state, multiplier, assumed, way
+        )
+        iterations += took
+        if problem.normal.name != "hard":
+            return _result(problem, state, solved, multiplier, iterations, residual)
+        grown = _augmented(problem, solved, multiplier)
+        most = float(np.abs(grown - multiplier).max(initial=0.0))
+        if most <= problem.penetration * float(solved.points[:, PRESSURE].max(initial=0.0)):
+            return _result(problem, state, solved, grown, iterations, residual)
+        multiplier = grown
+        assumed, way = solved.assumed, solved.way
+    raise ConvergenceError(
+        f"hard contact still has an overclosure after {_MOST_AUGMENTATIONS} augmentations: raise "
+        "the contact stiffness",
+        reached={
+            "residual": most,
+            "iterations": float(iterations),
+            "active": float(solved.touching.sum()),
+        },
+    )
 
-    state: ContactState
-    pressure: FloatArray
-    distance: FloatArray
-    normal: FloatArray
-    traction: FloatArray
-    slip_1: FloatArray
-    slip_2: FloatArray
-    iterations: int
-    residual: float
 
-    @property
-    def displacement(self) -> FloatArray:
-        """Of the contact nodes, m, shape (3n,)."""
-        return self.state.displacement
+def _solve_once(
+    problem: IncrementProblem,
+    free: FloatArray,
+    motion: FloatArray,
+    state: ContactState,
+    multiplier: FloatArray,
+    assumed: FloatArray,
+    way: FloatArray,
+) -> tuple[Trial, float, int]:
+    """Solve for given multipliers: by frozen tangents where they serve, else by Newton's method."""
+    inverses = problem.inverses
+    took = 0
+    frozen = inverses.fitting(state.touching.tobytes())
+    for _ in range(2):
+        if frozen is None:
+            trial = evaluate(problem, free, motion, state, multiplier, assumed, way)
+            took += 1
+            if trial.residual <= problem.tolerance:
+                return trial, trial.residual, took
+            frozen = inverses.chosen(problem, trial)
+            if frozen is None:
+                break
+        trial, residual, status, count = _iterate(
+            problem, free, motion, state, multiplier, assumed, way, frozen
+        )
+        took += count
+        frozen.stale = status != CONVERGED or count > _MANY
+        if status == CONVERGED:
+            inverses.ended_with(trial.touching.tobytes())
+            return trial, residual, took
+        frozen = None
+    trial, count = solve(problem, free, motion, state, multiplier, assumed, way)
+    inverses.ended_with(trial.touching.tobytes())
+    return trial, trial.residual, took + count
 
-    @property
-    def force(self) -> FloatArray:
-        """Contact forces on the body, N, shape (3n,)."""
-        return self.state.force
 
-    @property
-    def active(self) -> int:
-        """Number of points in contact."""
-        return int(np.count_nonzero(self.pressure > 0.0))
+def _iterate(
+    problem: IncrementProblem,
+    free: FloatArray,
+    motion: FloatArray,
+    state: ContactState,
+    multiplier: FloatArray,
+    assumed: FloatArray,
+    way: FloatArray,
+    frozen: Frozen,
+) -> tuple[Trial, float, int, int]:
+    faces, shapes, weights = problem.arrays[:3]
+    count = problem.points
+    force = np.empty_like(free)
+    stiffness_forces(frozen.stiffness, faces, shapes, weights, way, force)
+    h = (assumed - force)[frozen.dofs]
+    u = np.empty_like(free)
+    deflection = np.empty((count, 3))
+    size = np.empty(count)
+    points = np.empty((count, POINT))
+    status, took, residual = frozen_iterations(
+        free, h, frozen.inverse, frozen.stiffness, frozen.dofs, problem.tolerance, _MOST_FROZEN,
+        state.displacement, state.deflection, state.size, multiplier, *problem.arrays, motion,
+        u, force, deflection, size, points,
+    )  # fmt: skip
+    return Trial(force, u - free, u, force, deflection, size, points, _NONE), residual, status, took
+
+
+_NONE = np.empty((0, 3, 3))
+
+
+def _augmented(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -> FloatArray:
+    """Multipliers after one augmentation with the overclosure averaged about each node."""
+    surface = problem.surface
+    over = -trial.points[:, DISTANCE].reshape(surface.weights.shape)
+    mean = surface.to_forces(over) / surface.nodal_area
+    return np.maximum(multiplier + problem.normal.stiffness * mean, 0.0)
+
+
+def _result(
+    problem: IncrementProblem,
+    state: ContactState,
+    trial: Trial,
+    multiplier: FloatArray,
+    iterations: int,
+    residual: float,
+) -> IncrementResult:
+    points = trial.points
+    trend = state.trend.followed_by(trial.force, trial.way, problem.flexibility)
+    end = ContactState(
+        trial.u, trial.force, trial.deflection, trial.size, multiplier, trial.touching, trend
+    )
+    return IncrementResult(
+        end,
+        points[:, PRESSURE],
+        points[:, DISTANCE],
+        points[:, NORMAL : NORMAL + 3],
+        points[:, TRACTION : TRACTION + 3],
+        points[:, SLIP_1 : SLIP_1 + 3],
+        points[:, SLIP_2 : SLIP_2 + 3],
+        iterations,
+        residual,
+    )

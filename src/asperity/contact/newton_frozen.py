@@ -1,0 +1,181 @@
+r"""Inverses kept from increment to increment, for contact whose extent does not change.
+
+While the same points touch, only the tangential stiffness :math:`\mu p/s_{max}\,\partial s/\partial
+D` changes, with the asperities' deflection. A frozen tangent with the mean of it is then enough to
+converge fast (`asperity.contact.newton_kernels`), and the few levels of the mean that matter,
+against the body's own tangential flexibility, are kept with their inverses.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+
+from asperity.contact.increment_kernels import NORMAL, add_stiffness
+
+if TYPE_CHECKING:
+    from asperity.contact.increment_state import IncrementProblem
+    from asperity.contact.newton import Trial
+
+FloatArray = npt.NDArray[np.float64]
+
+# Mean stiffness times mean flexibility below which a direction needs no frozen stiffness, and the
+# factor between levels above it.
+_WEAK = 0.1
+_FACTOR = 4.0
+
+_MOST_INVERSES = 24
+_MOST_BYTES = 256e6
+_MOST_SETS = 64
+
+
+@dataclass(eq=False)
+class Frozen:
+    """A frozen tangent with its inverse; the arrays are as `frozen_iterations` takes them.
+
+    Attributes
+    ----------
+    touching : bytes
+        The points it was made for.
+    inverse : ndarray, shape (3n, m)
+        G.
+    stiffness : ndarray, shape (q, 3, 3)
+        Pa/m.
+    dofs : ndarray of int, shape (m,)
+        Unknowns of the nodes about those points.
+    stale : bool
+        It converged slowly the last time.
+    """
+
+    touching: bytes
+    inverse: FloatArray
+    stiffness: FloatArray
+    dofs: npt.NDArray[np.int64]
+    stale: bool = False
+
+
+@dataclass(eq=False)
+class Inverses:
+    """The inverses of one problem, the latest used at the end.
+
+    Attributes
+    ----------
+    kept : dict
+        By points in contact and levels of stiffness.
+    seen : dict
+        How many increments ended with a set of points in contact, and its mean flexibility.
+    last : Frozen or None
+        Used last.
+    """
+
+    kept: dict[tuple[bytes, int, int, int], Frozen] = field(default_factory=dict)
+    seen: dict[bytes, tuple[int, float]] = field(default_factory=dict)
+    last: Frozen | None = None
+
+    def ended_with(self, touching: bytes) -> None:
+        """Count an increment that ended with these points in contact."""
+        count, flexibility = self.seen.pop(touching, (0, 0.0))
+        if len(self.seen) >= _MOST_SETS:
+            del self.seen[next(iter(self.seen))]
+        self.seen[touching] = (count + 1, flexibility)
+
+    def fitting(self, touching: bytes) -> Frozen | None:
+        """Inverse used last, if it is for these points and converged fast."""
+        last = self.last
+        if last is None or last.stale or last.touching != touching:
+            return None
+        return last
+
+    def chosen(self, problem: IncrementProblem, trial: Trial) -> Frozen | None:
+        """Inverse for the stiffness at a trial; None for a contact seen the first time."""
+        touching = trial.touching
+        name = touching.tobytes()
+        count, flexibility = self.seen.get(name, (0, 0.0))
+        if count < 2 or not touching.any():
+            return None
+        normals, tangents = _frames(trial.points[:, NORMAL : NORMAL + 3])
+        axes = np.concatenate([normals[:, None], tangents], axis=1)
+        along = -np.einsum("qai,qij,qaj->qa", axes, trial.stiffness, axes)
+        if flexibility == 0.0:
+            flexibility = _mean_flexibility(problem, touching)
+            self.seen[name] = (count, flexibility)
+        mean = np.maximum(along[touching].mean(axis=0), 0.0)
+        levels = [_level(float(mean[a]) * flexibility) for a in (1, 2)]
+        steepness = round(2.0 * math.log2(float(mean[0]))) if mean[0] > 0.0 else 0
+        key = (name, steepness, *levels)
+        frozen = self.kept.pop(key, None)
+        if frozen is None:
+            k1, k2 = (_representative(level) / flexibility for level in levels)
+            stiffness = -(
+                np.maximum(along[:, 0, None, None], 0.0) * _outer(normals)
+                + k1 * _outer(tangents[:, 0])
+                + k2 * _outer(tangents[:, 1])
+            )
+            stiffness[~touching] = 0.0
+            frozen = _invert(problem, name, touching, stiffness)
+            used = sum(entry.inverse.nbytes for entry in self.kept.values())
+            while self.kept and (
+                len(self.kept) >= _MOST_INVERSES or used + frozen.inverse.nbytes > _MOST_BYTES
+            ):
+                used -= self.kept.pop(next(iter(self.kept))).inverse.nbytes
+        self.kept[key] = frozen
+        self.last = frozen
+        frozen.stale = False
+        return frozen
+
+
+def _level(coupling: float) -> int:
+    return 0 if coupling <= _WEAK else math.ceil(math.log(coupling / _WEAK, _FACTOR))
+
+
+def _representative(level: int) -> float:
+    # Too stiff converges slower, too soft (by more than two) not at all.
+    return 0.0 if level == 0 else 0.6 * _WEAK * _FACTOR**level
+
+
+def _outer(vectors: FloatArray) -> FloatArray:
+    product: FloatArray = vectors[:, :, None] * vectors[:, None, :]
+    return product
+
+
+def _frames(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Normals and two tangents each, the first as near to x (else y) as it can be."""
+    along = np.where(np.abs(normals[:, :1]) < 0.9, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
+    first = along - (along * normals).sum(axis=1, keepdims=True) * normals
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return normals, np.stack([first, np.cross(normals, first)], axis=1)
+
+
+def _mean_flexibility(problem: IncrementProblem, touching: npt.NDArray[np.bool_]) -> float:
+    """Largest mean displacement of the points under a uniform traction of 1 Pa on them, m/Pa."""
+    areas = (problem.surface.weights.ravel() * touching).reshape(problem.surface.weights.shape)
+    share = problem.surface.to_forces(areas / problem.surface.weights)
+    area = float(areas.sum())
+    parts = [share @ problem.flexibility[axis::3, axis::3] @ share / area for axis in range(3)]
+    return float(max(parts))
+
+
+def _invert(
+    problem: IncrementProblem,
+    name: bytes,
+    touching: npt.NDArray[np.bool_],
+    stiffness: FloatArray,
+) -> Frozen:
+    faces, shapes, weights = problem.arrays[:3]
+    touched = np.unique(faces[np.flatnonzero(touching) // len(shapes)])
+    local = np.full(problem.nodes, -1, dtype=np.int64)
+    local[touched] = np.arange(len(touched))
+    dofs = (3 * touched[:, None] + np.arange(3)).ravel()
+    k = np.zeros((len(dofs), len(dofs)))
+    add_stiffness(stiffness, faces, shapes, weights, local, k)
+    part = problem.flexibility[np.ix_(dofs, dofs)]
+    matrix = np.eye(len(dofs)) - part @ k
+    inverse = scipy.linalg.solve(matrix, part, overwrite_a=True, check_finite=False)
+    if len(dofs) < 3 * problem.nodes:
+        inverse = problem.flexibility[:, dofs] @ (np.eye(len(dofs)) + k @ inverse)
+    return Frozen(name, np.ascontiguousarray(inverse), stiffness, dofs)

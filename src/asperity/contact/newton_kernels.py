@@ -1,0 +1,200 @@
+r"""Iterations with a frozen tangent: one product with a dense inverse each.
+
+With a frozen stiffness :math:`K` of the contact (negative where contact resists) put
+:math:`h = f(u) - K (u - u^*)`. Then
+
+.. math:: u = u^* + G h, \qquad G = (I - A K)^{-1} A ,
+
+solves the increment exactly where the contact is as linear as :math:`K` says, and the fixed point
+:math:`h \to f(u) - K(u - u^*)` is the solution whatever :math:`K` is. What the iteration leaves is
+the difference between the forces of the tractions and those the body answers to,
+:math:`R = f(u) - [h + K(u - u^*)]`. Anderson's method speeds it up.
+"""
+
+import math
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.contact.increment_kernels import stiffness_forces, tractions
+
+CONVERGED = 0
+SLOW = 1
+OUTSIDE = 2
+
+# Steps that Anderson's method looks back.
+DEPTH = 4
+
+# A step that leaves more than this of the residual is slow; two in a row are given up.
+_SLOW = 0.5
+
+
+@kernel
+def answer(flexibility, force, out):
+    """Write ``A f``; sums over the forces there are when few are."""
+    count = 0
+    for j in range(force.shape[0]):
+        if force[j] != 0.0:
+            count += 1
+    if 2 * count > force.shape[0]:
+        np.dot(flexibility, force, out)
+        return
+    out[:] = 0.0
+    for j in range(force.shape[0]):
+        if force[j] != 0.0:
+            for i in range(out.shape[0]):
+                out[i] += flexibility[i, j] * force[j]
+
+
+@kernel
+def _solve(gram, right, count):
+    """Solve a small symmetric system in place by elimination; ``right`` becomes the solution."""
+    for i in range(count):
+        best = i
+        for j in range(i + 1, count):
+            if abs(gram[j, i]) > abs(gram[best, i]):
+                best = j
+        if gram[best, i] == 0.0:
+            return False
+        if best != i:
+            for j in range(count):
+                gram[i, j], gram[best, j] = gram[best, j], gram[i, j]
+            right[i], right[best] = right[best], right[i]
+        for j in range(i + 1, count):
+            factor = gram[j, i] / gram[i, i]
+            for c in range(i, count):
+                gram[j, c] -= factor * gram[i, c]
+            right[j] -= factor * right[i]
+    for i in range(count - 1, -1, -1):
+        for j in range(i + 1, count):
+            right[i] -= gram[i, j] * right[j]
+        right[i] /= gram[i, i]
+    return True
+
+
+@kernel
+def _accelerate(h, rest, last_h, last_rest, steps_h, steps_rest, kept):
+    """Anderson's next ``h`` from the residuals of the last steps; moves the memory on."""
+    size = h.shape[0]
+    gram = np.empty((DEPTH, DEPTH))
+    right = np.empty(DEPTH)
+    for i in range(kept):
+        for j in range(i + 1):
+            total = 0.0
+            for c in range(size):
+                total += steps_rest[i, c] * steps_rest[j, c]
+            gram[i, j] = total
+            gram[j, i] = total
+        total = 0.0
+        for c in range(size):
+            total += steps_rest[i, c] * rest[c]
+        right[i] = total
+    for i in range(kept):
+        gram[i, i] *= 1.0 + 1e-13
+    use = kept > 0 and _solve(gram, right, kept)
+    for c in range(size):
+        last_h[c] = h[c]
+        last_rest[c] = rest[c]
+        h[c] += rest[c]
+    if use:
+        for i in range(kept):
+            for c in range(size):
+                h[c] -= right[i] * (steps_h[i, c] + steps_rest[i, c])
+
+
+@kernel
+def frozen_iterations(
+    free, h, inverse, frozen, dofs, tolerance, most,
+    u0, deflection0, size0, multiplier,
+    faces, shapes, weights, places, surface, law, friction, motion,
+    u, force, deflection, size, points,
+):  # fmt: skip
+    """Solve an increment with a frozen tangent.
+
+    Parameters
+    ----------
+    free : ndarray, shape (3n,)
+        Displacement without contact, m.
+    h : ndarray, shape (m,)
+        Foretold on entry, see the module; changed.
+    inverse : ndarray, shape (3n, m)
+        :math:`G` for the unknowns the frozen stiffness lives on.
+    frozen : ndarray, shape (q, 3, 3)
+        The frozen stiffness of the points, Pa/m.
+    dofs : ndarray of int, shape (m,)
+        Those unknowns.
+    tolerance : float
+        Relative residual to be reached.
+    most : int
+        Iterations that are made at most.
+    u0, deflection0, size0, multiplier, faces, ..., motion
+        As `asperity.contact.increment_kernels.tractions` takes them.
+    u, force, deflection, size, points
+        Written: the last iterate.
+
+    Returns
+    -------
+    status : int
+        `CONVERGED`, `SLOW` (not converging fast enough to be worth while) or `OUTSIDE` (contact
+        has spread to nodes that the frozen tangent does not know).
+    iterations : int
+        Evaluations of the contact.
+    residual : float
+        Relative residual.
+    """
+    count = dofs.shape[0]
+    way = np.empty_like(u)
+    carried = np.empty_like(u)
+    rest = np.empty(count)
+    last_h = np.empty(count)
+    last_rest = np.empty(count)
+    steps_h = np.empty((DEPTH, count))
+    steps_rest = np.empty((DEPTH, count))
+    no_stiffness = np.empty((0, 3, 3))
+    kept = 0
+    place = 0
+    slow = 0
+    last = np.inf
+    for iteration in range(1, most + 1):
+        np.dot(inverse, h, way)
+        for i in range(u.shape[0]):
+            u[i] = free[i] + way[i]
+        tractions(
+            u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
+            surface, law, friction, motion, force, deflection, size, points, no_stiffness, False,
+        )  # fmt: skip
+        stiffness_forces(frozen, faces, shapes, weights, way, carried)
+        whole = 0.0
+        norm = 0.0
+        touched = 0
+        within = 0
+        for i in range(u.shape[0]):
+            if force[i] != 0.0:
+                touched += 1
+                whole += force[i] * force[i]
+        for c in range(count):
+            i = dofs[c]
+            assumed = h[c] + carried[i]
+            rest[c] = force[i] - assumed
+            norm += rest[c] * rest[c]
+            if force[i] != 0.0:
+                within += 1
+        if not math.isfinite(norm):
+            return SLOW, iteration, np.inf
+        residual = math.sqrt(norm / whole) if whole > 0.0 else (np.inf if norm > 0.0 else 0.0)
+        if touched > within:
+            return OUTSIDE, iteration, residual
+        if residual <= tolerance:
+            return CONVERGED, iteration, residual
+        slow = slow + 1 if residual > _SLOW * last else 0
+        if slow >= 2:
+            return SLOW, iteration, residual
+        last = min(last, residual)
+        if iteration > 1:
+            for c in range(count):
+                steps_h[place, c] = h[c] - last_h[c]
+                steps_rest[place, c] = rest[c] - last_rest[c]
+            place = (place + 1) % DEPTH
+            kept = min(kept + 1, DEPTH)
+        _accelerate(h, rest, last_h, last_rest, steps_h, steps_rest, kept)
+    return SLOW, most, last
