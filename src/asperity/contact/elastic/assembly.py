@@ -158,7 +158,7 @@ def mass_matrix(mesh: HexMesh, density: float) -> sparse.csr_array:
     for cells, basis, order in _bases(mesh):
         values = np.empty((*basis.dx.shape, len(order)))
         for number, (function,) in enumerate(basis.basis):
-            values[:, :, order[number]] = function.value
+            values[:, :, order[number]] = np.asarray(function)
         mass = (values * basis.dx[:, :, None]).transpose(0, 2, 1) @ values
         data += np.bincount(places[cells].reshape(-1), mass.reshape(-1), len(columns))
     count = len(mesh.points)

@@ -62,13 +62,14 @@ def load(place: Path, name: str) -> CondensedBody | None:
     """Return a body kept before, None if there is none or it is damaged."""
     path = place / f"{name}.npz"
     try:
-        with np.load(path, allow_pickle=False) as file:
+        # Opened here, since NumPy leaves a file open that it cannot read.
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             fields = {label: file[label] for label in file.files}
         plain = json.loads(str(fields.pop(_PLAIN)))
         plain |= {"load_names": tuple(plain["load_names"]), "from_cache": True}
         path.touch()
         return CondensedBody(**fields, **plain)
-    except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
+    except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
         return None
 
 

@@ -133,13 +133,14 @@ class _NotPositiveError(Exception):
 
 def _pardiso(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
     import pypardiso
+    from pypardiso.pardiso_wrapper import PyPardisoError
 
     symmetric_positive = 2
     backend = pypardiso.PyPardisoSolver(mtype=symmetric_positive)
     upper = sparse.csr_matrix(sparse.triu(matrix, format="csr"))
     try:
         backend.factorize(upper)
-    except pypardiso.PyPardisoError as error:
+    except PyPardisoError as error:
         if error.value == _OUT_OF_MEMORY:
             raise MemoryError from error
         raise _NotPositiveError from error

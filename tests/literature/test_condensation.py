@@ -1,0 +1,182 @@
+"""Condensed bodies against the uncondensed ones they stand for.
+
+Sources: Rubin, AIAA Journal 13 (1975) 995-1006, and MacNeal, Computers & Structures 1 (1971)
+581-601, for free modes with residual flexibility; inertia relief as the sum over all elastic modes.
+"""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from asperity.contact.elastic import ElasticMaterial, Force, Pressure, condense, elastic_body
+from asperity.contact.surface import contact_surface
+from asperity.mesh import box
+
+STEEL = ElasticMaterial(209e9, 0.3, 7850.0)
+SIZE = (0.04, 0.03, 0.03)
+LOADS = {"drive": Force("right", (1.0, 0.0, 0.0)), "weight": Pressure("top")}
+
+
+def block(element="hex27", elements=(3, 2, 2)):
+    return box(SIZE, elements, 2 if element == "hex27" else 1)
+
+
+def matrices(mesh, element=None):
+    """Stiffness and mass of all freedoms, dense."""
+    body = elastic_body(mesh, STEEL, element=element)
+    size = 3 * len(mesh.points)
+    return body.stiffness.toarray(), body.mass_times(np.eye(size)), body
+
+
+def body_without(mesh, tied):
+    return np.setdiff1d(np.arange(3 * len(mesh.points)), freedoms(mesh.node_set(tied)))
+
+
+def freedoms(nodes):
+    return (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel()
+
+
+@pytest.mark.parametrize("element", ["hex8", "hex8i", "hex27"])
+def test_a_tied_body_is_as_flexible_as_its_whole_stiffness_says(element):
+    mesh = block(element)
+    stiffness, _, body = matrices(mesh, element)
+    condensed = condense(
+        mesh, STEEL, "bottom", element=element, tied="top", loads=LOADS, use_cache=False
+    )
+    moving = body_without(mesh, "top")
+    rows = np.searchsorted(moving, freedoms(condensed.nodes))
+    inverse = np.linalg.inv(stiffness[np.ix_(moving, moving)])
+    exact = inverse[np.ix_(rows, rows)]
+    assert np.abs(condensed.flexibility - exact).max() < 1e-11 * np.abs(exact).max()
+    drive = LOADS["drive"].forces(mesh).ravel()[moving]
+    answer = condensed.load_response("drive").displacement
+    assert np.abs(answer - (inverse @ drive)[rows]).max() < 1e-11 * np.abs(answer).max()
+    gravity = body.mass_times(np.tile([0.0, 0.0, 1.0], len(mesh.points)))[moving]
+    assert condensed.load_compliance[2, 3] == pytest.approx(gravity @ inverse @ drive, abs=1e-18)
+    assert condensed.residual < 1e-10
+
+
+def test_a_free_body_is_as_flexible_as_all_its_elastic_modes_together():
+    mesh = block("hex8")
+    stiffness, mass, _ = matrices(mesh)
+    condensed = condense(mesh, STEEL, "bottom", loads=LOADS, use_cache=False)
+    squared, shapes = eigh(stiffness, mass)
+    rows = freedoms(condensed.nodes)
+    elastic = shapes[:, 6:] / np.sqrt(squared[6:])
+    exact = elastic[rows] @ elastic[rows].T
+    assert np.abs(condensed.flexibility - exact).max() < 1e-10 * np.abs(exact).max()
+    loads = np.stack([load.forces(mesh).ravel() for load in LOADS.values()], axis=1)
+    exact = loads.T @ elastic @ elastic.T @ loads
+    assert np.abs(condensed.load_compliance[3:, 3:] - exact).max() < 1e-10 * np.abs(exact).max()
+
+
+def test_a_free_body_under_loads_in_equilibrium_deforms_as_any_statically_held_one_does():
+    mesh = block()
+    condensed = condense(mesh, STEEL, "bottom", use_cache=False)
+    stiffness, _, _ = matrices(mesh)
+    forces = np.random.default_rng(2).normal(size=3 * len(condensed.nodes))
+    rigid = condensed.rigid
+    forces -= np.linalg.pinv(rigid.T) @ (rigid.T @ forces)
+    assert np.abs(rigid.T @ forces).max() < 1e-12
+    everywhere = np.zeros(len(stiffness))
+    everywhere[freedoms(condensed.nodes)] = forces
+    held = np.linalg.lstsq(stiffness, everywhere, rcond=1e-12)[0][freedoms(condensed.nodes)]
+    difference = condensed.flexibility @ forces - held
+    difference -= rigid @ np.linalg.lstsq(rigid, difference, rcond=None)[0]
+    assert np.abs(difference).max() < 1e-10 * np.abs(held).max()
+
+
+def test_gravity_moves_a_free_body_and_does_not_strain_it():
+    condensed = condense(block(), STEEL, "bottom", loads=LOADS, use_cache=False)
+    gravity = condensed.load_response("gravity_z")
+    volume = np.prod(SIZE)
+    assert gravity.rigid == pytest.approx([0, 0, 7850.0 * volume, 0, 0, 0], abs=1e-15)
+    pressure = condensed.load_response("weight").displacement
+    per_newton = np.abs(pressure).max() / 1.2e-3
+    assert np.abs(gravity.displacement).max() < 1e-9 * per_newton * 7850.0 * volume
+
+
+def test_mass_and_moments_of_inertia_are_those_of_the_cuboid():
+    condensed = condense(block("hex27", (2, 1, 1)), STEEL, "bottom", use_cache=False)
+    a, b, c = SIZE
+    mass = 7850.0 * a * b * c
+    inertia = mass / 12.0 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
+    expected = np.diag([mass, mass, mass, *inertia])
+    assert condensed.centre == pytest.approx([0.0, 0.0, 0.015], abs=1e-15)
+    assert np.abs(condensed.mass - expected).max() < 1e-14 * mass
+
+
+def test_loads_work_with_the_displacements_they_name():
+    condensed = condense(block(), STEEL, "bottom", loads=LOADS, use_cache=False)
+    middle_of_right = np.array([0.02, 0.0, 0.015]) - condensed.centre
+    moment = np.cross(middle_of_right, [1.0, 0.0, 0.0])
+    drive = condensed.load_response("drive").rigid
+    # Shared equally by the nodes of the face, whose middle nodes are as many above as below.
+    assert drive == pytest.approx([1.0, 0.0, 0.0, *moment], abs=1e-12)
+    assert condensed.load_response("weight").rigid[2] == pytest.approx(-1.2e-3, rel=1e-12)
+    assert condensed.loads({"drive": 2.0}).tolist() == [0.0, 0.0, 0.0, 2.0, 0.0]
+
+
+def test_with_all_modes_nothing_is_left_to_the_residual_flexibility():
+    mesh = box(SIZE, (2, 1, 1))
+    condensed = condense(mesh, STEEL, "bottom", loads=LOADS, modes=9, use_cache=False)
+    every = condense(mesh, STEEL, "bottom", loads=LOADS, use_cache=False)
+    stiffness, mass, _ = matrices(mesh)
+    squared, shapes = eigh(stiffness, mass)
+    assert condensed.mode_frequency == pytest.approx(np.sqrt(squared[6:15]) / 2 / np.pi, rel=1e-9)
+    left = shapes[freedoms(condensed.nodes), 15:] / np.sqrt(squared[15:])
+    exact = left @ left.T
+    assert np.abs(condensed.residual_flexibility - exact).max() < 1e-10 * np.abs(exact).max()
+    assert np.array_equal(condensed.flexibility, every.flexibility)
+
+
+def test_a_tied_body_s_modes_are_coupled_to_the_motion_of_what_it_is_tied_to():
+    mesh = box(SIZE, (2, 1, 1))
+    _, mass, body = matrices(mesh)
+    condensed = condense(mesh, STEEL, "bottom", tied="top", movable=True, modes=5, use_cache=False)
+    moving = body_without(mesh, "top")
+    stiffness = body.stiffness.toarray()[np.ix_(moving, moving)]
+    squared, shapes = eigh(stiffness, mass[np.ix_(moving, moving)])
+    assert condensed.mode_frequency == pytest.approx(np.sqrt(squared[:5]) / 2 / np.pi, rel=1e-9)
+    coupling = np.abs(shapes.T @ (mass @ body.rigid)[moving])[:5]
+    assert np.abs(condensed.mode_inertia) == pytest.approx(coupling, abs=1e-9 * coupling.max())
+    static = np.linalg.solve(stiffness, (mass @ body.rigid)[moving])
+    rows = np.searchsorted(moving, freedoms(condensed.nodes))
+    difference = condensed.inertia_response - static[rows]
+    assert np.abs(difference).max() < 1e-10 * np.abs(static).max()
+    assert condensed.rigid.shape == (27 if mesh.order == 2 else 18, 6)
+
+
+@pytest.mark.parametrize("tied", [None, "top"])
+def test_modes_bring_a_vibrating_body_near_the_whole_one_the_more_the_lower_the_frequency(tied):
+    mesh = block("hex8", (4, 3, 3))
+    stiffness, mass, _ = matrices(mesh)
+    moving = np.arange(len(stiffness)) if tied is None else body_without(mesh, tied)
+    part = np.ix_(moving, moving)
+    surface = contact_surface(mesh, "bottom")
+    x, y, _ = np.moveaxis(surface.points, -1, 0)
+    one, none = np.ones_like(x), np.zeros_like(x)
+    fields = [(one, none, none), (none, one, none), (none, none, one)]
+    fields += [(none, none, x), (none, none, y), (-y, x, none)]
+    forces = np.stack([surface.to_forces(np.stack(field, -1)).ravel() for field in fields], -1)
+
+    def error(modes, frequency):
+        omega = 2.0 * np.pi * frequency
+        condensed = condense(mesh, STEEL, "bottom", tied=tied, modes=modes, use_cache=False)
+        rows = np.searchsorted(moving, freedoms(condensed.nodes))
+        dynamic = np.linalg.inv(stiffness[part] - omega**2 * mass[part])
+        elastic = dynamic[np.ix_(rows, rows)]
+        if tied is None:
+            rigid = condensed.rigid @ np.linalg.solve(condensed.mass, condensed.rigid.T)
+            elastic = elastic + rigid / omega**2
+        own = condensed.modes / (condensed.mode_stiffness - omega**2)
+        found = condensed.residual_flexibility + own @ condensed.modes.T
+        wrong, right = (forces.T @ matrix @ forces for matrix in (found - elastic, elastic))
+        size = np.sqrt(np.diag(right))
+        return np.abs(wrong / np.outer(size, size)).max()
+
+    none, some, many = (error(modes, 4e3) for modes in (0, 4, 24))
+    assert none > 2 * some > 4 * many
+    assert many < 1e-3
+    # What is left out is the inertia of the other modes: its effect grows with frequency squared.
+    assert many / error(24, 2e3) == pytest.approx(4.0, rel=0.02)
