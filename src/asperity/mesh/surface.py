@@ -5,6 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
 
 from asperity.errors import InputError
 from asperity.mesh.hexmesh import HexMesh, Unit
@@ -82,6 +85,18 @@ class Surface:
     def flipped(self) -> "Surface":
         """Return the surface with its outside inside."""
         return replace(self, triangles=self.triangles[:, ::-1])
+
+    def welded(self, tolerance: float) -> "Surface":
+        """Return the surface with points nearer than a tolerance as one, in their first place."""
+        pairs = KDTree(self.points).query_pairs(tolerance, output_type="ndarray")
+        count = len(self.points)
+        graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+        _, group = connected_components(graph, directed=False)
+        _, first, number = np.unique(group, return_index=True, return_inverse=True)
+        triangles = number[self.triangles]
+        whole = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+        colours = None if self.colours is None else self.colours[first]
+        return Surface(self.points[first], triangles[whole], self.unit, colours)
 
     def normals(self) -> NDArray[np.float64]:
         """Return the unit normal of each triangle, shape (m, 3); 0 where it has no area."""

@@ -5,13 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
-from asperity.mesh.surface import Surface
+from asperity.mesh.polygon import triangulate
+from asperity.mesh.surface import Surface, joined
 
 Floats = NDArray[np.float64]
 
 _DEGREE = 5
+_SAME = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +55,24 @@ class Patch:
         points = self.points @ matrix.T
         return Patch(points if np.linalg.det(matrix) > 0 else points[::-1])
 
-    def surface(self) -> Surface:
-        """Return the grid as triangles."""
-        return Surface.of_grid(self.points, "mm")
+    def at(self, first: ArrayLike, second: ArrayLike) -> Floats:
+        """Return the spline's points at places 0 to 1 along i and along j, shape (i, j, 3)."""
+        poles, *knots = self.spline()
+        points = poles
+        for axis, places in enumerate((first, second)):
+            spline = BSpline(knots[axis], np.moveaxis(points, axis, 0), self.degrees[axis])
+            points = np.moveaxis(spline(np.asarray(places, dtype=float)), 0, axis)
+        return points
+
+    def finer(self, factor: int) -> "Patch":
+        """Return the patch with each step of its grid cut into equal ones."""
+        steps = [np.linspace(0.0, 1.0, factor * (n - 1) + 1) for n in self.points.shape[:2]]
+        # Along a straight edge there is nothing between the ends.
+        places = [
+            [0.0, 1.0] if n == 2 else step
+            for n, step in zip(self.points.shape[:2], steps, strict=True)
+        ]
+        return Patch(self.at(*places))
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +86,8 @@ class Body:
     patches : sequence of Patch
         Its smooth faces.
     rings : sequence of sequences of ndarray, shape (k, 3)
-        The boundary of each plane face: rows of points in their order round it, each row the edge
-        of a patch.
+        The boundary of each plane face, counterclockwise seen from outside: rows of points, each
+        the edge of a patch, that begins where the one before it ends.
     """
 
     name: str
@@ -81,7 +98,27 @@ class Body:
         """Return the body turned or mirrored by a matrix."""
         matrix = np.asarray(matrix, dtype=float)
         rings = [[row @ matrix.T for row in ring] for ring in self.rings]
+        if np.linalg.det(matrix) < 0:
+            rings = [[row[::-1] for row in reversed(ring)] for ring in rings]
         return Body(self.name, [patch.moved(matrix) for patch in self.patches], rings)
+
+    def finer(self, factor: int) -> "Body":
+        """Return the body with each step of its patches' grids cut into equal ones."""
+        rings = [
+            [Patch(np.stack([row, row])).finer(factor).points[0] for row in ring]
+            for ring in self.rings
+        ]
+        return Body(self.name, [patch.finer(factor) for patch in self.patches], rings)
+
+    def surface(self) -> Surface:
+        """Return the body's skin as triangles, closed, with its outside outside."""
+        parts = [Surface.of_grid(patch.points, "mm") for patch in self.patches]
+        for ring in self.rings:
+            corners = np.concatenate([row[:-1] for row in ring])
+            parts.append(Surface(corners, triangulate(corners), "mm"))
+        whole = joined(parts)
+        size = float(np.ptp(whole.points, axis=0).max())
+        return whole.welded(_SAME * size)
 
 
 def _degree(count: int) -> int:

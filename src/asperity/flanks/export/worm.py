@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.helicoid import Helicoid
+from asperity.flanks.setting import Pair
 
 Floats = NDArray[np.float64]
 
@@ -17,27 +18,30 @@ _POINTS_ON_FLANK = 17
 _POINTS_ON_ARC = 9
 
 
-def worm_body(worm: Helicoid, length: float) -> Body:
-    """Return a worm between two planes across its axis.
+def worm_body(pair: Pair, length: float | None = None) -> Body:
+    """Return the worm of a pair between two planes across its axis.
 
     Parameters
     ----------
-    worm : Helicoid
-        A right-handed worm or hob.
-    length : float
-        Length along the axis, mm; the middle of the thread space at angle 0 is its middle.
+    pair : Pair
+        The gearset; its worm is taken as it is, with the thickness that the backlash asks for.
+    length : float, optional
+        Length along the axis, mm; that of the gearset's worm if left out.
 
     Returns
     -------
     Body
-        For each start root, flank, rounding of the tip, land, rounding and flank up to the root of
-        the next; i runs round the axis, j along it. Points are in the worm's frame, mm.
+        About the z axis, mm, the middle of a thread space at z = 0 on the x axis; mirrored if the
+        gearset is left-handed. For each start root, flank, rounding of the tip, land, rounding and
+        flank up to the root of the next; i runs round the axis, j along it.
 
     Raises
     ------
     InputError
         The length is not positive.
     """
+    worm = pair.worm
+    length = pair.geometry.worm_face_width if length is None else length
     if not (math.isfinite(length) and length > 0):
         raise InputError(f"the worm's length is {length:g} mm; it must be positive")
     p = worm.reduced_lead
@@ -57,8 +61,9 @@ def worm_body(worm: Helicoid, length: float) -> Body:
     for start in range(worm.starts):
         for radius, axial in pieces:
             patches.append(swept(radius, axial, start))
-    rings = [[patch.points[:, end] for patch in patches] for end in (0, -1)]
-    return Body(worm.name, patches, rings)
+    low = [patch.points[::-1, 0] for patch in patches]
+    high = [patch.points[:, -1] for patch in reversed(patches)]
+    return Body(worm.name, patches, [low, high]).moved(np.diag([1.0, 1.0, pair.mirror]))
 
 
 def _axial_section(worm: Helicoid) -> list[tuple[Floats, Floats]]:
