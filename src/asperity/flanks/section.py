@@ -1,0 +1,94 @@
+r"""Quadrilaterals over cross-sections of one wheel tooth with its share of the rim.
+
+A cross-section is a plane across the wheel's axis. Its outline is given on both sides of the
+tooth, from the cut in the middle of the tooth space over the root and the fillet up the flank to
+the tip. Two blocks fill it: the tooth from the middle of the fillets to the tip, and the rim from
+there down to the inner radius. All sections of a wheel are filled alike and at once.
+
+Points are polar here, :math:`(R, \theta)` in mm and rad.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_SWEEPS = 30
+
+
+class Blocks(NamedTuple):
+    """The points of the two blocks of every section, polar.
+
+    Attributes
+    ----------
+    tooth : ndarray, shape (rows + 1, across + 1, sections, 2)
+        From the base, which is a stretch of the rim's outer side, to the tip; from the first
+        side to the second.
+    rim : ndarray, shape (along + 1, layers + 1, sections, 2)
+        From the first cut to the second; from the inner radius outwards.
+    first : int
+        Where along the rim's outer side the tooth's base begins.
+    """
+
+    tooth: Floats
+    rim: Floats
+    first: int
+
+
+def fill(
+    first: Floats, second: Floats, split: int, across: int, layers: int, inner: float
+) -> Blocks:
+    """Fill cross-sections with two blocks of quadrilaterals.
+
+    Parameters
+    ----------
+    first, second : ndarray, shape (k + 1, sections, 2)
+        The outline on each side of the tooth, from the cut to the tip; the angles of ``second``
+        are the larger ones.
+    split : int
+        Point of the outlines at which the tooth's block begins, in the middle of the fillets.
+    across, layers : int
+        Quadrilaterals through the tooth's thickness and through the rim.
+    inner : float
+        Inner radius of the rim, mm, below all of the outline.
+    """
+    share = np.linspace(0.0, 1.0, across + 1)[None, :, None, None]
+    low, high = first[split:, None], second[split:, None]
+    tooth = low + share * (high - low)
+    tooth = _smoothed(tooth)
+    outside = np.concatenate([first[:split], tooth[0], second[split - 1 :: -1]])
+    return Blocks(tooth, _rim(outside, layers, inner), split)
+
+
+def _rim(outside: Floats, layers: int, inner: float) -> Floats:
+    along = np.linspace(0.0, 1.0, len(outside))[:, None]
+    inside = np.empty_like(outside)
+    inside[..., 0] = inner
+    # The inner side halves the way between equal angles and the angles above it, for cells that
+    # neither shear at the fillets nor differ much in width.
+    equal = outside[0, :, 1] + along * (outside[-1, :, 1] - outside[0, :, 1])
+    inside[..., 1] = 0.5 * (equal + outside[..., 1])
+    share = np.linspace(0.0, 1.0, layers + 1)[None, :, None, None]
+    return _smoothed(inside[:, None] + share * (outside[:, None] - inside[:, None]))
+
+
+def _smoothed(block: Floats) -> Floats:
+    """Return a block whose inner points are relaxed by Winslow's equations, its sides as given."""
+    if min(block.shape[:2]) < 3:
+        return block
+    radius, angle = block[..., 0], block[..., 1]
+    centre = 0.5 * (angle[:1, :1] + angle[-1:, -1:])
+    x, y = radius * np.sin(angle - centre), radius * np.cos(angle - centre)
+    for _ in range(_SWEEPS):
+        xi = [0.5 * (v[2:, 1:-1] - v[:-2, 1:-1]) for v in (x, y)]
+        eta = [0.5 * (v[1:-1, 2:] - v[1:-1, :-2]) for v in (x, y)]
+        a = eta[0] ** 2 + eta[1] ** 2
+        b = xi[0] * eta[0] + xi[1] * eta[1]
+        c = xi[0] ** 2 + xi[1] ** 2
+        for v in (x, y):
+            twist = 0.25 * (v[2:, 2:] - v[2:, :-2] - v[:-2, 2:] + v[:-2, :-2])
+            straight = a * (v[2:, 1:-1] + v[:-2, 1:-1]) + c * (v[1:-1, 2:] + v[1:-1, :-2])
+            v[1:-1, 1:-1] += 0.7 * ((straight - 2.0 * b * twist) / (2.0 * (a + c)) - v[1:-1, 1:-1])
+    return np.stack([np.hypot(x, y), centre + np.arctan2(x, y)], axis=-1)

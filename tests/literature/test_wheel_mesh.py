@@ -1,0 +1,178 @@
+"""The mesh of a worm wheel's tooth: closed, valid, on the exact surfaces, convergent."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.errors import InputError
+from asperity.flanks import mesh
+from asperity.flanks.parameters import Hob
+from asperity.flanks.setting import Pair
+from asperity.flanks.wheel import Wheel
+from asperity.gearset import Gearset
+
+REASONS = ("undercut", "pointed", "hob too short", "does not reach")
+
+
+def _gearset(**changed):
+    given = read_case("gearset-3b", TABLES, ()).require(Gearset)
+    return Gearset(
+        worm_material=given.worm_material, wheel_material=given.wheel_material, **changed
+    )
+
+
+@pytest.fixture(scope="module")
+def wheel():
+    case = read_case("gearset-3b", TABLES, ())
+    return Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
+
+
+@pytest.fixture(scope="module")
+def left():
+    case = read_case("gearset-3b", TABLES, ("gearset.hand=left",))
+    return Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
+
+
+def test_named_densities_have_the_thesis_s_ratios_of_element_size(wheel):
+    coarse = mesh.element_size(wheel, "coarse")
+    assert mesh.element_size(wheel, "intermediate") == pytest.approx(0.75 * coarse)
+    assert mesh.element_size(wheel, "fine") == pytest.approx(0.5 * coarse)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("density", mesh.DENSITIES)
+def test_every_density_is_valid_and_its_skin_closed(wheel, density, order):
+    made = mesh.tooth(wheel, density, order=order)
+    assert made.jacobians().min() > 0.0
+    assert made.scaled_jacobian().min() > 0.38
+    assert made.is_watertight()
+
+
+def test_counts_say_beforehand_what_the_mesh_has(wheel):
+    number = mesh.counts(wheel, mesh.element_size(wheel, "fine"))
+    for order in (1, 2):
+        made = mesh.tooth(wheel, "fine", order=order)
+        assert (len(made.points), len(made.cells)) == (number.nodes(order), number.elements)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("side", [1, -1])
+def test_nodes_of_the_flank_lie_on_the_exact_flank(wheel, order, side):
+    made = mesh.tooth(wheel, "coarse", order=order)
+    nodes = made.points[made.node_set("flank_plus" if side > 0 else "flank_minus")]
+    radius = np.hypot(nodes[:, 0], nodes[:, 1])
+    exact = wheel.flank(side).at(
+        np.minimum(radius, wheel.blank.tip_radius(nodes[:, 2])), nodes[:, 2]
+    )
+    assert np.abs(exact.points - nodes).max() < 1e-10
+
+
+def test_nodes_of_the_tip_lie_on_the_blank(wheel):
+    made = mesh.tooth(wheel, "coarse")
+    tip = made.points[made.node_set("tip")]
+    assert np.hypot(tip[:, 0], tip[:, 1]) == pytest.approx(wheel.blank.tip_radius(tip[:, 2]))
+
+
+def test_face_sets_cover_the_skin_once(wheel):
+    made = mesh.tooth(wheel, "coarse")
+    named = np.concatenate(list(made.face_sets.values()))
+    assert len(np.unique(named, axis=0)) == len(named)
+    skin = {tuple(pair) for pair in made.skin_faces()}
+    assert {tuple(pair) for pair in named} == skin
+
+
+def test_cut_faces_are_one_pitch_apart(wheel):
+    made = mesh.tooth(wheel, "coarse")
+    turn = 2.0 * np.pi / wheel.pair.geometry.wheel_teeth
+    cosine, sine = np.cos(turn), np.sin(turn)
+    matrix = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    low = made.points[made.node_set("cut_minus")] @ matrix.T
+    high = made.points[made.node_set("cut_plus")]
+    assert np.abs(low - high).max() < 1e-10
+
+
+def test_several_teeth_share_their_cut_faces(wheel):
+    one = mesh.tooth(wheel, "coarse")
+    three = mesh.tooth(wheel, "coarse", teeth=3)
+    shared = len(one.node_set("cut_plus"))
+    assert len(three.points) == 3 * len(one.points) - 2 * shared
+    assert three.volume() == pytest.approx(3.0 * one.volume(), rel=1e-12)
+    assert three.is_watertight()
+    assert three.jacobians().min() > 0.0
+    assert len(three.face_set("flank_plus")) == 3 * len(three.face_set("flank_plus_0"))
+
+
+def test_a_whole_wheel_closes_on_itself(wheel):
+    teeth = wheel.pair.geometry.wheel_teeth
+    one, whole = mesh.tooth(wheel, "coarse"), mesh.tooth(wheel, "coarse", teeth=teeth)
+    assert whole.is_watertight()
+    assert not [name for name in whole.face_sets if name.startswith("cut_")]
+    assert whole.volume() == pytest.approx(teeth * one.volume(), rel=1e-12)
+
+
+def test_left_hand_is_the_mirror_image(wheel, left):
+    right_mesh, left_mesh = mesh.tooth(wheel, "coarse"), mesh.tooth(left, "coarse")
+    assert np.array_equal(left_mesh.points, right_mesh.points * [1.0, 1.0, -1.0])
+    assert left_mesh.jacobians().min() > 0.0
+
+
+@pytest.mark.parametrize(("order", "expected"), [(1, 2.0), (2, 4.0)])
+def test_volume_of_a_tooth_converges_with_the_order_of_the_elements(wheel, order, expected):
+    sizes = np.array([1.0, 0.5, 0.25]) * mesh.element_size(wheel, "coarse")
+    volumes = [mesh.tooth(wheel, float(size), order=order).volume() for size in sizes]
+    change = np.abs(np.diff(volumes))
+    assert np.log2(change[0] / change[1]) == pytest.approx(expected, abs=0.6)
+
+
+def _is_made_or_refused(starts, teeth, factor, angle, shift, hob):
+    try:
+        gearset = _gearset(
+            starts=starts,
+            wheel_teeth=teeth,
+            axial_module="2 mm",
+            diameter_factor=factor,
+            profile_shift=shift,
+            pressure_angle=f"{angle} deg",
+        )
+        made = mesh.tooth(Wheel.cut(Pair.of(gearset, hob)), "coarse")
+    except InputError as error:
+        return any(reason in str(error) for reason in REASONS)
+    return made.jacobians().min() > 0.0 and made.is_watertight()
+
+
+_GRID = list(
+    itertools.product((1, 2, 4, 6), (30, 50, 82), (8, 10, 14), (14.5, 20, 25, 30), (-0.5, 0, 0.5))
+)
+
+
+@pytest.mark.parametrize(("starts", "teeth", "factor", "angle", "shift"), _GRID[::17])
+def test_a_gearset_has_a_valid_mesh_or_a_reason_why_not(starts, teeth, factor, angle, shift):
+    assert _is_made_or_refused(starts, teeth, factor, angle, shift, Hob())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hob", [Hob(), Hob(oversize=1.12, tilt="2 deg")], ids=["same", "larger"])
+def test_the_whole_grid_of_gearsets_has_valid_meshes_or_reasons(hob):
+    assert [case for case in _GRID if not _is_made_or_refused(*case, hob)] == []
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"size": "dense"}, "density is 'dense'"),
+        ({"size": 0.0}, "element size is 0 mm"),
+        ({"size": float("nan")}, "element size is nan mm"),
+        ({"teeth": 0}, "teeth is 0"),
+        ({"teeth": 61}, "1 to 60"),
+        ({"order": 3}, "order is 3"),
+        ({"size": 0.01}, "GiB is allowed"),
+        ({"teeth": 60, "memory": 1e6}, "fewer teeth"),
+    ],
+)
+def test_what_cannot_be_meshed_is_refused_in_a_line(wheel, changed, message):
+    with pytest.raises(InputError, match=message) as error:
+        mesh.tooth(wheel, **changed)
+    assert "\n" not in str(error.value)
