@@ -12,7 +12,8 @@ two parameters (`asperity.flanks.foot`). With :math:`I` the metric of the surfac
 :math:`B_{ab} = g \cdot S_{,ab}` its curvature along the outward normal :math:`g`, and
 :math:`M = I - dB`, the Hessian is :math:`-S_{,a}\,(I^{-1} B M^{-1})_{ab}\,S_{,b}`.
 
-Coordinates are those of the worm's own frame with its axis along z, right-handed, in mm.
+Coordinates are those of the worm's own frame with its axis along z, right-handed, in mm. A worm
+turned by :math:`\varphi` is the same solid moved by :math:`-p\,\varphi` along its axis.
 """
 
 import math

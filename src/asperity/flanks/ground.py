@@ -23,7 +23,8 @@ from asperity.errors import InputError
 from asperity.flanks.profiles import AxialProfile, FloatArray, tabulate
 
 _ITERATIONS = 50
-_TOLERANCE = 1e-13
+_TOLERANCE = 1e-12
+_ROUNDING = 1e-13
 _FIRST_COUNT = 129
 _LAST_COUNT = 4097
 _TABLE_ERROR = 1e-12
@@ -142,6 +143,7 @@ def contact(disc: GrindingDisc, radius: npt.ArrayLike) -> Contact:
     p = disc.reduced_lead
     sigma = (disc.pitch_radius - rho) / math.cos(disc.pressure_angle)
     phi = np.zeros_like(rho)
+    settled = False
     with np.errstate(all="ignore"):
         for _ in range(_ITERATIONS):
             at = disc.surface(sigma, phi)
@@ -155,9 +157,10 @@ def contact(disc: GrindingDisc, radius: npt.ArrayLike) -> Contact:
             determinant = mesh_sigma * radius_phi - mesh_phi * radius_sigma
             step_sigma = (mesh_phi * rest_radius - radius_phi * rest_mesh) / determinant
             step_phi = (radius_sigma * rest_mesh - mesh_sigma * rest_radius) / determinant
-            small = np.maximum(np.abs(step_sigma), disc.radius * np.abs(step_phi))
-            if np.all(small <= _TOLERANCE * disc.radius):
+            if settled:
                 break
+            small = np.maximum(np.abs(step_sigma), disc.radius * np.abs(step_phi))
+            settled = bool(np.all(small <= _TOLERANCE * disc.radius))
             sigma = sigma + step_sigma
             phi = phi + step_phi
         else:
@@ -211,7 +214,7 @@ def fit(
         rest = half_space - float(touch.w[0])
         step = rest * float(at.normal[2, 0]) / math.cos(float(angle[0]))
         disc = dataclasses.replace(disc, half_width=disc.half_width + step)
-        if abs(step) <= _TOLERANCE * half_space:
+        if abs(step) <= _ROUNDING * half_space:
             return disc
     raise InputError(_unreached(disc, np.array([pitch_radius])))
 

@@ -22,6 +22,7 @@ from asperity.gearset.geometry import Flank, Geometry
 
 _MILLIMETRES = 1e3
 _LEAST_LAND = 0.01
+_LEAST_SPACE = 0.02
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -35,7 +36,8 @@ class Helicoid:
     reduced_lead : float
         :math:`p`, mm/rad, positive: a left-handed one is computed as its mirror image.
     pitch_radius, tip_radius, root_radius : float
-        :math:`r_1`, :math:`r_{a1}`, :math:`r_{f1}`, mm.
+        :math:`r_1`, :math:`r_{a1}`, :math:`r_{f1}`, mm. The root is higher than the gearset's
+        where the thread space would close above that.
     tip_rounding : float
         Radius of the arc between flank and tip land in the axial section, mm.
     profile : AxialProfile
@@ -138,6 +140,7 @@ class Helicoid:
             tip_relief=given.tip_relief * _MILLIMETRES / normal,
             relief_radius=start if given.tip_relief else None,
         )
+        draft = _opened(draft, r - geometry.wheel_addendum)
         rounding = size_in_mm(given.tip_rounding, module)
         most = draft.largest_rounding()
         if "tip_rounding" in given.model_fields_set and rounding > most:
@@ -206,6 +209,7 @@ class Helicoid:
             pressure_angle=geometry.pressure_angle,
             name="hob",
         )
+        draft = _opened(draft, r - geometry.wheel_addendum)
         most = draft.largest_rounding()
         if given.tip_radius is None:
             rounding = min(HOB_TIP_RADIUS * module, most)
@@ -333,8 +337,33 @@ def _too_round(key: str, given: float, most: float) -> str:
 
 
 def _pointed(helicoid: Helicoid) -> str:
+    until = f"before its tip radius of {helicoid.tip_radius:.5g} mm"
+    if helicoid.half_space > 0.5 * helicoid.half_pitch * (1.0 + 1e-9):
+        return (
+            f"mount.backlash: with thread spaces of {2.0 * helicoid.half_space:.4g} mm in a pitch "
+            f"of {2.0 * helicoid.half_pitch:.4g} mm the {helicoid.name}'s thread is pointed "
+            f"{until}: take less backlash"
+        )
     return (
         f"gearset.pressure_angle is {math.degrees(helicoid.pressure_angle):.4g} deg; with it the "
-        f"{helicoid.name}'s thread is pointed before its tip radius of {helicoid.tip_radius:.5g} "
-        "mm: take a smaller pressure angle or lower teeth"
+        f"{helicoid.name}'s thread is pointed {until}: take a smaller pressure angle or lower teeth"
     )
+
+
+def _opened(draft: Helicoid, needed: float) -> Helicoid:
+    """Lift the root to where the thread space has some width, if it closes above it."""
+    least = _LEAST_SPACE * draft.half_pitch
+
+    def room(radius: float) -> float:
+        return float(draft.width(radius)[0]) - least
+
+    if room(draft.root_radius) >= 0.0:
+        return draft
+    if room(needed) <= 0.0:
+        raise InputError(
+            f"gearset.pressure_angle is {math.degrees(draft.pressure_angle):.4g} deg; with it the "
+            f"{draft.name}'s thread spaces close before the wheel's tip, at a radius of "
+            f"{needed:.5g} mm: take a smaller pressure angle or lower teeth"
+        )
+    root = float(brentq(room, draft.root_radius, needed, xtol=1e-12))
+    return dataclasses.replace(draft, root_radius=root)
