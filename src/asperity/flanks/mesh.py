@@ -188,7 +188,8 @@ def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, Floats]:
         outlines.append(np.concatenate([rows[0], rows[1][1:], rows[2][1:]]))
     g = wheel.pair.geometry
     blocks = fill(
-        *outlines,
+        outlines[0],
+        outlines[1],
         split=order * (_LAND + _LOW_FILLET),
         across=order * number.thickness,
         layers=order * number.rim,
@@ -207,11 +208,11 @@ class _Lattice(NamedTuple):
 def _numbered(filled: tuple[Blocks, Floats]) -> tuple[Floats, _Lattice]:
     """Points of one tooth, x, y, z, and their numbers; the blocks share the tooth's base."""
     blocks, z = filled
-    rim = np.arange(blocks.rim[..., 0].size).reshape(blocks.rim.shape[:3])
+    rim: Integers = np.arange(blocks.rim[..., 0].size).reshape(*blocks.rim.shape[:3])
     upper = blocks.tooth[1:]
-    tooth = np.empty(blocks.tooth.shape[:3], dtype=np.int64)
-    tooth[0] = rim[blocks.first : blocks.first + tooth.shape[1], -1]
-    tooth[1:] = rim.size + np.arange(upper[..., 0].size).reshape(upper.shape[:3])
+    tooth: Integers = np.empty(blocks.tooth.shape[:3], dtype=np.int64)
+    tooth[0] = rim[blocks.first : blocks.first + tooth.shape[1], -1, :]
+    tooth[1:] = rim.size + np.arange(upper[..., 0].size).reshape(*upper.shape[:3])
     points = []
     for block in (blocks.rim, upper):
         radius, angle = block[..., 0], block[..., 1]
