@@ -237,6 +237,27 @@ def optimise(
 
 @app.command()
 @reported
+def export(
+    case: CaseArgument,
+    program: Annotated[str, typer.Option("--to", metavar="PROGRAM", help="abaqus or calculix.")],
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Folder to write to; out/PROGRAM if left out."),
+    ] = None,
+) -> None:
+    """Write an elastic block on its base as an input deck: block.inp.
+
+    For Abaqus also user.f, the friction law as user subroutine FRIC.
+    """
+    from asperity.cli.export import export as run
+
+    run(case, program, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
 def thesis(
     only: Annotated[
         list[str] | None,

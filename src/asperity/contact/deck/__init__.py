@@ -1,5 +1,18 @@
 """Input decks for Abaqus and CalculiX, and the friction subroutine Abaqus needs for our laws."""
 
+from asperity.contact.deck.abaqus import abaqus_files
+from asperity.contact.deck.calculix import calculix_files
 from asperity.contact.deck.fric import FricSubroutine, fric_subroutine
+from asperity.contact.deck.setup import BlockSetup
 
-__all__ = ["FricSubroutine", "fric_subroutine"]
+WRITERS = {"abaqus": abaqus_files, "calculix": calculix_files}
+"""Functions from a `BlockSetup` to the text of each file, by program."""
+
+__all__ = [
+    "WRITERS",
+    "BlockSetup",
+    "FricSubroutine",
+    "abaqus_files",
+    "calculix_files",
+    "fric_subroutine",
+]

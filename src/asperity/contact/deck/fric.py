@@ -83,8 +83,7 @@ def fric_subroutine(model: Model, *, before: float = 0.0, side: int = -1) -> Fri
     if side not in (-1, 1):
         raise InputError(f"side is {side}; it must be -1 or 1")
     properties = _properties(model, before, side)
-    shape = model.shape
-    moves_base = shape is not None and model.vibrates and shape.code != SINE
+    moves_base = needs_disp(model)
     parts = [_part("fric"), _part("slip_body" if model.on_body else "slip_base")]
     if model.solve.scheme == "two-phase":
         parts += [_part("two_phase")]
@@ -97,6 +96,17 @@ def fric_subroutine(model: Model, *, before: float = 0.0, side: int = -1) -> Fri
         parts.append(_motion(model, before))
     heading = "".join(_comment(_heading(model, properties, moves_base)))
     return FricSubroutine(heading + "".join(parts), properties, STATE_VARIABLES, moves_base)
+
+
+def needs_disp(model: Model) -> bool:
+    """Whether the base's motion is more than one periodic amplitude of Abaqus can say."""
+    return model.shape is not None and model.vibrates and model.shape.code != SINE
+
+
+def disp_subroutine(model: Model, *, before: float = 0.0) -> str:
+    """Write DISP alone, for a base whose waveform is not a sine under friction Abaqus knows."""
+    lines = ["User subroutine DISP for Abaqus/Standard, written by asperity: the base's motion."]
+    return "".join([*_comment(lines), _motion(model, before), _wave(model)])
 
 
 def base_amplitudes(model: Model) -> tuple[float, float]:

@@ -1,0 +1,29 @@
+"""What ``asperity export`` does."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from asperity.casefile import read_case
+from asperity.cli import show
+from asperity.cli.tables import TABLES
+from asperity.contact.deck import WRITERS, BlockSetup
+from asperity.errors import InputError, choices, suggestion
+from asperity.store import output_folder, write_text
+
+
+def export(
+    case: str, program: str, settings: Sequence[str], *, as_json: bool, out: Path | None
+) -> None:
+    """Write a block's case as input of another program, and say where."""
+    if program not in WRITERS:
+        raise InputError(
+            f"--to {program}: it must be one of {choices(WRITERS)}{suggestion(program, WRITERS)}"
+        )
+    setup = BlockSetup.from_case(read_case(case, TABLES, settings))
+    files = WRITERS[program](setup)
+    folder = output_folder(out if out is not None else Path("out") / program)
+    written = [str(write_text(folder / name, text)) for name, text in files.items()]
+    if as_json:
+        show.print_json({"to": program, "files": written})
+    else:
+        show.print_text("\n".join(written))
