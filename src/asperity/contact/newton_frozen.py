@@ -105,9 +105,9 @@ class Inverses:
             flexibility = _mean_flexibility(problem, touching)
             self.seen[name] = (count, flexibility)
         mean = np.maximum(along[touching].mean(axis=0), 0.0)
-        levels = [_level(float(mean[a]) * flexibility) for a in (1, 2)]
+        levels = _level(float(mean[1]) * flexibility), _level(float(mean[2]) * flexibility)
         steepness = round(2.0 * math.log2(float(mean[0]))) if mean[0] > 0.0 else 0
-        key = (name, steepness, *levels)
+        key = (name, steepness, levels[0], levels[1])
         frozen = self.kept.pop(key, None)
         if frozen is None:
             k1, k2 = (_representative(level) / flexibility for level in levels)

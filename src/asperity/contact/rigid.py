@@ -14,12 +14,18 @@ import numpy.typing as npt
 
 from asperity.compiled import kernel
 from asperity.errors import InputError
+from asperity.flanks import distance as worm
+from asperity.flanks.helicoid import Helicoid
 
 FloatArray = npt.NDArray[np.float64]
 
 PLANE = 0
 SPHERE = 1
 CYLINDER = 2
+WORM = 3
+
+# The flanks are in mm.
+_MM = 1e3
 
 
 @kernel
@@ -65,6 +71,14 @@ def distance(x, y, z, surface):
             side * (size - surface[1]), side * nx, side * ny, 0.0,
             bend * ny * ny, bend * nx * nx, 0.0, -bend * nx * ny, 0.0, 0.0,
         )  # fmt: skip
+    if code == WORM:
+        d, nx, ny, nz, hxx, hyy, hzz, hxy, hxz, hyz = worm.distance(
+            _MM * x, _MM * y, _MM * z, surface[1:]
+        )
+        return (
+            d / _MM, nx, ny, nz,
+            _MM * hxx, _MM * hyy, _MM * hzz, _MM * hxy, _MM * hxz, _MM * hyz,
+        )  # fmt: skip
     return z, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
@@ -97,6 +111,11 @@ class RigidSurface:
     def cylinder(cls, radius: float, *, inside: bool = False) -> RigidSurface:
         """Cylinder about the z axis; ``inside``: a bore, the material outside of it."""
         return cls("cylinder", _round(CYLINDER, radius, inside))
+
+    @classmethod
+    def worm(cls, helicoid: Helicoid, *, side: int = 0) -> RigidSurface:
+        """Worm about the z axis; ``side``: flank 1 or -1, 0 for the nearest."""
+        return cls("worm", np.concatenate([[float(WORM)], helicoid.distance_params(side)]))
 
 
 def _round(code: int, radius: float, inside: bool) -> FloatArray:

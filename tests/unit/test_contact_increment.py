@@ -1,0 +1,139 @@
+"""Tractions, their consistent tangent, and increments solved from them."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from asperity.contact.friction_point import COULOMB, DAHL, LUGRE, TWO_PHASE, PointFriction
+from asperity.contact.increment import (
+    ContactState,
+    Drift,
+    IncrementProblem,
+    SurfaceMotion,
+    solve_increment,
+)
+from asperity.contact.increment_kernels import POINT, stiffness_forces, tractions
+from asperity.contact.normal import NormalLaw
+from asperity.contact.rigid import Pose, RigidSurface, distance
+from asperity.contact.surface import contact_surface
+from asperity.errors import ConvergenceError, InputError
+from asperity.friction import SPLIT, UNSPLIT, VECTOR
+from asperity.mesh import box
+
+LIMIT = 7e-8
+FACE = contact_surface(box([4e-3, 3e-3, 1e-3], [4, 3, 1], 1), "bottom")
+NINE = contact_surface(box([4e-3, 3e-3, 1e-3], [2, 1, 1], 2), "bottom")
+STIFF = NormalLaw("linear", 4e14)
+
+LAWS = {
+    "none": PointFriction(),
+    "coulomb": PointFriction(COULOMB, 0.3, LIMIT),
+    "dahl-vector": PointFriction(DAHL, 0.3, LIMIT, VECTOR),
+    "dahl-vector-0": PointFriction(DAHL, 0.3, LIMIT, VECTOR, 0.0),
+    "dahl-vector-2": PointFriction(DAHL, 0.3, LIMIT, VECTOR, 2.0),
+    "dahl-split": PointFriction(DAHL, 0.3, LIMIT, SPLIT),
+    "dahl-unsplit-1.5": PointFriction(DAHL, 0.3, LIMIT, UNSPLIT, 1.5),
+    "two-phase": PointFriction(TWO_PHASE, 0.3, LIMIT, SPLIT),
+    "two-phase-2": PointFriction(TWO_PHASE, 0.3, LIMIT, SPLIT, 2.0),
+    "lugre": PointFriction(LUGRE, 0.3, LIMIT, VECTOR, 1.0, 1.4, 2e-3, 1e-2, 2e-3),
+}
+
+
+def flexible(surface, *, youngs_modulus=2e11, held=1e-10):
+    """Symmetric positive definite stand-in: half-space-like decay and a rigid give."""
+    at = surface.positions
+    apart = np.linalg.norm(at[:, None] - at[None], axis=2)
+    size = np.sqrt(surface.nodal_area.mean() / np.pi)
+    part = np.exp(-apart / 3e-3) / (np.pi * youngs_modulus * size)
+    flexibility = np.zeros((len(at), 3, len(at), 3))
+    for axis in range(3):
+        flexibility[:, axis, :, axis] = part + held
+    return flexibility.reshape(3 * len(at), -1)
+
+
+def problem_of(surface=FACE, counter=None, normal=STIFF, friction="dahl-vector", **settings):
+    law = LAWS[friction] if isinstance(friction, str) else friction
+    counter = counter or RigidSurface.plane()
+    settings.setdefault("step", 1e-5)
+    return IncrementProblem(flexible(surface), surface, counter, normal, law, **settings)
+
+
+def evaluated(problem, u, state, motion, tangent):
+    n, q = problem.nodes, problem.points
+    force, deflection, size = np.empty(3 * n), np.empty((q, 3)), np.empty(q)
+    points, stiffness = np.empty((q, POINT)), np.empty((q, 3, 3))
+    tractions(
+        u, state.displacement, state.deflection, state.size, state.multiplier, *problem.arrays,
+        motion.parameters(), force, deflection, size, points, stiffness, tangent,
+    )  # fmt: skip
+    return force, deflection, size, points, stiffness
+
+
+def pushed(z, across=(0.0, 0.0)):
+    return np.tile([across[0], across[1], z], len(FACE.positions))
+
+
+def bent_state(problem, seed):
+    rng = np.random.default_rng(seed)
+    state = ContactState.rest(problem)
+    flat = rng.normal(size=(problem.points, 3)) * 0.3 * LIMIT
+    flat[:, 2] = 0.0
+    return dataclasses.replace(
+        state, deflection=flat, size=np.linalg.norm(flat, axis=1) / LIMIT,
+        displacement=rng.normal(size=3 * problem.nodes) * 1e-8,
+    )  # fmt: skip
+
+
+def curved(kind):
+    """A counter-surface below the patch."""
+    if kind == "plane":
+        return RigidSurface.plane(), Pose(Rotation.from_rotvec([0, 0.1, 0.4]).as_matrix())
+    radius = 0.02
+    if kind == "sphere":
+        return RigidSurface.sphere(radius), Pose(np.eye(3), np.array([1e-4, 2e-4, -radius]))
+    turn = Rotation.from_euler("x", 90, degrees=True).as_matrix()
+    bore = RigidSurface.cylinder(radius, inside=True)
+    return bore, Pose(turn, np.array([1e-4, 0.0, radius]))
+
+
+def laid_on(problem, pose, lift=0.0):
+    """Displacement that lays the nodes on the counter-surface, along z."""
+    u = np.zeros((problem.nodes, 3))
+    for _ in range(20):
+        local = (problem.surface.positions + u - pose.translation) @ pose.rotation
+        found = np.array([distance(*point, problem.counter.parameters)[:4] for point in local])
+        u[:, 2] -= (found[:, 0] - lift) / (found[:, 1:] @ pose.rotation.T)[:, 2]
+    return u.ravel()
+
+
+@pytest.mark.parametrize("kind", ["plane", "sphere", "bore"])
+@pytest.mark.parametrize("friction", LAWS)
+def test_the_tangent_is_the_derivative_of_the_nodal_forces(friction, kind):
+    counter, pose = curved(kind)
+    problem = problem_of(counter=counter, friction=friction)
+    state = bent_state(problem, 1)
+    motion = SurfaceMotion(
+        pose,
+        Drift(np.array([2e-8, 0.0, 3e-9]), np.array([[0, -1e-6, 0], [1e-6, 0, 2e-6], [0, 0, 0]])),
+        Drift(np.array([0.0, -1.3e-8, 0.0])),
+        np.eye(3),
+        np.diag([0.0, 0.3, 0.0]),
+    )
+    rng = np.random.default_rng(2)
+    # Chords of the mesh stand above a hollow.
+    flat = laid_on(problem, pose, -5e-6 if kind == "bore" else 0.0)
+    u = flat + rng.normal(size=3 * problem.nodes) * 1e-8
+    state = dataclasses.replace(state, displacement=state.displacement + flat)
+    _, _, _, points, stiffness = evaluated(problem, u, state, motion, True)
+    assert 10 < np.count_nonzero(points[:, 0] > 0.0)
+    faces, shapes, weights = problem.arrays[:3]
+    way = rng.normal(size=u.shape)
+    predicted = np.empty_like(u)
+    stiffness_forces(stiffness, faces, shapes, weights, way, predicted)
+    step = 1e-12
+    ahead = evaluated(problem, u + step * way, state, motion, False)[0]
+    behind = evaluated(problem, u - step * way, state, motion, False)[0]
+    slope = (ahead - behind) / (2 * step)
+    assert slope == pytest.approx(predicted, rel=1e-5, abs=1e-5 * np.abs(predicted).max())
