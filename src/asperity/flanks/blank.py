@@ -57,7 +57,7 @@ class Blank:
 
     @property
     def kink(self) -> float | None:
-        """Distance from the middle where throat and outside cylinder meet, mm; None off the face."""
+        """Distance from mid-face where throat and outside cylinder meet, mm; None off the face."""
         depth = self.centre_distance - self.outside_radius
         if abs(depth) >= self.throat_radius:
             return None

@@ -1,16 +1,19 @@
-"""Sections of the cut wheel at a place on its axis, traced from the bottom of the hob's tip.
+"""Sections of the cut wheel across its axis, traced from the bottom of the hob's tip.
 
-At a fixed ``z`` the surface that a side of the hob leaves is one curve over ``u``. It is followed
-from the end of the tip land (``u = 2``) over the tip's arc and the flank until it leaves the blank:
-from this end the pole of the conjugate point lies behind the blank's radius and is never met, while
-from the pitch point it may be met first.
+At a fixed ``z`` the surface that a side of the hob leaves is one curve in the plane of ``u`` and
+``psi``. It is followed by its length from the end of the tip land (``u = 2``) over the tip's arc
+and the flank until it leaves the blank: from this end the pole of the conjugate point lies behind
+the blank's radius and is never met, while from the pitch point it may be met first. By its length,
+since near the pole of a tilted hob ``u`` turns back.
+
+A traced section is an array of nodes, a row each: ``u``, ``psi``, radius and regularity.
 """
 
 import math
 
 from asperity.compiled import kernel
-from asperity.flanks.conjugate import COSINE, OFFSET, RATIO, conjugate, conjugate_rates
-from asperity.flanks.curve import curve
+from asperity.flanks.conjugate import COSINE, OFFSET, conjugate_rates
+from asperity.flanks.curve import BASE, FLANK_END, ROOT, curve
 
 REACHED = 0
 SHORT = 1
@@ -18,16 +21,19 @@ LOST = 2
 NO_FLANK = 3
 UNDERCUT = 4
 
-ARC_STEPS = 8
-FLANK_STEPS = 32
-SMALLEST_STEP = 1e-7
-NODES = 160
+LONGEST_STEP = 0.1
+SHORTEST_STEP = 1e-9
+RISE = 0.1
+TURN = 0.9
+BEYOND = 1.5
+NODES = 300
 TOLERANCE = 1e-12
 
 U = 0
 PSI = 1
 RADIUS = 2
 REGULARITY = 3
+FIELDS = 4
 
 
 @kernel
@@ -39,193 +45,169 @@ def first_psi(u, z, hob, cut):
 
 
 @kernel
-def psi_at(u, psi, z, side, hob, cut):
-    """Newton for the ``psi`` at which ``u`` cuts at the place ``z``, from a guess.
+def slide(u, psi, du, dpsi, z, side, hob, cut):
+    """Newton along the direction ``(du, dpsi)`` until the point lies at the place ``z``.
 
-    Returns ``(psi, radius, radius', regularity, pole, error)``, the rate by ``u`` along the
-    section and the error in ``z``.
+    Returns ``(u, psi, radius, R_u, R_psi, z_u, z_psi, regularity, sound)``; not ``sound`` beyond
+    the pole and where nothing was found.
     """
-    for _ in range(30):
+    for _ in range(25):
         x, y, zk, xu, yu, zu, xp, yp, zp, regularity, pole = conjugate_rates(u, psi, side, hob, cut)
-        step = (z - zk) / zp
+        step = (z - zk) / (zu * du + zp * dpsi)
         if not abs(step) > 4e-16 * (1.0 + abs(psi)):
             break
-        psi += min(max(step, -0.2), 0.2)
+        step = min(max(step, -0.2), 0.2)
+        u += step * du
+        psi += step * dpsi
     radius = math.sqrt(x * x + y * y)
-    along = -zu / zp
-    rate = (x * (xu + along * xp) + y * (yu + along * yp)) / radius
-    return psi, radius, rate, regularity, pole, abs(z - zk)
+    radius_u = (x * xu + y * yu) / radius
+    radius_psi = (x * xp + y * yp) / radius
+    sound = abs(z - zk) <= TOLERANCE and pole > 0.0 and abs(psi) < 0.5 * math.pi
+    return u, psi, radius, radius_u, radius_psi, zu, zp, regularity, sound
+
+
+@kernel
+def at_u(u, psi, z, side, hob, cut):
+    """``(psi, radius, sound)`` of the section at ``u``, from a guess of ``psi``."""
+    found = slide(u, psi, 0.0, 1.0, z, side, hob, cut)
+    return found[1], found[2], found[8]
+
+
+@kernel
+def keep(node, u, psi, radius, regularity):
+    """Write a node."""
+    node[U] = u
+    node[PSI] = psi
+    node[RADIUS] = radius
+    node[REGULARITY] = regularity
+
+
+@kernel
+def next_break(u, hob):
+    """Where the next piece of the curve begins below ``u``: the flank, its radial part, its end."""
+    if u > 1.0:
+        return 1.0
+    # A little below the base cylinder, where the flank is radial without doubt.
+    base = (hob[BASE] * (1.0 - 1e-14) - hob[ROOT]) / (hob[FLANK_END] - hob[ROOT])
+    return base if 0.0 < base < u else 0.0
+
+
+@kernel
+def descent(zu, zp):
+    """Unit direction along a section in which ``u`` falls."""
+    size = math.copysign(math.hypot(zu, zp), zp)
+    return -zp / size, zu / size
+
+
+@kernel
+def advance(u, psi, tu, tp, step, limit, z, side, hob, cut):
+    """A step along a section: the found point as by `slide`, never beyond the break ``limit``."""
+    pu, pp = u + step * tu, psi + step * tp
+    if pu > limit:
+        found = slide(pu, pp, -tp, tu, z, side, hob, cut)
+        if found[0] > limit:
+            # The corrector may have found another branch.
+            off = math.hypot(found[0] - pu, found[1] - pp)
+            return found, found[8] and off <= 0.5 * step
+        pp = found[1] if found[8] else pp
+    else:
+        pp = psi + (pp - psi) * (limit - u) / (pu - u)
+    found = slide(limit, pp, 0.0, 1.0, z, side, hob, cut)
+    return found, found[8] and abs(found[1] - psi) <= 2.0 * step
 
 
 @kernel
 def trace(z, stop, side, hob, cut, nodes):
-    """Follow the section at ``z`` from ``u = 2`` until its radius passes ``stop``.
+    """Follow the section at ``z`` from ``u = 2`` until its flank passes the radius ``stop``.
 
-    Fills the rows of ``nodes`` with ``u``, ``psi``, radius and regularity. Returns
-    ``(count, status)``: the radius was reached, the hob's flank ended before (`SHORT`), or the
-    curve was lost at a pole (`LOST`).
+    Returns ``(flank, count, status)``: the node at ``u = 1`` (-1: not reached), the number of
+    nodes, and whether the radius was reached, the hob's flank ended before (`SHORT`), or the curve
+    was lost (`LOST`).
     """
-    u = 2.0
-    psi, radius, _, regularity, pole, error = psi_at(
-        u, first_psi(u, z, hob, cut), z, side, hob, cut
-    )
-    if not (error <= TOLERANCE and pole > 0.0):
-        return 0, LOST
-    count = 0
-    step = 1.0 / ARC_STEPS
-    while True:
-        nodes[count, U] = u
-        nodes[count, PSI] = psi
-        nodes[count, RADIUS] = radius
-        nodes[count, REGULARITY] = regularity
-        count += 1
-        if radius >= stop:
-            return count, REACHED
-        if u <= 0.0:
-            return count, SHORT
-        if u == 1.0:
-            step = 1.0 / FLANK_STEPS
-        least = 1.0 if u > 1.0 else 0.0
-        while True:
-            following = max(u - step, least)
-            found, radius, _, regularity, pole, error = psi_at(following, psi, z, side, hob, cut)
-            if error <= TOLERANCE and pole > 0.0 and abs(found) < 0.5 * math.pi:
-                break
+    flank = -1
+    psi = first_psi(2.0, z, hob, cut)
+    u, psi, radius, _, _, zu, zp, regularity, sound = slide(2.0, psi, 0.0, 1.0, z, side, hob, cut)
+    if not sound:
+        return flank, 0, LOST
+    keep(nodes[0], u, psi, radius, regularity)
+    most = RISE * (stop - radius)
+    tu, tp = descent(zu, zp)
+    limit = next_break(u, hob)
+    step = LONGEST_STEP
+    count = 1
+    # One row is left for a cusp.
+    while count < NODES - 1:
+        found, sound = advance(u, psi, tu, tp, step, limit, z, side, hob, cut)
+        fu, fp, fr, _, _, zu, zp, regularity, _ = found
+        landed = fu == limit
+        nu, np = descent(zu, zp)
+        turn = nu * tu + np * tp
+        if turn < 0.0:
+            nu, np, turn = -nu, -np, -turn
+        # At a break the direction may jump.
+        if not (sound and (turn > TURN or landed) and abs(fr - radius) <= most):
             step *= 0.5
-            if step < SMALLEST_STEP or count >= NODES:
-                return count, LOST
-        u = following
-        psi = found
-        if count >= NODES:
-            return count, LOST
+            if step < SHORTEST_STEP:
+                return flank, count, LOST
+            continue
+        u, psi, radius, tu, tp = fu, fp, fr, nu, np
+        keep(nodes[count], u, psi, radius, regularity)
+        count += 1
+        step = min(2.0 * step, LONGEST_STEP)
+        if landed and limit == 1.0:
+            flank = count - 1
+        if flank >= 0 and radius >= stop and regularity > 0.0:
+            return flank, count, REACHED
+        if u <= 0.0:
+            return flank, count, SHORT
+        if radius > BEYOND * stop or (flank >= 0 and u > 1.0):
+            return flank, count, LOST
+        if landed:
+            tu, tp = descent(zu, zp)
+            limit = next_break(u, hob)
+    return flank, count, LOST
 
 
 @kernel
-def solve_radius(radius, z, high, low, psi, side, hob, cut):
-    """``(u, psi)`` at a radius: Newton, bracketed by ``u`` from ``high`` (inner) to ``low``."""
-    u = high
+def between(radius, k, z, side, hob, cut, nodes):
+    """``(u, psi)`` of a section at a radius between its nodes ``k`` and ``k + 1``.
+
+    Newton along the chord of the two nodes, bracketed by them.
+    """
+    u, psi = nodes[k, U], nodes[k, PSI]
+    du, dpsi = nodes[k + 1, U] - u, nodes[k + 1, PSI] - psi
+    length = du * du + dpsi * dpsi
+    rising = nodes[k + 1, RADIUS] > nodes[k, RADIUS]
+    t, low, high = 0.0, 0.0, 1.0
     for _ in range(100):
-        psi, found, rate, _, _, _ = psi_at(u, psi, z, side, hob, cut)
+        u, psi, found, radius_u, radius_psi, zu, zp, _, _ = slide(
+            u, psi, -dpsi, du, z, side, hob, cut
+        )
         off = radius - found
         if abs(off) <= 5e-16 * radius:
             break
-        if off > 0.0:
-            high = u
+        if (off > 0.0) == rising:
+            low = t
         else:
-            low = u
-        following = u + off / rate
+            high = t
+        scale = length / (zu * dpsi - zp * du)
+        ut, pt = -zp * scale, zu * scale
+        following = t + off / (radius_u * ut + radius_psi * pt)
         if not low < following < high:
             following = 0.5 * (low + high)
-            if following == low or following == high:
-                break
-        if following == u:
+        # Nothing lies between two neighbouring numbers.
+        if following in (low, high, t):
             break
-        u = following
+        u += (following - t) * ut
+        psi += (following - t) * pt
+        t = following
     return u, psi
 
 
 @kernel
-def body_angle(u, psi, side, hob, cut):
-    """Angle about the wheel's axis, from +Y towards +X, of the point in the wheel."""
-    x, y, _, phase, _, _, _ = conjugate(u, psi, side, hob, cut)
-    return math.atan2(x, y) + phase / cut[RATIO]
-
-
-@kernel
-def bracket(radius, nodes, first, last):
-    """Index ``k`` of the node after which the radius lies, ``first <= k < last``."""
+def locate(radius, first, last, z, side, hob, cut, nodes):
+    """``(u, psi)`` at a radius on the part of a section from node ``first`` to ``last``, rising."""
     k = first
     while k < last - 1 and nodes[k + 1, RADIUS] < radius:
         k += 1
-    return k
-
-
-@kernel
-def cusp(nodes, last_turned, z, side, hob, cut):
-    """``(u, psi, radius)`` where the section turns, after the last node on the branch turned back.
-
-    A branch turned back is inside the tooth or the chip; the flank begins behind it.
-    """
-    high = nodes[last_turned, U]
-    low = nodes[last_turned + 1, U]
-    psi = nodes[last_turned, PSI]
-    radius = nodes[last_turned, RADIUS]
-    for _ in range(60):
-        u = 0.5 * (low + high)
-        psi, radius, _, regularity, _, _ = psi_at(u, psi, z, side, hob, cut)
-        if regularity > 0.0:
-            low = u
-        else:
-            high = u
-    return low, psi, radius
-
-
-@kernel
-def join(z, stop, side, hob, cut, nodes, count):
-    """Where flank and fillet meet: ``(u, psi, u_arc, psi_arc, node, status, undercut)``.
-
-    Without undercut at ``u = 1``; else where the arc's curve leaves the flank's regular branch.
-    ``node`` is the last node below the flank's start.
-    """
-    one = ARC_STEPS
-    while one < count and nodes[one, U] > 1.0:
-        one += 1
-    if one >= count - 1 and nodes[count - 1, U] >= 1.0:
-        return 1.0, 0.0, 1.0, 0.0, 0, NO_FLANK, False
-    turned = -1
-    for k in range(one, count):
-        if nodes[k, REGULARITY] <= 0.0:
-            turned = k
-    if turned < 0:
-        psi = nodes[one, PSI]
-        return 1.0, psi, 1.0, psi, one, REACHED, False
-    if turned >= count - 1:
-        return 1.0, 0.0, 1.0, 0.0, 0, UNDERCUT, True
-    u_low, psi_low, r_low = cusp(nodes, turned, z, side, hob, cut)
-    bottom = max(r_low, nodes[0, RADIUS])
-    top = min(nodes[one, RADIUS], stop)
-    u = u_low
-    v = 2.0
-    psi = psi_low
-    psi_arc = nodes[0, PSI]
-    low, high = bottom, top
-    ahead = False
-    for k in range(70):
-        radius = top if k == 0 else 0.5 * (low + high)
-        u, psi = solve_radius(radius, z, u_low, nodes[count - 1, U], psi_low, side, hob, cut)
-        v, psi_arc = solve_radius(radius, z, 2.0, 1.0, nodes[0, PSI], side, hob, cut)
-        free = side * (body_angle(v, psi_arc, side, hob, cut) - body_angle(u, psi, side, hob, cut))
-        if free > 0.0:
-            high = radius
-            ahead = True
-        else:
-            low = radius
-        if not ahead or high - low <= 4e-16 * radius:
-            break
-    node = turned
-    while node < count - 2 and nodes[node + 1, U] >= u:
-        node += 1
-    return u, psi, v, psi_arc, node, REACHED if ahead else UNDERCUT, True
-
-
-@kernel
-def section(z, stop, side, hob, cut, nodes):
-    """Trace a section and join its parts; see `trace` and `join`.
-
-    Returns ``(u, psi, u_arc, psi_arc, node, count, status, undercut)``.
-    """
-    count, status = trace(z, stop, side, hob, cut, nodes)
-    if status != REACHED:
-        return 1.0, 0.0, 1.0, 0.0, 0, count, status, False
-    u, psi, v, psi_arc, node, status, undercut = join(z, stop, side, hob, cut, nodes, count)
-    return u, psi, v, psi_arc, node, count, status, undercut
-
-
-@kernel
-def solve_in_section(radius, z, u, psi, node, count, side, hob, cut, nodes):
-    """``(u, psi)`` on the flank at a radius, from a section that starts at ``u``."""
-    k = bracket(radius, nodes, node, count - 1)
-    if k > node:
-        u = nodes[k, U]
-        psi = nodes[k, PSI]
-    return solve_radius(radius, z, u, nodes[k + 1, U], psi, side, hob, cut)
+    return between(radius, k, z, side, hob, cut, nodes)

@@ -7,6 +7,7 @@ angles in rad, in the frame of the right-handed gearset (`asperity.flanks.settin
 
 import dataclasses
 import functools
+import itertools
 import math
 
 import numpy as np
@@ -184,14 +185,17 @@ class WheelFlank:
     def limits(self, z: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the radii where the flank begins and ends at places ``z``, mm."""
         places, stop = self._columns(0, z)
-        return self._ends(places, stop)[0], stop
+        return self._starts(places, stop)[0], stop
 
-    def _ends(self, places: FloatArray, stop: FloatArray) -> FloatArray:
-        ends = np.empty((5, places.size))
+    def _starts(
+        self, places: FloatArray, stop: FloatArray
+    ) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+        start = np.empty(places.size)
+        undercut = np.empty(places.size, dtype=np.bool_)
         status = np.empty(places.size, dtype=np.int64)
-        trim_grid.limits_each(places, stop, *self._hob, ends, status)
+        trim_grid.limits_each(places, stop, *self._hob, start, undercut, status)
         self._refuse(status, places)
-        return ends
+        return start, undercut
 
     def at(self, radius: npt.ArrayLike, z: npt.ArrayLike) -> FlankGrid:
         """Return the points of flank or fillet at radii and places, broadcast, mm.
@@ -235,7 +239,7 @@ class WheelFlank:
         kink = self.blank.kink
         bounds = [-half, half] if kink is None else [-half, -kink, kink, half]
         total = 0.0
-        for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+        for low, high in itertools.pairwise(bounds):
             z = 0.5 * (low + high) + 0.5 * (high - low) * knots
             grid = self.at_shares(0.5 * (1.0 + knots), z)
             start, stop = self.limits(z)
