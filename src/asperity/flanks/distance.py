@@ -54,19 +54,18 @@ CYLINDER = 3
 # Both are small once inlined, and a call of each costs as much as what it does.
 @kernel(inline="always")
 def place(x, y, z, params):
-    """``(s, v)``: the side that is nearest or asked for, and the axial place mirrored to s = 1."""
-    half = params[HALF_PITCH]
+    """``(s, v)``: the side that is nearest or asked for, and the axial place mirrored to s = 1.
+
+    The place counts from the middle of the thread space that the point is in or next to.
+    """
+    pitch = 2.0 * params[HALF_PITCH]
     side = params[SIDE]
     # The wheel is where x is positive, and there the quotient's angle is twice as fast.
     q = z - params[LEAD] * (math.atan(y / x) if x > 0.0 else math.atan2(y, x))
+    q -= pitch * math.floor(q / pitch + 0.5)
     if side == 0.0:
-        q -= 2.0 * half * math.floor(q / (2.0 * half) + 0.5)
-        if q < 0.0:
-            return -1.0, -q
-        return 1.0, q
-    q *= side
-    # The window reaches from inside the thread beyond the other flank of the space.
-    return side, q - 2.0 * half * math.floor(q / (2.0 * half) + 0.25)
+        side = -1.0 if q < 0.0 else 1.0
+    return side, side * q
 
 
 @kernel

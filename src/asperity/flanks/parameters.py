@@ -22,7 +22,9 @@ HOB_TIP_RADIUS = 0.25
 
 SOURCES = {
     "disc.diameter": Source(
-        "common practice", "from memory", "a new disc of 500 mm; the flank changes little with it"
+        "common practice",
+        "from memory",
+        "a new disc; one of 200 mm changes the flank of a worm of module 2 by a hundredth of a mm",
     ),
     "disc.profile_radius": Source("ISO/TR 10828", "from memory", "5 to 7 modules are common"),
     "hob.tip_radius": Source("common practice", "from memory"),
