@@ -42,9 +42,7 @@ def flank_grid(z, stop, side, hob, cut, share, u, psi, status):
                 u[j, k], psi[j, k] = nodes[flank, U], nodes[flank, PSI]
             else:
                 radius = low + share[j] * (stop[k] - low)
-                u[j, k], psi[j, k] = locate(
-                    radius, flank, count - 1, z[k], side, hob, cut, nodes
-                )
+                u[j, k], psi[j, k] = locate(radius, flank, count - 1, z[k], side, hob, cut, nodes)
 
 
 @kernel
