@@ -31,7 +31,9 @@ _ELEMENTS = {"hex8": "C3D8", "hex8i": "C3D8I", "hex27": "C3D27"}
 SETTLE = 0.01
 _SETTLE_INCREMENT = 1e-4
 _PER_LINE = 8
-_RECORDS = 400
+_FIELDS_A_SECOND = 400
+_RECORDS_A_CYCLE = 40
+_RECORDS = 1000
 
 
 def abaqus_files(setup: BlockSetup) -> dict[str, str]:
@@ -207,11 +209,18 @@ def _shake(model: Model) -> Iterator[str]:
 
 
 def _output(setup: BlockSetup, length: float) -> Iterator[str]:
-    yield f"*OUTPUT, FIELD, NUMBER INTERVAL={max(1, round(_RECORDS * min(1.0, length)))}"
+    yield f"*OUTPUT, FIELD, NUMBER INTERVAL={max(1, round(_FIELDS_A_SECOND * length))}"
     yield from ("*NODE OUTPUT", "U,", "*CONTACT OUTPUT", "CSTRESS, CDISP")
-    yield "*OUTPUT, HISTORY, FREQUENCY=1"
+    yield f"*OUTPUT, HISTORY, FREQUENCY={_increments_a_record(setup.model, length)}"
     yield from ("*NODE OUTPUT, NSET=drive_point", "U1, U2, V1, V2, RF1")
     if not setup.model.slider.rigid:
         yield from ("*NODE OUTPUT, NSET=drive_end", "RF1,")
     yield from ("*NODE OUTPUT, NSET=base_point", "U1, U2, RF1, RF2, RF3")
     yield "*END STEP"
+
+
+def _increments_a_record(model: Model, length: float) -> int:
+    between = length / _RECORDS
+    if model.vibrates:
+        between = min(between, 1.0 / (_RECORDS_A_CYCLE * model.frequency))
+    return max(1, round(between / model.step))

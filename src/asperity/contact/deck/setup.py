@@ -17,7 +17,7 @@ DRIVE_FACE = "right"
 
 # A rigid plane of 0.1 x 0.1 m under the thesis's block of 0.04 x 0.03 m.
 _BASE_OVER_BLOCK = 2.5
-_POINTS_OF_RISE = 9
+_POINTS_OF_RISE = 33
 _LONGEST_NUMBER = 20
 
 

@@ -1,0 +1,72 @@
+"""``asperity export`` as a user runs it."""
+
+import json
+
+import pytest
+
+
+def test_abaqus_gets_a_deck_and_the_friction_subroutine(asperity, tmp_path):
+    folder = tmp_path / "to" / "abaqus"
+    code, output, errors = asperity(
+        "export", "block-longitudinal", "--to", "abaqus", "--out", folder
+    )
+    assert (code, errors) == (0, "")
+    assert output.splitlines() == [str(folder / "block.inp"), str(folder / "user.f")]
+    assert sorted(path.name for path in folder.iterdir()) == ["block.inp", "user.f"]
+    assert "*FRICTION, USER, DEPVAR=3, PROPERTIES=10" in (folder / "block.inp").read_text()
+    assert "      SUBROUTINE FRIC(LM,TAU,DDTDDG,DDTDDP" in (folder / "user.f").read_text()
+
+
+def test_calculix_gets_a_deck_and_without_a_folder_it_stands_in_out(asperity, tmp_path):
+    code, output, errors = asperity("export", "block-transverse", "--to", "calculix", cwd=tmp_path)
+    assert (code, errors) == (0, "")
+    assert output.splitlines() == ["out/calculix/block.inp"]
+    assert (tmp_path / "out" / "calculix" / "block.inp").read_text().startswith("*HEADING")
+
+
+def test_one_object_names_the_files(asperity, tmp_path):
+    code, output, errors = asperity(
+        "export", "block-transverse", "--to", "abaqus", "--out", tmp_path, "--json",
+        "--set", "block.element=hex8", "--set", "solve.scheme=two-phase",
+    )  # fmt: skip
+    assert (code, errors) == (0, "")
+    assert output.count("\n") == 1
+    assert json.loads(output) == {
+        "to": "abaqus",
+        "files": [str(tmp_path / "block.inp"), str(tmp_path / "user.f")],
+    }
+    assert "TYPE=C3D8," in (tmp_path / "block.inp").read_text()
+    assert "two explicit phases" in (tmp_path / "user.f").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (
+            ["block-longitudinal", "--to", "abacus"],
+            "--to abacus: it must be one of 'abaqus', 'calculix' (did you mean 'abaqus'?)",
+        ),
+        (
+            ["block-longitudinal"],
+            "asperity export: missing option '--to'; see asperity export --help",
+        ),
+        (
+            ["table-4.3", "--to", "abaqus"],
+            "table-4.3: the table [block] is missing; add it",
+        ),
+        (
+            ["block-longitudinal", "--to", "abaqus", "--set", "friction.model=lugre"],
+            "friction.model is 'lugre'; FRIC is written for 'dahl' (for 'coulomb' the deck uses "
+            "Abaqus's own friction)",
+        ),
+        (
+            ["block-longitudinal", "--to", "calculix", "--out", "taken"],
+            "taken cannot be used as output folder: file exists; choose another",
+        ),
+    ],
+)
+def test_what_cannot_be_written_is_said_in_one_line(asperity, tmp_path, arguments, line):
+    (tmp_path / "taken").touch()
+    code, output, errors = asperity("export", *arguments, cwd=tmp_path)
+    assert (code, output, errors) == (2, "", line + "\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["taken"]

@@ -1,0 +1,96 @@
+"""The deck for CalculiX, run by CalculiX (G. Dhondt & K. Wittig, calculix.de), against what must
+come out: the load, a bar's shortening, Coulomb's friction.
+"""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact.deck import BlockSetup, calculix_files
+from asperity.contact.deck.calculix import overclosure, stick_slope
+
+FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
+
+
+class Run:
+    """What CalculiX says of a case."""
+
+    def __init__(self, folder, *settings):
+        self.setup = BlockSetup.from_case(read_case("block-longitudinal", TABLES, settings))
+        (folder / "block.inp").write_text(calculix_files(self.setup)["block.inp"])
+        done = subprocess.run(
+            ["ccx", "block"], cwd=folder, capture_output=True, text=True, check=False, timeout=120
+        )
+        assert "Job finished" in done.stdout, done.stdout[-2000:]
+        text = (folder / "block.dat").read_text()
+        contact = re.findall(
+            rf"area,  normal force \(\+ = tension\) and shear force \(size\)\s+"
+            rf"({FLOAT})\s+({FLOAT})\s+({FLOAT})",
+            text,
+        )
+        self.area, normal, self.shear = np.array(contact, float).T
+        self.normal = -normal
+        self.place, self.pull = (
+            np.array(re.findall(rf"{name}.*\n\n\s+\d+\s+({FLOAT})", text), float)
+            for name in ("set DRIVE_POINT", "set DRIVE_END")
+        )
+        self.frames = list(_frames((folder / "block.frd").read_text()))
+
+
+def _frames(text):
+    """Fields at the nodes, one after the other: name and values by node number."""
+    block = re.compile(r"^ -4  (\w+).*\n(?:^ -5.*\n)+((?:^ -1.*\n)+)", re.MULTILINE)
+    for name, rows in block.findall(text):
+        values = {
+            int(row[3:13]): [float(row[i : i + 12]) for i in range(13, len(row), 12)]
+            for row in rows.splitlines()
+        }
+        yield name, values
+
+
+def field(run, name, number):
+    return [values for found, values in run.frames if found == name][number]
+
+
+@pytest.fixture(scope="module")
+def sliding(tmp_path_factory):
+    return Run(tmp_path_factory.mktemp("ccx"), "block.elements=[3,2,2]")
+
+
+def test_the_mean_contact_pressure_is_load_over_area(sliding):
+    assert sliding.area[0] == pytest.approx(sliding.setup.block.area, rel=1e-6)
+    mean = sliding.normal[0] / sliding.area[0]
+    assert mean == pytest.approx(sliding.setup.mean_pressure, rel=1e-6)
+
+
+def test_the_spring_pulls_until_full_friction_and_no_further(sliding):
+    full = sliding.setup.model.full_friction
+    np.testing.assert_allclose(sliding.pull[1:], sliding.shear[1:], rtol=1e-5)
+    assert sliding.shear.max() <= full * (1 + 1e-6)
+    assert sliding.shear[-1] == pytest.approx(full, rel=1e-6)
+    assert sliding.place[-1] > 50 * sliding.setup.model.friction.max_deflection
+
+
+def test_before_it_slides_the_contact_is_as_stiff_as_the_asperities(sliding):
+    sticking = sliding.pull < 0.5 * sliding.setup.model.full_friction
+    give = np.polyfit(sliding.pull[sticking], sliding.place[sticking], 1)[0]
+    asperities = 1.0 / (stick_slope(sliding.setup) * sliding.setup.block.area)
+    # The block gives as well, a few percent of what the asperities do.
+    assert asperities < give < 1.1 * asperities
+
+
+def test_without_friction_and_weight_the_block_is_a_bar_between_two_pressures(tmp_path):
+    settings = ["block.elements=[3,2,2]", "block.element=hex8i", "friction.mu=1e-9"]
+    run = Run(tmp_path, *settings, "slider.mass=1 mg")
+    setup = run.setup
+    bottom, top = range(1, 13), range(25, 37)
+    pressure = [field(run, "CONTACT", 0)[node][3] for node in bottom]
+    np.testing.assert_allclose(pressure, setup.mean_pressure, rtol=1e-5)
+    moved = np.array([field(run, "DISP", 0)[node][2] for node in (*bottom, *top)])
+    squeeze = setup.mean_pressure * setup.block.size[2] / setup.block.youngs_modulus
+    np.testing.assert_allclose(moved[:12], 0.0, atol=1e-5 * overclosure(setup))
+    np.testing.assert_allclose(moved[12:], -squeeze, rtol=1e-5)

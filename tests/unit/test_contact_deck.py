@@ -1,0 +1,287 @@
+import re
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact.deck import BlockSetup, abaqus_files, calculix_files, fric_subroutine
+from asperity.contact.deck.calculix import overclosure
+from asperity.contact.deck.setup import GRAVITY, numbers
+from asperity.contact.normal import pressure
+from asperity.errors import InputError
+
+SMALL = ["block.elements=[3,2,2]"]
+CASES = {
+    "as shipped": [],
+    "8 nodes": ["block.element=hex8"],
+    "incompatible modes": ["block.element=hex8i"],
+    "two stages": ["contact.normal=two-stage"],
+    "hard": ["contact.normal=hard", "contact.stiffness=1 GPa/um"],
+    "two-phase": ["solve.scheme=two-phase"],
+    "body vibrated": ["vibration.applied_to=body"],
+    "square wave": ["vibration.waveform=square", "vibration.rise_time=20 us"],
+    "guided": ["slider.lateral=guided", "slider.drive_damping=10 N s/m"],
+    "Coulomb": ["friction.model=coulomb", "friction.law=vector"],
+    "vibration from the start": ["vibration.start=0 s"],
+}
+
+
+def setup_of(*settings, case="block-transverse"):
+    return BlockSetup.from_case(read_case(case, TABLES, [*SMALL, *settings]))
+
+
+class Deck:
+    """Keywords of a deck with their options and data lines."""
+
+    def __init__(self, text):
+        self.text = text
+        self.blocks = []
+        for line in text.splitlines():
+            if line.startswith("*") and not line.startswith("**"):
+                keyword, *options = (part.strip() for part in line.split(","))
+                pairs = (option.partition("=") for option in options)
+                self.blocks.append((keyword[1:], {k: v for k, _, v in pairs}, []))
+            elif not line.startswith("**"):
+                self.blocks[-1][2].append([part.strip() for part in line.split(",")])
+
+    def all(self, keyword, **wanted):
+        return [
+            (options, rows)
+            for name, options, rows in self.blocks
+            if name == keyword and wanted.items() <= options.items()
+        ]
+
+    def one(self, keyword, **wanted):
+        (found,) = self.all(keyword, **wanted)
+        return found[1]
+
+    def names(self):
+        keys = {"NSET": "NSET", "ELSET": "ELSET", "ELEMENT": "ELSET", "SURFACE": "NAME"}
+        keys |= {"MATERIAL": "NAME", "AMPLITUDE": "NAME", "SURFACE INTERACTION": "NAME"}
+        return {options[keys[name]] for name, options, _ in self.blocks if name in keys}
+
+
+@pytest.fixture(params=CASES)
+def settings(request):
+    return CASES[request.param]
+
+
+def decks(settings):
+    setup = setup_of(*settings)
+    return [Deck(files(setup)["block.inp"]) for files in (abaqus_files, calculix_files)]
+
+
+def test_the_same_case_gives_the_same_files(settings):
+    assert abaqus_files(setup_of(*settings)) == abaqus_files(setup_of(*settings))
+    assert calculix_files(setup_of(*settings)) == calculix_files(setup_of(*settings))
+
+
+def test_every_name_a_deck_uses_is_defined_in_it(settings):
+    for deck in decks(settings):
+        known = deck.names()
+        for keyword, options, rows in deck.blocks:
+            for option in ("MATERIAL", "AMPLITUDE", "INTERACTION", "SLAVE", "MASTER"):
+                assert options.get(option, "block") in known, keyword
+            if keyword in ("RIGID BODY", "COUPLING"):
+                assert {options.get(key, "base") for key in ("REF NODE", "SURFACE")} <= known
+            if keyword in ("SPRING", "DASHPOT", "SOLID SECTION"):
+                assert options["ELSET"] in known
+            if keyword in ("BOUNDARY", "DLOAD", "DSLOAD", "CONTACT PAIR"):
+                assert {row[0] for row in rows} <= known
+
+
+def test_a_deck_keeps_within_what_the_programs_read(settings):
+    for deck in decks(settings):
+        for line in deck.text.splitlines():
+            if line.startswith("**") or line.startswith("Block"):
+                assert len(line) <= 100
+                continue
+            assert len(line) <= 256
+            entries = [part.strip() for part in line.split(",")]
+            assert len(entries) <= 17
+            assert all(len(entry) <= 20 for entry in entries if not line.startswith("*"))
+
+
+def test_a_subroutine_stays_in_fixed_form(settings):
+    for name, text in abaqus_files(setup_of(*settings)).items():
+        if name == "user.f":
+            assert max(map(len, text.splitlines())) <= 72
+            assert text.isascii()
+
+
+def test_weight_and_load_make_the_normal_force(settings):
+    setup = setup_of(*settings)
+    for deck in decks(settings):
+        ((_, rows),) = deck.all("DLOAD")
+        assert rows[0][:2] == ["block", "GRAV"]
+        gravity, *direction = map(float, rows[0][2:])
+        assert direction == [0.0, 0.0, -1.0]
+        ((_, rows),) = deck.all("DSLOAD")
+        density = float(deck.one("DENSITY")[0][0])
+        force = density * setup.block.volume * gravity + float(rows[0][2]) * setup.block.area
+        assert force == pytest.approx(setup.model.slider.normal_force, rel=1e-12)
+
+
+def test_the_block_in_the_deck_has_its_size_and_its_elements():
+    setup = setup_of("block.element=hex8i")
+    deck = decks(["block.element=hex8i"])[1]
+    points = np.array([[float(x) for x in row[1:]] for row in deck.all("NODE")[0][1]])
+    np.testing.assert_allclose(np.ptp(points, axis=0), setup.block.size)
+    assert points[:, 2].min() == pytest.approx(-overclosure(setup))
+    cells = np.array(deck.one("ELEMENT", ELSET="block"), dtype=int)
+    assert cells.shape == (12, 9)
+    assert set(cells[:, 1:].ravel()) == set(range(1, len(points) + 1))
+    assert len(deck.one("SURFACE", NAME="bottom")) == 6
+
+
+def test_calculix_gets_eight_elements_for_a_27_node_one_on_the_same_nodes():
+    setup = setup_of()
+    abaqus, calculix = decks([])
+    assert abaqus.all("ELEMENT", ELSET="block")[0][0]["TYPE"] == "C3D27"
+    (options, rows), *_ = calculix.all("ELEMENT", ELSET="block")
+    assert options["TYPE"] == "C3D8I"
+    assert len(rows) == 8 * 12
+    coarse, fine = setup.mesh(), setup.mesh(halved=True)
+    np.testing.assert_allclose(coarse.points, fine.points, rtol=0, atol=1e-15)
+
+
+def test_the_steps_are_those_of_the_thesis_and_last_as_long_as_the_case_says():
+    setup = setup_of()
+    deck = decks([])[0]
+    steps = [options for options, _ in deck.all("STEP")]
+    assert [step["NAME"] for step in steps] == ["weight", "load", "drive", "vibration"]
+    assert all(step["UNSYMM"] == "YES" for step in steps)
+    lengths = [float(rows[0][1]) for _, rows in deck.all("DYNAMIC")]
+    assert sum(lengths[2:]) == pytest.approx(setup.model.duration)
+    assert lengths[2] == pytest.approx(setup.model.start)
+    assert [float(rows[0][0]) for _, rows in deck.all("DYNAMIC")][2:] == [setup.model.step] * 2
+
+
+def test_a_vibration_from_the_start_has_no_step_of_driving_alone():
+    deck = decks(["vibration.start=0 s"])[0]
+    assert [o["NAME"] for o, _ in deck.all("STEP")] == ["weight", "load", "vibration"]
+    assert len(deck.all("BOUNDARY", AMPLITUDE="drive")) == 1
+
+
+@pytest.mark.parametrize("on_body", [False, True])
+def test_the_base_moves_as_the_subroutine_takes_it_to_move(on_body):
+    settings = ["vibration.direction=60 deg"]
+    settings += ["vibration.applied_to=body"] if on_body else []
+    setup = setup_of(*settings)
+    model, deck = setup.model, decks(settings)[0]
+    (_, props) = deck.all("FRICTION")[0]
+    values = [float(value) for row in props for value in row if value]
+    wave = deck.one("AMPLITUDE", NAME="vibration")
+    assert float(wave[0][1]) == pytest.approx(2 * np.pi * values[5], rel=1e-12)
+    assert float(wave[0][2]) == pytest.approx(values[4], rel=1e-12)
+    assert values[4] == pytest.approx(0.02 + model.start)
+    moved = {row[1]: float(row[3]) for row in deck.one("BOUNDARY", AMPLITUDE="vibration")}
+    sign = -1.0 if on_body else 1.0
+    assert moved["1"] == pytest.approx(sign * model.amplitude * np.cos(np.pi / 3))
+    assert moved["2"] == pytest.approx(sign * model.amplitude * np.sin(np.pi / 3))
+    # A body's law needs no motion of the base.
+    assert values[6] == pytest.approx(0.0 if on_body else moved["2"], abs=1e-30)
+
+
+def test_the_deck_hands_the_numbers_of_the_friction_to_the_subroutine():
+    setup = setup_of("friction.exponent=1.5")
+    ((options, rows),) = decks(["friction.exponent=1.5"])[0].all("FRICTION")
+    written = fric_subroutine(setup.model, before=0.02)
+    assert options["DEPVAR"] == str(written.state_variables)
+    assert options["PROPERTIES"] == str(len(written.properties))
+    assert all(len(row) <= 8 for row in rows)
+    values = [float(value) for row in rows for value in row if value]
+    assert values == pytest.approx(written.properties, rel=1e-12)
+    assert values[:4] == [0.1, 1.5, 75.49e-9, 0.71]
+
+
+def test_a_friction_stiffness_becomes_the_limit_at_the_nominal_force():
+    settings = ["friction.tangential_stiffness=80 MN/m"]
+    written = fric_subroutine(setup_of(*settings).model)
+    assert written.properties[2] == pytest.approx(0.1 * 50.8 / 80e6)
+
+
+def test_coulomb_friction_needs_no_subroutine_but_a_square_wave_does():
+    coulomb = ["friction.model=coulomb", "friction.law=vector"]
+    assert set(abaqus_files(setup_of(*coulomb))) == {"block.inp"}
+    files = abaqus_files(setup_of(*coulomb, *CASES["square wave"]))
+    assert "SUBROUTINE DISP" in files["user.f"]
+    assert "SUBROUTINE FRIC" not in files["user.f"]
+    assert "*BOUNDARY, USER" in files["block.inp"]
+
+
+def test_friction_with_rate_effects_is_refused():
+    with pytest.raises(InputError, match=r"friction.model is 'lugre'; FRIC is written for 'dahl'"):
+        abaqus_files(setup_of("friction.model=lugre"))
+
+
+def test_the_second_slip_direction_is_one_way_or_the_other():
+    with pytest.raises(InputError, match="side is 0; it must be -1 or 1"):
+        fric_subroutine(setup_of().model, side=0)
+
+
+def test_a_rigid_drive_pulls_at_the_face_itself():
+    case = read_case("block-transverse", TABLES, SMALL).replace_values(
+        {"slider.drive_stiffness": None, "slider.drive_damping": None}
+    )
+    setup = BlockSetup.from_case(case)
+    for files in (abaqus_files, calculix_files):
+        deck = Deck(files(setup)["block.inp"])
+        assert not deck.all("SPRING")
+        pulled = [
+            row for _, rows in deck.all("BOUNDARY") for row in rows if len(row) > 3 and row[3]
+        ]
+        assert pulled[0][:3] == ["drive_point", "1", "1"]
+
+
+def test_two_stages_are_written_point_by_point():
+    setup = setup_of("contact.normal=two-stage")
+    table = np.array(setup.pressure_table())
+    assert np.all(np.diff(table, axis=0) > 0.0)
+    for over in np.linspace(0.0, setup.normal.end, 40):
+        exact = pressure(over, 0.0, setup.normal.parameters)[0]
+        read = np.interp(over, table[:, 1], table[:, 0])
+        assert read == pytest.approx(exact, rel=5e-3, abs=1e-6)
+    for deck in decks(["contact.normal=two-stage"]):
+        ((options, rows),) = deck.all("SURFACE BEHAVIOR")
+        assert options == {"PRESSURE-OVERCLOSURE": "TABULAR"}
+        np.testing.assert_allclose([[float(v) for v in row] for row in rows], table, rtol=1e-12)
+
+
+def test_the_block_stands_in_the_base_as_deep_as_its_mean_pressure_presses_it():
+    for settings in ([], ["contact.normal=two-stage"]):
+        setup = setup_of(*settings)
+        depth = overclosure(setup)
+        assert pressure(depth, 0.0, setup.normal.parameters)[0] == pytest.approx(
+            setup.mean_pressure, rel=1e-9
+        )
+
+
+@pytest.mark.parametrize(
+    ("settings", "why"),
+    [
+        (["slider.normal_force=19 N"], "slider.normal_force is 19 N, but the block of 2 kg weighs"),
+        (["slider.mass=6 kg"], "raise the force or lower slider.mass"),
+    ],
+)
+def test_a_block_heavier_than_its_normal_force_is_refused(settings, why):
+    with pytest.raises(InputError, match=re.escape(why)):
+        setup_of(*settings)
+
+
+def test_a_case_without_a_block_or_a_mass_is_refused():
+    with pytest.raises(InputError, match=r"the table \[block\] is missing"):
+        BlockSetup.from_case(read_case("table-4.3", TABLES))
+    bare = read_case("block-transverse", TABLES).replace_values(
+        {"slider.drive_stiffness": None, "slider.drive_damping": None, "slider.mass": None,
+         "slider.lateral": None}
+    )  # fmt: skip
+    with pytest.raises(InputError, match=r"slider.mass is missing; it makes the density"):
+        BlockSetup.from_case(bare)
+
+
+def test_a_number_never_loses_its_end():
+    assert numbers(7.164982974299455e-05, 0.5) == "7.164982974299e-05, 0.5"
+    assert numbers(GRAVITY) == "9.80665,"
+    assert all(len(part) <= 20 for part in numbers(-1 / 3e200, 2 / 3).split(", "))

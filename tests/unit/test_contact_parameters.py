@@ -1,0 +1,83 @@
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact.parameters import Block, Contact
+from asperity.errors import InputError
+
+STEEL = {"size": (0.04, 0.03, 0.03), "youngs_modulus": 209e9, "poissons_ratio": 0.3}
+
+
+def test_a_block_needs_size_and_material_and_has_defaults_for_the_rest():
+    block = Block(**STEEL)
+    assert (block.elements, block.element, block.modes) == ((8, 6, 6), "hex27", 0)
+    contact = Contact()
+    assert (contact.normal, contact.stiffness) == ("linear", None)
+
+
+def test_size_and_mass_make_contact_area_and_density():
+    block = Block(**STEEL)
+    assert block.area == pytest.approx(1.2e-3)
+    assert block.density(0.5) == pytest.approx(0.5 / (0.04 * 0.03 * 0.03))
+
+
+def test_only_27_node_elements_are_of_second_order():
+    orders = {name: Block(**STEEL, element=name).order for name in ("hex27", "hex8", "hex8i")}
+    assert orders == {"hex27": 2, "hex8": 1, "hex8i": 1}
+
+
+def test_auto_is_ten_times_the_stiffness_of_the_elements_in_contact():
+    assert Contact().normal_stiffness(209e9, 5e-3) == pytest.approx(10 * 209e9 / 5e-3)
+    auto = Contact.model_validate({"stiffness": "auto"})
+    assert auto == Contact()
+
+
+def test_a_given_stiffness_is_taken_in_its_unit():
+    contact = Contact.model_validate({"stiffness": "2 MPa/um"}, context={"text_only": True})
+    assert contact.normal_stiffness(209e9, 5e-3) == pytest.approx(2e12)
+
+
+@pytest.mark.parametrize(("modulus", "height"), [(0.0, 1e-3), (209e9, 0.0)])
+def test_auto_refuses_a_body_without_stiffness_or_height(modulus, height):
+    with pytest.raises(InputError, match="both must be positive"):
+        Contact().normal_stiffness(modulus, height)
+
+
+@pytest.mark.parametrize(
+    ("setting", "why"),
+    [
+        ('block.size=["40 mm","30 mm"]', "it must be a list of three"),
+        ('block.size="40 mm"', "it must be a list of three"),
+        ("block.size=[40,30,30]", "block.size is 40; it must be a length such as '40 mm'"),
+        ('block.size=["40 mm","30 mm","-1 mm"]', "it must be positive"),
+        ("block.youngs_modulus=0 GPa", "it must be positive"),
+        ("block.poissons_ratio=0.5", "it must be at least 0 and below 0.5"),
+        ("block.elements=[8,6,0]", "greater than or equal to 1"),
+        ("block.elements=[8,6,1001]", "less than or equal to 1000"),
+        ("block.elements=[8,6,6.5]", "valid integer"),
+        ("block.element=hex20", "'hex27', 'hex8', 'hex8i' (did you mean 'hex27'?)"),
+        ("block.modes=-1", "greater than or equal to 0"),
+        ("block.depth=1 mm", "block.depth is not a key of [block]"),
+        ("contact.normal=soft", "'linear', 'two-stage', 'hard'"),
+        ("contact.stiffness=stiff", "'auto' or a pressure per length such as '40 GPa/um'"),
+        ("contact.stiffness=0 Pa/m", "it must be positive"),
+        ("contact.stiffness=5 MPa", "'auto' or a pressure per length"),
+        ("contact.stifness=auto", "did you mean 'stiffness'?"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(setting, why):
+    with pytest.raises(InputError) as caught:
+        read_case("block-longitudinal", TABLES, [setting])
+    line = str(caught.value)
+    assert why in line
+    assert "\n" not in line
+
+
+@pytest.mark.parametrize(("name", "table"), [("longitudinal", "4.3"), ("transverse", "4.4")])
+def test_the_blocks_that_ship_are_the_sliding_bodies_with_a_block(name, table):
+    block, body = (read_case(case, TABLES) for case in (f"block-{name}", f"table-{table}"))
+    assert set(block.tables) - set(body.tables) == {"block", "contact"}
+    for key, value in body.tables.items():
+        assert block[key] == value
+    assert block[Block.table] == Block(**STEEL)
+    assert block[Contact.table] == Contact()
