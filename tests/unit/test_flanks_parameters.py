@@ -7,7 +7,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import InputError
-from asperity.flanks.parameters import Disc, Hob, Modification, Mount, size_in_mm
+from asperity.flanks.parameters import SOURCES, Disc, Hob, Modification, Mount, size_in_mm
 
 TEXT = {"text_only": True}
 
@@ -85,6 +85,13 @@ def test_what_is_not_allowed_is_refused_in_one_line(table, key, value, allowed):
 def test_a_misspelt_key_is_named_with_the_right_one():
     with pytest.raises(InputError, match=r"hob\.oversise is not a key of \[hob\].*'oversize'"):
         Hob(oversise=1.1)
+
+
+def test_what_is_assumed_for_a_key_says_where_it_comes_from():
+    for path, source in SOURCES.items():
+        table, key = path.split(".")
+        assert key in TABLES[table].model_fields
+        assert source.confidence == "from memory"
 
 
 @pytest.mark.parametrize("name", ["gearset-3", "gearset-3b"])
