@@ -4,8 +4,8 @@ The equations of motion, with the forces :math:`Q` that are not of the body's ow
 
 .. math:: M a_1 + (1+\alpha)\,(K q_1 - Q_1) - \alpha\,(K q_0 - Q_0) = 0 ,
 
-and Newmark's formulas with :math:`\beta = (1-\alpha)^2/4`, :math:`\gamma = 1/2 - \alpha` give, for a
-given length of the step, the coordinates at its end as a constant linear function of the forces:
+and Newmark's formulas with :math:`\beta = (1-\alpha)^2/4`, :math:`\gamma = 1/2 - \alpha` give, for
+a given length of the step, the coordinates at its end as a constant linear function of the forces:
 
 .. math:: q_1 = q^* + S\,Q_1 , \qquad S = (1+\alpha)\,[M/(\beta h^2) + (1+\alpha) K]^{-1} .
 
