@@ -57,7 +57,7 @@ def require_cad() -> None:
         import OCP.Geom  # noqa: F401
     except ImportError as error:
         raise MissingExtraError(
-            "STEP needs the cad extra, which is not installed: pip install asperity[cad]"
+            f"STEP needs the cad extra ({error}): pip install asperity[cad]"
         ) from error
 
 

@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 # Points that leave a quintic within 4e-7 mm of the flank of a wheel of module 2.
 _ACROSS_THROAT, _ACROSS_RIM = 21, 13
 _UP_FLANK = 17
-_ON_FILLET = 13
+_ON_FILLET = 33
 _ON_ARC = 11
 
 
