@@ -17,6 +17,7 @@ from asperity.cli.tables import TABLES
 from asperity.contact.deck import fric_subroutine
 from asperity.contact.friction_point import PointFriction, share_and_tangent
 from asperity.friction import update
+from asperity.slider.march import march
 from asperity.slider.model import Model
 
 HISTORIES = 1000
@@ -396,3 +397,43 @@ def test_disp_moves_the_base_as_the_case_says(build, wave):
             assert u[0] == pytest.approx(share * model.amplitude * unit, rel=1e-9, abs=1e-18)
             assert u[1] == pytest.approx(share * model.amplitude * slope, rel=1e-5, abs=1e-9)
             assert u[2] == 0.0
+
+
+@pytest.mark.parametrize("law", ["split", "vector"])
+def test_a_body_solved_with_the_subroutine_slides_as_the_package_says(build, law):
+    settings = [f"friction.law={law}", "vibration.direction=60 deg", "vibration.start=0.5 ms"]
+    case = read_case("block-transverse", TABLES, [*settings, "solve.duration=6.5 ms"])
+    # Driven along x, free across.
+    case = case.replace_values({"slider.drive_stiffness": None, "slider.drive_damping": None})
+    model = Model.from_case(case)
+    _, fric = build(*settings, side=1)
+    own = march(model).to_json()
+
+    step, mass, force = model.step, model.slider.mass, model.slider.normal_force
+    cos, sin = model.unit_direction
+    total = round(model.duration / step)
+    base = model.amplitude * model.shape.increments(
+        -model.start * model.frequency, model.frequency * step, total
+    )
+    state, velocity, acceleration = np.zeros((1, 3)), 0.0, 0.0
+    friction = np.empty((total, 2))
+    iterations = 0
+    for n in range(total):
+        along = model.slider.drive_velocity * step - cos * base[n]
+        new = acceleration
+        # Newmark's average acceleration, Newton with the subroutine's own derivative.
+        for _ in range(10):
+            across = velocity * step + 0.25 * step**2 * (acceleration + new) - sin * base[n]
+            found = fric(state, np.array([[along, across]]), force, (n + 1) * step, step)
+            iterations += 1
+            residual = mass * new + found.stress[0, 1]
+            if abs(residual) < 1e-9 * force:
+                break
+            new -= residual / (mass + 0.25 * step**2 * found.by_slip[0, 1, 1])
+        velocity += 0.5 * step * (acceleration + new)
+        acceleration = new
+        state, friction[n] = found.state, found.stress[0]
+    last = friction[-round(own["cycles"] / (model.frequency * step)) :]
+    assert last[:, 0].mean() == pytest.approx(own["drive_force_N"], rel=2e-4)
+    assert last[:, 0].max() == pytest.approx(own["friction_x_max_N"], rel=1e-3)
+    assert iterations < 3 * total
