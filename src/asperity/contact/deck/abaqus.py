@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from asperity.contact.block import STANDARD_GRAVITY
 from asperity.contact.deck.fric import (
     FricSubroutine,
     base_amplitudes,
@@ -18,7 +19,7 @@ from asperity.contact.deck.fric import (
     fric_subroutine,
     needs_disp,
 )
-from asperity.contact.deck.setup import DRIVE_FACE, GRAVITY, BlockSetup, numbers
+from asperity.contact.deck.setup import DRIVE_FACE, BlockSetup, numbers
 from asperity.contact.hht import ALPHA
 from asperity.mesh.inp import mesh_lines
 from asperity.slider.model import Model
@@ -56,7 +57,7 @@ def abaqus_files(setup: BlockSetup) -> dict[str, str]:
 
 
 def _deck(setup: BlockSetup, fric: FricSubroutine | None) -> Iterator[str]:
-    mesh = setup.mesh()
+    mesh = setup.problem.mesh
     nodes, cells = len(mesh.points), len(mesh.cells)
     corner, base, point, end = nodes + 1, nodes + 5, nodes + 6, nodes + 7
     yield from _heading(setup, fric)
@@ -165,10 +166,13 @@ def _amplitudes(setup: BlockSetup) -> Iterator[str]:
 def _steps(setup: BlockSetup) -> Iterator[str]:
     model = setup.model
     yield from _step("weight", SETTLE, quasi_static=True)
-    yield from ("*DLOAD, AMPLITUDE=weight", f"block, GRAV, {numbers(GRAVITY, 0.0, 0.0, -1.0)}")
+    yield from (
+        "*DLOAD, AMPLITUDE=weight",
+        f"block, GRAV, {numbers(STANDARD_GRAVITY, 0.0, 0.0, -1.0)}",
+    )
     yield from _output(setup, SETTLE)
     yield from _step("load", SETTLE, quasi_static=True)
-    yield from ("*DSLOAD, AMPLITUDE=load", f"top, P, {numbers(setup.load)}")
+    yield from ("*DSLOAD, AMPLITUDE=load", f"top, P, {numbers(setup.problem.top_pressure)}")
     yield from _output(setup, SETTLE)
 
     still = min(model.start, model.duration) if model.vibrates else model.duration

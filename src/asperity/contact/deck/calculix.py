@@ -12,7 +12,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from asperity.contact.deck.setup import DRIVE_FACE, GRAVITY, BlockSetup, numbers
+from asperity.contact.block import STANDARD_GRAVITY
+from asperity.contact.deck.setup import DRIVE_FACE, BlockSetup, numbers
 from asperity.contact.elastic.loads import Traction
 from asperity.mesh import HexMesh, box
 from asperity.mesh.inp import mesh_lines
@@ -87,7 +88,7 @@ def _deck(setup: BlockSetup) -> Iterator[str]:
 
 
 def _standing(setup: BlockSetup) -> HexMesh:
-    mesh = setup.mesh(halved=True)
+    mesh = setup.eight_node_mesh()
     down = np.array([0.0, 0.0, overclosure(setup)])
     return dataclasses.replace(mesh, points=mesh.points - down)
 
@@ -146,8 +147,8 @@ def _interaction(setup: BlockSetup) -> Iterator[str]:
 
 def _steps(setup: BlockSetup) -> Iterator[str]:
     yield from ("*STEP, INC=100", "*STATIC", "1., 1., 1.E-6, 1.")
-    yield from ("*DLOAD", f"block, GRAV, {numbers(GRAVITY, 0.0, 0.0, -1.0)}")
-    yield from ("*DSLOAD", f"top, P, {numbers(setup.load)}")
+    yield from ("*DLOAD", f"block, GRAV, {numbers(STANDARD_GRAVITY, 0.0, 0.0, -1.0)}")
+    yield from ("*DSLOAD", f"top, P, {numbers(setup.problem.top_pressure)}")
     yield from _output()
     slider = setup.model.slider
     full = setup.model.full_friction

@@ -1,17 +1,15 @@
 """What a deck of the block says, whichever program reads it; SI throughout."""
 
 import dataclasses
-import functools
 from typing import Self
 
 from asperity.casefile import Case
+from asperity.contact.block import BlockProblem
 from asperity.contact.normal import NormalLaw, pressure
-from asperity.contact.parameters import Block, Contact
-from asperity.errors import InputError
+from asperity.contact.parameters import Block
 from asperity.mesh import HexMesh, box
 from asperity.slider.model import Model
 
-GRAVITY = 9.80665
 DRIVE_FACE = "right"
 """Face of the block the drive pulls at: the one in front."""
 
@@ -42,19 +40,12 @@ class BlockSetup:
     ----------
     name : str
         Of the case.
-    model : Model
-        Drive, friction and vibration.
-    block, contact : Block, Contact
-        The tables of the case.
-    mass : float
-        Of the block, kg.
+    problem : BlockProblem
+        The block as the package itself solves it.
     """
 
     name: str
-    model: Model
-    block: Block
-    contact: Contact
-    mass: float
+    problem: BlockProblem
 
     @classmethod
     def from_case(cls, case: Case) -> Self:
@@ -65,30 +56,27 @@ class BlockSetup:
         InputError
             A table is missing, the block has no mass, or weighs more than its normal force.
         """
-        block = case.require(Block)
-        contact = case.require(Contact) if Contact.table in case else Contact()
-        model = Model.from_case(case)
-        mass, force = model.slider.mass, model.slider.normal_force
-        if mass is None:
-            raise InputError(
-                f"{case.source}: slider.mass is missing; it makes the density of the block"
-            )
-        if mass * GRAVITY >= force:
-            raise InputError(
-                f"{case.source}: slider.normal_force is {force:g} N, but the block of {mass:g} kg "
-                f"weighs {mass * GRAVITY:.4g} N; raise the force or lower slider.mass"
-            )
-        return cls(case.source, model, block, contact, mass)
+        return cls(case.source, BlockProblem.from_case(case))
+
+    @property
+    def model(self) -> Model:
+        """Drive, friction and vibration."""
+        return self.problem.model
+
+    @property
+    def block(self) -> Block:
+        """Size, material and elements."""
+        return self.problem.block
+
+    @property
+    def normal(self) -> NormalLaw:
+        """Pressure against overclosure."""
+        return self.problem.normal
 
     @property
     def density(self) -> float:
         """Of the block, kg/m^3."""
-        return self.block.density(self.mass)
-
-    @property
-    def load(self) -> float:
-        """Pressure on the block's top that brings its weight to the normal force, Pa."""
-        return (self.model.slider.normal_force - self.mass * GRAVITY) / self.block.area
+        return self.problem.material.density
 
     @property
     def mean_pressure(self) -> float:
@@ -100,33 +88,14 @@ class BlockSetup:
         """Edge of the square base, m."""
         return _BASE_OVER_BLOCK * max(self.block.size[:2])
 
-    @functools.cached_property
-    def normal(self) -> NormalLaw:
-        """Pressure against overclosure."""
-        height = self.block.size[2] / self.block.elements[2]
-        stiffness = self.contact.normal_stiffness(self.block.youngs_modulus, height)
-        if self.contact.normal == "two-stage":
-            return NormalLaw.two_stage(stiffness, height)
-        return NormalLaw(self.contact.normal, stiffness)
-
     def pressure_table(self) -> list[tuple[float, float]]:
         """Pressure in Pa and overclosure in m of the two-stage law, point by point."""
         law = self.normal
-        rise = law.end - law.start
-        overs = [
-            0.0,
-            *(law.start + rise * i / (_POINTS_OF_RISE - 1) for i in range(_POINTS_OF_RISE)),
-        ]
-        overs.append(2.0 * law.end)
+        rise = (law.end - law.start) / (_POINTS_OF_RISE - 1)
+        overs = [0.0, *(law.start + rise * i for i in range(_POINTS_OF_RISE)), 2.0 * law.end]
         return [(float(pressure(over, 0.0, law.parameters)[0]), over) for over in overs]
 
-    def mesh(self, *, halved: bool = False) -> HexMesh:
-        """Return the block's mesh; with ``halved`` each 27-node element as eight 8-node ones.
-
-        The nodes are the same either way.
-        """
-        if self.block.order == 1:
-            return box(self.block.size, self.block.elements, 1)
-        if halved:
-            return box(self.block.size, [2 * count for count in self.block.elements], 1)
-        return box(self.block.size, self.block.elements, 2)
+    def eight_node_mesh(self) -> HexMesh:
+        """Return the block's mesh, of each 27-node element eight 8-node ones on the same nodes."""
+        block = self.block
+        return box(block.size, [block.order * count for count in block.elements], 1)
