@@ -50,11 +50,8 @@ _WORM = Camera((0.3, 1.0, 0.45), (1.0, 0.0, 0.0), 1.1)
 _WHEEL = Camera((-0.55, 0.75, 1.0), (0.0, 1.0, 0.0))
 # Room for the scale of colours below.
 _WITH_BAR = replace(_WHEEL, zoom=1.0)
-# Past the tip of the next tooth at one flank: that on the right, that on the left.
-_FLANKS = {
-    1: Camera((0.85, 0.75, 0.7), (0.0, 1.0, 0.0), 0.95),
-    -1: Camera((-0.85, 0.75, 0.7), (0.0, 1.0, 0.0), 0.95),
-}
+# Past the tip of the next tooth at the flank s = +1 of a right-hand wheel.
+_FLANK = (0.85, 0.75, -0.7)
 
 
 def worm_view(path: str | os.PathLike[str], wheel: Wheel) -> Path:
@@ -139,7 +136,10 @@ def pattern_view(
     shown = grid.points + _LIFT * grid.normals
     label = f"gap in µm, bare where above {film:g}"
     side = 1 if grid.points[..., 0].mean() > 0 else -1
-    with _plotter(path, _FLANKS[side]) as plotter:
+    x, y, z = _FLANK
+    # The other flank is this one turned about Y, a left-hand wheel its mirror image.
+    camera = Camera((side * x, y, side * wheel.pair.mirror * z), (0.0, 1.0, 0.0), 0.95)
+    with _plotter(path, camera) as plotter:
         _add(plotter, _centred(wheel, teeth).surface(), BRONZE)
         for turn in _turns(wheel, teeth):
             turned = shown @ turn.T * [1.0, 1.0, wheel.pair.mirror]
