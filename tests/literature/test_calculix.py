@@ -1,5 +1,7 @@
-"""The deck for CalculiX, run by CalculiX (G. Dhondt & K. Wittig, calculix.de), against what must
-come out: the load, a bar's shortening, Coulomb's friction.
+"""The deck for CalculiX run by CalculiX: the load, the package's own pressure, a bar's shortening,
+Coulomb's friction.
+
+G. Dhondt, K. Wittig: CalculiX, a free software three-dimensional structural finite element program.
 """
 
 import re
@@ -12,6 +14,7 @@ from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.contact.deck import BlockSetup, calculix_files
 from asperity.contact.deck.calculix import overclosure, stick_slope
+from asperity.contact.steps import rest_under_load
 
 FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
 
@@ -19,9 +22,10 @@ FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
 class Run:
     """What CalculiX says of a case."""
 
-    def __init__(self, folder, *settings):
+    def __init__(self, folder, *settings, steps=2):
         self.setup = BlockSetup.from_case(read_case("block-longitudinal", TABLES, settings))
-        (folder / "block.inp").write_text(calculix_files(self.setup)["block.inp"])
+        parts = re.split(r"(?<=\*END STEP)\n", calculix_files(self.setup)["block.inp"])
+        (folder / "block.inp").write_text("\n".join([*parts[:steps], ""]))
         done = subprocess.run(
             ["ccx", "block"], cwd=folder, capture_output=True, text=True, check=False, timeout=120
         )
@@ -67,6 +71,22 @@ def test_the_mean_contact_pressure_is_load_over_area(sliding):
     assert mean == pytest.approx(sliding.setup.mean_pressure, rel=1e-6)
 
 
+def test_the_pressure_over_the_face_is_that_of_the_package(tmp_path):
+    run = Run(tmp_path, "block.elements=[6,5,4]", "block.element=hex8i", steps=1)
+    problem, mean = run.setup.problem, run.setup.mean_pressure
+    surface = problem.surface
+    own = rest_under_load(problem.system, problem.loads).contact.pressure
+    own = own.reshape(surface.weights.shape)
+    assert surface.integral(own) / surface.area == pytest.approx(mean, rel=1e-9)
+    # CalculiX as well writes at the nodes what it has between them.
+    nodal = surface.to_nodes(own, "projection")
+    other = np.array([field(run, "CONTACT", 0)[node + 1][3] for node in surface.nodes])
+    # Weight and friction bend the lower face: one percent less at the corners.
+    assert np.ptp(other) > 0.01 * mean
+    np.testing.assert_allclose(nodal, other, rtol=0, atol=0.0015 * mean)
+    assert np.corrcoef(nodal, other)[0, 1] > 0.999
+
+
 def test_the_spring_pulls_until_full_friction_and_no_further(sliding):
     full = sliding.setup.model.full_friction
     np.testing.assert_allclose(sliding.pull[1:], sliding.shear[1:], rtol=1e-5)
@@ -85,7 +105,7 @@ def test_before_it_slides_the_contact_is_as_stiff_as_the_asperities(sliding):
 
 def test_without_friction_and_weight_the_block_is_a_bar_between_two_pressures(tmp_path):
     settings = ["block.elements=[3,2,2]", "block.element=hex8i", "friction.mu=1e-9"]
-    run = Run(tmp_path, *settings, "slider.mass=1 mg")
+    run = Run(tmp_path, *settings, "slider.mass=1 mg", steps=1)
     setup = run.setup
     bottom, top = range(1, 13), range(25, 37)
     pressure = [field(run, "CONTACT", 0)[node][3] for node in bottom]
