@@ -11,10 +11,24 @@ from asperity.flanks.wheel import Wheel
 
 Floats = NDArray[np.float64]
 
-# Points that leave a quintic within 4e-7 mm of the flank of a wheel of module 2.
+FLANK_ERROR = 4e-7
+"""Largest distance of the spline surfaces from the flanks, mm, but for corners of undercut."""
+
+FILLET_ERROR = 4e-6
+"""The same for the fillets."""
+
+_ALLOWED = {
+    "flank_plus": FLANK_ERROR,
+    "flank_minus": FLANK_ERROR,
+    "fillet_plus": FILLET_ERROR,
+    "fillet_minus": FILLET_ERROR,
+}
+# Enough for most wheels; where it is not, the steps are halved, and halved again. Where undercut
+# begins the flank has a corner that no number of points smooths.
+_HALVINGS = 2
 _ACROSS_THROAT, _ACROSS_RIM = 21, 13
 _UP_FLANK = 17
-_ON_FILLET = 33
+_ON_FILLET = 25
 _ON_ARC = 11
 
 
@@ -47,11 +61,14 @@ def tooth_body(wheel: Wheel, teeth: int = 1) -> Body:
     if not 1 <= teeth <= most:
         raise InputError(f"teeth is {teeth}; the wheel has 1 to {most}")
     half, kink = wheel.blank.face_width / 2.0, wheel.blank.kink
-    columns = [np.linspace(-half, half, _ACROSS_THROAT)]
-    if kink is not None:
-        outer = np.linspace(kink, half, _ACROSS_RIM)
-        columns = [-outer[::-1], np.linspace(-kink, kink, _ACROSS_THROAT), outer]
-    bands = [_outline(wheel, z) for z in columns]
+    if kink is None:
+        bands = [_fitted(wheel, -half, half, _ACROSS_THROAT)]
+    else:
+        bands = [
+            _fitted(wheel, -half, -kink, _ACROSS_RIM),
+            _fitted(wheel, -kink, kink, _ACROSS_THROAT),
+            _fitted(wheel, kink, half, _ACROSS_RIM),
+        ]
     patches: list[Patch] = []
     rings = []
     for number in range(teeth):
@@ -69,17 +86,41 @@ def tooth_body(wheel: Wheel, teeth: int = 1) -> Body:
     return Body(name, patches, rings).moved(np.diag([1.0, 1.0, wheel.pair.mirror]))
 
 
-def _outline(wheel: Wheel, z: Floats) -> dict[str, Floats]:
-    """Return the grids round one tooth, counterclockwise seen from +Z, columns at ``z``."""
+def _fitted(wheel: Wheel, low: float, high: float, columns: int) -> dict[str, Floats]:
+    """Return the grids round one tooth over a part of its face, fine enough for the splines."""
+    grids = _outline(wheel, np.linspace(low, high, columns), 1)
+    for halving in range(1, _HALVINGS + 1):
+        steps = 2**halving
+        finer = _outline(wheel, np.linspace(low, high, _rows(columns, steps)), steps)
+        errors = {name: _error(grids[name], finer[name]) for name in _ALLOWED}
+        if all(errors[name] <= allowed for name, allowed in _ALLOWED.items()):
+            break
+        grids = finer
+    return grids
+
+
+def _error(grid: Floats, finer: Floats) -> float:
+    """Return how far the spline through a grid is from exact points between, across the surface."""
+    normal = np.cross(np.gradient(finer, axis=0), np.gradient(finer, axis=1))
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    between = Patch(grid).finer(2).points - finer
+    return float(np.abs(np.einsum("ijk,ijk->ij", between, normal)).max())
+
+
+def _outline(wheel: Wheel, z: Floats, steps: int) -> dict[str, Floats]:
+    """Return the grids round one tooth, counterclockwise seen from +Z, columns at ``z``.
+
+    ``steps`` is by how many each step of the coarsest grids round the tooth is divided.
+    """
     g = wheel.pair.geometry
     inner = g.wheel_root_diameter / 2.0 - g.rim_thickness
     sides = {}
     for side in (1, -1):
         flank = wheel.flank(side)
-        root = flank.root(_ON_ARC, z)
+        root = flank.root(_rows(_ON_ARC, steps), z)
         # The last row of each is the first of the next, to the last digit.
-        fillet = flank.fillet(_ON_FILLET, z)
-        face = flank.grid(_UP_FLANK, len(z), z)
+        fillet = flank.fillet(_rows(_ON_FILLET, steps), z)
+        face = flank.grid(_rows(_UP_FLANK, steps), len(z), z)
         sides[side] = root, fillet, face
     first, last = sides[-1][0].angle[0], sides[1][0].angle[0]
     left, right = sides[-1][2].angle[-1], sides[1][2].angle[-1]
@@ -104,6 +145,10 @@ def _outline(wheel: Wheel, z: Floats) -> dict[str, Floats]:
         "cut_minus": np.concatenate([minus[0][:1], below[0]]),
         "inner": middle["inner"],
     }
+
+
+def _rows(count: int, steps: int) -> int:
+    return steps * (count - 1) + 1
 
 
 def _cylinder(radius: Floats | float, angle: Floats, z: Floats) -> Floats:

@@ -14,8 +14,10 @@ Floats = NDArray[np.float64]
 
 # Points that leave a quintic through a helix of the worm's size within 1e-8 mm.
 _POINTS_PER_TURN = 60
-_POINTS_ON_FLANK = 17
-_POINTS_ON_ARC = 9
+_POINTS_ON_FLANK = 21
+_POINTS_ON_ARC = 13
+# Distance of the points on a ground flank at the root, to the mean distance.
+_ROOT_SPACING = 0.2
 
 
 def worm_body(pair: Pair, length: float | None = None) -> Body:
@@ -87,7 +89,8 @@ def _flank_places(worm: Helicoid) -> list[Floats]:
     root, end = worm.root_radius, worm.flank_end
     even = np.linspace(0.0, 1.0, _POINTS_ON_FLANK)
     if base is None or base >= end:
-        return [even]
+        # Discs leave flanks that bend most at the root, near where they would undercut themselves.
+        return [even * (_ROOT_SPACING + (1.0 - _ROOT_SPACING) * even)]
     # An involute helicoid is smooth in the length of its generator, not in the radius.
     least = max(root, base)
     low, high = math.sqrt(least**2 - base**2), math.sqrt(end**2 - base**2)
