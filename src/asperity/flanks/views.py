@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity.errors import InputError, MissingExtraError
-from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.export.tooth import tooth_body
+from asperity.flanks.export.together import centred_teeth, mounted_worm
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.wheel import FlankGrid, Wheel
 from asperity.mesh import HexMesh
@@ -73,23 +72,15 @@ def worm_view(path: str | os.PathLike[str], wheel: Wheel) -> Path:
 def wheel_view(path: str | os.PathLike[str], wheel: Wheel, teeth: int = 7) -> Path:
     """Draw several teeth of a wheel with their rim, as PNG; errors as in `worm_view`."""
     with _plotter(path, _WHEEL) as plotter:
-        _add(plotter, _centred(wheel, teeth).surface(), BRONZE)
+        _add(plotter, centred_teeth(wheel, teeth).surface(), BRONZE)
     return Path(path)
 
 
 def pair_view(path: str | os.PathLike[str], wheel: Wheel, teeth: int = 9) -> Path:
     """Draw the worm at phase 0 in several teeth of the wheel, as PNG; errors as in `worm_view`."""
-    pair = wheel.pair
-    mirror = np.diag([1.0, 1.0, pair.mirror])
-    worm = worm_body(pair).moved(mirror)
-    mounted = Body(
-        worm.name,
-        [Patch(pair.mounting.to_wheel(patch.points)) for patch in worm.patches],
-        [[pair.mounting.to_wheel(row) for row in ring] for ring in worm.rings],
-    ).moved(mirror)
     with _plotter(path, _WHEEL) as plotter:
-        _add(plotter, mounted.surface(), STEEL)
-        _add(plotter, _centred(wheel, teeth).surface(), BRONZE)
+        _add(plotter, mounted_worm(wheel).surface(), STEEL)
+        _add(plotter, centred_teeth(wheel, teeth).surface(), BRONZE)
     return Path(path)
 
 
@@ -140,7 +131,7 @@ def pattern_view(
     # The other flank is this one turned about Y, a left-hand wheel its mirror image.
     camera = Camera((side * x, y, side * wheel.pair.mirror * z), (0.0, 1.0, 0.0), 0.95)
     with _plotter(path, camera) as plotter:
-        _add(plotter, _centred(wheel, teeth).surface(), BRONZE)
+        _add(plotter, centred_teeth(wheel, teeth).surface(), BRONZE)
         for turn in _turns(wheel, teeth):
             turned = shown @ turn.T * [1.0, 1.0, wheel.pair.mirror]
             marked = _polygons(turned.reshape(-1, 3), _quads(values.shape))
@@ -193,11 +184,6 @@ def mesh_view(
                 shown, scalars=label, cmap=_COLOURS, clim=limits, **look, **_bar(label)
             )
     return Path(path)
-
-
-def _centred(wheel: Wheel, teeth: int) -> Body:
-    """Return teeth on both sides of the one that stands in the worm's thread space."""
-    return tooth_body(wheel, teeth).moved(_turned(wheel, -(teeth // 2)))
 
 
 def _turns(wheel: Wheel, teeth: int) -> list[NDArray[np.float64]]:
