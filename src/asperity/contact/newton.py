@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 import scipy.linalg
+from scipy import sparse
 
 from asperity.contact.increment_kernels import POINT, PRESSURE, add_stiffness, tractions
 from asperity.contact.increment_state import ContactState, IncrementProblem
@@ -200,12 +201,17 @@ def _newton_forces(problem: IncrementProblem, now: Trial, gap: FloatArray) -> Fl
         return forces
     k = np.zeros((len(dofs), len(dofs)))
     add_stiffness(now.stiffness, faces, shapes, weights, local, k)
-    matrix = problem.flexibility[np.ix_(dofs, dofs)] @ k
-    np.negative(matrix, out=matrix)
-    matrix.flat[:: len(dofs) + 1] += 1.0
+    matrix = tangent_matrix(problem.flexibility[np.ix_(dofs, dofs)], k)
     change = scipy.linalg.solve(matrix, -gap[dofs], overwrite_a=True, check_finite=False)
     forces[dofs] += k @ change
     return forces
+
+
+def tangent_matrix(flexibility: FloatArray, stiffness: FloatArray) -> FloatArray:
+    """Return ``I - A K``; `K`, that couples neighbours alone, is given dense."""
+    matrix: FloatArray = -(sparse.csr_array(stiffness.T) @ flexibility.T).T
+    matrix.flat[:: len(matrix) + 1] += 1.0
+    return matrix
 
 
 def _rounding(problem: IncrementProblem, trial: Trial) -> float:

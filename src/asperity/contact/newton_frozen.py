@@ -21,6 +21,7 @@ from asperity.contact.increment_kernels import NORMAL, add_stiffness
 if TYPE_CHECKING:
     from asperity.contact.increment_state import IncrementProblem
     from asperity.contact.newton import Trial
+    from asperity.contact.newton_augmented import Gain
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -71,11 +72,14 @@ class Inverses:
         How many increments ended with a set of points in contact, and its mean flexibility.
     last : Frozen or None
         Used last.
+    gain : Gain or None
+        Hard contact: of the multipliers, used last.
     """
 
     kept: dict[tuple[bytes, int, int, int], Frozen] = field(default_factory=dict)
     seen: dict[bytes, tuple[int, float]] = field(default_factory=dict)
     last: Frozen | None = None
+    gain: Gain | None = None
 
     def ended_with(self, touching: bytes) -> None:
         """Count an increment that ended with these points in contact."""

@@ -1,0 +1,152 @@
+r"""Multipliers of hard contact: pressures at the nodes that leave no overclosure about them.
+
+The pressure is :math:`p = \max(0, \lambda + k g)` with :math:`\lambda = \sum_i N_i \lambda_i`. The
+mean overclosure about a node is :math:`\bar g_i = \int N_i g / \int N_i`. In the end
+:math:`\bar g_i = 0` where :math:`\lambda_i > 0`, and :math:`\bar g_i \le 0` where
+:math:`\lambda_i = 0`: one condition a node, so that neither the pressure spikes nor the contact
+locks, whatever the number of quadrature points.
+
+The classical update :math:`\lambda_i \leftarrow \max(0, \lambda_i + k \bar g_i)` takes hundreds of
+rounds to smooth out a checkerboard of pressures, which hardly moves the body. Here the equation it
+iterates on is solved by Newton's method, with the derivative of :math:`\bar g` by :math:`\lambda`
+through the whole solution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+
+from asperity.contact.increment_kernels import (
+    DISTANCE,
+    NORMAL,
+    PRESSURE,
+    TRACTION,
+    add_stiffness,
+)
+from asperity.contact.increment_state import IncrementProblem
+from asperity.contact.newton import Trial, tangent_matrix
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def classical(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -> FloatArray:
+    """Multipliers after the classical update, shape (n,), Pa."""
+    surface = problem.surface
+    over = -trial.points[:, DISTANCE].reshape(surface.weights.shape)
+    mean = surface.to_forces(over) / surface.nodal_area
+    return np.maximum(multiplier + problem.normal.stiffness * mean, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Gain:
+    """How the multipliers must change to undo the overclosures about their nodes.
+
+    Attributes
+    ----------
+    touching, keep : ndarray of bool
+        The points in contact and the nodes with pressure it holds for.
+    bearing : ndarray of int, shape (b,)
+        Those nodes.
+    inverse : ndarray, shape (b, b)
+        Change of the multipliers, Pa, by overclosure integrated about the nodes, m^3.
+    ended : ndarray, shape (b,)
+        Part of the change that comes from multipliers that end, Pa.
+    """
+
+    touching: npt.NDArray[np.bool_]
+    keep: npt.NDArray[np.bool_]
+    bearing: npt.NDArray[np.int64]
+    inverse: FloatArray
+    ended: FloatArray
+
+    def fits(self, trial: Trial, multiplier: FloatArray, updated: FloatArray) -> bool:
+        """Whether it may be used again: the same contact, and no multiplier that ends."""
+        return (
+            np.array_equal(self.keep, updated > 0.0)
+            and np.array_equal(self.touching, trial.touching)
+            and not np.any(multiplier[~self.keep])
+            and not np.any(self.ended)
+        )
+
+    def applied(
+        self, problem: IncrementProblem, multiplier: FloatArray, updated: FloatArray
+    ) -> FloatArray:
+        """Multipliers after a Newton step, Pa."""
+        mean = (updated - multiplier)[self.bearing] / problem.normal.stiffness
+        step = self.ended - self.inverse @ (mean * problem.surface.nodal_area[self.bearing])
+        result = np.zeros_like(multiplier)
+        result[self.bearing] = np.maximum(multiplier[self.bearing] + step, 0.0)
+        return result
+
+
+def gain_of(
+    problem: IncrementProblem, trial: Trial, multiplier: FloatArray, updated: FloatArray
+) -> Gain | None:
+    """Return the gain at a solution for the present multipliers.
+
+    Parameters
+    ----------
+    problem : IncrementProblem
+        What stays the same.
+    trial : Trial
+        The solution, with its tangent.
+    multiplier, updated : ndarray, shape (n,)
+        The present multipliers and their `classical` update, Pa.
+
+    Returns
+    -------
+    Gain or None
+        None where a node wants pressure that touches nothing yet.
+    """
+    faces, shapes, weights = problem.arrays[:3]
+    touched = np.unique(faces[np.flatnonzero(trial.touching) // len(shapes)])
+    keep = updated > 0.0
+    bearing = touched[keep[touched]]
+    if not len(bearing) or len(bearing) < np.count_nonzero(keep):
+        return None
+    local = np.full(problem.nodes, -1, dtype=np.int64)
+    local[touched] = np.arange(len(touched))
+    dofs = (3 * touched[:, None] + np.arange(3)).ravel()
+    k = np.zeros((len(dofs), len(dofs)))
+    add_stiffness(trial.stiffness, faces, shapes, weights, local, k)
+    a = problem.flexibility[np.ix_(dofs, dofs)]
+    normals = trial.points[:, NORMAL : NORMAL + 3]
+    pressures = trial.points[:, PRESSURE, None]
+    # Force by a multiplier acts along the traction, of which the pressure is a factor.
+    ways = np.divide(
+        trial.points[:, TRACTION : TRACTION + 3], pressures,
+        out=np.zeros_like(normals), where=pressures > 0.0,
+    )  # fmt: skip
+    forces = _spread(problem, ways, local, len(touched))
+    gaps = _spread(problem, normals, local, len(touched))
+    ending = np.where(keep, 0.0, -multiplier)[touched]
+    columns = np.column_stack([forces[:, local[bearing]], forces @ ending])
+    moved = scipy.linalg.solve(
+        tangent_matrix(a, k), a @ columns, overwrite_a=True, check_finite=False
+    )
+    grown = -(gaps[:, local[bearing]].T @ moved)
+    inverse = np.linalg.pinv(grown[:, :-1], rcond=1e-12)
+    return Gain(trial.touching, keep, bearing, inverse, -inverse @ grown[:, -1])
+
+
+def _spread(
+    problem: IncrementProblem, ways: FloatArray, local: npt.NDArray[np.int64], count: int
+) -> FloatArray:
+    """``sum of w N_i N_j way`` as a matrix (3 count, count) on the renumbered nodes."""
+    faces, shapes, _ = problem.arrays[:3]
+    surface = problem.surface
+    parts = np.einsum(
+        "qa,kq,qb,kqc->kacb", shapes, surface.weights, shapes,
+        ways.reshape(*surface.weights.shape, 3), optimize=True,
+    )  # fmt: skip
+    matrix = np.zeros((count, 3, count))
+    here = local[faces]
+    inside = (here >= 0).all(axis=1)
+    rows = here[inside][:, :, None, None]
+    columns = here[inside][:, None, None, :]
+    np.add.at(matrix, (rows, np.arange(3)[None, None, :, None], columns), parts[inside])
+    return matrix.reshape(3 * count, count)
