@@ -78,3 +78,12 @@ class Blank:
         edge = np.linspace(kink, half, outer + 1)
         middle = np.linspace(-kink, kink, inner + 1)
         return np.concatenate([-edge[::-1], middle[1:-1], edge])
+
+    def quadrature(self, points: int) -> tuple[FloatArray, FloatArray]:
+        """Return places across the face and weights, mm: Gauss's rule between the kinks."""
+        knots, weights = np.polynomial.legendre.leggauss(points)
+        half, kink = self.face_width / 2.0, self.kink
+        bounds = np.array([-half, half] if kink is None else [-half, -kink, kink, half])
+        middle, reach = 0.5 * (bounds[1:] + bounds[:-1]), 0.5 * np.diff(bounds)
+        z = middle[:, None] + reach[:, None] * knots
+        return z.reshape(-1), (reach[:, None] * weights).reshape(-1)

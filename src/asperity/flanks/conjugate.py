@@ -80,8 +80,9 @@ def conjugate_rates(u, psi, side, hob, cut):
     """How the wheel's point moves with ``u`` and ``psi``, seen from the wheel.
 
     Returns ``(x, y, z, xu, yu, zu, xp, yp, zp, regularity, pole)`` in the standing frame:
-    ``regularity`` is the area element along the normal, negative where the surface has turned back
-    on itself (undercut); ``pole`` changes its sign where ``zeta`` is infinite.
+    ``regularity`` is the wheel's area element along the normal for one of the hob's surface,
+    negative where the surface has turned back on itself (undercut); ``pole`` changes its sign where
+    ``zeta`` is infinite.
     """
     rho, _, rho1, place1, rho2, place2 = curve(u, hob)
     p = hob[LEAD]
@@ -126,8 +127,8 @@ def conjugate_rates(u, psi, side, hob, cut):
     yp = rho * s - turn_p * x
     zp = -rho * c * ce + zeta_p * se
     size = math.sqrt(nr * nr + nt * nt + na * na)
-    area = (nx * (yu * zp - zu * yp) + ny * (zu * xp - xu * zp) + nz * (xu * yp - yu * xp)) / size
-    return x, ry, z, xu, yu, zu, xp, yp, zp, area, ny * side / size
+    along = nx * (yu * zp - zu * yp) + ny * (zu * xp - xu * zp) + nz * (xu * yp - yu * xp)
+    return x, ry, z, xu, yu, zu, xp, yp, zp, along / (size * size), ny * side / size
 
 
 @kernel

@@ -7,11 +7,17 @@ fillet, cut by the arc of the hob's tip, leaves it.
 
 import math
 
+import numpy as np
+
 from asperity.compiled import kernel
 from asperity.flanks.conjugate import RATIO, conjugate
+from asperity.flanks.curve import BASE, FLANK_END, ROOT
 from asperity.flanks.trim import (
+    FIELDS,
     LOST,
     NO_FLANK,
+    NO_INVOLUTE,
+    NODES,
     PSI,
     RADIUS,
     REACHED,
@@ -79,6 +85,28 @@ def meet(start, arc, count, stop, z, side, hob, cut, nodes):
 
 
 @kernel
+def regularity_map(z, stop, side, hob, cut, share, u, radius, regularity, status):
+    """The hob's flank as it cuts the blank, by ``share`` (0 at its end, 1 at the tip) and column.
+
+    Rows are even along the traced nodes, whether these reach the blank or not.
+    """
+    nodes = np.empty((NODES, FIELDS))
+    for k in range(z.size):
+        flank, count, status[k] = trace(z[k], stop[k], side, hob, cut, nodes)
+        if flank < 0 or flank == count - 1:
+            status[k] = NO_FLANK
+            continue
+        status[k] = REACHED
+        for j in range(share.size):
+            place = flank + share[j] * (count - 1 - flank)
+            n = min(int(place), count - 2)
+            du, dpsi = nodes[n + 1, U] - nodes[n, U], nodes[n + 1, PSI] - nodes[n, PSI]
+            near_u, near_psi = nodes[n, U] + (place - n) * du, nodes[n, PSI] + (place - n) * dpsi
+            found = slide(near_u, near_psi, -dpsi, du, z[k], side, hob, cut)
+            u[j, k], radius[j, k], regularity[j, k] = found[0], found[2], found[7]
+
+
+@kernel
 def section(z, stop, side, hob, cut, nodes):
     """Trace a section and join fillet and flank.
 
@@ -86,6 +114,10 @@ def section(z, stop, side, hob, cut, nodes):
     ``flank`` to ``count - 1`` the flank, of which the last lies at or beyond the blank.
     """
     arc, count, status = trace(z, stop, side, hob, cut, nodes)
+    if status != REACHED and arc >= 0 and nodes[count - 1, U] < 1.0:
+        base = (hob[BASE] - hob[ROOT]) / (hob[FLANK_END] - hob[ROOT])
+        if nodes[count - 1, U] <= base:
+            return arc, arc, count, NO_INVOLUTE, False
     turned = -1
     if arc >= 0:
         for k in range(arc, count):
