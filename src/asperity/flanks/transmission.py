@@ -65,7 +65,7 @@ class ToothSearch:
         own = self.grid.phase / self.pair.ratio
         first = math.floor(float(own.min()) / step) - samples // 2
         last = math.ceil(float(own.max()) / step) + samples // 2
-        return np.arange(first, last + 1) * step
+        return np.asarray(np.arange(first, last + 1) * step, dtype=np.float64)
 
     def _least(
         self, mode: int, beta: FloatArray, phase: FloatArray, near: FloatArray
@@ -157,6 +157,20 @@ class Transmission:
         side = self.search.flank.side
         return self.search.pair.ratio * self.wheel_angle + side * self.lead
 
+    def with_worm(self, half_space: float) -> "Transmission":
+        """Return the same with worm threads of another thickness; half the space in mm.
+
+        The worm then turns further by the same angle everywhere until it touches.
+        """
+        pair = self.search.pair
+        further = (half_space - pair.worm.half_space) / pair.worm.reduced_lead
+        return dataclasses.replace(
+            self,
+            search=dataclasses.replace(self.search, pair=pair.with_worm(half_space)),
+            lead=self.lead + further,
+            tooth_lead=self.tooth_lead + further,
+        )
+
     def along_tooth(self) -> FloatArray:
         """`lead` at the places of ``tooth_angle``."""
         samples = self.wheel_angle.size
@@ -201,7 +215,7 @@ def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Trans
         if found[k, 0] <= lead[index[k]]:
             lead[index[k]] = found[k, 0]
             contact[index[k]] = found[k, 1:]
-    beta = np.arange(samples) * (search.pitch / samples)
+    beta = np.asarray(np.arange(samples) * (search.pitch / samples), dtype=np.float64)
     return Transmission(
         search=search,
         wheel_angle=beta,
@@ -219,10 +233,10 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
     if (high - low) / search.pair.ratio <= _CONSTANT:
         return high - low
     step = search.pitch / lead.size
-    turns = search.pitch * np.arange(
-        math.floor(float(search.places(lead.size)[0]) / search.pitch) - 1,
-        math.ceil(float(search.places(lead.size)[-1]) / search.pitch) + 2,
-    )
+    places = search.places(lead.size)
+    first = math.floor(float(places[0]) / search.pitch) - 1
+    last = math.ceil(float(places[-1]) / search.pitch) + 1
+    turns = np.asarray(search.pitch * np.arange(first, last + 1), dtype=np.float64)
     near = _NEAR / search.pair.worm.reduced_lead
 
     def at(beta: float, sign: float) -> float:

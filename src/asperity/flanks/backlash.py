@@ -1,0 +1,126 @@
+r"""Backlash of the mesh, the worm's axial clearance in it, and the threads that give a backlash.
+
+One flank of the worm touches; the other is away from the next flank of the wheel. Their shortest
+distance is the normal backlash. How far the worm can be turned between both, the wheel held, is in
+closed form the sum of what both flanks need, :math:`\Delta\varphi = D_+ + D_-`
+(`asperity.flanks.transmission`), and since a turn carries the thread along, the worm can be shifted
+by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial vibration can have
+from peak to peak. All are the least over a pitch, and negative where the flanks interfere.
+
+Lengths are in mm, angles in rad.
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from asperity.errors import ConvergenceError, InputError
+from asperity.flanks.transmission import ToothSearch, Transmission
+
+_NEAR = 1e-2
+_STEPS = 20
+_TOLERANCE = 1e-10
+
+
+@dataclasses.dataclass(frozen=True)
+class Play:
+    """The play of a worm between both flanks of the wheel, the least over a pitch.
+
+    Attributes
+    ----------
+    normal : dict of int to float
+        Normal backlash by the flank that bears, mm.
+    axial : float
+        Axial clearance of the worm, from flank to flank, the wheel held, mm.
+    worm_angle, wheel_angle : float
+        Turn of the worm, the wheel held, and of the wheel, the worm held, rad.
+    """
+
+    normal: dict[int, float]
+    axial: float
+    worm_angle: float
+    wheel_angle: float
+
+    @property
+    def amplitude(self) -> float:
+        """Largest amplitude of an axial vibration of the worm about mid-play, mm; at least 0."""
+        return max(0.0, 0.5 * self.axial)
+
+
+def normal_backlash(bearing: Transmission, other: ToothSearch) -> float:
+    """Return the shortest distance on the other flank, least over a pitch, mm.
+
+    Negative: the depth by which the flanks interfere.
+    """
+    samples = bearing.wheel_angle.size
+    beta = other.places(samples)
+    index = np.mod(np.rint(beta / (other.pitch / samples)).astype(np.int64), samples)
+    phase = other.pair.ratio * beta + bearing.search.flank.side * bearing.lead[index]
+    rough = other.gap(beta, phase, np.full(beta.size, -math.inf))[:, 0]
+    near = np.full(beta.size, float(rough.min()) + _NEAR)
+    return float(other.gap(beta, phase, near)[:, 0].min())
+
+
+def play(meshes: dict[int, Transmission]) -> Play:
+    """Return the play of a mesh.
+
+    Parameters
+    ----------
+    meshes : dict of int to Transmission
+        The transmission on both flanks, 1 and -1, over the same places of the wheel.
+    """
+    pair = meshes[1].search.pair
+    turn = float((meshes[1].lead + meshes[-1].lead).min())
+    return Play(
+        normal={side: normal_backlash(meshes[side], meshes[-side].search) for side in (1, -1)},
+        axial=pair.worm.reduced_lead * turn,
+        worm_angle=turn,
+        wheel_angle=turn / pair.ratio,
+    )
+
+
+def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, Transmission]:
+    """Return a mesh whose worm threads have the thickness that leaves a normal backlash.
+
+    Parameters
+    ----------
+    meshes : dict of int to Transmission
+        The transmission on both flanks.
+    backlash : float
+        Least normal backlash with either flank bearing, mm.
+
+    Raises
+    ------
+    InputError
+        The threads would be pointed.
+    ConvergenceError
+        No thickness leaves it.
+    """
+    worm = meshes[1].search.pair.worm
+    widest = worm.half_space + worm.half_pitch - float(worm.curve(2.0)[1])
+    slope = 2.0 * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+    tried: list[tuple[float, float]] = []
+    half_space = worm.half_space
+    for _ in range(_STEPS):
+        thinned = {side: mesh.with_worm(half_space) for side, mesh in meshes.items()}
+        least = min(normal_backlash(thinned[s], thinned[-s].search) for s in (1, -1))
+        missing = backlash - least
+        if abs(missing) <= _TOLERANCE:
+            return thinned
+        tried.append((half_space, least))
+        if len(tried) > 1 and tried[-1][0] != tried[-2][0]:
+            (w0, j0), (w1, j1) = tried[-2:]
+            # Far from the answer the flanks may miss each other, and the secant be useless.
+            slope = max((j1 - j0) / (w1 - w0), 0.5 * slope)
+        half_space += missing / slope
+        if half_space >= widest:
+            most = least + slope * (widest - tried[-1][0])
+            raise InputError(
+                f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed, and at "
+                f"most {most:.4g} mm is possible: take a smaller backlash"
+            )
+    raise ConvergenceError(
+        f"no thickness of the worm's threads leaves a backlash of {backlash:g} mm",
+        reached={"backlash_mm": least},
+    )
