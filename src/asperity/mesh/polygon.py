@@ -26,7 +26,8 @@ def triangulate(corners: ArrayLike) -> NDArray[np.int64]:
     Raises
     ------
     InputError
-        Fewer than three corners, a polygon without area, or one that crosses itself.
+        Fewer than three corners, a polygon without area, or one that crosses itself so that no ear
+        is left; not every crossing is found.
     """
     points = np.asarray(corners, dtype=float)
     if points.ndim != 2 or points.shape[0] < 3 or points.shape[1] not in (2, 3):
