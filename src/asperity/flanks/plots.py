@@ -116,7 +116,7 @@ def plot_ease_off(maps: Sequence[FlankMap]) -> "Figure":
         lines = panel.contour(
             shown.face, shown.radius, shown.values, levels=levels, colors="white", linewidths=0.7
         )
-        panel.clabel(lines, lines.levels[::2], fmt="%g", fontsize=8.5)
+        panel.clabel(lines, levels[::2], fmt="%g", fontsize=8.5)
         panel.plot(*shown.outline, color=BLACK, linewidth=1.2)
     _bar(figure, filled, axes, "ease-off (µm), positive where material was removed")
     return figure

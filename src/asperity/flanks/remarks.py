@@ -44,7 +44,9 @@ def from_memory(gearset: Gearset, assumed: dict[str, str]) -> dict[str, str]:
         **{key: parameters.SOURCES[key] for key in assumed if key in parameters.SOURCES},
     }
     return {
-        key: str(source) for key, source in sources.items() if source.confidence == "from memory"
+        key: source.name + (f"; {source.note}" if source.note else "")
+        for key, source in sources.items()
+        if source.confidence == "from memory"
     }
 
 
