@@ -28,6 +28,7 @@ RISE = 0.1
 TURN = 0.9
 BEYOND = 1.5
 NODES = 300
+SPARE = 20
 TOLERANCE = 1e-12
 
 U = 0
@@ -136,8 +137,8 @@ def trace(z, stop, side, hob, cut, nodes):
     limit = next_break(u, hob)
     step = LONGEST_STEP
     count = 1
-    # One row is left for a cusp.
-    while count < NODES - 1:
+    # Rows are left for edges.
+    while count < NODES - SPARE:
         found, sound = advance(u, psi, tu, tp, step, limit, z, side, hob, cut)
         fu, fp, fr, _, _, zu, zp, regularity, _ = found
         landed = fu == limit

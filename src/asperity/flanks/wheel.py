@@ -15,6 +15,7 @@ from asperity.errors import InputError
 from asperity.flanks.blank import Blank
 from asperity.flanks.profiles import FloatArray
 from asperity.flanks.setting import Pair
+from asperity.flanks.trim import UNDERCUT
 from asperity.flanks.wheel_flank import GAUSS, FlankGrid, UndercutMap, WheelFlank
 from asperity.flanks.wheel_refusal import POINTED, refusal, widest_face
 
@@ -22,6 +23,7 @@ __all__ = ["FlankGrid", "UndercutMap", "Wheel", "WheelFlank"]
 
 _CHECKED_COLUMNS = 17
 _UNDERCUT_COLUMNS = 33
+_ROWS = 8
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -47,11 +49,11 @@ class Wheel:
         """
         wheel = cls(pair)
         z = wheel.blank.columns(_CHECKED_COLUMNS)
-        thickness = wheel._thickness(z)
-        if np.min(thickness) <= 0.0:
-            at = float(z[np.argmin(thickness)])
-            widest = widest_face(wheel._blunt, wheel.blank.face_width / 2.0)
-            raise InputError(refusal(pair, POINTED, at, widest))
+        for place, neck, tip in zip(z, *wheel._thickness(z), strict=True):
+            if min(neck, tip) <= 0.0:
+                status = POINTED if tip <= 0.0 else UNDERCUT
+                widest = widest_face(wheel._solid, wheel.blank.face_width / 2.0)
+                raise InputError(refusal(pair, status, float(place), widest))
         return wheel
 
     @functools.cached_property
@@ -63,13 +65,28 @@ class Wheel:
         """Return the flank ``side``, 1 or -1."""
         return WheelFlank(self.pair, side)
 
-    def _thickness(self, z: FloatArray) -> FloatArray:
-        """Thickness of the tooth as an arc, at its tip or where the flank begins, mm."""
-        right, left = (self.flank(side).at_shares([0.0, 1.0], z) for side in (1, -1))
-        thickness: FloatArray = np.min((right.angle - left.angle) * right.radius, axis=0)
-        return thickness
+    def _thickness(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Least angle between the sides of the tooth below its tip, and at the tip."""
+        sides = []
+        for side in (1, -1):
+            flank = self.flank(side)
+            parts = flank.fillet(_ROWS, z), flank.at_shares(np.linspace(0.0, 1.0, _ROWS), z)
+            sides.append(
+                [
+                    np.concatenate([getattr(part, key) for part in parts])
+                    for key in ("radius", "angle")
+                ]
+            )
+        (r_right, right), (r_left, left) = sides
+        neck = np.empty(z.size)
+        for k in range(z.size):
+            # Sides differ in radius, row by row; the tooth begins where both have begun.
+            radius = r_right[r_right[:, k] >= r_left[0, k], k]
+            other = np.interp(radius, r_left[:, k], left[:, k])
+            neck[k] = np.min((right[-radius.size :, k] - other)[:-1])
+        return neck, right[-1] - left[-1]
 
-    def _blunt(self, z: float) -> bool:
+    def _solid(self, z: float) -> bool:
         return bool(np.min(self._thickness(np.array([-z, z]))) > 0.0)
 
     @functools.cached_property
