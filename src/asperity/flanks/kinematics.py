@@ -12,6 +12,7 @@ Vectors are in the standing frame of the wheel, lengths in mm, velocities in mm/
 import dataclasses
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.errors import ConvergenceError
 from asperity.flanks import kinematics_kernels as rows
@@ -19,6 +20,8 @@ from asperity.flanks.conjugate import cut_params
 from asperity.flanks.profiles import FloatArray
 from asperity.flanks.setting import Pair
 from asperity.flanks.wheel import FlankGrid
+
+_ROUNDING = 1e-9
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -35,8 +38,9 @@ class Kinematics:
         Angle of the worm at which the point is nearest to it.
     gap : ndarray
         The distance then, mm.
-    on_flank : ndarray of bool
-        Whether the nearest place is on the worm's flank, and not on its tip.
+    reach : ndarray
+        How far below the end of the worm's flank the nearest place lies, mm; negative where it is
+        on the worm's tip, and the point never touches.
     position, normal : ndarray
         The point in space then, mm; unit normal of the worm's surface, out of the worm.
     sliding : ndarray
@@ -56,7 +60,7 @@ class Kinematics:
     worm_speed: float
     phase: FloatArray
     gap: FloatArray
-    on_flank: np.typing.NDArray[np.bool_]
+    reach: FloatArray
     position: FloatArray
     normal: FloatArray
     sliding: FloatArray
@@ -68,6 +72,11 @@ class Kinematics:
     wheel_curvature: FloatArray
     relative_curvature: FloatArray
     line_curvature: FloatArray
+
+    @property
+    def on_flank(self) -> npt.NDArray[np.bool_]:
+        """Whether the nearest place is on the worm's flank, and not on its tip."""
+        return self.reach >= -_ROUNDING
 
     @property
     def sliding_speed(self) -> FloatArray:
@@ -113,7 +122,7 @@ def kinematics(
     met = np.empty_like(made)
     guess = own - pair.ratio * ahead
     rows.approach_each(points, guess, ahead, mount, pair.worm.distance_params(side), met)
-    lost = int(np.count_nonzero(met[:, rows.CONVERGED] == 0.0))
+    lost = int(np.count_nonzero((met[:, rows.CONVERGED] == 0.0) & (met[:, rows.REACH] > 0.0)))
     if lost:
         raise ConvergenceError(
             f"{lost} of {own.size} points of the flank have no phase at which the worm is nearest",
@@ -141,7 +150,7 @@ def kinematics(
         worm_speed=worm_speed,
         phase=out(met[:, rows.PHASE]),
         gap=out(met[:, rows.DISTANCE]),
-        on_flank=(met[:, rows.ON_FLANK] > 0.0).reshape(shape),
+        reach=out(met[:, rows.REACH]),
         position=out(pair.mounting.to_wheel(met[:, rows.PLACE : rows.PLACE + 3])),
         normal=out(g @ axes),
         sliding=out(-worm_speed * (w @ axes)),

@@ -35,7 +35,7 @@ CHANGE = 14
 SECOND = 17
 PLACE = 18
 CONVERGED = 21
-ON_FLANK = 22
+REACH = 22
 WIDTH = 23
 
 _STEPS = 40
@@ -97,7 +97,7 @@ def meet(point, phase, ahead, mount, params, row):
     row[SECOND] = wa * ha + wb * hb + wc * hc + ga * aa + gb * ab + gc * ac
     row[PLACE], row[PLACE + 1], row[PLACE + 2] = a, b, c
     foot = math.hypot(a - d * ga, b - d * gb)
-    row[ON_FLANK] = 1.0 if foot <= params[FLANK_END] * (1.0 + 1e-12) else 0.0
+    row[REACH] = params[FLANK_END] - foot
     return ga * wa + gb * wb + gc * wc, row[SECOND]
 
 

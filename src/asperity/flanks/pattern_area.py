@@ -121,20 +121,23 @@ def crossings(values: FloatArray, level: float) -> tuple[Index, FloatArray]:
     Returns
     -------
     corners : ndarray
-        (n, 2, 2): for both ends of each piece the two points of the grid it lies between.
-    shares : ndarray
-        (n, 2): how far along, from the first to the second.
+        (n, 3): the triangle that each piece crosses, as indices into the points of the grid.
+    weights : ndarray
+        (n, 2, 3): what each corner counts at both ends of the piece.
     """
     flat = values.ravel()
     corners = triangles(*values.shape)
-    order = np.argsort(flat[corners], axis=1)
-    corners = np.take_along_axis(corners, order, axis=1)
+    corners = np.take_along_axis(corners, np.argsort(flat[corners], axis=1), axis=1)
     low, middle, high = (flat[corners[:, k]] for k in range(3))
     met = (low < level) & (high >= level)
     corners, low, middle, high = corners[met], low[met], middle[met], high[met]
+    weights = np.zeros((corners.shape[0], 2, 3))
+    share = (level - low) / (high - low)
+    weights[:, 0, 0], weights[:, 0, 2] = 1.0 - share, share
     lower = middle >= level
-    ends = np.empty((corners.shape[0], 2, 2), dtype=np.int64)
-    ends[:, 0] = corners[:, [0, 2]]
-    ends[:, 1] = np.where(lower[:, None], corners[:, [0, 1]], corners[:, [1, 2]])
-    start, stop = flat[ends[..., 0]], flat[ends[..., 1]]
-    return ends, (level - start) / (stop - start)
+    start, stop = np.where(lower, low, middle), np.where(lower, middle, high)
+    share = (level - start) / (stop - start)
+    each = np.arange(share.size)
+    weights[each, 1, np.where(lower, 0, 1)] = 1.0 - share
+    weights[each, 1, np.where(lower, 1, 2)] = share
+    return corners, weights

@@ -4,16 +4,18 @@ A vibration velocity between worm and wheel has three parts at a point of contac
 velocity, across it in the tangent plane, and along the normal. Only the first two change the
 direction of friction; the last opens and closes the contact.
 
-Four directions are looked at, each with a velocity of 1 mm/s:
+Four directions are looked at, each with a velocity of 1 mm/s (for a turning worm at its pitch
+cylinder), so that the parts of each are shares of it:
 
 - ``axial``: the worm along its axis,
-- ``torsional``: the worm about its axis, 1 mm/s at its pitch cylinder,
+- ``torsional``: the worm about its axis,
 - ``wheel_axial``: the wheel along its axis,
-- ``screw``: the worm along its axis, turning with it so that :math:`x = p\,\beta`. The worm's
+- ``screw``: the worm along its axis, turning with it in phase so that :math:`x = p\,\beta`. Its
   surface then slides in itself: there is no part along the normal, whatever the flank.
 """
 
 import dataclasses
+import math
 
 import numpy as np
 
@@ -72,15 +74,15 @@ def vibration_share(pair: Pair, motion: Kinematics) -> VibrationShare:
     motion : Kinematics
         From `asperity.flanks.kinematics.kinematics`.
     """
-    axis = pair.mounting.axes[2]
+    axis, radius = pair.mounting.axes[2], pair.worm.pitch_radius
     swept = np.cross(axis, motion.position - pair.mounting.origin)
     axial = np.broadcast_to(axis, swept.shape)
     velocities = np.stack(
         [
             axial,
-            swept / pair.worm.pitch_radius,
+            swept / radius,
             np.broadcast_to([0.0, 0.0, -1.0], swept.shape),
-            axial + swept / pair.worm.reduced_lead,
+            (pair.worm.reduced_lead * axial + swept) / math.hypot(pair.worm.reduced_lead, radius),
         ],
         axis=-2,
     )
