@@ -17,6 +17,7 @@ import math
 from typing import Self
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.casefile import Case
 from asperity.contact import motion as mo
@@ -43,7 +44,7 @@ from asperity.slider.model import FloatArray, Model
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""
 
-_SHIFT_X, _SHIFT_Y, _TURN_Z = 0, 1, 5
+_SHIFT_X, _SHIFT_Y, _SHIFT_Z, _TURN_Z = 0, 1, 2, 5
 _GRAVITY, _PRESSURE, _DRIVE = "gravity_z", "pressure", "drive"
 
 
@@ -51,7 +52,7 @@ class UndividedModel(Model):
     """A sliding body whose steps are taken as they are given."""
 
     @property
-    def substeps(self) -> int:  # type: ignore[override]
+    def substeps(self) -> int:
         """Parts of a step: the implicit solution takes it whole."""
         return 1
 
@@ -136,7 +137,7 @@ class BlockProblem:
             self.material,
             "bottom",
             element=self.block.element,
-            loads={_PRESSURE: Pressure("top"), _DRIVE: Traction("right", (1.0, 0.0, 0.0))},
+            loads={_PRESSURE: Pressure("top"), _DRIVE: _pull()},
             modes=self.block.modes,
         )
 
@@ -144,6 +145,17 @@ class BlockProblem:
     def uncondensed(self) -> ElasticBody:
         """The block with all its nodes, for pictures of the whole of it."""
         return elastic_body(self.mesh, self.material, element=self.block.element)
+
+    @functools.cached_property
+    def nodal_loads(self) -> FloatArray:
+        """Nodal forces of gravity and pressure on the whole block, shape (3 N,), N."""
+        down: FloatArray = -STANDARD_GRAVITY * self.uncondensed.inertia[:, _SHIFT_Z]
+        return down + self.top_pressure * Pressure("top").forces(self.mesh).ravel()
+
+    @functools.cached_property
+    def nodal_drive(self) -> FloatArray:
+        """Nodal forces of a drive force of 1 N, shape (3 N,)."""
+        return _pull().forces(self.mesh).ravel()
 
     @functools.cached_property
     def surface(self) -> ContactSurface:
@@ -218,12 +230,16 @@ class BlockProblem:
         return give
 
 
+def _pull() -> Traction:
+    return Traction("right", (1.0, 0.0, 0.0))
+
+
 def mechanism(
     body: CondensedBody,
     *,
     drive: tuple[float | None, float],
     load: mo.Port,
-    held: "np.ndarray[tuple[int], np.dtype[np.bool_]]",
+    held: npt.NDArray[np.bool_],
 ) -> mo.Mechanism:
     """Return a free condensed body with its drive's stiffness and damping, load and guides."""
     modes = len(body.mode_frequency)
@@ -244,9 +260,7 @@ def mechanism(
     )
 
 
-def held_coordinates(
-    body: CondensedBody, *, rigid: bool, guided: bool
-) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
+def held_coordinates(body: CondensedBody, *, rigid: bool, guided: bool) -> npt.NDArray[np.bool_]:
     """Return which coordinates a rigid drive and a guide hold."""
     held = np.zeros(6 + len(body.mode_frequency), dtype=bool)
     held[_SHIFT_X] = rigid

@@ -292,7 +292,7 @@ def body_energies(
     elastic = 0.5 * place @ mechanism.stiffness @ place
     elastic += 0.5 * force @ (mechanism.flexibility @ force)
     if mechanism.load is not None:
-        # The loads' energy under each other does not change and is left out, as is their work on it.
+        # The loads' energy under each other is left out, as is their work on it: both stay.
         elastic += load * (mechanism.load.response @ force)
     spring = 0.0
     if mechanism.drive is not None:

@@ -1,4 +1,4 @@
-r"""Motion of a condensed body: what its contact nodes do in one implicit step, as :math:`u^* + A f`.
+r"""Motion of a condensed body: what its contact nodes do in an implicit step, as :math:`u^* + A f`.
 
 The displacement of the body is a few generalised coordinates :math:`q` (rigid motion, and modes
 where there are any) and the deformation that forces cause at once:

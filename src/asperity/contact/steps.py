@@ -347,10 +347,19 @@ class Walker:
         self.cuts = 0
         ledger.clear(self.sums)
 
+    def snapshot(self) -> tuple[SystemState, FloatArray, FloatArray, int]:
+        """Return all that changes: state, sums, pressures, cuts."""
+        return self.state, self.sums, self.mean_pressure, self.cuts
+
+    def restore(self, snapshot: tuple[SystemState, FloatArray, FloatArray, int]) -> None:
+        """Go back to a snapshot."""
+        self.state, self.sums, self.mean_pressure, self.cuts = snapshot
+
     def clear(self) -> None:
         """Begin the sums anew."""
+        self.sums = self.sums.copy()
         ledger.clear(self.sums)
-        self.mean_pressure[:] = 0.0
+        self.mean_pressure = np.zeros_like(self.mean_pressure)
 
     def step_to(self, end: float, step: float) -> None:
         """Go on to a time in one step, or in parts where it does not converge.
@@ -404,11 +413,14 @@ class Walker:
             float(result.iterations), seen, system.full_friction,
         ])  # fmt: skip
         before = state.contact
+        # Copies, so that whoever stops in the middle of a step finds the state before it whole.
+        sums, mean_pressure = self.sums.copy(), self.mean_pressure.copy()
         ledger.account(
-            self.sums, imposed, state.forces, forces, state.drive, drive,
+            sums, imposed, state.forces, forces, state.drive, drive,
             before.displacement, result.displacement, before.force, result.force,
             before.pressure, before.traction, before.normal, before.distance,
             result.pressure, result.traction, result.normal, result.distance,
-            result.slip_1, result.slip_2, system.weights, self.mean_pressure,
+            result.slip_1, result.slip_2, system.weights, mean_pressure,
         )  # fmt: skip
+        self.sums, self.mean_pressure = sums, mean_pressure
         self.state = SystemState(end, coordinates, drive, result, forces, state.load)
