@@ -212,8 +212,9 @@ def test_a_pattern_is_drawn_where_the_gap_is_small(wheel, tmp_path, side):
         return float((seen[..., 2] > 1.05 * seen[..., 0]).mean())
 
     everywhere = blue(np.zeros(grid.radius.shape))
-    middle = blue(10 * (grid.z / grid.z.max()) ** 2)
+    middle = blue(0.01 * (grid.z / grid.z.max()) ** 2)
     assert everywhere > middle > 0.01
+    assert blue(np.full(grid.radius.shape, 0.02)) == 0
 
 
 def test_a_mesh_is_drawn_with_values_and_without(wheel, tmp_path):
@@ -226,16 +227,18 @@ def test_a_mesh_is_drawn_with_values_and_without(wheel, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("gap", "film", "message"),
+    ("gap", "thickness", "message"),
     [
-        (np.zeros(3), 6.0, "shape"),
-        (np.full((4, 5), np.nan), 6.0, "finite"),
-        (np.zeros((4, 5)), 0.0, "film"),
+        (np.zeros(3), 6e-3, "shape"),
+        (np.full((4, 5), np.nan), 6e-3, "finite"),
+        (np.zeros((4, 5)), 0.0, "thick"),
     ],
 )
-def test_a_pattern_that_makes_no_sense_is_refused(wheel, tmp_path, gap, film, message):
+def test_a_pattern_that_makes_no_sense_is_refused(wheel, tmp_path, gap, thickness, message):
     with pytest.raises(InputError, match=message):
-        views.pattern_view(tmp_path / "a.png", wheel, wheel.flank(1).grid(4, 5), gap, film=film)
+        views.pattern_view(
+            tmp_path / "a.png", wheel, wheel.flank(1).grid(4, 5), gap, thickness=thickness
+        )
 
 
 def test_importing_the_package_imports_no_extra():

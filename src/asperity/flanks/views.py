@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks.export.together import centred_teeth, mounted_worm
 from asperity.flanks.export.worm import worm_body
+from asperity.flanks.pattern import MARKING
 from asperity.flanks.wheel import FlankGrid, Wheel
 from asperity.mesh import HexMesh
 from asperity.mesh.surface import Surface
@@ -22,6 +23,7 @@ STEEL, BRONZE, PAPER = "#AEB6BF", "#D9A860", "#FFFFFF"
 SIZE = (1600, 1200)
 # A coloured patch has to stand out of the triangles below it, which cut corners; mm.
 _LIFT = 0.01
+_MICROMETRES = 1e3
 _COLOURS = "viridis"
 _LIGHT = {"ambient": 0.2, "diffuse": 0.8, "specular": 0.25, "specular_power": 20.0}
 
@@ -90,7 +92,7 @@ def pattern_view(
     grid: FlankGrid,
     gap: ArrayLike,
     *,
-    film: float = 6.0,
+    thickness: float = MARKING,
     teeth: int = 3,
 ) -> Path:
     """Draw a contact pattern on the flanks that bear it, as PNG.
@@ -104,26 +106,27 @@ def pattern_view(
     grid : FlankGrid
         Points of the flank.
     gap : array_like, shape of the grid
-        Smallest distance between the flanks at each point, micrometres.
-    film : float
-        Thickness of the marking compound, micrometres: it is squeezed out where the gap is less.
+        Smallest distance between the flanks at each point, mm.
+    thickness : float
+        Thickness of the marking compound, mm: the pattern is where the gap is less.
     teeth : int
         Number of teeth.
 
     Raises
     ------
     InputError
-        A gap that is not finite or has not the grid's shape, or a film that is not positive.
+        A gap that is not finite or has not the grid's shape, or a thickness that is not positive.
     MissingExtraError
         The ``view`` extra is not installed.
     StorageError
         The file cannot be written.
     """
-    values = np.asarray(gap, dtype=float)
+    values = _MICROMETRES * np.asarray(gap, dtype=float)
     if values.shape != grid.radius.shape or not np.isfinite(values).all():
         raise InputError(f"the gap has the shape {values.shape}; give finite {grid.radius.shape}")
-    if not film > 0:
-        raise InputError(f"the film is {film:g} um; it must be positive")
+    if not thickness > 0:
+        raise InputError(f"the marking compound is {thickness:g} mm thick; it must be positive")
+    film = _MICROMETRES * thickness
     shown = grid.points + _LIFT * grid.normals
     label = f"gap in µm, bare where above {film:g}"
     side = 1 if grid.points[..., 0].mean() > 0 else -1
@@ -137,7 +140,9 @@ def pattern_view(
             marked = _polygons(turned.reshape(-1, 3), _quads(values.shape))
             marked.point_data[label] = values.reshape(-1)
             below = marked.clip_scalar(scalars=label, value=film)
-            plotter.add_mesh(below, scalars=label, cmap=_COLOURS, clim=(0.0, film), **_bar(label))
+            if below.n_cells:
+                look = {"scalars": label, "cmap": _COLOURS, "clim": (0.0, film), **_bar(label)}
+                plotter.add_mesh(below, **look)
     return Path(path)
 
 
