@@ -99,10 +99,19 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
     """
     worm = meshes[1].search.pair.worm
     widest = worm.half_space + worm.half_pitch - float(worm.curve(2.0)[1])
-    slope = 2.0 * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+    normal = math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+    turn = float((meshes[1].lead + meshes[-1].lead).min())
+    slope = 2.0 * normal
     tried: list[tuple[float, float]] = []
-    half_space = worm.half_space
+    # For ZI this is the answer.
+    half_space = worm.half_space + 0.5 * (backlash / normal - worm.reduced_lead * turn)
     for _ in range(_STEPS):
+        if half_space >= widest:
+            most = normal * (worm.reduced_lead * turn + 2.0 * (widest - worm.half_space))
+            raise InputError(
+                f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed, and "
+                f"about {most:.3g} mm is the most: take a smaller backlash"
+            )
         thinned = {side: mesh.with_worm(half_space) for side, mesh in meshes.items()}
         least = min(normal_backlash(thinned[s], thinned[-s].search) for s in (1, -1))
         missing = backlash - least
@@ -114,12 +123,6 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
             # Far from the answer the flanks may miss each other, and the secant be useless.
             slope = max((j1 - j0) / (w1 - w0), 0.5 * slope)
         half_space += missing / slope
-        if half_space >= widest:
-            most = least + slope * (widest - tried[-1][0])
-            raise InputError(
-                f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed, and at "
-                f"most {most:.4g} mm is possible: take a smaller backlash"
-            )
     raise ConvergenceError(
         f"no thickness of the worm's threads leaves a backlash of {backlash:g} mm",
         reached={"backlash_mm": least},

@@ -246,9 +246,10 @@ def film_thickness(
 
 def _twist(torque: float, length: FloatArray, lever: FloatArray, gap: FloatArray) -> float:
     """Angle at which the pieces of line carry a torque over the stiffness: piecewise linear."""
-    start = gap / lever
+    some = length > 0.0
+    start = gap[some] / lever[some]
     order = np.argsort(start)
-    weight = (length * lever**2)[order]
+    weight = (length[some] * lever[some] ** 2)[order]
     begin = start[order]
     total = np.cumsum(weight)
     moment = np.cumsum(weight * begin)

@@ -32,6 +32,7 @@ _STEPS = 25
 # of axial way; teeth still further away than that need no exact place.
 _NEAR = 2e-2
 _CONSTANT = 1e-13
+_RIGID = 1e-9
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -152,10 +153,35 @@ class Transmission:
         return float(np.mean(self.error))
 
     @property
+    def ahead(self) -> float:
+        r"""Mean angle by which the wheel stands further than :math:`\varphi_1 z_1/z_2`, rad."""
+        return self.search.flank.side * self.mean
+
+    @property
     def worm_angle(self) -> FloatArray:
         r"""Angle :math:`\varphi_1` of the worm in contact at each place of the pitch."""
         side = self.search.flank.side
         return self.search.pair.ratio * self.wheel_angle + side * self.lead
+
+    def contact_ratio(self, gap: float = 0.0) -> float:
+        r"""Mean number of teeth that bear.
+
+        Parameters
+        ----------
+        gap : float
+            What still counts as bearing, normal to the flanks, mm; 0: rigid teeth.
+        """
+        pair = self.search.pair
+        worm = pair.worm
+        normal = worm.reduced_lead * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+        missing = self.tooth_lead - self.along_tooth() - max(gap, _RIGID) / normal
+        before, after = missing[:-1], missing[1:]
+        steps = np.where((before <= 0.0) & (after <= 0.0), 1.0, 0.0)
+        # Between two places the line between both; none from where the worm does not reach.
+        cross = (before <= 0.0) != (after <= 0.0)
+        low, high = np.minimum(before, after)[cross], np.maximum(before, after)[cross]
+        steps[cross] = -low / (high - low)
+        return float(steps.sum()) / self.wheel_angle.size
 
     def with_worm(self, half_space: float) -> "Transmission":
         """Return the same with worm threads of another thickness; half the space in mm.
