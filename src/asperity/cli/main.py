@@ -103,6 +103,24 @@ def slide(
 
 @app.command()
 @reported
+def block(
+    case: CaseArgument,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Pull an elastic block over a vibrating base: the same by finite elements.
+
+    With --out also block.nc, block.png, block_pressure.png, block.json and block.pvd, an
+    animation for ParaView.
+    """
+    from asperity.cli.block import block as run
+
+    run(case, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
 def sweep(
     case: CaseArgument,
     over: Annotated[

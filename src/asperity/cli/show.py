@@ -44,6 +44,18 @@ _SLIDE = (
     ("residual", "residual of the method", "", ""),
 )
 
+# What is shown of a block beside that.
+_BLOCK = (
+    ("power_loads_W", "power of gravity and pressure", "P_g", "W"),
+    ("power_numerical_W", "power taken by the time integration", "P_n", "W"),
+    ("normal_force_N", "normal force", "F_N", "N"),
+    ("pressure_mean_MPa", "contact pressure, mean", "p", "MPa"),
+    ("pressure_max_MPa", "contact pressure, greatest", "p_max", "MPa"),
+    ("iterations_mean", "iterations of an increment, mean", "", ""),
+    ("iterations_max", "iterations of an increment, most", "", ""),
+    ("ms_per_increment", "time of an increment", "", "ms"),
+)
+
 
 def note(line: str) -> None:
     """Print a line to standard error."""
@@ -101,6 +113,22 @@ def print_slide(case: str, answer: Mapping[str, Any]) -> None:
         print_text("\n" + textwrap.fill(f"Note: {line}.", 79))
 
 
+def print_block(case: str, answer: Mapping[str, Any]) -> None:
+    """Print the scalars of an elastic block with their symbols and units."""
+    print_text(
+        f"{case}: {answer['contact_nodes']} contact nodes of {answer['unknowns']} unknowns, "
+        f"{answer['modes']} modes,\n"
+        f"{answer['scheme']}, law {answer['law']}, {answer['increments']} increments\n"
+    )
+    table = _table("", "symbol", "value", "unit")
+    for key, name, symbol, unit in (*_SLIDE, *_BLOCK):
+        if answer.get(key) is not None:
+            table.add_row(name, symbol, f"{answer[key]:.5g}", unit)
+    _print(table)
+    for line in answer["notes"]:
+        print_text("\n" + textwrap.fill(f"Note: {line}.", 79))
+
+
 def print_sweep(result: "SweepResult") -> None:
     """Print the ratio over the grid: a matrix where it fits, a list where not."""
     print_text(f"{result.source}: mean drive force over mu F_N\n")
@@ -145,13 +173,13 @@ def _list(result: "SweepResult") -> tuple["Table", int]:
 
 
 @contextlib.contextmanager
-def progress_bar() -> Iterator[Callable[[int, int], None]]:
+def progress_bar(what: str = "points") -> Iterator[Callable[[int, int], None]]:
     """Show a bar on standard error where that is a terminal; yields what moves it."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     console = Console(stderr=True)
-    columns = BarColumn(), MofNCompleteColumn(), "points", TimeRemainingColumn()
+    columns = BarColumn(), MofNCompleteColumn(), what, TimeRemainingColumn()
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
         bar = progress.add_task("", total=None)
         yield lambda done, points: progress.update(bar, completed=done, total=points)

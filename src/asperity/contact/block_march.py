@@ -17,6 +17,7 @@ from asperity.slider.model import FloatArray
 from asperity.slider.result import History
 
 _RECORDS = 4000
+_REPORTS = 1000
 _FRAMES = 48
 _FRAME_CYCLES = 2
 _MOST_SLIP = 0.5
@@ -63,6 +64,7 @@ class BlockMarch:
         self._progress = progress
         table = problem.timetable
         self._stride = max(1, table.steps // _RECORDS) if history else 0
+        self._told = max(1, table.steps // _REPORTS)
         self._frame_steps = _frame_steps(problem) if history else frozenset()
         self._walker: Walker | None = None
 
@@ -128,16 +130,14 @@ class BlockMarch:
 
     def _record(self, number: int) -> None:
         table = self.problem.timetable
-        if not self._stride:
-            return
-        if self._walker is None:
+        if self._progress is not None and number % self._told == 0:
+            self._progress(number, table.steps)
+        if not self._stride or self._walker is None:
             return
         state = self._walker.state
         in_tail = number > table.steps - table.tail
         if number % self._stride == 0 or in_tail or number == table.steps:
             self.rows.append(_row(state))
-            if self._progress is not None:
-                self._progress(number, table.steps)
         if number in self._frame_steps:
             self.frames.append(_frame(state))
 
