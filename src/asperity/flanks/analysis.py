@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.flanks import kinematics_kernels as kernels
 from asperity.flanks.backlash import Play, play, set_backlash
-from asperity.flanks.conjugate import cut_params
+from asperity.flanks.conjugacy import conjugacy_residual
 from asperity.flanks.contact_lines import ContactLines, contact_lines
 from asperity.flanks.ease_off import EaseOff, ease_off
 from asperity.flanks.kinematics import Kinematics, kinematics
@@ -41,7 +40,7 @@ class FlankAnalysis:
     ----------
     side : int
         :math:`s`, 1 or -1.
-    mesh : Transmission
+    transmission : Transmission
         Transmission error over a pitch.
     grid : FlankGrid
         Points of the flank.
@@ -51,7 +50,7 @@ class FlankAnalysis:
         Against the wheel of an identical hob.
     motion : Kinematics
         Velocities and curvatures where each point is nearest to the worm.
-    vibration : VibrationShare
+    share : VibrationShare
         What each vibration direction touches of the sliding.
     play : Play
         Backlash and axial clearance.
@@ -64,12 +63,12 @@ class FlankAnalysis:
     """
 
     side: int
-    mesh: Transmission
+    transmission: Transmission
     grid: FlankGrid
     pattern: Pattern
     ease_off: EaseOff
     motion: Kinematics
-    vibration: VibrationShare
+    share: VibrationShare
     play: Play
     undercut: bool
     conjugacy_residual: float
@@ -78,39 +77,45 @@ class FlankAnalysis:
     @property
     def pair(self) -> Pair:
         """Worm and wheel, the worm with the threads that leave the backlash asked for."""
-        return self.mesh.search.pair
+        return self.transmission.search.pair
 
-    def contact_lines(self, worm_angle: float) -> ContactLines:
-        """Return the contact lines of all teeth at an angle of the worm, rad."""
-        return contact_lines(self.motion, self.grid, self.pair.geometry.starts, worm_angle)
+    @property
+    def mirror(self) -> int:
+        """Sign of Z between the right-handed frame and the gearset's own."""
+        return self.pair.mirror
 
-    def vibration_mean(self) -> dict[str, dict[str, float]]:
-        """Return the root mean square of the parts of each vibration direction.
+    @property
+    def vibration(self) -> dict[str, dict[str, float]]:
+        """Root mean square of the parts of each vibration direction.
 
         Over the marked area; over all of the flank that the worm reaches where nothing is marked.
         """
         area = node_areas(self.grid.points)
         marked = self.pattern.marked & self.motion.on_flank
-        return self.vibration.mean(area * (marked if marked.any() else self.motion.on_flank))
+        return self.share.mean(area * (marked if marked.any() else self.motion.on_flank))
+
+    def contact_lines(self, worm_angle: float) -> ContactLines:
+        """Return the contact lines of all teeth at an angle of the worm, rad."""
+        return contact_lines(self.motion, self.grid, self.pair.geometry.starts, worm_angle)
 
     def to_json(self) -> dict[str, Any]:
         """Scalar results, each key with its unit, in the gearset's own frame."""
         face, radial = self.pattern.centre
         answer: dict[str, Any] = {
-            "transmission_error_rad": self.mesh.peak_to_peak,
-            "transmission_error_mean_rad": self.mesh.mean,
-            "contact_ratio": self.mesh.contact_ratio(),
-            "contact_ratio_marked": self.mesh.contact_ratio(self.pattern.thickness),
+            "transmission_error_rad": self.transmission.peak_to_peak,
+            "transmission_error_mean_rad": self.transmission.mean,
+            "contact_ratio": self.transmission.contact_ratio(),
+            "contact_ratio_marked": self.transmission.contact_ratio(self.pattern.thickness),
             "backlash_normal_mm": self.play.normal[self.side],
             "axial_clearance_mm": self.play.axial,
             "axial_amplitude_max_mm": self.play.amplitude,
             "ease_off_max_um": _MICROMETRES * self.ease_off.largest,
             "ease_off_min_um": _MICROMETRES * self.ease_off.smallest,
             "pattern_area_fraction": self.pattern.area_fraction,
-            "pattern_centre_mm": [self.pair.mirror * face, radial],
+            "pattern_centre_mm": [self.mirror * face, radial],
             "undercut": self.undercut,
             "conjugacy_residual_mm": self.conjugacy_residual,
-            "vibration": self.vibration_mean(),
+            "vibration": self.vibration,
         }
         if self.loaded:
             answer["loaded"] = [lines.to_json() for lines in self.loaded]
@@ -225,28 +230,14 @@ def _flank(
             loaded.append(loaded_lines(mesh, contact_lines(motion, grid, starts, angle), load))
     return FlankAnalysis(
         side=flank.side,
-        mesh=mesh,
+        transmission=mesh,
         grid=grid,
         pattern=pattern(mesh, grid, thickness),
         ease_off=ease_off(flank, grid),
         motion=motion,
-        vibration=vibration_share(pair, motion),
+        share=vibration_share(pair, motion),
         play=free,
         undercut=bool(flank.undercut_at(grid.z[0]).any()),
-        conjugacy_residual=conjugacy_residual(pair, grid, flank.side),
+        conjugacy_residual=float(np.abs(conjugacy_residual(flank, grid)).max()),
         loaded=tuple(loaded),
     )
-
-
-def conjugacy_residual(pair: Pair, grid: FlankGrid, side: int) -> float:
-    """Return the largest distance of points to the hob that made them, at their own phases, mm."""
-    made = np.empty((grid.phase.size, kernels.WIDTH))
-    kernels.meet_each(
-        np.ascontiguousarray(grid.points.reshape(-1, 3)),
-        np.ascontiguousarray(grid.phase.reshape(-1)),
-        0.0,
-        cut_params(pair.ratio, pair.cutting),
-        pair.hob.distance_params(side),
-        made,
-    )
-    return float(np.abs(made[:, kernels.DISTANCE]).max())

@@ -25,8 +25,8 @@ def to_dataset(flank: "FlankAnalysis") -> "xr.Dataset":
     """
     import xarray as xr
 
-    mirror = flank.pair.mirror
-    grid, motion, mesh = flank.grid, flank.motion, flank.mesh
+    mirror = flank.mirror
+    grid, motion, mesh = flank.grid, flank.motion, flank.transmission
     variables: dict[str, Any] = {}
 
     def add(name: str, values: Any, units: str, long_name: str, *dims: str) -> None:
@@ -57,7 +57,7 @@ def to_dataset(flank: "FlankAnalysis") -> "xr.Dataset":
         add_map(f"{name}_curvature", values, "1/mm", f"principal curvatures, {name}", "principal")
     add_map("line_curvature", motion.line_curvature, "1/mm", "relative, across the contact line")
     # Across is a normal times a velocity, and turns round in a mirror.
-    parts = flank.vibration.parts * np.array([1.0, mirror, 1.0])
+    parts = flank.share.parts * np.array([1.0, mirror, 1.0])
     add_map("vibration", parts, "1", "part of a unit vibration velocity", "direction", "part")
 
     add("wheel_angle", mesh.wheel_angle, "rad", "angle of the wheel", "place")
