@@ -17,13 +17,15 @@ from asperity.flanks.profiles import FloatArray
 from asperity.flanks.setting import Pair
 from asperity.flanks.trim import UNDERCUT
 from asperity.flanks.wheel_flank import GAUSS, FlankGrid, UndercutMap, WheelFlank
-from asperity.flanks.wheel_refusal import POINTED, refusal, widest_face
+from asperity.flanks.wheel_gaps import gaps
+from asperity.flanks.wheel_refusal import CUT_AGAIN, POINTED, refusal, widest_face
 
 __all__ = ["FlankGrid", "UndercutMap", "Wheel", "WheelFlank"]
 
 _CHECKED_COLUMNS = 17
 _UNDERCUT_COLUMNS = 33
 _ROWS = 8
+_LEFT = 1e-6
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -54,6 +56,7 @@ class Wheel:
                 status = POINTED if tip <= 0.0 else UNDERCUT
                 widest = widest_face(wheel._solid, wheel.blank.face_width / 2.0)
                 raise InputError(refusal(pair, status, float(place), widest))
+        wheel._require_uncut(z)
         return wheel
 
     @functools.cached_property
@@ -85,6 +88,17 @@ class Wheel:
             other = np.interp(radius, r_left[:, k], left[:, k])
             neck[k] = np.min((right[-radius.size :, k] - other)[:-1])
         return neck, right[-1] - left[-1]
+
+    def _require_uncut(self, z: FloatArray) -> None:
+        """Check that the hob leaves at every phase what it makes at one."""
+        pair = self.pair
+        # The other flank is this one, turned by 180 deg about Y.
+        flank = self.flank(1)
+        for part in (flank.at_shares(np.linspace(0.0, 1.0, _ROWS), z), flank.fillet(_ROWS, z)):
+            least = np.min(gaps(part, pair.hob, pair.cutting, pair.ratio), axis=0)
+            if np.min(least) < -_LEFT:
+                place = float(z[np.argmin(least)])
+                raise InputError(refusal(pair, CUT_AGAIN, place, None))
 
     def _solid(self, z: float) -> bool:
         return bool(np.min(self._thickness(np.array([-z, z]))) > 0.0)

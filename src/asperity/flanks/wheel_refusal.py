@@ -7,6 +7,7 @@ from asperity.flanks import trim
 from asperity.flanks.setting import Pair
 
 POINTED = -1
+CUT_AGAIN = -2
 
 _HALVINGS = 12
 _STEPS = 48
@@ -17,6 +18,7 @@ _REMEDIES = {
     trim.LOST: "take a larger gearset.pressure_angle or gearset.diameter_factor",
     trim.NO_FLANK: "take a larger gearset.diameter_factor or a smaller hob.tip_radius",
     trim.UNDERCUT: "take a larger gearset.profile_shift, gearset.pressure_angle or more teeth",
+    CUT_AGAIN: "take a larger gearset.profile_shift or gearset.pressure_angle",
     trim.NO_INVOLUTE: "take a larger gearset.pressure_angle or gearset.diameter_factor",
 }
 
@@ -52,7 +54,7 @@ def widest_face(sound: Callable[[float], bool], half: float) -> float | None:
 
 def _cause(pair: Pair, status: int, z: float) -> str:
     g, hob = pair.geometry, pair.hob
-    place = f"{abs(z):.4g} mm from mid-face"
+    place = f"{round(abs(z), 3):g} mm from mid-face"
     if status == POINTED:
         return (
             f"gearset.pressure_angle is {math.degrees(g.pressure_angle):.4g} deg; the wheel's "
@@ -65,6 +67,11 @@ def _cause(pair: Pair, status: int, z: float) -> str:
         )
     if status == trim.UNDERCUT:
         return f"gearset.wheel_teeth is {g.wheel_teeth}; undercut takes all the flank {place}"
+    if status == CUT_AGAIN:
+        return (
+            f"gearset.profile_shift is {g.profile_shift:.4g}; the hob undercuts the flank again "
+            f"that it has made {place}"
+        )
     if status == trim.NO_INVOLUTE:
         return (
             f"gearset.pressure_angle is {math.degrees(g.pressure_angle):.4g} deg; the involute of "
