@@ -15,7 +15,7 @@ from asperity.mesh.shape import REFERENCE_NODES
 
 Integers = NDArray[np.int64]
 
-COARSE = 0.4
+COARSE = 0.2
 """Size of a coarse element on the flank, in axial modules."""
 
 DENSITIES: Mapping[str, float] = {"coarse": 1.0, "intermediate": 0.75, "fine": 0.5}
@@ -24,10 +24,16 @@ DENSITIES: Mapping[str, float] = {"coarse": 1.0, "intermediate": 0.75, "fine": 0
 MEMORY = 2 * 1024**3
 """Memory that a mesh may take while it is made, bytes; a finer one is refused."""
 
-# Arrays of points, sets and the skin while the mesh is made, per node.
-_BYTES_PER_NODE = 1500
+# Twice what was measured per node while a mesh of 8-node elements is made.
+_BYTES_PER_NODE = 400
 
-_LAND, _LOW_FILLET, _HIGH_FILLET = 2, 3, 2
+# Least elements along half the root, the fillet below the tooth's block and the fillet beside it,
+# and what these lengths are in modules of any gearset, for the numbers to follow the element size.
+_LEAST = (2, 3, 2)
+_LENGTHS = (0.6, 0.9, 0.6)
+# Elements are shorter over the face, where the section changes most: the volume of 8-node elements
+# then is within 1e-4 at the intermediate density.
+_OVER_FACE = 0.8
 
 
 class Counts(NamedTuple):
@@ -43,29 +49,29 @@ class Counts(NamedTuple):
         Through the tooth.
     rim : int
         Through the rim.
+    land, low_fillet, high_fillet : int
+        Along half the root, and along the fillet's parts below and beside the tooth's block.
     """
 
     flank: int
     face: int
     thickness: int
     rim: int
-
-    @property
-    def fillets(self) -> int:
-        """Along root and fillet of one side."""
-        return _LAND + _LOW_FILLET + _HIGH_FILLET
+    land: int
+    low_fillet: int
+    high_fillet: int
 
     @property
     def elements(self) -> int:
         """Hexahedra of a tooth."""
-        along = 2 * (_LAND + _LOW_FILLET) + self.thickness
-        return self.face * (self.thickness * (self.flank + _HIGH_FILLET) + along * self.rim)
+        along = 2 * (self.land + self.low_fillet) + self.thickness
+        return self.face * (self.thickness * (self.flank + self.high_fillet) + along * self.rim)
 
     def nodes(self, order: int) -> int:
         """Nodes of a tooth."""
         face, across = order * self.face + 1, order * self.thickness + 1
-        along = 2 * order * (_LAND + _LOW_FILLET) + across
-        rows = order * (self.flank + _HIGH_FILLET)
+        along = 2 * order * (self.land + self.low_fillet) + across
+        rows = order * (self.flank + self.high_fillet)
         return face * (across * rows + along * (order * self.rim + 1))
 
 
@@ -95,18 +101,23 @@ def counts(wheel: Wheel, size: float) -> Counts:
     def cells(length: float, least: int) -> int:
         return max(least, math.ceil(length / size - 1e-9))
 
+    modules = zip(_LENGTHS, _LEAST, strict=True)
+    land, low, high = (max(n, round(x * g.axial_module / size)) for x, n in modules)
     # Within the tooth and the rim stresses vary less than along the flank.
     return Counts(
         flank=cells(slant, 4),
-        face=cells(g.wheel_face_width, 6),
+        face=cells(g.wheel_face_width / _OVER_FACE, 6),
         thickness=cells(thickness / 1.5, 4),
         rim=cells(g.rim_thickness / 1.5, 3),
+        land=land,
+        low_fillet=low,
+        high_fillet=high,
     )
 
 
 def tooth(
     wheel: Wheel,
-    size: float | str = "intermediate",
+    size: float | str | Counts = "intermediate",
     *,
     teeth: int = 1,
     order: int = 1,
@@ -122,8 +133,8 @@ def tooth(
     ----------
     wheel : Wheel
         The cut wheel.
-    size : float or {'coarse', 'intermediate', 'fine'}
-        Element size on the flank, mm, or a named density.
+    size : float, {'coarse', 'intermediate', 'fine'} or Counts
+        Element size on the flank, mm, a named density, or the numbers of elements themselves.
     teeth : int
         Number of teeth, 1 to that of the wheel; a whole wheel closes on itself.
     order : {1, 2}
@@ -144,29 +155,37 @@ def tooth(
     InputError
         A density or a number of teeth that does not exist, or a mesh beyond the memory bound.
     """
-    length = element_size(wheel, size) if isinstance(size, str) else float(size)
-    if not (math.isfinite(length) and length > 0.0):
-        raise InputError(f"the element size is {length:g} mm; it must be positive")
     most = wheel.pair.geometry.wheel_teeth
     if not 1 <= teeth <= most:
         raise InputError(f"teeth is {teeth}; the wheel has 1 to {most}")
     if order not in (1, 2):
         raise InputError(f"order is {order}; allowed: 1 (8 nodes), 2 (27 nodes)")
-    number = counts(wheel, length)
-    _check_memory(number, length, teeth, order, memory)
+    number = _counted(wheel, size)
+    _check_memory(number, teeth, order, memory)
     points, lattice = _numbered(_fill(wheel, number, order))
-    one = _one_tooth(points, lattice, order)
+    one = _one_tooth(points, lattice, number, order)
     several = _repeated(one, lattice, teeth, most)
     return _named(several, wheel.pair.mirror)
 
 
-def _check_memory(number: Counts, size: float, teeth: int, order: int, memory: float) -> None:
+def _counted(wheel: Wheel, size: float | str | Counts) -> Counts:
+    if isinstance(size, Counts):
+        if min(size) < 1:
+            raise InputError(f"the numbers of elements are {tuple(size)}; each must be at least 1")
+        return size
+    length = element_size(wheel, size) if isinstance(size, str) else float(size)
+    if not (math.isfinite(length) and length > 0.0):
+        raise InputError(f"the element size is {length:g} mm; it must be positive")
+    return counts(wheel, length)
+
+
+def _check_memory(number: Counts, teeth: int, order: int, memory: float) -> None:
     needed = _BYTES_PER_NODE * number.nodes(order) * float(teeth)
     if needed > memory:
         raise InputError(
-            f"an element size of {size:.4g} mm makes {number.elements * teeth:.3g} elements, which "
-            f"take {needed / 2**30:.3g} GiB; at most {memory / 2**30:.3g} GiB is allowed: take a "
-            "larger size or fewer teeth"
+            f"the mesh would have {number.elements * teeth:.3g} elements and take "
+            f"{needed / 2**30:.3g} GiB; at most {memory / 2**30:.3g} GiB is allowed: take a larger "
+            "element size or fewer teeth"
         )
 
 
@@ -179,9 +198,8 @@ def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, Floats]:
     outlines = []
     for side in (-1, 1):
         flank = wheel.flank(side)
-        root = flank.root(order * _LAND + 1, z)
-        # The block of the tooth begins at the same share of the fillet whatever the density.
-        fillet = flank.fillet(order * (_LOW_FILLET + _HIGH_FILLET) + 1, z)
+        root = flank.root(order * number.land + 1, z)
+        fillet = flank.fillet(order * (number.low_fillet + number.high_fillet) + 1, z)
         face = flank.grid(order * number.flank + 1, 0, z)
         parts = [root, fillet, face]
         rows = [np.stack([part.radius, part.angle], axis=-1) for part in parts]
@@ -190,7 +208,7 @@ def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, Floats]:
     blocks = fill(
         outlines[0],
         outlines[1],
-        split=order * (_LAND + _LOW_FILLET),
+        split=order * (number.land + number.low_fillet),
         across=order * number.thickness,
         layers=order * number.rim,
         inner=g.wheel_root_diameter / 2.0 - g.rim_thickness,
@@ -235,19 +253,19 @@ def _faces(numbers: Integers, local: int) -> Integers:
     return np.column_stack([numbers.reshape(-1), np.full(numbers.size, local)])
 
 
-def _one_tooth(points: Floats, lattice: _Lattice, order: int) -> HexMesh:
+def _one_tooth(points: Floats, lattice: _Lattice, number: Counts, order: int) -> HexMesh:
     rim, at_rim = _cells(lattice.rim, order)
     tooth, at_tooth = _cells(lattice.tooth, order)
     at_tooth = at_tooth + len(rim)
-    base = _LAND + _LOW_FILLET
+    base, high = number.land + number.low_fillet, number.high_fillet
     sets = {
-        "flank_minus": _faces(at_tooth[0, _HIGH_FILLET:], 0),
-        "flank_plus": _faces(at_tooth[-1, _HIGH_FILLET:], 1),
+        "flank_minus": _faces(at_tooth[0, high:], 0),
+        "flank_plus": _faces(at_tooth[-1, high:], 1),
         "fillet_minus": np.concatenate(
-            [_faces(at_rim[:base, -1], 3), _faces(at_tooth[0, :_HIGH_FILLET], 0)]
+            [_faces(at_rim[:base, -1], 3), _faces(at_tooth[0, :high], 0)]
         ),
         "fillet_plus": np.concatenate(
-            [_faces(at_rim[-base:, -1], 3), _faces(at_tooth[-1, :_HIGH_FILLET], 1)]
+            [_faces(at_rim[-base:, -1], 3), _faces(at_tooth[-1, :high], 1)]
         ),
         "tip": _faces(at_tooth[:, -1], 3),
         "inner": _faces(at_rim[:, 0], 2),
