@@ -187,7 +187,8 @@ def section(z, stop, side, hob, cut, nodes):
     """
     arc, count, status = trace(z, stop, side, hob, cut, nodes)
     if arc < 0:
-        return 0, 0, count, status if nodes[0, RADIUS] < stop else NO_FLANK, False
+        lost = count == 0 or nodes[count - 1, RADIUS] < stop
+        return 0, 0, count, status if lost else NO_FLANK, False
     if status != REACHED:
         turned = False
         for k in range(arc, count):

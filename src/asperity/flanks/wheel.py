@@ -24,7 +24,9 @@ __all__ = ["FlankGrid", "UndercutMap", "Wheel", "WheelFlank"]
 
 _CHECKED_COLUMNS = 17
 _UNDERCUT_COLUMNS = 33
+_UNCUT_COLUMNS = 9
 _ROWS = 8
+_UNCUT_ROWS = 6
 _LEFT = 1e-6
 
 
@@ -56,7 +58,7 @@ class Wheel:
                 status = POINTED if tip <= 0.0 else UNDERCUT
                 widest = widest_face(wheel._solid, wheel.blank.face_width / 2.0)
                 raise InputError(refusal(pair, status, float(place), widest))
-        wheel._require_uncut(z)
+        wheel._require_uncut()
         return wheel
 
     @functools.cached_property
@@ -89,12 +91,13 @@ class Wheel:
             neck[k] = np.min((right[-radius.size :, k] - other)[:-1])
         return neck, right[-1] - left[-1]
 
-    def _require_uncut(self, z: FloatArray) -> None:
+    def _require_uncut(self) -> None:
         """Check that the hob leaves at every phase what it makes at one."""
         pair = self.pair
         # The other flank is this one, turned by 180 deg about Y.
         flank = self.flank(1)
-        for part in (flank.at_shares(np.linspace(0.0, 1.0, _ROWS), z), flank.fillet(_ROWS, z)):
+        z = self.blank.columns(_UNCUT_COLUMNS)
+        for part in (flank.at_shares(np.linspace(0.0, 1.0, _UNCUT_ROWS), z), flank.fillet(3, z)):
             least = np.min(gaps(part, pair.hob, pair.cutting, pair.ratio), axis=0)
             if np.min(least) < -_LEFT:
                 place = float(z[np.argmin(least)])

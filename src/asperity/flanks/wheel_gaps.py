@@ -51,7 +51,7 @@ def least_gaps(points, phases, window, worm, stand, out):
         b = high - GOLDEN * (high - low)
         at_a = gap_at(a, x, y, z, worm, stand)
         at_b = gap_at(b, x, y, z, worm, stand)
-        for _ in range(40):
+        for _ in range(22):
             if at_a < at_b:
                 high, b, at_b = b, a, at_a
                 a = low + GOLDEN * (high - low)
