@@ -1,6 +1,6 @@
 """What a reader of a study of flanks should know: what was assumed, and what is from memory."""
 
-from asperity.flanks import parameters
+from asperity.flanks import lubrication, parameters
 from asperity.flanks.parameters import Disc, Hob
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
@@ -34,7 +34,9 @@ def assumptions(gearset: Gearset, hob: Hob | None, disc: Disc | None) -> dict[st
     return found
 
 
-def from_memory(gearset: Gearset, assumed: dict[str, str]) -> dict[str, str]:
+def from_memory(
+    gearset: Gearset, assumed: dict[str, str], *, loaded: bool = False
+) -> dict[str, str]:
     """Return what rests on something that no document at hand confirms, with its source."""
     sources = {
         f"gearset.tooth_proportions {gearset.tooth_proportions}": PROPORTIONS[
@@ -42,6 +44,7 @@ def from_memory(gearset: Gearset, assumed: dict[str, str]) -> dict[str, str]:
         ],
         "outside diameter of the wheel": _OUTSIDE,
         **{key: parameters.SOURCES[key] for key in assumed if key in parameters.SOURCES},
+        **(lubrication.SOURCES if loaded else {}),
     }
     return {
         key: source.name + (f"; {source.note}" if source.note else "")

@@ -16,17 +16,27 @@ _GEARSET = (
     ("base_lead_angle_deg", "base lead angle", "gamma_b", "deg"),
     ("backlash_normal_mm", "backlash, normal, least over a pitch", "j_n", "mm"),
     ("axial_clearance_mm", "axial clearance of the worm", "", "mm"),
+    ("axial_amplitude_max_mm", "greatest amplitude of its axial vibration", "", "mm"),
+    ("flank_area_mm2", "area of a flank of the wheel", "", "mm2"),
 )
 _FLANK = (
     ("transmission_error_rad", "transmission error, peak to peak", "rad"),
     ("transmission_error_mean_rad", "transmission error, mean", "rad"),
     ("ease_off_max_um", "ease-off, greatest", "um"),
     ("ease_off_min_um", "ease-off, least", "um"),
-    ("pattern_area_fraction", "contact pattern (6 um), share of the flank", ""),
+    ("pattern_area_fraction", "contact pattern (6 um), share", ""),
     ("pattern_centre_mm", "its centre: face, radial", "mm"),
+    ("contact_ratio", "contact ratio, unloaded", ""),
+    ("contact_ratio_marked", "contact ratio, gaps below 6 um counted", ""),
     ("undercut", "undercut", ""),
-    ("flank_area_mm2", "area of the flank", "mm2"),
     ("conjugacy_residual_mm", "distance to the hob that cuts it", "mm"),
+)
+_LOADED = (
+    ("loaded_teeth", "teeth that carry, least", min, ""),
+    ("line_load_max_N_per_mm", "line load, greatest", max, "N/mm"),
+    ("hertz_pressure_max_MPa", "Hertzian pressure, greatest", max, "MPa"),
+    ("film_min_um", "oil film, least", min, "um"),
+    ("sliding_speed_mean_mm_per_s", "sliding speed, mean, greatest", max, "mm/s"),
 )
 _MESH = (
     ("element_size_mm", "element size on the flank", "mm"),
@@ -62,22 +72,25 @@ def to_rich(study: "FlankStudy") -> "Group":
     for key, name, unit in _MESH:
         mesh.add_row(name, _text(found["mesh"][key]), unit)
     remarks = [f"- {line}" for line in _remarks(study)]
-    parts: list[Any] = [
-        gearset,
-        Text(),
-        flanks,
-        Text(),
-        _vibration(found["vibration"]),
-        Text(),
-        mesh,
-        Text(),
-    ]
+    tables = [gearset, flanks, _vibration(found["vibration"]), mesh]
+    if all("loaded" in side for side in sides.values()):
+        tables.insert(2, _loaded(sides))
+    parts: list[Any] = [part for table in tables for part in (table, Text())]
     return Group(*parts, *map(Text, remarks))
+
+
+def _loaded(sides: Mapping[str, Mapping[str, Any]]) -> "Table":
+    """What is greatest or least under load at any angle of a pitch."""
+    table = _table("under load, over a pitch", *(f"s = {side}" for side in sides), "unit")
+    for key, name, choose, unit in _LOADED:
+        chosen = (choose(lines[key] for lines in side["loaded"]) for side in sides.values())
+        table.add_row(name, *map(_text, chosen), unit)
+    return table
 
 
 def _vibration(found: Mapping[str, Mapping[str, float]]) -> "Table":
     parts = list(next(iter(found.values())))
-    table = _table("vibration of 1, root mean square over s = +1", *parts)
+    table = _table("part of a vibration, s = +1", *parts)
     for direction, by_part in found.items():
         row = (f"{value:.3f}" for value in by_part.values())
         table.add_row(_DIRECTIONS[direction], *row)

@@ -3,61 +3,67 @@
 import contextlib
 import dataclasses
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TypeVar
-
-import numpy as np
 
 from asperity.casefile import Case, Table
 from asperity.errors import InputError
-from asperity.flanks.backlash import Play, play, set_backlash
-from asperity.flanks.conjugacy import conjugacy_residual
-from asperity.flanks.ease_off import ease_off
-from asperity.flanks.kinematics import kinematics
+from asperity.flanks.analysis import Analysis, analyse
+from asperity.flanks.lubrication import Load
 from asperity.flanks.mesh import element_size, tooth
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
-from asperity.flanks.pattern import pattern
 from asperity.flanks.remarks import assumptions, from_memory
-from asperity.flanks.result import MICROMETRES, FlankResult, FlankStudy
+from asperity.flanks.result import MICROMETRES, FlankStudy
 from asperity.flanks.setting import Pair
-from asperity.flanks.transmission import Transmission, transmission
-from asperity.flanks.vibration_share import vibration_share
 from asperity.flanks.wheel import Wheel
 from asperity.gearset import Gearset
+from asperity.mesh import HexMesh
+from asperity.rating import Operation, rate_case
 
-ROWS, COLUMNS = 30, 41
-"""Points of a flank that what is found of it is given at."""
-
-SIDES = (1, -1)
+_TOUCH = 1e-9
+_ZERO_CELSIUS = 273.15
 
 T = TypeVar("T", bound=Table)
 
 
 @dataclasses.dataclass(frozen=True)
 class Prepared:
-    """What a study begins with; what can be refused without work has been.
+    """What a study begins with; what can be refused without much work has been.
 
     Attributes
     ----------
     gearset : Gearset
         The gearset.
-    hob, mount, modification, disc : Hob, Mount, Modification, Disc or None
-        How it is cut, mounted, modified and ground.
-    density : str or float
-        Density of the mesh: its name, or the element size in mm.
-    pair : Pair
-        What follows from the tables.
+    hob, disc : Hob, Disc or None
+        How it is cut and ground.
+    wheel : Wheel
+        The wheel as it is cut.
+    mesh : HexMesh
+        One tooth.
+    density : str
+        Of the mesh, as it was asked for.
+    element_size : float
+        mm.
+    seconds : float
+        What it took.
+    load : Load or None
+        What it runs under.
+    notes : tuple of str
+        What is to be said of the load.
     source : str
-        The case they come from, for messages; empty for none.
+        The case it comes from, for messages; empty for none.
     """
 
     gearset: Gearset
     hob: Hob | None
-    mount: Mount | None
-    modification: Modification | None
     disc: Disc | None
-    density: str | float
-    pair: Pair
+    wheel: Wheel
+    mesh: HexMesh
+    density: str
+    element_size: float
+    seconds: float
+    load: Load | None = None
+    notes: tuple[str, ...] = ()
     source: str = ""
 
 
@@ -69,7 +75,7 @@ def prepare(
     disc: Disc | None = None,
     density: str | float = "intermediate",
 ) -> Prepared:
-    """Return what a study begins with.
+    """Cut the wheel of a gearset, and mesh a tooth of it.
 
     Parameters
     ----------
@@ -83,13 +89,17 @@ def prepare(
     Raises
     ------
     InputError
-        The numbers do not belong together, make no solid worm or hob, or the density does not
-        exist.
+        There is no such wheel, with the reason, or no such mesh, or it would take too much memory.
     """
-    pair = Pair.of(gearset, hob, mount, modification, disc)
+    began = time.perf_counter()
+    wheel = Wheel.cut(Pair.of(gearset, hob, mount, modification, disc))
     if isinstance(density, str):
-        element_size(Wheel(pair), density)
-    return Prepared(gearset, hob, mount, modification, disc, density, pair)
+        size, name = element_size(wheel, density), density
+    else:
+        size, name = density, f"{density:g} mm"
+    mesh = tooth(wheel, size)
+    seconds = time.perf_counter() - began
+    return Prepared(gearset, hob, disc, wheel, mesh, name, size, seconds)
 
 
 def prepare_case(case: Case, density: str | float = "intermediate") -> Prepared:
@@ -103,18 +113,19 @@ def prepare_case(case: Case, density: str | float = "intermediate") -> Prepared:
         prepared = prepare(
             gearset, table(Hob), table(Mount), table(Modification), table(Disc), density
         )
-    return dataclasses.replace(prepared, source=case.source)
+        load, notes = _load(case, gearset)
+    return dataclasses.replace(prepared, load=load, notes=tuple(notes), source=case.source)
 
 
 def study(prepared: Prepared) -> FlankStudy:
-    """Cut the wheel of a gearset, and find how it meshes.
+    """Find how a gearset meshes.
 
     Raises
     ------
     InputError
-        There is no such wheel, with the reason, or the mesh would take too much memory.
+        The worm's threads cannot leave the backlash.
     ConvergenceError
-        The worm does not reach the wheel somewhere, or no thread has the backlash.
+        The worm does not reach the wheel somewhere, or no thread leaves the backlash.
     """
     with _named(prepared.source):
         return _study(prepared)
@@ -122,31 +133,27 @@ def study(prepared: Prepared) -> FlankStudy:
 
 def _study(prepared: Prepared) -> FlankStudy:
     began = time.perf_counter()
-    wheel = Wheel.cut(prepared.pair)
-    mesh = tooth(wheel, prepared.density)
-    if isinstance(prepared.density, str):
-        size, density = element_size(wheel, prepared.density), prepared.density
-    else:
-        size, density = prepared.density, f"{prepared.density:g} mm"
-    meshes = {side: transmission(prepared.pair, wheel.flank(side)) for side in SIDES}
-    if prepared.pair.backlash is not None:
-        meshes = set_backlash(meshes, prepared.pair.backlash)
-        wheel = Wheel(meshes[1].search.pair)
-    found = {side: _flank(wheel, meshes[side]) for side in SIDES}
-    room = play(meshes)
+    pair, load = prepared.wheel.pair, prepared.load
+    notes = list(prepared.notes)
+    try:
+        found = analyse(pair, prepared.wheel, load=load)
+    except InputError as error:
+        if load is None:
+            raise
+        found = analyse(pair, prepared.wheel, worm_speed=load.worm_speed)
+        notes.append(f"no load on the contact lines: {error}")
     assumed = assumptions(prepared.gearset, prepared.hob, prepared.disc)
     return FlankStudy(
         name=prepared.gearset.name,
-        wheel=wheel,
-        flanks=found,
-        play=room,
-        mesh=mesh,
-        density=density,
-        element_size=size,
+        wheel=Wheel(found.pair),
+        analysis=found,
+        mesh=prepared.mesh,
+        density=prepared.density,
+        element_size=prepared.element_size,
         assumed=assumed,
-        from_memory=from_memory(prepared.gearset, assumed),
-        notes=_notes(found, room),
-        seconds=time.perf_counter() - began,
+        from_memory=from_memory(prepared.gearset, assumed, loaded=load is not None),
+        notes=(*_notes(found), *notes),
+        seconds=prepared.seconds + time.perf_counter() - began,
     )
 
 
@@ -161,38 +168,36 @@ def _named(source: str) -> Iterator[None]:
         raise
 
 
-def _flank(wheel: Wheel, mesh: Transmission) -> FlankResult:
-    pair, flank = wheel.pair, wheel.flank(mesh.search.flank.side)
-    grid = flank.grid(ROWS, COLUMNS)
-    motion = kinematics(pair, grid, flank.side, ahead=flank.side * mesh.mean)
-    return FlankResult(
-        side=flank.side,
-        mirror=pair.mirror,
-        transmission=mesh,
-        pattern=pattern(mesh, grid),
-        ease_off=ease_off(flank, grid),
-        motion=motion,
-        share=vibration_share(pair, motion),
-        area=flank.area(),
-        undercut=bool(np.any(flank.undercut_at(grid.z[0]))),
-        conjugacy_residual=float(np.abs(conjugacy_residual(flank, grid)).max()),
-    )
-
-
-def _notes(flanks: Mapping[int, FlankResult], room: Play) -> tuple[str, ...]:
+def _notes(found: Analysis) -> list[str]:
     notes = []
-    least = min(room.normal.values())
-    if least < -1e-9:
+    least = min(found.play.normal.values())
+    if least < -_TOUCH:
         notes.append(
             f"the threads of nominal thickness would cut {-MICROMETRES * least:.3g} um into the "
             "wheel: give mount.backlash, and they are made thinner"
         )
-    undercut = [f"{side:+d}" for side, found in flanks.items() if found.undercut]
-    if undercut:
-        notes.append(f"the hob undercuts the wheel: flank s = {' and '.join(undercut)}")
-    if not all(found.ease_off.compared.all() for found in flanks.values()):
+    flanks = found.flanks.values()
+    if any(flank.undercut for flank in flanks):
+        notes.append("the hob undercuts the wheel")
+    if not all(flank.ease_off.compared.all() for flank in flanks):
         notes.append(
             "near the root the flanks reach where an identical hob leaves its fillet; the ease-off "
             "is not counted there"
         )
-    return tuple(notes)
+    return notes
+
+
+def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
+    """The load of a case that says how the gearset is run, and what is to be said of it."""
+    if Operation.table not in case:
+        return None, []
+    operation = case.require(Operation)
+    if operation.oil_temperature is not None:
+        return Load.of(gearset, operation, operation.oil_temperature), []
+    try:
+        rated = rate_case(case, ("iso14521",)).iso14521
+    except InputError as error:
+        return None, [f"no load on the contact lines, for want of the oil's temperature: {error}"]
+    sump = float(rated["theta_S_degC"]) if rated is not None else 0.0
+    note = f"oil at {sump:.4g} degC, from the heat balance of ISO/TR 14521"
+    return Load.of(gearset, operation, sump + _ZERO_CELSIUS), [note]

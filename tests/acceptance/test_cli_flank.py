@@ -1,0 +1,236 @@
+"""`asperity flank` as a user runs it: numbers, files, and what is refused."""
+
+import json
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from asperity.flanks.parameters import Disc, Hob, Modification, Mount
+from asperity.store import read_dataset
+from asperity.units import quantity_of, to_si
+
+PAGE = (Path(__file__).parents[2] / "docs" / "flanks.rst").read_text("utf-8")
+
+OF_A_FLANK = {
+    "transmission_error_rad",
+    "transmission_error_mean_rad",
+    "ease_off_max_um",
+    "ease_off_min_um",
+    "pattern_area_fraction",
+    "pattern_centre_mm",
+    "undercut",
+    "conjugacy_residual_mm",
+    "contact_ratio",
+    "vibration",
+    "loaded",
+}
+OF_THE_GEARSET = {
+    "lead_angle_deg",
+    "base_radius_mm",
+    "base_lead_angle_deg",
+    "backlash_normal_mm",
+    "axial_clearance_mm",
+    "seconds",
+}
+BACKLASH = ("--set", "mount.backlash=0.05 mm")
+PICTURES = ("pattern", "ease-off", "contact-lines", "transmission-error", "vibration")
+
+
+def one_object(output):
+    assert output.count("\n") == 1
+    return json.loads(output)
+
+
+@pytest.fixture(scope="module")
+def nominal(asperity):
+    code, output, errors = asperity("flank", "gearset-3b", "--json", *BACKLASH)
+    assert (code, errors) == (0, "")
+    return one_object(output)
+
+
+def test_json_has_every_number_for_one_flank_and_for_both(nominal):
+    assert nominal.keys() >= OF_A_FLANK | OF_THE_GEARSET | {"mesh", "flanks", "notes"}
+    assert nominal["flanks"].keys() == {"+1", "-1"}
+    for found in nominal["flanks"].values():
+        assert found.keys() >= OF_A_FLANK
+    assert {key: nominal[key] for key in OF_A_FLANK} == {
+        key: nominal["flanks"]["+1"][key] for key in OF_A_FLANK
+    }
+    assert nominal["mesh"].keys() >= {"nodes", "elements", "scaled_jacobian_min"}
+
+
+def test_the_numbers_are_those_of_the_gearset_and_its_oversized_tilted_hob(nominal):
+    assert nominal["lead_angle_deg"] == pytest.approx(25.463, abs=1e-3)
+    assert nominal["base_radius_mm"] == pytest.approx(6.9041, abs=1e-4)
+    assert nominal["base_lead_angle_deg"] == pytest.approx(31.961, abs=1e-3)
+    assert nominal["ease_off_max_um"] == pytest.approx(156.0, abs=1.0)
+    assert nominal["ease_off_min_um"] == pytest.approx(-8.4, abs=0.1)
+    assert nominal["pattern_area_fraction"] == pytest.approx(0.19, abs=0.005)
+    assert nominal["pattern_centre_mm"] == pytest.approx([1.66, 0.02], abs=0.05)
+    assert nominal["transmission_error_rad"] < 1e-12
+    assert nominal["conjugacy_residual_mm"] < 1e-12
+    assert nominal["undercut"] is False
+    assert nominal["mesh"]["scaled_jacobian_min"] > 0.4
+
+
+def test_both_flanks_are_alike_turned_about_the_middle_of_the_tooth(nominal):
+    plus, minus = nominal["flanks"]["+1"], nominal["flanks"]["-1"]
+    assert minus["ease_off_max_um"] == pytest.approx(plus["ease_off_max_um"], abs=1e-9)
+    assert minus["pattern_centre_mm"][0] == pytest.approx(-plus["pattern_centre_mm"][0], abs=2e-3)
+    assert minus["pattern_area_fraction"] == pytest.approx(plus["pattern_area_fraction"], rel=5e-3)
+
+
+def test_the_backlash_is_the_one_asked_for_and_leaves_the_worm_room_along_its_axis(nominal):
+    assert nominal["backlash_normal_mm"] == pytest.approx(0.05, abs=1e-9)
+    # Normal play over the axial one is near the cosine of lead and pressure angle.
+    normal = math.cos(math.radians(nominal["lead_angle_deg"])) * math.cos(math.radians(20.0))
+    assert nominal["axial_clearance_mm"] == pytest.approx(0.05 / normal, rel=0.02)
+
+
+def test_a_left_hand_is_the_mirror_image(asperity, nominal):
+    code, output, _ = asperity(
+        "flank", "gearset-3b", "--json", *BACKLASH, "--set", "gearset.hand=left"
+    )
+    left = one_object(output)
+    assert code == 0
+    assert left["pattern_centre_mm"][0] == pytest.approx(-nominal["pattern_centre_mm"][0])
+    for key in ("pattern_area_fraction", "ease_off_max_um", "axial_clearance_mm"):
+        assert left[key] == pytest.approx(nominal[key], rel=1e-9)
+
+
+def test_without_a_tilt_the_pattern_lies_near_the_edge_of_the_face(asperity, nominal):
+    code, output, _ = asperity("flank", "gearset-3b", "--json", "--set", "hob.tilt=0 deg")
+    assert code == 0
+    answer = one_object(output)
+    assert answer["pattern_centre_mm"][0] == pytest.approx(4.8, abs=0.2)
+    # As it comes, worm and wheel would cut into each other: said, and not hidden.
+    assert answer["backlash_normal_mm"] < 0.0
+    assert "give mount.backlash" in answer["notes"][0]
+
+
+def test_a_reader_is_told_what_was_assumed_and_what_is_from_memory(asperity):
+    code, output, _ = asperity(
+        "flank", "gearset-3b", "--json",
+        *("--set", "gearset.flank=ZC"), *("--set", "gearset.centre_distance=73.66 mm"),
+    )  # fmt: skip
+    assert code == 0
+    answer = one_object(output)
+    assert answer["base_radius_mm"] is None
+    assert {"disc.diameter", "disc.profile_radius"} <= answer["assumed"].keys()
+    assert {"disc.diameter", "disc.profile_radius"} <= answer["from_memory"].keys()
+    assert answer["conjugacy_residual_mm"] < 1e-10
+
+
+def test_tables_for_people_have_values_with_units_and_notes(asperity):
+    code, output, errors = asperity("flank", "gearset-3b")
+    assert (code, errors) == (0, "")
+    assert re.search(r"^base radius +r_b +6\.9041 +mm$", output, re.MULTILINE)
+    assert re.search(r"^ease-off, greatest +156\.\d+ +156\.\d+ +um$", output, re.MULTILINE)
+    assert re.search(r"^nodes +\d{4,}$", output, re.MULTILINE)
+    assert re.search(r"^Hertzian pressure, greatest +\d+.* MPa$", output, re.MULTILINE)
+    assert "- from memory, check before use: " in output
+    assert all(len(line) <= 100 for line in output.splitlines())
+
+
+def test_files_hold_the_same_numbers_and_every_picture(asperity, tmp_path):
+    folder = tmp_path / "new" / "out"
+    code, output, errors = asperity(
+        "flank", "gearset-3b", "--json", "--step", "--density", "coarse", "--out", folder
+    )
+    assert code == 0
+    answer = one_object(output)
+    names = errors.strip().removeprefix(f"written to {folder}: ").split(", ")
+    assert {path.name for path in folder.iterdir()} == set(names)
+    assert json.loads((folder / "flank.json").read_text()) == answer
+    found = read_dataset(folder / "flank.nc")
+    assert 1e3 * float(found.ease_off.max()) == pytest.approx(answer["ease_off_max_um"])
+    assert found.ease_off.attrs["units"] == "mm"
+    assert found.side.values.tolist() == [1, -1]
+    assert found.vibration.sizes["part"] == 3
+    for name in PICTURES:
+        assert (folder / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    assert (folder / "tooth.vtu").read_bytes().startswith(b"<?xml")
+    assert "*SURFACE, TYPE=ELEMENT, NAME=flank_plus" in (folder / "tooth.inp").read_text()
+    for name in ("tooth.stl", "worm.stl"):
+        assert (folder / name).stat().st_size > 10_000
+    assert (folder / "gearset.glb").read_bytes().startswith(b"glTF")
+    for name in ("tooth.step", "worm.step"):
+        assert (folder / name).read_text().startswith("ISO-10303-21;")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (("--density", "cors"), "--density is 'cors'; it must be one of 'coarse', "),
+        (("--density", "cors"), "(did you mean 'coarse'?)"),
+        (("--density", "0.5"), "such as '0.5 mm'"),
+        (("--density", "0 mm"), "an element size must be positive"),
+        (("--density", "1 um"), "at most 2 GiB is allowed"),
+        (("--step",), "--step: there is no folder for the files; name one with --out DIR"),
+        (("--set", "hob.tlt=2 deg"), "did you mean 'tilt'?"),
+        (("--set", "hob.oversize=0.5"), "hob.oversize is 0.5; it must be at least 1"),
+        (("--set", "mount.backlash=5 mm"), "the worm's threads would be pointed"),
+        (("--set", "gearset.pressure_angle=30 deg"), "the hob's thread is pointed"),
+        (("--set", "gearset.wheel_face_width=40 mm"), "gearset.wheel_face_width of at most"),
+        (("--set", "gearset.starts=0"), "gearset.starts is 0"),
+    ],
+)
+def test_mistakes_are_one_line_and_exit_2(asperity, tmp_path, arguments, line):
+    folder = () if "--step" in arguments else ("--out", tmp_path / "out")
+    code, output, errors = asperity("flank", "gearset-3b", "--json", *arguments, *folder)
+    assert (code, output) == (2, "")
+    assert errors.count("\n") == 1
+    assert line in errors
+    assert errors.startswith(("--", "gearset-3b: "))
+
+
+def test_what_is_refused_leaves_no_folder(asperity, tmp_path):
+    asperity("flank", "gearset-3b", "--density", "1 um", "--out", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_case_without_a_gearset_is_told_which_table_is_missing(asperity):
+    code, output, errors = asperity("flank", "table-4.3")
+    assert (code, output) == (2, "")
+    assert errors == "table-4.3: the table [gearset] is missing; add it\n"
+
+
+def test_a_missing_extra_is_named_before_any_work(asperity, environment, tmp_path):
+    (tmp_path / "OCP").mkdir()
+    (tmp_path / "OCP" / "__init__.py").write_text("raise ImportError('no OCP')\n")
+    hidden = {**environment, "PYTHONPATH": f"{tmp_path}:{environment.get('PYTHONPATH', '')}"}
+    code, output, errors = asperity(
+        "flank", "gearset-3b", "--step", "--out", tmp_path / "out", env=hidden
+    )
+    assert (code, output) == (2, "")
+    assert errors.count("\n") == 1
+    assert "pip install asperity[cad]" in errors
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_worm_that_misses_the_wheel_is_no_convergence(asperity):
+    code, output, errors = asperity(
+        "flank", "gearset-3b", "--json", "--set", "mount.centre_distance_error=8 mm"
+    )
+    assert code == 3
+    assert errors.startswith("the worm reaches no tooth")
+    assert one_object(output)["reached"] == {"share_of_pitch": 0.0}
+
+
+@pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount])
+def test_the_page_has_each_key_with_its_default(table):
+    parts = re.split(r"^``\[(\w+)\]``", PAGE, flags=re.MULTILINE)
+    page = {parts[n]: parts[n + 1] for n in range(1, len(parts), 2)}[table.table]
+    row = re.compile(r"^   \* - ``(\w+)``\n     - .*\n     - (.*)\n", re.MULTILINE)
+    keys = dict(row.findall(page))
+    assert keys.keys() == table.model_fields.keys()
+    for key, text in keys.items():
+        default, written = table.model_fields[key].default, text.strip('`"')
+        if default is None:
+            assert "``" not in text, key
+            continue
+        quantity = quantity_of(table, key)
+        given = to_si(written, quantity.unit) if quantity and quantity.unit else written
+        assert (float(given) if isinstance(default, float) else given) == default, key
