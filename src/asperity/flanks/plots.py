@@ -100,16 +100,23 @@ def plot_pattern(
 
 
 def plot_ease_off(maps: Sequence[FlankMap]) -> "Figure":
-    """Draw how much less material the wheel has than one cut by an identical hob, micrometres."""
+    """Draw how much less material the wheel has than one cut by an identical hob.
+
+    Parameters
+    ----------
+    maps : sequence of FlankMap
+        Ease-off, micrometres, a panel each; NaN where there is nothing to compare with.
+    """
     figure, axes = _flanks(maps)
-    low = min(float(shown.values.min()) for shown in maps)
-    high = max(float(shown.values.max()) for shown in maps)
+    known = np.concatenate([shown.values[np.isfinite(shown.values)] for shown in maps])
+    low, high = float(known.min()), float(known.max())
     filled: Any = None
     if high - low < 1e-6:
         # The same hob: nothing but rounding is left, and that is no map.
         low, high = low - 1.0, high + 1.0
     levels = _levels(low, high)
     for panel, shown in zip(axes, maps, strict=True):
+        panel.fill(*shown.outline, color=_GROUND, zorder=0)
         filled = panel.contourf(
             shown.face, shown.radius, shown.values, levels=levels, cmap="cividis"
         )

@@ -27,7 +27,7 @@ _FLANK = (
     ("pattern_area_fraction", "contact pattern (6 um), share", ""),
     ("pattern_centre_mm", "its centre: face, radial", "mm"),
     ("contact_ratio", "contact ratio, unloaded", ""),
-    ("contact_ratio_marked", "contact ratio, gaps below 6 um counted", ""),
+    ("contact_ratio_marked", "contact ratio, gaps to 6 um", ""),
     ("undercut", "undercut", ""),
     ("conjugacy_residual_mm", "distance to the hob that cuts it", "mm"),
 )
@@ -35,6 +35,7 @@ _LOADED = (
     ("loaded_teeth", "teeth that carry, least", min, ""),
     ("line_load_max_N_per_mm", "line load, greatest", max, "N/mm"),
     ("hertz_pressure_max_MPa", "Hertzian pressure, greatest", max, "MPa"),
+    ("film_mean_um", "oil film, mean, least", min, "um"),
     ("film_min_um", "oil film, least", min, "um"),
     ("sliding_speed_mean_mm_per_s", "sliding speed, mean, greatest", max, "mm/s"),
 )

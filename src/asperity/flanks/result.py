@@ -143,6 +143,10 @@ class FlankStudy:
             for flank in found
         ]
         phases = [np.where(flank.motion.on_flank, flank.motion.phase, np.nan) for flank in found]
+        removed = [
+            np.where(flank.ease_off.compared, MICROMETRES * flank.ease_off.distance, np.nan)
+            for flank in found
+        ]
         # A period ends where the next begins.
         angle = g.gear_ratio * np.append(
             one.transmission.wheel_angle, 2.0 * math.pi / g.wheel_teeth
@@ -166,7 +170,7 @@ class FlankStudy:
                 centres,
             ),
             "ease-off": plot_ease_off(
-                [_map(flank, MICROMETRES * flank.ease_off.distance) for flank in found]
+                [_map(flank, values) for flank, values in zip(found, removed, strict=True)]
             ),
             "contact-lines": plot_contact_lines(
                 [_map(flank, phase) for flank, phase in zip(found, phases, strict=True)], pitch

@@ -49,8 +49,8 @@ class Camera:
 
 _WORM = Camera((0.3, 1.0, 0.45), (1.0, 0.0, 0.0), 1.1)
 _WHEEL = Camera((-0.55, 0.75, 1.0), (0.0, 1.0, 0.0))
-# Room for the scale of colours below.
-_WITH_BAR = replace(_WHEEL, zoom=1.0)
+# A single tooth is tall, and below a mesh there may be a scale of colours.
+_WHOLE = replace(_WHEEL, zoom=1.0)
 # Past the tip of the next tooth at the flank s = +1 of a right-hand wheel.
 _FLANK = (0.85, 0.75, -0.7)
 
@@ -178,7 +178,7 @@ def mesh_view(
         The file cannot be written.
     """
     numbers = None if values is None else _checked(values, len(mesh.points))
-    with _plotter(path, _WHEEL if numbers is None else _WITH_BAR) as plotter:
+    with _plotter(path, _WHOLE) as plotter:
         shown = _polygons(mesh.points, mesh.skin())
         look: dict[str, Any] = {"show_edges": True, "edge_color": "#404040", "line_width": 1.0}
         if numbers is None:
