@@ -24,6 +24,7 @@ def test_every_example_is_tested():
     assert names == {
         "a_first_slide",
         "every_direction",
+        "flanks_of_a_worm_gearset",
         "friction_law_across_the_drive",
         "which_friction_reduction_helps",
     }
@@ -50,3 +51,11 @@ def test_which_friction_reduction_helps(example):
     names = example("which_friction_reduction_helps")
     assert names["efficiency"]["longitudinal"][20] == pytest.approx(0.62281, rel=1e-4)
     assert names["best"] == pytest.approx(0.37920, rel=1e-4)
+
+
+def test_flanks_of_a_worm_gearset(example):
+    names = example("flanks_of_a_worm_gearset")
+    assert names["centres"] == pytest.approx([4.8, 1.66], abs=0.1)
+    assert names["errors"]["ZI"] < 1e-12
+    assert names["errors"]["ZA"] == pytest.approx(2.58e-4, rel=0.02)
+    assert names["room"] == pytest.approx(0.0295, abs=1e-3)

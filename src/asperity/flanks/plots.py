@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _GROUND = "#F2F2F2"
-_LINES = 9
+_LINES = 12
 _SIDES = {1: BLUE, -1: VERMILION}
 
 
