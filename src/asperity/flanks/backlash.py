@@ -18,7 +18,8 @@ import numpy as np
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.transmission import ToothSearch, Transmission
 
-_NEAR = 1e-2
+# Further than this from the least no place is looked at below the grid, mm.
+_NEAR = 3e-3
 _STEPS = 20
 _TOLERANCE = 1e-10
 

@@ -38,7 +38,8 @@ CONVERGED = 21
 REACH = 22
 WIDTH = 23
 
-_STEPS = 40
+_STEPS = 80
+_NEWTON = 12
 _SMALL = 1e-11
 _LARGEST_STEP = 0.1
 
@@ -111,17 +112,28 @@ def meet_each(points, phases, ahead, mount, params, rows):
 
 @kernel
 def approach_each(points, phases, ahead, mount, params, rows):
-    """`meet` of points at the phase of nearest approach, by Newton's method from a guess."""
+    """`meet` of points at the phase of nearest approach, by Newton's method from a guess.
+
+    It is bracketed, since the curvature jumps where the worm's flank goes over into its tip.
+    """
     for k in range(points.shape[0]):
         phase = phases[k]
+        low, high = -math.inf, math.inf
         rows[k, CONVERGED] = 0.0
-        for _ in range(_STEPS):
+        for n in range(_STEPS):
             rate, second = meet(points[k], phase, ahead, mount, params, rows[k])
+            if rate < 0.0:
+                low = phase
+            else:
+                high = phase
             # Downhill also where the distance is not convex over the phase.
             step = -rate / second if second > 0.0 else -math.copysign(_LARGEST_STEP, rate)
             step = min(max(step, -_LARGEST_STEP), _LARGEST_STEP)
+            following = phase + step
+            if not low <= following <= high or (n > _NEWTON and math.isfinite(high - low)):
+                following = 0.5 * (low + high)
             # At the minimum, what is left counts with its square.
-            if abs(step) <= _SMALL:
+            if abs(following - phase) <= _SMALL:
                 rows[k, CONVERGED] = 1.0
                 break
-            phase += step
+            phase = following

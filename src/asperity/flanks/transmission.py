@@ -33,6 +33,8 @@ _STEPS = 25
 _NEAR = 2e-2
 _CONSTANT = 1e-13
 _RIGID = 1e-9
+# Of the step between places, to which extremes are found.
+_FINE = 1e-4
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -174,13 +176,14 @@ class Transmission:
         pair = self.search.pair
         worm = pair.worm
         normal = worm.reduced_lead * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
-        missing = self.tooth_lead - self.along_tooth() - max(gap, _RIGID) / normal
+        allowed = max(gap / normal, _RIGID)
+        missing = self.tooth_lead - self.along_tooth() - allowed
         before, after = missing[:-1], missing[1:]
         steps = np.where((before <= 0.0) & (after <= 0.0), 1.0, 0.0)
-        # Between two places the line between both; none from where the worm does not reach.
+        # Between two places the line between both, or half the way from where a tooth bears itself.
         cross = (before <= 0.0) != (after <= 0.0)
         low, high = np.minimum(before, after)[cross], np.maximum(before, after)[cross]
-        steps[cross] = -low / (high - low)
+        steps[cross] = np.where(low > -2.0 * _RIGID, 0.5, -low / (high - low))
         return float(steps.sum()) / self.wheel_angle.size
 
     def with_worm(self, half_space: float) -> "Transmission":
@@ -277,7 +280,7 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
         fa, fb, fc = values[k - 1], values[k], values[(k + 1) % lead.size]
         for _ in range(_STEPS):
             t = kernels.next_place(a, fa, b, fb, c, fc)
-            if c - a <= 1e-6 * step or abs(t - b) <= 1e-9 * step:
+            if c - a <= _FINE * step or abs(t - b) <= _FINE * step:
                 break
             a, fa, b, fb, c, fc = kernels.narrowed(a, fa, b, fb, c, fc, t, at(t, sign))
         return float(fb)
