@@ -3,9 +3,9 @@ How a worm wheel bears on its worm
 ==================================
 
 The wheel of a worm gearset is cut by a hob. Were the hob the worm itself, both would touch along
-whole lines, and the least misalignment would push the contact to an edge. So the hob is made larger,
-and tilted to bring the contact back to the middle. Here is a hob 12 % larger, first without a tilt
-and then with one of 2 degrees, and what is left of the contact when the shafts are not quite square.
+whole lines, and the least misalignment would push the contact to an edge. So the hob is made
+larger, and tilted to bring the contact back to the middle. Here is a hob 12 % larger, first without
+a tilt and then with one of 2 degrees, and what is left when the shafts are not quite square.
 """
 
 import matplotlib.pyplot as plt
