@@ -117,18 +117,23 @@ def solve_increment(
         iterations += took
         if not hard:
             return _result(problem, state, trial, multiplier, iterations, residual)
-        updated = classical(problem, trial, multiplier)
-        last, off = off, float(np.abs(updated - multiplier).max(initial=0.0))
+        corner = multiplier[problem.corners]
+        updated = classical(problem, trial, corner)
+        last, off = off, float(np.abs(updated - corner).max(initial=0.0))
         if off <= problem.penetration * float(trial.points[:, PRESSURE].max(initial=0.0)):
             return _result(problem, state, trial, multiplier, iterations, residual)
         assumed, way = trial.assumed, trial.way
-        gain = problem.inverses.gain
-        if gain is None or off > _GOOD * last or not gain.fits(trial, multiplier, updated):
-            trial = evaluate(problem, free, numbers, state, multiplier, assumed, way)
-            iterations += 1
-            gain = gain_of(problem, trial, multiplier, updated)
-            problem.inverses.gain = gain
-        multiplier = updated if gain is None else gain.applied(problem, multiplier, updated)
+        # The classical update always goes the right way, if slowly; it breaks a cycle of others.
+        if off < last:
+            gain = problem.inverses.gain
+            if gain is None or off > _GOOD * last or not gain.fits(trial, corner, updated):
+                trial = evaluate(problem, free, numbers, state, multiplier, assumed, way)
+                iterations += 1
+                gain = gain_of(problem, trial, corner, updated)
+                problem.inverses.gain = gain
+            if gain is not None:
+                updated = gain.applied(problem, corner, updated)
+        multiplier = problem.from_corners @ updated
     raise ConvergenceError(
         f"hard contact still has an overclosure after {_MOST_AUGMENTATIONS} augmentations: change "
         "the contact stiffness, or take a smaller step",

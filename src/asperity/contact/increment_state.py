@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy import sparse
 
 from asperity.contact.friction_point import PointFriction
 from asperity.contact.increment_kernels import (
@@ -102,6 +103,28 @@ class IncrementProblem:
         return Inverses()
 
     @cached_property
+    def corners(self) -> npt.NDArray[np.int64]:
+        """Corner nodes of the faces, ascending: where hard contact has its multipliers."""
+        return np.unique(self.surface.faces[:, :4])
+
+    @cached_property
+    def from_corners(self) -> sparse.csr_array:
+        """Nodal values of a field that is bilinear on each face from its values at the corners."""
+        faces = self.surface.faces
+        # Corners that each node of a face lies between; a node shared by faces counts once.
+        between = [[0], [1], [2], [3], [0, 1], [1, 2], [2, 3], [3, 0], [0, 1, 2, 3]]
+        nodes, first = np.unique(faces, return_index=True)
+        face, place = np.divmod(first, faces.shape[1])
+        rows, columns, values = [], [], []
+        for node, at, local in zip(nodes, face, place, strict=True):
+            for end in between[local]:
+                rows.append(node)
+                columns.append(faces[at, end])
+                values.append(1.0 / len(between[local]))
+        entries = np.array(values), (np.array(rows), np.searchsorted(self.corners, columns))
+        return sparse.csr_array(sparse.coo_array(entries, shape=(self.nodes, len(self.corners))))
+
+    @cached_property
     def arrays(self) -> tuple[Any, ...]:
         """Faces, shapes, weights, places and parameter vectors in the order kernels take them."""
         return (
@@ -180,7 +203,7 @@ class ContactState:
     size : ndarray, shape (q,)
         Two-phase scheme: its signed size over the limit.
     multiplier : ndarray, shape (n,)
-        Hard contact: the nodes' multipliers, Pa.
+        Hard contact: pressure of the multipliers at the nodes, Pa.
     touching : ndarray of bool, shape (q,)
         Points in contact.
     trend : Trend

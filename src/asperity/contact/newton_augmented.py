@@ -1,10 +1,11 @@
 r"""Multipliers of hard contact: pressures at the nodes that leave no overclosure about them.
 
-The pressure is :math:`p = \max(0, \lambda + k g)` with :math:`\lambda = \sum_i N_i \lambda_i`. The
-mean overclosure about a node is :math:`\bar g_i = \int N_i g / \int N_i`. In the end
-:math:`\bar g_i = 0` where :math:`\lambda_i > 0`, and :math:`\bar g_i \le 0` where
-:math:`\lambda_i = 0`: one condition a node, so that neither the pressure spikes nor the contact
-locks, whatever the number of quadrature points.
+The pressure is :math:`p = \max(0, \lambda + k g)`, with :math:`\lambda = \sum_i N_i \lambda_i`
+bilinear between the corners of the faces. The mean overclosure about a corner is
+:math:`\bar g_i = \int N_i g / \int N_i`. In the end :math:`\bar g_i = 0` where
+:math:`\lambda_i > 0`, and :math:`\bar g_i \le 0` where :math:`\lambda_i = 0`: one condition a
+corner, so that neither the pressure spikes nor the contact locks, whatever the number of quadrature
+points and the order of the elements (pressures of second order on faces of second order spike).
 
 The classical update :math:`\lambda_i \leftarrow \max(0, \lambda_i + k \bar g_i)` takes hundreds of
 rounds to smooth out a checkerboard of pressures, which hardly moves the body. Here the equation it
@@ -34,11 +35,32 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def classical(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -> FloatArray:
-    """Multipliers after the classical update, shape (n,), Pa."""
+    """Multipliers after the classical update.
+
+    Parameters
+    ----------
+    problem : IncrementProblem
+        What stays the same.
+    trial : Trial
+        Solution for the present multipliers.
+    multiplier : ndarray, shape (c,)
+        The present multipliers at the corners, Pa.
+
+    Returns
+    -------
+    ndarray, shape (c,)
+        Pa.
+    """
     surface = problem.surface
     over = -trial.points[:, DISTANCE].reshape(surface.weights.shape)
-    mean = surface.to_forces(over) / surface.nodal_area
-    return np.maximum(multiplier + problem.normal.stiffness * mean, 0.0)
+    mean = problem.from_corners.T @ surface.to_forces(over) / _areas(problem)
+    updated: FloatArray = np.maximum(multiplier + problem.normal.stiffness * mean, 0.0)
+    return updated
+
+
+def _areas(problem: IncrementProblem) -> FloatArray:
+    areas: FloatArray = problem.from_corners.T @ problem.surface.nodal_area
+    return areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +70,11 @@ class Gain:
     Attributes
     ----------
     touching, keep : ndarray of bool
-        The points in contact and the nodes with pressure it holds for.
+        The points in contact and the corners with pressure it holds for.
     bearing : ndarray of int, shape (b,)
-        Those nodes.
+        Those corners.
     inverse : ndarray, shape (b, b)
-        Change of the multipliers, Pa, by overclosure integrated about the nodes, m^3.
+        Change of the multipliers, Pa, by overclosure integrated about the corners, m^3.
     ended : ndarray, shape (b,)
         Part of the change that comes from multipliers that end, Pa.
     """
@@ -77,7 +99,7 @@ class Gain:
     ) -> FloatArray:
         """Multipliers after a Newton step, Pa."""
         mean = (updated - multiplier)[self.bearing] / problem.normal.stiffness
-        step = self.ended - self.inverse @ (mean * problem.surface.nodal_area[self.bearing])
+        step = self.ended - self.inverse @ (mean * _areas(problem)[self.bearing])
         result = np.zeros_like(multiplier)
         result[self.bearing] = np.maximum(multiplier[self.bearing] + step, 0.0)
         return result
@@ -94,19 +116,20 @@ def gain_of(
         What stays the same.
     trial : Trial
         The solution, with its tangent.
-    multiplier, updated : ndarray, shape (n,)
-        The present multipliers and their `classical` update, Pa.
+    multiplier, updated : ndarray, shape (c,)
+        The present multipliers at the corners and their `classical` update, Pa.
 
     Returns
     -------
     Gain or None
-        None where a node wants pressure that touches nothing yet.
+        None where a corner wants pressure about which nothing touches yet.
     """
     faces, shapes, weights = problem.arrays[:3]
     touched = np.unique(faces[np.flatnonzero(trial.touching) // len(shapes)])
     keep = updated > 0.0
-    bearing = touched[keep[touched]]
-    if not len(bearing) or len(bearing) < np.count_nonzero(keep):
+    bearing = np.flatnonzero(keep)
+    reached = np.isin(problem.corners[bearing], touched)
+    if not len(bearing) or not reached.all():
         return None
     local = np.full(problem.nodes, -1, dtype=np.int64)
     local[touched] = np.arange(len(touched))
@@ -121,14 +144,15 @@ def gain_of(
         trial.points[:, TRACTION : TRACTION + 3], pressures,
         out=np.zeros_like(normals), where=pressures > 0.0,
     )  # fmt: skip
-    forces = _spread(problem, ways, local, len(touched))
-    gaps = _spread(problem, normals, local, len(touched))
-    ending = np.where(keep, 0.0, -multiplier)[touched]
-    columns = np.column_stack([forces[:, local[bearing]], forces @ ending])
+    basis = problem.from_corners[touched]
+    forces = _spread(problem, ways, local, len(touched)) @ basis
+    gaps = _spread(problem, normals, local, len(touched)) @ basis[:, bearing]
+    ending = np.where(keep, 0.0, -multiplier)
+    columns = np.column_stack([forces[:, bearing], forces @ ending])
     moved = scipy.linalg.solve(
         tangent_matrix(a, k), a @ columns, overwrite_a=True, check_finite=False
     )
-    grown = -(gaps[:, local[bearing]].T @ moved)
+    grown = -(gaps.T @ moved)
     inverse = np.linalg.pinv(grown[:, :-1], rcond=1e-12)
     return Gain(trial.touching, keep, bearing, inverse, -inverse @ grown[:, -1])
 
