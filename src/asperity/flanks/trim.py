@@ -85,12 +85,17 @@ def keep(node, u, psi, radius, regularity):
 
 
 @kernel
+def base_break(hob):
+    """``u`` a little below the base cylinder, where the flank is radial without doubt."""
+    return (hob[BASE] * (1.0 - 1e-14) - hob[ROOT]) / (hob[FLANK_END] - hob[ROOT])
+
+
+@kernel
 def next_break(u, hob):
     """Where the next piece of the curve begins below ``u``: the flank, its radial part, its end."""
     if u > 1.0:
         return 1.0
-    # A little below the base cylinder, where the flank is radial without doubt.
-    base = (hob[BASE] * (1.0 - 1e-14) - hob[ROOT]) / (hob[FLANK_END] - hob[ROOT])
+    base = base_break(hob)
     return base if 0.0 < base < u else 0.0
 
 
@@ -207,9 +212,42 @@ def between(radius, k, z, side, hob, cut, nodes):
 
 
 @kernel
+def above_base(radius, k, z, side, hob, cut, nodes):
+    """As `between`, where node ``k + 1`` is the base cylinder: there the rate by ``u`` is infinite.
+
+    Regula falsi (Illinois) by the root of the distance in ``u``, by which all is smooth.
+    """
+    base = nodes[k + 1, U]
+    low, high = math.sqrt(nodes[k, U] - base), 0.0
+    off_low, off_high = nodes[k, RADIUS] - radius, nodes[k + 1, RADIUS] - radius
+    u, psi = base, nodes[k + 1, PSI]
+    kept = 0
+    for _ in range(100):
+        if off_high == 0.0 or low == high:
+            break
+        root = high - off_high * (high - low) / (off_high - off_low)
+        u = base + root * root
+        psi, found, _ = at_u(u, psi, z, side, hob, cut)
+        off = found - radius
+        if abs(off) <= 5e-16 * radius or root in (low, high):
+            break
+        if (off > 0.0) == (off_high > 0.0):
+            high, off_high = root, off
+            off_low = 0.5 * off_low if kept == 1 else off_low
+            kept = 1
+        else:
+            low, off_low = root, off
+            off_high = 0.5 * off_high if kept == -1 else off_high
+            kept = -1
+    return u, psi
+
+
+@kernel
 def locate(radius, first, last, z, side, hob, cut, nodes):
     """``(u, psi)`` at a radius on the part of a section from node ``first`` to ``last``, rising."""
     k = first
     while k < last - 1 and nodes[k + 1, RADIUS] < radius:
         k += 1
+    if nodes[k + 1, U] == base_break(hob) and nodes[k, U] > nodes[k + 1, U]:
+        return above_base(radius, k, z, side, hob, cut, nodes)
     return between(radius, k, z, side, hob, cut, nodes)

@@ -29,8 +29,8 @@ def limits_each(z, stop, side, hob, cut, start, undercut, status):
 
 
 @kernel
-def flank_grid(z, stop, side, hob, cut, share, u, psi, status):
-    """``u`` and ``psi`` on the flank by ``share`` (0 at its start, 1 at the tip) and column."""
+def flank_grid(z, stop, side, hob, cut, share, u, psi, radius, status):
+    """Fill in the flank by ``share`` (0 at its start, 1 at the tip) and column."""
     nodes = np.empty((NODES, FIELDS))
     for k in range(z.size):
         _, flank, count, status[k], _ = section(z[k], stop[k], side, hob, cut, nodes)
@@ -38,11 +38,13 @@ def flank_grid(z, stop, side, hob, cut, share, u, psi, status):
             continue
         low = nodes[flank, RADIUS]
         for j in range(share.size):
+            radius[j, k] = low + share[j] * (stop[k] - low)
             if share[j] == 0.0:
                 u[j, k], psi[j, k] = nodes[flank, U], nodes[flank, PSI]
             else:
-                radius = low + share[j] * (stop[k] - low)
-                u[j, k], psi[j, k] = locate(radius, flank, count - 1, z[k], side, hob, cut, nodes)
+                u[j, k], psi[j, k] = locate(
+                    radius[j, k], flank, count - 1, z[k], side, hob, cut, nodes
+                )
 
 
 @kernel

@@ -53,11 +53,13 @@ class Wheel:
         """
         wheel = cls(pair)
         z = wheel.blank.columns(_CHECKED_COLUMNS)
-        for place, neck, tip in zip(z, *wheel._thickness(z), strict=True):
-            if min(neck, tip) <= 0.0:
-                status = POINTED if tip <= 0.0 else UNDERCUT
-                widest = widest_face(wheel._solid, wheel.blank.face_width / 2.0)
-                raise InputError(refusal(pair, status, float(place), widest))
+        neck, tip = wheel._thickness(z)
+        thin = np.flatnonzero(np.minimum(neck, tip) <= 0.0)
+        if thin.size:
+            k = thin[np.argmin(np.abs(z[thin]))]
+            widest = widest_face(wheel._solid, wheel.blank.face_width / 2.0)
+            cause = POINTED if tip[k] <= 0.0 else UNDERCUT
+            raise InputError(refusal(pair, cause, float(z[k]), widest))
         wheel._require_uncut()
         return wheel
 

@@ -9,7 +9,7 @@ import functools
 import numpy as np
 import numpy.typing as npt
 
-from asperity.errors import InputError
+from asperity.errors import ConvergenceError, InputError
 from asperity.flanks import trim, trim_grid, undercut, wheel_section
 from asperity.flanks.blank import Blank
 from asperity.flanks.conjugate import conjugate_each, cut_params
@@ -19,6 +19,8 @@ from asperity.flanks.wheel_refusal import refusal, widest_face
 
 GAUSS = 16
 """Points of Gauss's rule for areas."""
+
+_TOLERANCE = 1e-10
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -171,6 +173,8 @@ class WheelFlank:
         ------
         InputError
             No flank there, with the cause.
+        ConvergenceError
+            A point was not found to 1e-10 mm.
         """
         if n_radial < 2:
             raise InputError(f"the rows are {n_radial}; a grid needs at least 2")
@@ -185,9 +189,17 @@ class WheelFlank:
         u = np.empty((rows.size, places.size))
         psi = np.empty_like(u)
         status = np.empty(places.size, dtype=np.int64)
-        trim_grid.flank_grid(places, stop, *self._hob, rows, u, psi, status)
+        radius = np.empty_like(u)
+        trim_grid.flank_grid(places, stop, *self._hob, rows, u, psi, radius, status)
         self._refuse(status, places)
-        return self._points(u, psi)
+        grid = self._points(u, psi)
+        residual = max(np.abs(grid.radius - radius).max(), np.abs(grid.z - places).max())
+        # Written so that a NaN is refused as well.
+        if not residual <= _TOLERANCE:
+            raise ConvergenceError(
+                "the wheel's flank was not found at every point", reached={"residual_mm": residual}
+            )
+        return grid
 
     def fillet(self, n: int, z: npt.ArrayLike) -> FlankGrid:
         """Return ``n`` rows of the fillet from the root to the flank, by columns at ``z`` (mm).

@@ -75,13 +75,13 @@ def _cause(pair: Pair, status: int, z: float) -> str:
     if status == trim.NO_INVOLUTE:
         return (
             f"gearset.pressure_angle is {math.degrees(g.pressure_angle):.4g} deg; the involute of "
-            f"the hob ends at its base radius of {hob.profile.base_radius:.5g} mm and leaves the "
-            f"flank unfinished {place}"
+            f"the hob ends at its base radius of {hob.profile.base_radius:.5g} mm and does not "
+            f"reach the wheel's tip {place}"
         )
     if status == trim.NO_FLANK:
         return (
-            f"gearset.wheel_face_width is {g.wheel_face_width:.5g} mm; the rounding of the hob's "
-            f"tip cuts all the tooth {place} and leaves no flank"
+            f"gearset.wheel_face_width is {g.wheel_face_width:.5g} mm; the hob's flank does not "
+            f"reach the tooth {place}, all of which the rounding of its tip cuts"
         )
     return (
         f"gearset.wheel_face_width is {g.wheel_face_width:.5g} mm; hob too short: only an endless "
