@@ -8,8 +8,10 @@ from asperity.errors import InputError, nearest
 from asperity.thesis import (
     claims_rating,
     claims_sliding,
+    figures_flanks,
     figures_rating,
     figures_sliding,
+    figures_solids,
     tables_rating,
 )
 from asperity.thesis.exhibits import FigureOf, TableOf
@@ -33,7 +35,7 @@ _SLIDING = (
 )
 
 CHAPTERS = (
-    Chapter("2", "Friction laws", f"Sections 2.2.2 and 2.7. {_SLIDING}"),
+    Chapter("2", "Friction laws and gear flanks", f"Sections 2.2.2, 2.6 and 2.7. {_SLIDING}"),
     Chapter(
         "3", "Efficiency and load capacity of worm gearsets",
         "The thesis's calculation sheet (its Appendix C), its Tables 3.1 to 3.7 and the oil's "
@@ -43,7 +45,10 @@ CHAPTERS = (
         "centre distance a and the ratio u of ISO/TR 14521 are the thesis's c and U.",
     ),
     Chapter("4", "The sliding body", f"With Appendix A. {_SLIDING}"),
-    Chapter("7", "The worm gearset under vibration", "So far, the stiffness of the worm shaft."),
+    Chapter(
+        "7", "The worm gearset under vibration",
+        "So far, the stiffness of the worm shaft, and gearset 3 in space with exact flanks.",
+    ),
 )  # fmt: skip
 """Those of which something is reproduced."""
 
@@ -74,7 +79,14 @@ def chapter_of(number: str) -> str:
 CLAIMS = tuple(
     sorted((*claims_sliding.CLAIMS, *claims_rating.CLAIMS), key=lambda claim: _order(claim.id))
 )
-FIGURES: Mapping[str, FigureOf] = _by_number((*figures_sliding.FIGURES, *figures_rating.FIGURES))
+FIGURES: Mapping[str, FigureOf] = _by_number(
+    (
+        *figures_sliding.FIGURES,
+        *figures_rating.FIGURES,
+        *figures_flanks.FIGURES,
+        *figures_solids.FIGURES,
+    )
+)
 TABLES: Mapping[str, TableOf] = _by_number(tables_rating.TABLES)
 
 

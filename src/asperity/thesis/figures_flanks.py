@@ -1,0 +1,241 @@
+"""Figures of chapter 2 about the flanks of worm and wheel; drawn by `drawings_flanks`."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+
+from asperity.flanks.mesh import tooth
+from asperity.flanks.pattern import MARKING, Pattern, pattern
+from asperity.thesis import drawings_flanks as drawings
+from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.gearsets import Gear
+from asperity.thesis.meshing import Meshing, meshing, pair_of
+from asperity.thesis.shapes import Shape, joined
+
+_CASE = "gearset-3b"
+_IDENTICAL = ("hob.oversize=1", "hob.tilt=0 deg")
+_MISALIGNED = (*_IDENTICAL, "mount.shaft_angle_error=-0.1 deg")
+_MICROMETRES = 1e3
+_ANGLES = 24
+_INSTANTS = 5
+_TEETH = 3
+_ROWS, _COLUMNS = 81, 121
+
+DESIGNS = {
+    "misaligned": Gear(_CASE, _MISALIGNED),
+    "lead": Gear(_CASE, (*_MISALIGNED, "modification.lead_correction=0.07 deg")),
+    "over_relieved": Gear(
+        _CASE,
+        (*_IDENTICAL, "modification.tip_relief=80 um", "modification.tip_relief_start=0"),
+    ),
+    "relieved": Gear(_CASE, (*_IDENTICAL, "modification.tip_relief=10 um")),
+}
+"""What figure 2.9 compares."""
+
+HOBS = {
+    "a": Gear(_CASE, _IDENTICAL),
+    "b": Gear(_CASE, (*_MISALIGNED, "mount.centre_distance_error=0.05 mm")),
+    "c": Gear(_CASE),
+}
+"""What figure 2.10 compares."""
+
+TILTS = {0.0: Gear(_CASE, ("hob.tilt=0 deg",)), 2.0: Gear(_CASE)}
+"""What figure 2.11 compares, by the hob's tilt in degrees."""
+
+EPS = Gear(_CASE, ("modification.tip_relief=30 um", "modification.tip_relief_start=0"))
+"""The worm of figure 2.13."""
+
+
+def _commands(*gears: Gear) -> list[str]:
+    return [gear.command("flank") for gear in gears]
+
+
+def figure_2_9() -> Drawn:
+    """Pressure on a flank before and after a correction."""
+    variables: dict[str, Any] = {}
+    for name, gear in DESIGNS.items():
+        found = meshing(gear)
+        lines = found.loaded(_ANGLES)
+        grid = found.grid
+        place = [
+            np.stack([at.lines.at_ends(grid.z), at.lines.at_ends(grid.radius)], axis=-1)[
+                at.carrying
+            ]
+            for at in lines
+        ]
+        pressure = [at.pressure[at.carrying] for at in lines]
+        piece = f"{name}_piece"
+        variables |= {
+            f"{name}_place": (
+                (piece, "end", "axis"), np.concatenate(place), "mm",
+                "ends of each piece of a contact line: from mid-face, from the wheel's axis",
+            ),
+            f"{name}_pressure": (
+                (piece,), np.concatenate(pressure), "MPa", "Hertzian pressure on it",
+            ),
+            f"{name}_outline": (
+                (f"{name}_corner", "axis"), _outline(found), "mm", "edge of the flank",
+            ),
+            f"{name}_length": (
+                (), float(np.mean([at.lines.length[at.carrying].sum() for at in lines])), "mm",
+                "mean length of the lines that carry",
+            ),
+        }  # fmt: skip
+    dataset = labelled(**variables)
+    how = [*_commands(*DESIGNS.values()), "asperity.flanks.lubrication.loaded_lines"]
+    return Drawn(drawings.pressures(dataset), dataset, how)
+
+
+def _outline(found: Meshing) -> Any:
+    place = np.stack([found.grid.z, found.grid.radius], axis=-1)
+    return np.concatenate([place[0], place[1:, -1], place[-1, -2::-1], place[-2::-1, 0]])
+
+
+def figure_2_10() -> Drawn:
+    """Contact on worm and wheel at some instants: identical hob, misaligned, modified."""
+    fields: dict[str, list[Any]] = {key: [] for key in ("face", "height", "phase", "instant")}
+    moving: dict[str, list[Any]] = {key: [] for key in ("gap", "worm_radius", "thread")}
+    for gear in HOBS.values():
+        found = meshing(gear)
+        near = found.motion.on_flank & (found.motion.gap < MARKING)
+        touched = found.motion.phase[near]
+        low, high = float(touched.min()), float(touched.max())
+        instants = low + (high - low) * (0.5 + np.arange(_INSTANTS)) / _INSTANTS
+        at = [found.in_worm(float(angle)) for angle in instants]
+        fields["face"].append(found.grid.z)
+        fields["height"].append(found.grid.radius)
+        fields["phase"].append(np.degrees(found.motion.phase))
+        fields["instant"].append(np.degrees(instants))
+        moving["gap"].append([_MICROMETRES * gap for gap, _, _ in at])
+        moving["worm_radius"].append([radius for _, radius, _ in at])
+        moving["thread"].append([np.degrees(thread) for _, _, thread in at])
+    worm = meshing(HOBS["a"]).wheel.pair.worm
+    flank = ("design", "row", "column")
+    each = ("design", "time", "row", "column")
+    dataset = labelled(
+        design=(("design",), np.array(list(HOBS), dtype=object), "1", "design"),
+        face=(flank, fields["face"], "mm", "distance from mid-face"),
+        radius=(flank, fields["height"], "mm", "distance from the wheel's axis"),
+        phase=(flank, fields["phase"], "deg", "angle of the worm when it is nearest"),
+        instant=(("design", "time"), fields["instant"], "deg", "angle of the worm"),
+        gap=(each, moving["gap"], "um", "distance from the worm at an instant"),
+        worm_radius=(each, moving["worm_radius"], "mm", "distance from the worm's axis then"),
+        thread=(each, moving["thread"], "deg", "place along the worm's thread then"),
+        worm_root=((), worm.root_radius, "mm", "root radius of the worm"),
+        worm_tip=((), worm.tip_radius, "mm", "tip radius of the worm"),
+        film=((), _MICROMETRES * MARKING, "um", "gap that counts as contact"),
+    )  # fmt: skip
+    how = [*_commands(*HOBS.values()), "asperity.thesis.meshing.Meshing.in_worm"]
+    return Drawn(drawings.formation(dataset), dataset, how)
+
+
+def figure_2_11() -> Drawn:
+    """The blue-dye check of a wheel of an oversized hob, without and with tilt."""
+    variables: dict[str, Any] = {}
+    gaps, faces, heights, shares, centres = [], [], [], [], []
+    for tilt, gear in TILTS.items():
+        found = meshing(gear)
+        grid = found.wheel.flank(1).grid(_ROWS, _COLUMNS)
+        marks = pattern(found.transmission, grid)
+        gaps.append(_MICROMETRES * marks.gap)
+        faces.append(grid.z)
+        heights.append(grid.radius)
+        shares.append(marks.area_fraction)
+        centres.append(marks.centre[0])
+        variables |= _dyed(found, marks).variables(f"teeth_{tilt:g}")
+    flank = ("tilt", "row", "column")
+    dataset = labelled(
+        tilt=(("tilt",), list(TILTS), "deg", "tilt of the hob"),
+        gap=(flank, gaps, "um", "smallest distance from the worm"),
+        face=(flank, faces, "mm", "distance from mid-face"),
+        radius=(flank, heights, "mm", "distance from the wheel's axis"),
+        marked_share=(("tilt",), shares, "1", "share of the flank that is marked"),
+        centre=(("tilt",), centres, "mm", "middle of the mark, from mid-face"),
+        film=((), _MICROMETRES * MARKING, "um", "thickness of the dye"),
+        **variables,
+    )
+    return Drawn(drawings.dye(dataset), dataset, _commands(*TILTS.values()))
+
+
+def _dyed(found: Meshing, marks: Pattern) -> Shape:
+    """Some teeth, the flanks that bear in fine faces, those that are marked with the number 1."""
+    mesh = tooth(found.wheel, "fine", teeth=_TEETH)
+    sets = [name for name in mesh.face_sets if name.split("_")[0] in ("fillet", "tip", "face")]
+    sets += ["flank_minus", "cut_minus", "cut_plus"]
+    bare = Shape.of_mesh(mesh, [name for name in sets if not name[-1].isdigit()])
+    corners = [marks.gap[:-1, :-1], marks.gap[1:, :-1], marks.gap[1:, 1:], marks.gap[:-1, 1:]]
+    dyed = np.mean(corners, axis=0) < marks.thickness
+    pitch = 2.0 * math.pi / found.wheel.pair.geometry.wheel_teeth
+    flank = Shape.of_grid(marks.grid.points, dyed.reshape(-1))
+    flanks = [flank.turned(pitch * number) for number in range(_TEETH)]
+    return joined([bare, *flanks]).turned(-pitch * (_TEETH // 2))
+
+
+def figure_2_13() -> Drawn:
+    """The profile of a worm modified between its pitch line and its tip."""
+    modified = pair_of(EPS).worm
+    plain = pair_of(dataclasses.replace(EPS, settings=())).worm
+    place = np.linspace(0.0, 2.0, 401)
+    radius, axial, _, _ = plain.curve(place)
+    # At equal radii, so that the difference is the modification and not the way along the curve.
+    end = min(plain.flank_end, modified.flank_end)
+    height = np.linspace(plain.root_radius, end, 201)
+    normal = math.cos(plain.lead_angle) * math.cos(plain.pressure_angle)
+    relief = _MICROMETRES * normal * (modified.width(height)[0] - plain.width(height)[0])
+    dataset = labelled(
+        outline_radius=(("place",), radius, "mm", "the plain thread: distance from the axis"),
+        outline_axial=(
+            ("place",), plain.half_pitch - axial, "mm", "the plain thread: from its middle",
+        ),
+        radius=(("height",), height, "mm", "distance from the worm's axis"),
+        axial=(("height",), plain.half_pitch - plain.width(height)[0], "mm", "half the thread"),
+        relief=(("height",), relief, "um", "what is taken off, normal to the flank"),
+        pitch_radius=((), plain.pitch_radius, "mm", "pitch radius"),
+        tip_radius=((), plain.tip_radius, "mm", "tip radius"),
+        root_radius=((), plain.root_radius, "mm", "root radius"),
+        normal=((), normal, "1", "normal over axial distance between flanks"),
+    )  # fmt: skip
+    how = [*_commands(EPS), "asperity.flanks.helicoid.Helicoid.width"]
+    return Drawn(drawings.modified_profile(dataset), dataset, how)
+
+
+_ALL = (
+    "Mao's and Litvin's gears are not at hand; this is gearset 3 with a centre distance of 2.9 in."
+)
+
+FIGURES = (
+    FigureOf(
+        "2.9", "Contact pressure before and after lead angle correction and tip relief",
+        "Hertzian pressure along the contact lines at 24 angles of the worm, rated torque, by one "
+        "stiffness per length of line: no finite elements as in Mao's figure, and a worm gearset "
+        "with an identical hob instead of his helical gears. (a) The worm's axis stands 0.1 deg "
+        "askew; 0.07 deg of lead correction brings the load back from the edge. (b) A tip relief "
+        "of 80 um from the pitch line, and one of 10 um over the outer half of the addendum.",
+        (_CASE,), figure_2_9,
+    ),
+    FigureOf(
+        "2.10", "Formation of contact on worm and wheel",
+        f"{_ALL} Where one tooth is within 6 um of the worm, at five instants while it is at all: "
+        "above on the worm's thread, below on the wheel's flank; lines: nearest places. (a) "
+        "Identical hob: contact lines. (b) The same with the worm's axis 0.1 deg askew and 0.05 mm "
+        "too far away: contact at the edge. (c) A hob of 1.12 times the diameter, tilted by 2 deg: "
+        "ellipses about the middle. Unloaded.",
+        (_CASE,), figure_2_10,
+    ),
+    FigureOf(
+        "2.11", "Mesh check with dye: 12 % oversized hob without and with a tilt of 2 deg",
+        "Gearset 3 with a centre distance of 2.9 in instead of the gearset photographed, which is "
+        "not named; dye 6 um thick, unloaded. Without tilt the wheel bears near a face edge; with "
+        "2 deg in the middle, as the thesis found.",
+        (_CASE,), figure_2_11,
+    ),
+    FigureOf(
+        "2.13", "Worm profile modified between pitch line and tip",
+        "A steering worm's dimensions are not given; the worm of gearset 3 stands in. The relief "
+        "grows with the third power from the pitch line to 30 um at the tip; in the left picture "
+        "it is drawn ten times as large.",
+        (_CASE,), figure_2_13,
+    ),
+)  # fmt: skip

@@ -1,0 +1,210 @@
+"""Figures of chapter 7 that show gearset 3 in space; drawn by `drawings_solids`."""
+
+import functools
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.flanks.distance import distances
+from asperity.flanks.export.together import mounted_worm
+from asperity.flanks.export.worm import worm_body
+from asperity.flanks.mesh import DENSITIES, element_size, tooth
+from asperity.flanks.setting import Pair
+from asperity.flanks.wheel import FlankGrid, Wheel, WheelFlank
+from asperity.mesh import HexMesh
+from asperity.thesis import drawings_solids as drawings
+from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.gearsets import Gear
+from asperity.thesis.meshing import pair_of, stood
+from asperity.thesis.shapes import Shape, joined
+
+Floats = npt.NDArray[np.float64]
+
+GEAR = Gear("gearset-3b")
+
+STEP = math.radians(30.0)
+"""Turn of the hob between two cuts of the stepwise simulation."""
+
+_ENLARGED = 30.0
+_SECTOR = 9
+_NOT_FLANK = (
+    "flank_minus", "fillet_plus", "fillet_minus", "tip", "inner", "cut_minus", "cut_plus",
+    "face_low", "face_high",
+)  # fmt: skip
+
+
+@functools.cache
+def _wheel() -> Wheel:
+    return Wheel.cut(pair_of(GEAR))
+
+
+@functools.cache
+def _mesh(density: str, teeth: int) -> HexMesh:
+    return tooth(_wheel(), density, teeth=teeth)
+
+
+def _centred(shape: Shape, teeth: int) -> Shape:
+    return shape.turned(-2.0 * math.pi * (teeth // 2) / _wheel().pair.geometry.wheel_teeth)
+
+
+def facet_height(flank: WheelFlank, grid: FlankGrid, step: float) -> Floats:
+    """Return how far a hob that cuts at steps alone leaves material beyond a flank, mm.
+
+    Parameters
+    ----------
+    flank : WheelFlank
+        The flank.
+    grid : FlankGrid
+        Points of it.
+    step : float
+        Turn of the hob from one cut to the next, rad.
+    """
+    pair: Pair = flank.pair
+    first = math.floor(float(grid.phase.min()) / step)
+    last = math.ceil(float(grid.phase.max()) / step)
+    height = np.zeros(grid.radius.shape)
+    # The hob's surface is as good as flat over a facet, and its normal there the flank's.
+    for _ in range(2):
+        points = grid.points + height[..., None] * grid.normals
+        left = np.full(height.shape, math.inf)
+        for number in range(first, last + 1):
+            phase = number * step
+            place = pair.cutting.to_helicoid(stood(points, phase / pair.ratio))
+            place[..., 2] += pair.hob.reduced_lead * phase
+            left = np.minimum(left, distances(place, pair.hob, flank.side))
+        height = height + left
+    return height
+
+
+def figure_7_1() -> Drawn:
+    """The gearset, and a flank with and without facets."""
+    wheel = _wheel()
+    teeth = wheel.pair.geometry.wheel_teeth
+    ring = tooth(wheel, 1.2, teeth=teeth)
+    whole = joined([Shape.of_mesh(ring), Shape.of_body(mounted_worm(wheel), 1, every=(2, 2))])
+    flank = wheel.flank(1)
+    grid = flank.grid(61, 97)
+    height = facet_height(flank, grid, STEP)
+    rest = Shape.of_mesh(_mesh("intermediate", 1), _NOT_FLANK)
+    raised = grid.points + _ENLARGED * height[..., None] * grid.normals
+    dataset = labelled(
+        **whole.variables("gearset"),
+        **joined([rest, _flank_shape(raised)]).variables("stepped"),
+        **joined([rest, _flank_shape(grid.points)]).variables("exact"),
+        face=(("row", "column"), grid.z, "mm", "distance from mid-face"),
+        radius=(("row", "column"), grid.radius, "mm", "distance from the wheel's axis"),
+        facet_height=(("row", "column"), height, "mm", "material left by cuts at steps"),
+        step=((), math.degrees(STEP), "deg", "turn of the hob between cuts"),
+        enlargement=((), _ENLARGED, "1", "how many times the facets are drawn enlarged"),
+    )
+    how = [
+        "asperity.flanks.mesh.tooth, asperity.flanks.export.together.mounted_worm of gearset-3b",
+        "asperity.thesis.figures_solids.facet_height",
+    ]
+    return Drawn(drawings.gearset(dataset), dataset, how)
+
+
+def _flank_shape(points: Floats) -> Shape:
+    return Shape.of_grid(points)
+
+
+def figure_7_2() -> Drawn:
+    """The worm in some teeth of the wheel."""
+    teeth = _centred(Shape.of_mesh(_mesh("intermediate", _SECTOR)), _SECTOR)
+    both = joined([teeth, Shape.of_body(mounted_worm(_wheel()), 1, every=(2, 2))])
+    dataset = labelled(**both.variables("gearset"))
+    how = ["asperity flank gearset-3b --out FOLDER"]
+    return Drawn(drawings.sector(dataset), dataset, how)
+
+
+def figure_7_3() -> Drawn:
+    """The worm's surface as a rigid shell."""
+    worm = Shape.of_body(worm_body(_wheel().pair), 1, every=(5, 1), ends=False)
+    dataset = labelled(**worm.variables("worm"))
+    return Drawn(drawings.shell(dataset), dataset, ["asperity flank gearset-3b --out FOLDER"])
+
+
+def figure_7_4() -> Drawn:
+    """The faces of a tooth, and its mesh."""
+    mesh = _mesh("intermediate", 1)
+    groups = (
+        ("inner", "cut_minus", "cut_plus", "face_low", "face_high"),
+        ("flank_plus", "flank_minus"), ("fillet_plus", "fillet_minus"), ("tip",),
+    )  # fmt: skip
+    fine = tooth(_wheel(), "fine")
+    parts = [Shape.of_mesh(fine, sets, part) for part, sets in enumerate(groups)]
+    dataset = labelled(
+        **joined(parts).variables("tooth"),
+        **Shape.of_mesh(mesh).variables("mesh"),
+        elements=((), len(mesh.cells), "1", "hexahedra"),
+        scaled_jacobian=((), float(mesh.scaled_jacobian().min()), "1", "least scaled Jacobian"),
+    )
+    how = ["asperity flank gearset-3b --mesh intermediate --out FOLDER"]
+    return Drawn(drawings.topology(dataset), dataset, how)
+
+
+def figure_7_11() -> Drawn:
+    """Three mesh densities."""
+    teeth = 3
+    meshes = {name: _mesh(name, teeth) for name in DENSITIES}
+    shapes = {name: _centred(Shape.of_mesh(mesh), teeth) for name, mesh in meshes.items()}
+    variables: dict[str, Any] = {}
+    for name, shape in shapes.items():
+        variables |= shape.variables(name)
+    size = [element_size(_wheel(), name) for name in DENSITIES]
+    count = [len(mesh.cells) // teeth for mesh in meshes.values()]
+    least = [float(mesh.scaled_jacobian().min()) for mesh in meshes.values()]
+    dataset = labelled(
+        density=(("density",), np.array(list(DENSITIES), dtype=object), "1", "mesh density"),
+        element_size=(("density",), size, "mm", "element size on the flank"),
+        elements=(("density",), count, "1", "hexahedra of a tooth"),
+        scaled_jacobian=(("density",), least, "1", "least scaled Jacobian"),
+        **variables,
+    )
+    how = [f"asperity flank gearset-3b --mesh {name} --out FOLDER" for name in DENSITIES]
+    return Drawn(drawings.densities(dataset), dataset, how)
+
+
+_CAD = (
+    "The thesis's CAD model is lost; this is gearset 3 as reconstructed, with a centre distance of "
+    "2.9 in."
+)
+
+FIGURES = (
+    FigureOf(
+        "7.1", "Gearset 3 in space, and what a machining simulation leaves of a flank",
+        f"{_CAD} Right: the exact flank, and one cut at every 30 deg of the hob alone, its facets "
+        "enlarged 30 times. Those of the thesis's model, at the edges of the teeth, came from its "
+        "tool's path, which is lost; shaft and hub are left out.",
+        (GEAR.case,), figure_7_1,
+    ),
+    FigureOf(
+        "7.2", "Gearset 3 simplified for a simulation",
+        f"{_CAD} The worm and nine teeth with their rim; shaft and hub are left out, as the "
+        "thesis does.",
+        (GEAR.case,), figure_7_2,
+    ),
+    FigureOf(
+        "7.3", "The worm as a rigid shell",
+        "Its surface alone, open at both ends, as quadrilaterals; every corner lies on the exact "
+        "surface. A simulation here takes the worm without facets, by its distance function; the "
+        "mesh is for others.",
+        (GEAR.case,), figure_7_3,
+    ),
+    FigureOf(
+        "7.4", "Topology and mesh of a wheel tooth",
+        "The thesis had to blend facets into one face a flank. Here each flank, fillet and tip is "
+        "one face from the start, and the corners of the mesh lie on it exactly. The mesh is of "
+        "structured hexahedra, of intermediate density.",
+        (GEAR.case,), figure_7_4,
+    ),
+    FigureOf(
+        "7.11", "Mesh densities of the wheel: coarse, intermediate, fine",
+        "As in the thesis the element sizes are 100, 75 and 50 % of the coarse one, which is 0.4 "
+        "axial modules here, as Table 7.4 is lost. Three teeth of the wheel; the worm needs no "
+        "mesh.",
+        (GEAR.case,), figure_7_11,
+    ),
+)  # fmt: skip

@@ -1,0 +1,121 @@
+"""A shipped gearset's worm and wheel in mesh, on one flank."""
+
+import dataclasses
+import functools
+import math
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.casefile import Table
+from asperity.flanks.contact_lines import contact_lines
+from asperity.flanks.distance import distances
+from asperity.flanks.kinematics import Kinematics, kinematics
+from asperity.flanks.lubrication import Load, LoadedLines, loaded_lines
+from asperity.flanks.parameters import Disc, Hob, Modification, Mount
+from asperity.flanks.setting import Pair
+from asperity.flanks.transmission import Transmission, transmission
+from asperity.flanks.wheel import FlankGrid, Wheel
+from asperity.gearset import Gearset
+from asperity.rating import Operation
+from asperity.thesis.gearsets import Gear
+
+Floats = npt.NDArray[np.float64]
+T = TypeVar("T", bound=Table)
+
+_ROWS, _COLUMNS = 41, 61
+_SIDE = 1
+# Only the oil film depends on it, which is not drawn; K.
+_OIL = 353.15
+
+
+def pair_of(gear: Gear) -> Pair:
+    """Return worm and wheel of a gearset as its tables say."""
+    case = gear.read()
+
+    def table(model: type[T]) -> T | None:
+        return case.require(model) if model.table in case else None
+
+    return Pair.of(
+        case.require(Gearset), table(Hob), table(Mount), table(Modification), table(Disc)
+    )
+
+
+def stood(points: Floats, angle: float) -> Floats:
+    """Return points of the wheel in the standing frame where it has turned by an angle, mm."""
+    x, y, z = np.moveaxis(points, -1, 0)
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], axis=-1)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Meshing:
+    """The mesh on the flank s = +1.
+
+    Attributes
+    ----------
+    gear : Gear
+        The gearset.
+    wheel : Wheel
+        Its wheel.
+    transmission : Transmission
+        How it transmits.
+    grid : FlankGrid
+        Points of the flank.
+    motion : Kinematics
+        What happens there.
+    """
+
+    gear: Gear
+    wheel: Wheel
+    transmission: Transmission
+    grid: FlankGrid
+    motion: Kinematics
+
+    @property
+    def pitch(self) -> float:
+        """Turn of the worm from one tooth to the next, rad."""
+        return 2.0 * math.pi / self.wheel.pair.geometry.starts
+
+    def in_worm(self, worm_angle: float) -> tuple[Floats, Floats, Floats]:
+        """Return the flank against the worm at an angle of it.
+
+        Returns
+        -------
+        tuple of ndarray, shape of the grid
+            Distance to the worm and from its axis, mm; place along the thread, rad.
+        """
+        pair = self.wheel.pair
+        angle = worm_angle / pair.ratio + self.transmission.ahead
+        place = pair.mounting.to_helicoid(stood(self.grid.points, angle))
+        radius = np.hypot(place[..., 0], place[..., 1])
+        thread = np.arctan2(place[..., 1], place[..., 0]) - worm_angle
+        # A turn of a helicoid is a shift along its axis.
+        place[..., 2] += pair.worm.reduced_lead * worm_angle
+        return distances(place, pair.worm, _SIDE), radius, thread
+
+    def loaded(self, angles: int) -> list[LoadedLines]:
+        """Return the contact lines under the rated torque at even angles of a pitch."""
+        case = self.gear.read()
+        load = Load.of(case.require(Gearset), case.require(Operation), _OIL)
+        starts = self.wheel.pair.geometry.starts
+        return [
+            loaded_lines(
+                self.transmission,
+                contact_lines(self.motion, self.grid, starts, self.pitch * number / angles),
+                load,
+            )
+            for number in range(angles)
+        ]
+
+
+@functools.cache
+def meshing(gear: Gear) -> Meshing:
+    """Return the mesh of a gearset; its worm has threads of nominal thickness."""
+    wheel = Wheel.cut(pair_of(gear))
+    flank = wheel.flank(_SIDE)
+    found = transmission(wheel.pair, flank)
+    grid = flank.grid(_ROWS, _COLUMNS)
+    motion = kinematics(wheel.pair, grid, _SIDE, ahead=found.ahead)
+    return Meshing(gear, wheel, found, grid, motion)
