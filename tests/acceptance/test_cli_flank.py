@@ -134,12 +134,40 @@ def test_tables_for_people_have_values_with_units_and_notes(asperity):
     assert all(len(line) <= 100 for line in output.splitlines())
 
 
-def test_files_hold_the_same_numbers_and_every_picture(asperity, tmp_path):
+@pytest.fixture
+def without(environment, tmp_path):
+    """Make an environment in which a package cannot be imported."""
+
+    def hide(package):
+        (tmp_path / "hidden" / package).mkdir(parents=True)
+        (tmp_path / "hidden" / package / "__init__.py").write_text("raise ImportError('hidden')\n")
+        path = f"{tmp_path / 'hidden'}:{environment.get('PYTHONPATH', '')}"
+        return {**environment, "PYTHONPATH": path}
+
+    return hide
+
+
+@pytest.fixture(params=[False, pytest.param(True, marks=pytest.mark.slow)], ids=["flat", "space"])
+def in_space(request):
+    """Whether views in space are drawn, which takes a while."""
+    return request.param
+
+
+def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_path, in_space):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity(
-        "flank", "gearset-3b", "--json", "--step", "--density", "coarse", "--out", folder
+        *("flank", "gearset-3b", "--json", "--step", "--density", "coarse", "--out", folder),
+        **({} if in_space else {"env": without("pyvista")}),
     )
     assert code == 0
+    *notes, errors = errors.splitlines()
+    if in_space:
+        assert not notes
+        for name in ("gearset", "tooth-mesh"):
+            assert (folder / f"view-{name}.png").read_bytes().startswith(b"\x89PNG")
+    else:
+        assert len(notes) == 1
+        assert "pip install asperity[view]" in notes[0]
     answer = one_object(output)
     names = errors.strip().removeprefix(f"written to {folder}: ").split(", ")
     assert {path.name for path in folder.iterdir()} == set(names)
@@ -197,12 +225,9 @@ def test_case_without_a_gearset_is_told_which_table_is_missing(asperity):
     assert errors == "table-4.3: the table [gearset] is missing; add it\n"
 
 
-def test_a_missing_extra_is_named_before_any_work(asperity, environment, tmp_path):
-    (tmp_path / "OCP").mkdir()
-    (tmp_path / "OCP" / "__init__.py").write_text("raise ImportError('no OCP')\n")
-    hidden = {**environment, "PYTHONPATH": f"{tmp_path}:{environment.get('PYTHONPATH', '')}"}
+def test_a_missing_extra_is_named_before_any_work(asperity, without, tmp_path):
     code, output, errors = asperity(
-        "flank", "gearset-3b", "--step", "--out", tmp_path / "out", env=hidden
+        "flank", "gearset-3b", "--step", "--out", tmp_path / "out", env=without("OCP")
     )
     assert (code, output) == (2, "")
     assert errors.count("\n") == 1
