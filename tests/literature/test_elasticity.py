@@ -12,7 +12,7 @@ from scipy.sparse.linalg import spsolve
 
 from asperity.contact.elastic import ElasticMaterial, Traction, condense, elastic_body
 from asperity.contact.elastic.assembly import mass_matrix, scikit_fem_basis, stiffness_matrix
-from asperity.contact.elastic.condense import elastic_modes
+from asperity.contact.elastic.modes import natural_modes
 from asperity.mesh import box, shape
 
 STEEL = ElasticMaterial(209e9, 0.3, 7850.0)
@@ -208,7 +208,7 @@ def test_a_free_rod_rings_at_multiples_of_its_wave_speed_over_twice_its_length(e
     material = ElasticMaterial(2e11, 0.0, 8000.0)
     mesh = box((1.0, 0.05, 0.05), (20, 1, 1), 2 if element == "hex27" else 1)
     body = elastic_body(mesh, material, element=element)
-    shapes, frequency = elastic_modes(body, 20)
+    shapes, frequency = natural_modes(body, 20)
     axial = shapes.reshape(-1, 3, 20)[:, 0]
     # A stretching mode moves both ends' faces as a whole; bending and torsion do not on average.
     ends = np.abs(axial[mesh.node_set("right")].mean(axis=0))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.contact.elastic.condense import elastic_modes
+from asperity.contact.elastic.modes import whole_shapes
 from asperity.errors import InputError
 from asperity.mesh.vtu import Data, write_series
 from asperity.slider.model import FloatArray
@@ -53,14 +53,15 @@ def fields(problem: "BlockProblem", frames: "tuple[Frame, ...]") -> Iterator[tup
     rows = (3 * condensed.nodes[:, None] + np.arange(3)).ravel()
     loads = problem.nodal_loads
     drive = problem.nodal_drive
-    shapes, frequency = elastic_modes(body, len(condensed.mode_frequency))
-    stiffness = (2.0 * np.pi * frequency) ** 2
+    shapes = whole_shapes(body, surface, condensed)
     for frame in frames:
         forces = loads + frame.drive_force * drive
         forces[rows] += frame.force
         deformation = body.response(forces)
         # Modes move by themselves; their share of the static answer goes.
-        deformation += shapes @ (frame.coordinates[6:] - (shapes.T @ forces) / stiffness)
+        deformation += shapes @ (
+            frame.coordinates[6:] - (shapes.T @ forces) / condensed.mode_stiffness
+        )
         displacement = deformation + body.rigid @ frame.coordinates[:6]
         pressure = np.zeros(len(mesh.points))
         friction = np.zeros((len(mesh.points), 3))

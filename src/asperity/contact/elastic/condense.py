@@ -7,15 +7,15 @@ from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from asperity.contact.elastic import cache
 from asperity.contact.elastic.body import ElasticBody, elastic_body
 from asperity.contact.elastic.condensed import CondensedBody
 from asperity.contact.elastic.loads import Load
 from asperity.contact.elastic.material import ElasticMaterial
+from asperity.contact.elastic.modes import shapes_with_inertia
 from asperity.contact.elastic.solver import COLUMNS_AT_A_TIME, factor_bytes, installed_solver
+from asperity.contact.surface import ContactSurface, contact_surface
 from asperity.errors import InputError
 from asperity.mesh import HexMesh
 
@@ -29,8 +29,6 @@ GRAVITY = ("gravity_x", "gravity_y", "gravity_z")
 """The loads every body has: its mass times 1 m/s^2 along an axis."""
 
 _NO_LOADS: Mapping[str, Load] = MappingProxyType({})
-# Below this many unknowns all modes at once are as cheap as a few.
-_DENSE_UNKNOWNS = 600
 
 
 def condense(
@@ -67,7 +65,8 @@ def condense(
     loads : mapping of str to Load, optional
         Named loads beside gravity, see `asperity.contact.elastic.loads`.
     modes : int
-        Elastic modes that will have inertia of their own, the lowest.
+        Lowest natural modes that have inertia of their own; with them 18 static shapes of the
+        contact have, see `asperity.contact.elastic.modes`. With 0 the body deforms as in statics.
     solver : {'auto', 'pypardiso', 'superlu'}
         Direct solver.
     memory_limit : float
@@ -92,9 +91,7 @@ def condense(
     if not 0 <= modes <= unknowns // 4:
         raise InputError(f"modes is {modes}; allowed: 0 to {unknowns // 4} with this mesh")
     mesh = mesh.converted("m")
-    if not len(mesh.face_set(contact)):
-        raise InputError(f"face set {contact!r} is empty; give the faces that may touch")
-    nodes = np.unique(mesh.face_nodes(contact))
+    surface = contact_surface(mesh, contact)
     names = (*GRAVITY, *loads)
     pushed = np.array([loads[name].forces(mesh).reshape(-1) for name in loads])
     pushed = pushed.reshape(-1, unknowns).T
@@ -103,7 +100,7 @@ def condense(
     key = cache.key(
         mesh.points,
         mesh.cells,
-        nodes,
+        mesh.face_nodes(contact),
         pushed,
         _tied_nodes(mesh, tied),
         repr((material, element, movable, names, modes, solver)),
@@ -112,16 +109,16 @@ def condense(
         return kept
 
     name = installed_solver(solver)
-    expected = memory_needed(mesh, len(nodes), modes=modes, solver=name)
+    expected = memory_needed(mesh, len(surface.nodes), modes=modes, solver=name)
     if expected > memory_limit:
         raise InputError(
-            f"condensing {unknowns} unknowns to {len(nodes)} contact nodes needs about "
+            f"condensing {unknowns} unknowns to {len(surface.nodes)} contact nodes needs about "
             f"{expected / 1e9:.2g} GB, more than the limit of {memory_limit / 1e9:.2g} GB; take "
             "fewer elements, or raise memory_limit"
         )
     began = time.perf_counter()
     body = elastic_body(mesh, material, element=element, tied=tied, solver=name)
-    condensed = _condense(body, nodes, names, pushed, movable or body.free, modes)
+    condensed = _condense(body, surface, names, pushed, movable or body.free, modes)
     condensed = dataclasses.replace(condensed, seconds=time.perf_counter() - began)
     if folder is not None:
         cache.save(folder, key, condensed)
@@ -149,7 +146,7 @@ def memory_needed(
     # A pair of nodes of a cell: its place and what sorting takes; its 3 x 3 block twice while the
     # matrix is put together; the matrix, its part that moves, and the upper triangle of that.
     assembly = pairs * (4 * 8 + 2 * 9 * 8 + 2.5 * 9 * 12)
-    columns = min(3 * contact_nodes, COLUMNS_AT_A_TIME) + 2 * modes
+    columns = min(3 * contact_nodes, COLUMNS_AT_A_TIME) + 2 * modes + 54
     dense = 8.0 * (6 * unknowns * columns + 3 * (3 * contact_nodes) ** 2)
     return float(assembly + factor_bytes(unknowns, 9 * pairs, solver) + dense)
 
@@ -162,13 +159,13 @@ def _tied_nodes(mesh: HexMesh, tied: str | None) -> Integers:
 
 def _condense(
     body: ElasticBody,
-    nodes: Integers,
+    surface: ContactSurface,
     names: tuple[str, ...],
     pushed: Floats,
     movable: bool,
     count: int,
 ) -> CondensedBody:
-    rows = (3 * nodes[:, None] + np.arange(3)).reshape(-1)
+    rows = (3 * surface.nodes[:, None] + np.arange(3)).reshape(-1)
     size = 3 * len(body.mesh.points)
     loads = np.concatenate([body.inertia[:, :3], pushed], axis=1)
     answer = body.response(loads)
@@ -184,18 +181,19 @@ def _condense(
         flexibility[:, first : first + COLUMNS_AT_A_TIME] = answer[rows]
     residual = max(residual, body.residual(forces, answer))
 
-    shapes, frequency = elastic_modes(body, count)
+    shapes, frequency = shapes_with_inertia(body, surface, count)
     # A free body's modes do not move its centre of mass, and rigid accelerations do not strain it.
-    inertia = np.zeros((count, 6)) if body.free else shapes.T @ body.inertia
+    inertia = np.zeros((len(frequency), 6)) if body.free else shapes.T @ body.inertia
     strained = np.zeros((len(rows), 6)) if body.free else body.response(body.inertia)[rows]
     return CondensedBody(
-        nodes=nodes,
-        positions=body.mesh.points[nodes],
+        nodes=surface.nodes,
+        positions=surface.positions,
         flexibility=0.5 * (flexibility + flexibility.T),
         rigid=body.rigid[rows] if movable else np.empty((len(rows), 0)),
         mass=body.rigid_mass,
         centre=body.centre,
         modes=shapes[rows],
+        natural_modes=count,
         mode_frequency=frequency,
         mode_inertia=inertia,
         inertia_response=strained,
@@ -209,53 +207,3 @@ def _condense(
         residual=residual,
         seconds=0.0,
     )
-
-
-def elastic_modes(body: ElasticBody, count: int) -> tuple[Floats, Floats]:
-    """Return the lowest elastic modes of a body, with tied nodes held.
-
-    Parameters
-    ----------
-    body : ElasticBody
-        The body.
-    count : int
-        How many.
-
-    Returns
-    -------
-    shapes : ndarray, shape (3N, count)
-        Of unit generalised mass, 1/sqrt(kg); without the rigid modes of a free body.
-    frequency : ndarray, shape (count,)
-        Hz, ascending.
-    """
-    size = 3 * len(body.mesh.points)
-    if count == 0:
-        return np.empty((size, 0)), np.empty(0)
-    if size <= _DENSE_UNKNOWNS:
-        squared, shapes = _all_modes(body)
-    else:
-        # The static response times the mass has the eigenvalues 1/omega^2, and 0 for what is rigid
-        # or tied; a start of its own makes the answer the same every time.
-        start = body.response(np.random.default_rng(0).standard_normal(size))
-        operator = LinearOperator((size, size), matvec=body.response, dtype=np.float64)
-        mass = LinearOperator((size, size), matvec=body.mass_times, dtype=np.float64)
-        squared, shapes = eigsh(
-            operator, count, M=mass, sigma=0.0, OPinv=operator, which="LM", v0=start
-        )
-    order = np.argsort(squared)[:count]
-    shapes = shapes[:, order]
-    # The sign is a convention; this one does not depend on the solver.
-    strongest = np.abs(shapes).argmax(axis=0)
-    shapes = shapes * np.sign(shapes[strongest, np.arange(count)])
-    return shapes, np.sqrt(squared[order]) / (2.0 * np.pi)
-
-
-def _all_modes(body: ElasticBody) -> tuple[Floats, Floats]:
-    moving = np.arange(len(body.rigid)) if body.free else body.moving
-    stiffness = body.stiffness[moving][:, moving].toarray()
-    mass = body.mass_times(np.eye(len(body.rigid)))[np.ix_(moving, moving)]
-    squared, part = eigh(stiffness, mass)
-    shapes = np.zeros((len(body.rigid), len(squared)))
-    shapes[moving] = part
-    rigid = 6 if body.free else 0
-    return squared[rigid:], shapes[:, rigid:]

@@ -64,10 +64,13 @@ class CondensedBody:
     centre : ndarray, shape (3,)
         Centre of mass, m.
     modes : ndarray, shape (3n, k)
-        The lowest elastic modes of unit generalised mass at the contact nodes, 1/sqrt(kg): of the
-        free body, or of the one whose tied nodes stand still.
+        Shapes with inertia of their own at the contact nodes, of unit generalised mass and
+        uncoupled, 1/sqrt(kg): natural modes of the free body, or of the one whose tied nodes stand
+        still, then static shapes; see `asperity.contact.elastic.modes`.
     mode_frequency : ndarray, shape (k,)
-        Their natural frequencies, Hz, ascending.
+        Their frequencies, Hz, ascending.
+    natural_modes : int
+        How many of them are natural modes: the first.
     mode_inertia : ndarray, shape (k, 6)
         :math:`\Phi^T M R`, what couples modes to rigid accelerations, sqrt(kg); zero if free.
     inertia_response : ndarray, shape (3n, 6)
@@ -104,6 +107,7 @@ class CondensedBody:
     centre: Floats
     modes: Floats
     mode_frequency: Floats
+    natural_modes: int
     mode_inertia: Floats
     inertia_response: Floats
     load_names: tuple[str, ...]

@@ -3,8 +3,12 @@
 Many right-hand sides come at once, so the matrix is factorised once and solved with in blocks.
 """
 
+import copy
+import functools
+import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,12 +135,26 @@ class _NotPositiveError(Exception):
     """The matrix has a pivot that is not positive."""
 
 
-def _pardiso(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
+@functools.cache
+def _first_pardiso() -> Any:
     import pypardiso
+
+    return pypardiso.PyPardisoSolver()
+
+
+def _new_pardiso(matrix_type: int) -> Any:
+    """A solver without a factorisation; its library is looked for once, which takes a while."""
+    backend = copy.copy(_first_pardiso())
+    backend.pt, backend.iparm = backend.pt.copy(), backend.iparm.copy()
+    backend.set_matrix_type(matrix_type)
+    return backend
+
+
+def _pardiso(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
     from pypardiso.pardiso_wrapper import PyPardisoError
 
     symmetric_positive = 2
-    backend = pypardiso.PyPardisoSolver(mtype=symmetric_positive)
+    backend = _new_pardiso(symmetric_positive)
     upper = sparse.csr_matrix(sparse.triu(matrix, format="csr"))
     try:
         backend.factorize(upper)
@@ -150,16 +168,14 @@ def _pardiso(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
 class _Pardiso:
     """PARDISO's memory is not Python's, so it is given back when the factorisation goes."""
 
-    def __init__(self, backend: "object", upper: sparse.csr_matrix) -> None:
+    def __init__(self, backend: Any, upper: sparse.csr_matrix) -> None:
         self._backend = backend
         self._upper = upper
+        weakref.finalize(self, backend.free_memory, everything=True)
 
     def __call__(self, right: Floats) -> Floats:
-        answer: Floats = self._backend.solve(self._upper, right)  # type: ignore[attr-defined]
+        answer: Floats = self._backend.solve(self._upper, right)
         return answer
-
-    def __del__(self) -> None:
-        self._backend.free_memory(everything=True)  # type: ignore[attr-defined]
 
 
 def _superlu(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
@@ -179,3 +195,26 @@ def _superlu(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
         raise _NotPositiveError
     solve: Callable[[Floats], Floats] = factors.solve
     return solve
+
+
+def solve_general(matrix: sparse.csr_array, right: Floats, solver: str = "auto") -> Floats:
+    """Return the solution of one system of equations that need not be symmetric.
+
+    Parameters
+    ----------
+    matrix : scipy.sparse.csr_array, shape (n, n)
+        Regular.
+    right : ndarray, shape (n,)
+        Right-hand side.
+    solver : {'auto', 'pypardiso', 'superlu'}
+        Direct solver.
+    """
+    if installed_solver(solver) == "pypardiso":
+        unsymmetric = 11
+        backend = _new_pardiso(unsymmetric)
+        answer: Floats = backend.solve(sparse.csr_matrix(matrix), right)
+        backend.free_memory(everything=True)
+        return answer
+    from scipy.sparse.linalg import splu
+
+    return np.asarray(splu(sparse.csc_matrix(matrix)).solve(right))
