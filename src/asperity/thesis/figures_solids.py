@@ -115,7 +115,7 @@ def figure_7_2() -> Drawn:
     teeth = _centred(Shape.of_mesh(_mesh("intermediate", _SECTOR)), _SECTOR)
     both = joined([teeth, Shape.of_body(mounted_worm(_wheel()), 1, every=(2, 2))])
     dataset = labelled(**both.variables("gearset"))
-    how = ["asperity flank gearset-3b --out FOLDER"]
+    how = ["asperity flank gearset-3b --out out/flank"]
     return Drawn(drawings.sector(dataset), dataset, how)
 
 
@@ -123,7 +123,7 @@ def figure_7_3() -> Drawn:
     """The worm's surface as a rigid shell."""
     worm = Shape.of_body(worm_body(_wheel().pair), 1, every=(5, 1), ends=False)
     dataset = labelled(**worm.variables("worm"))
-    return Drawn(drawings.shell(dataset), dataset, ["asperity flank gearset-3b --out FOLDER"])
+    return Drawn(drawings.shell(dataset), dataset, ["asperity flank gearset-3b --out out/flank"])
 
 
 def figure_7_4() -> Drawn:
@@ -141,7 +141,7 @@ def figure_7_4() -> Drawn:
         elements=((), len(mesh.cells), "1", "hexahedra"),
         scaled_jacobian=((), float(mesh.scaled_jacobian().min()), "1", "least scaled Jacobian"),
     )
-    how = ["asperity flank gearset-3b --mesh intermediate --out FOLDER"]
+    how = ["asperity flank gearset-3b --density intermediate --out out/flank"]
     return Drawn(drawings.topology(dataset), dataset, how)
 
 
@@ -163,7 +163,7 @@ def figure_7_11() -> Drawn:
         scaled_jacobian=(("density",), least, "1", "least scaled Jacobian"),
         **variables,
     )
-    how = [f"asperity flank gearset-3b --mesh {name} --out FOLDER" for name in DENSITIES]
+    how = [f"asperity flank gearset-3b --density {name} --out out/flank" for name in DENSITIES]
     return Drawn(drawings.densities(dataset), dataset, how)
 
 
