@@ -10,9 +10,9 @@ from asperity.flanks.distance import distance_only
 from asperity.flanks.kinematics_kernels import to_axes
 from asperity.flanks.transmission_kernels import narrowed, next_place
 
-_STEPS = 20
+_STEPS = 40
 # In parts of the step between places; what is left counts with its square.
-_NARROW = 1e-4
+_NARROW = 1e-3
 
 
 @kernel
@@ -51,10 +51,12 @@ def smallest_gap(points, betas, phases, worm, mount, gap, at):
         a, b, c = float(low), float(n), float(high)
         fa = gap_at(points[k], cosines[low], sines[low], phases[low], worm, mount)
         fc = gap_at(points[k], cosines[high], sines[high], phases[high], worm, mount)
+        older = old = math.inf
         for _ in range(_STEPS):
-            t = next_place(a, fa, b, best, c, fc)
-            if c - a <= _NARROW or abs(t - b) <= _NARROW:
+            if c - a <= 2.5 * _NARROW:
                 break
+            t = next_place(a, fa, b, best, c, fc, _NARROW, c - a > 0.5 * older)
+            older, old = old, c - a
             ft = gap_between(points[k], t, betas, phases, worm, mount)
             a, fa, b, best, c, fc = narrowed(a, fa, b, best, c, fc, t, ft)
         gap[k] = best

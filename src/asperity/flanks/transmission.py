@@ -278,10 +278,13 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
         k = int(np.argmin(values))
         a, b, c = (k - 1) * step, k * step, (k + 1) * step
         fa, fb, fc = values[k - 1], values[k], values[(k + 1) % lead.size]
+        narrow = _FINE * step
+        older = old = math.inf
         for _ in range(_STEPS):
-            t = kernels.next_place(a, fa, b, fb, c, fc)
-            if c - a <= _FINE * step or abs(t - b) <= _FINE * step:
+            if c - a <= 2.5 * narrow:
                 break
+            t = kernels.next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+            older, old = old, c - a
             a, fa, b, fb, c, fc = kernels.narrowed(a, fa, b, fb, c, fc, t, at(t, sign))
         return float(fb)
 

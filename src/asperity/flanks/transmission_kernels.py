@@ -34,12 +34,14 @@ THROAT = 1
 OUTSIDE = 2
 HALF_FACE = 3
 
-_STEPS = 40
+_STEPS = 80
 _GOLDEN = 0.381966011250105
 # Of a bracket's width; the value is then off by its square.
 _NARROW = 1e-7
 # Where values differ by rounding only, as along the contact line of an identical hob.
 _EVEN = 1e-15
+# Between points of a grid the flank may come this much nearer than at them, mm.
+_DEEPER = 2e-3
 
 
 @kernel
@@ -64,13 +66,20 @@ def measure(x, y, z, beta, phase, mode, side, worm, mount):
 
 
 @kernel
-def next_place(a, fa, b, fb, c, fc):
-    """Where to look next between ``a <= b <= c``, of which ``b`` is the lowest."""
+def next_place(a, fa, b, fb, c, fc, narrow, slow):
+    """Where to look next between ``a <= b <= c``, of which ``b`` is the lowest.
+
+    The vertex of a parabola, at least ``narrow`` from ``b``; the golden section where there is none
+    and where the bracket was ``slow`` to shrink: parabolas creep along a function that bends
+    sharply at one end.
+    """
     left, right = b - a, c - b
-    if left > 0.0 and right > 0.0:
+    if left > 0.0 and right > 0.0 and not slow:
         down, up = (fa - fb) / left, (fc - fb) / right
         t = b + 0.5 * (down * right - up * left) / (down + up)
-        if a < t < c and abs(t - b) > 0.0:
+        if a < t < c:
+            if abs(t - b) < narrow:
+                return b + narrow if right > left else b - narrow
             return t
     return b + _GOLDEN * right if right > left else b - _GOLDEN * left
 
@@ -95,6 +104,12 @@ def of_node(u, psi, beta, phase, mode, side, hob, cut, worm, mount):
 
 
 @kernel
+def resolution(given):
+    """How much less a measure may be between points of a grid than at them."""
+    return _DEEPER if given[2] == NEAR else _DEEPER / given[6][LEAD]
+
+
+@kernel
 def tip_radius(z, blank):
     """Radius of the blank at a place on its axis."""
     throat = blank[CENTRE] - math.sqrt(max(blank[THROAT] ** 2 - z * z, 0.0))
@@ -102,107 +117,124 @@ def tip_radius(z, blank):
 
 
 @kernel
-def least_on_column(z, beta, phase, mode, side, hob, cut, worm, mount, blank, nodes):
-    """``(value, radius)`` of the least measure on the flank at a place ``z``; inf if there is none.
-
-    The nodes of the traced section bracket it.
-    """
-    stop = tip_radius(z, blank)
-    _, flank, count, status, _ = section(z, stop, side, hob, cut, nodes)
-    if status != REACHED:
-        return math.inf, 0.0
-    u, psi = locate(stop, flank, count - 1, z, side, hob, cut, nodes)
-    last = count - 1
-    nodes[last, U], nodes[last, PSI], nodes[last, RADIUS] = u, psi, stop
-    a, b, c = nodes[flank, RADIUS], nodes[flank, RADIUS], stop
-    fb = math.inf
-    fa = fc = fb
-    before = fb
-    rising = False
-    for k in range(flank, count):
-        value = of_node(nodes[k, U], nodes[k, PSI], beta, phase, mode, side, hob, cut, worm, mount)
-        if value < fb:
-            a, fa = nodes[max(k - 1, flank), RADIUS], before if k > flank else value
-            b, fb = nodes[k, RADIUS], value
-            c, fc = b, fb
-            rising = True
-        elif rising:
-            c, fc = nodes[k, RADIUS], value
-            rising = False
-        before = value
-    if fb == math.inf:
-        return fb, 0.0
+def least_between(low, k, high, values, z, given, nodes, flank, last):
+    """``(value, radius)`` of the least measure round the node ``k`` of a section."""
+    a, fa = nodes[low, RADIUS], values[low]
+    b, fb = nodes[k, RADIUS], values[k]
+    c, fc = nodes[high, RADIUS], values[high]
+    side, hob, cut = given[3], given[4], given[5]
     narrow = _NARROW * (c - a)
+    older = old = math.inf
     for _ in range(_STEPS):
-        if c - a <= 2.0 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
+        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
             break
-        t = next_place(a, fa, b, fb, c, fc)
-        if abs(t - b) < narrow:
-            # The parabola has found it; what is left of the bracket is not looked at.
-            if a < b < c:
-                break
-            t = b + narrow if c > b else b - narrow
+        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+        older, old = old, c - a
         u, psi = locate(t, flank, last, z, side, hob, cut, nodes)
-        ft = of_node(u, psi, beta, phase, mode, side, hob, cut, worm, mount)
+        ft = of_node(u, psi, *given)
         a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
     return fb, b
 
 
 @kernel
-def least_on_tooth(columns, start, beta, phase, mode, side, hob, cut, worm, mount, blank):
-    """``(value, radius, z)`` of the least measure on the flank, from the column nearest to it."""
-    nodes = np.empty((NODES, FIELDS))
-    given = (beta, phase, mode, side, hob, cut, worm, mount, blank, nodes)
-    j = start
-    b = columns[j]
-    fb, radius = least_on_column(b, *given)
-    low = max(j - 1, 0)
-    high = min(j + 1, columns.size - 1)
-    a, c = columns[low], columns[high]
-    fa = least_on_column(a, *given)[0] if low < j else fb
-    fc = least_on_column(c, *given)[0] if high > j else fb
-    while fa < fb or fc < fb:
-        if fa < fc:
-            c, fc, b, fb = b, fb, a, fa
-            low -= 1
-            a = columns[max(low, 0)]
-            fa = least_on_column(a, *given)[0] if low >= 0 else fb
-        else:
-            a, fa, b, fb = b, fb, c, fc
-            high += 1
-            c = columns[min(high, columns.size - 1)]
-            fc = least_on_column(c, *given)[0] if high < columns.size else fb
-        radius = least_on_column(b, *given)[1]
+def least_on_column(z, given, blank, nodes, values):
+    """``(value, radius)`` of the least measure on the flank at a place ``z``; inf if there is none.
+
+    ``given`` is what `of_node` takes behind the place. The nodes of the traced section bracket
+    every minimum; ``values`` is room for theirs.
+    """
+    side, hob, cut = given[3], given[4], given[5]
+    stop = tip_radius(z, blank)
+    _, flank, count, status, _ = section(z, stop, side, hob, cut, nodes)
+    if status != REACHED:
+        return math.inf, 0.0
+    last = count - 1
+    u, psi = locate(stop, flank, last, z, side, hob, cut, nodes)
+    nodes[last, U], nodes[last, PSI], nodes[last, RADIUS] = u, psi, stop
+    least = math.inf
+    for k in range(flank, count):
+        values[k] = of_node(nodes[k, U], nodes[k, PSI], *given)
+        least = min(least, values[k])
+    best, radius = math.inf, 0.0
+    if least == math.inf:
+        return best, radius
+    limit = least + resolution(given)
+    for k in range(flank, count):
+        low, high = max(k - 1, flank), min(k + 1, last)
+        # Of two equal ones the first.
+        behind = values[low] > values[k] or low == k
+        if behind and values[high] >= values[k] and values[k] <= limit:
+            value, at = least_between(low, k, high, values, z, given, nodes, flank, last)
+            if value < best:
+                best, radius = value, at
+    return best, radius
+
+
+@kernel
+def least_near(j, columns, found, given, blank, nodes, values):
+    """``(value, radius, z)`` of the least measure round the column ``j``.
+
+    ``found`` has values and radii of the columns.
+    """
+    low, high = max(j - 1, 0), min(j + 1, columns.size - 1)
+    a, b, c = columns[low], columns[j], columns[high]
+    fa, fb, fc = found[0, low], found[0, j], found[0, high]
+    radius = found[1, j]
     narrow = _NARROW * (c - a)
+    older = old = math.inf
     for _ in range(_STEPS):
-        even = fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb))
-        if c - a <= 2.0 * narrow or fb == math.inf or even:
+        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
             break
-        t = next_place(a, fa, b, fb, c, fc)
-        if abs(t - b) < narrow:
-            if a < b < c:
-                break
-            t = b + narrow if c > b else b - narrow
-        ft, found = least_on_column(t, *given)
+        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+        older, old = old, c - a
+        ft, at = least_on_column(t, given, blank, nodes, values)
         if ft <= fb:
-            radius = found
+            radius = at
         a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
     return fb, radius, b
 
 
 @kernel
-def scan(points, beta, phase, mode, side, worm, mount):
-    """``(value, column)`` of the least measure over the points of a grid."""
+def least_on_tooth(columns, rough, given, blank):
+    """``(value, radius, z)`` of the least measure on the flank.
+
+    ``rough`` has the least value of each column on a grid. Columns that may hold the least are
+    looked at themselves, and every minimum among them is followed between the columns.
+    """
+    nodes = np.empty((NODES, FIELDS))
+    values = np.empty(NODES)
+    found = np.full((2, columns.size), math.inf)
+    reach = resolution(given)
+    limit = rough.min() + reach
+    for j in range(columns.size):
+        near = rough[max(j - 1, 0) : j + 2].min()
+        if near <= limit:
+            found[0, j], found[1, j] = least_on_column(columns[j], given, blank, nodes, values)
     best = math.inf
-    at = -1
+    radius = z = 0.0
+    # A minimum between columns is less deep below them than one between points.
+    limit = found[0].min() + 0.2 * reach
+    before = math.inf
+    for j in range(columns.size):
+        value = found[0, j]
+        after = found[0, min(j + 1, columns.size - 1)]
+        if value < before - _EVEN and value <= after + _EVEN and value <= limit:
+            value, r, at = least_near(j, columns, found, given, blank, nodes, values)
+            if value < best:
+                best, radius, z = value, r, at
+        before = found[0, j]
+    return best, radius, z
+
+
+@kernel
+def scan(points, beta, phase, mode, side, worm, mount, rough):
+    """Fill ``rough`` with the least measure of each column of a grid, and return the least."""
     for j in range(points.shape[1]):
+        rough[j] = math.inf
         for i in range(points.shape[0]):
             x, y, z = points[i, j, 0], points[i, j, 1], points[i, j, 2]
-            value = measure(x, y, z, beta, phase, mode, side, worm, mount)
-            if value < best:
-                best = value
-                at = j
-    return best, at
+            rough[j] = min(rough[j], measure(x, y, z, beta, phase, mode, side, worm, mount))
+    return rough.min()
 
 
 @kernel
@@ -211,11 +243,11 @@ def least_each(points, columns, betas, phases, mode, side, hob, cut, worm, mount
 
     Those above ``near`` are left as they are at the points of the grid, and have no radius.
     """
+    rough = np.empty(columns.size)
     for k in range(betas.size):
-        out[k, 0], at = scan(points, betas[k], phases[k], mode, side, worm, mount)
+        out[k, 0] = scan(points, betas[k], phases[k], mode, side, worm, mount, rough)
         out[k, 1] = 0.0
-        out[k, 2] = columns[max(at, 0)]
-        if at >= 0 and out[k, 0] <= near[k]:
-            out[k, 0], out[k, 1], out[k, 2] = least_on_tooth(
-                columns, at, betas[k], phases[k], mode, side, hob, cut, worm, mount, blank
-            )
+        out[k, 2] = columns[rough.argmin()]
+        if out[k, 0] < math.inf and out[k, 0] <= near[k]:
+            given = (betas[k], phases[k], mode, side, hob, cut, worm, mount)
+            out[k, 0], out[k, 1], out[k, 2] = least_on_tooth(columns, rough, given, blank)
