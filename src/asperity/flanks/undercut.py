@@ -13,9 +13,9 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.flanks.conjugate import RATIO, conjugate
-from asperity.flanks.curve import BASE, FLANK_END, ROOT
 from asperity.flanks.trim import (
     FIELDS,
+    LOST,
     NO_FLANK,
     NO_INVOLUTE,
     NODES,
@@ -23,10 +23,10 @@ from asperity.flanks.trim import (
     RADIUS,
     REACHED,
     REGULARITY,
-    SHORT,
     SPARE,
     UNDERCUT,
     U,
+    base_break,
     keep,
     locate,
     slide,
@@ -179,6 +179,16 @@ def regularity_map(z, stop, side, hob, cut, share, u, radius, regularity, status
 
 
 @kernel
+def past_base(status, first, count, hob, nodes):
+    """The status, or `NO_INVOLUTE` if a flank that ended badly had passed its base cylinder."""
+    base = base_break(hob)
+    for k in range(first, count):
+        if nodes[k, U] <= base and status in (LOST, UNDERCUT):
+            return NO_INVOLUTE
+    return status
+
+
+@kernel
 def section(z, stop, side, hob, cut, nodes):
     """Trace a section and take out what the hob turned back on itself.
 
@@ -193,12 +203,9 @@ def section(z, stop, side, hob, cut, nodes):
         turned = False
         for k in range(arc, count):
             turned = turned or nodes[k, REGULARITY] <= 0.0
-        base = (hob[BASE] - hob[ROOT]) / (hob[FLANK_END] - hob[ROOT])
-        if nodes[count - 1, U] <= base and status != SHORT:
-            status = NO_INVOLUTE
-        elif turned:
+        if turned and status == LOST:
             status = UNDERCUT
-        return arc, arc, count, status, turned
+        return arc, arc, count, past_base(status, arc, count, hob, nodes), turned
     flank = arc
     turned = False
     count = insert_dips(flank, count, z, side, hob, cut, nodes)
@@ -220,7 +227,7 @@ def section(z, stop, side, hob, cut, nodes):
             last += 1
         radius = meet(lower, k, last, stop, z, side, hob, cut, nodes)
         if radius < 0.0:
-            return arc, flank, count, UNDERCUT, True
+            return arc, flank, count, past_base(UNDERCUT, arc, count, hob, nodes), True
         end, count = cut_out(radius, lower, k, last, count, z, side, hob, cut, nodes)
         if end <= arc:
             arc = end

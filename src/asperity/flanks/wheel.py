@@ -23,6 +23,7 @@ from asperity.flanks.wheel_refusal import CUT_AGAIN, POINTED, refusal, widest_fa
 __all__ = ["FlankGrid", "UndercutMap", "Wheel", "WheelFlank"]
 
 _CHECKED_COLUMNS = 17
+_CLOSELY_CHECKED_COLUMNS = 201
 _UNDERCUT_COLUMNS = 33
 _UNCUT_COLUMNS = 9
 _ROWS = 8
@@ -53,6 +54,9 @@ class Wheel:
         """
         wheel = cls(pair)
         z = wheel.blank.columns(_CHECKED_COLUMNS)
+        if wheel._passes_base(z):
+            # There a tilted hob may leave a gap of a narrow stretch of the face only.
+            z = wheel.blank.columns(_CLOSELY_CHECKED_COLUMNS)
         neck, tip = wheel._thickness(z)
         thin = np.flatnonzero(np.minimum(neck, tip) <= 0.0)
         if thin.size:
@@ -104,6 +108,15 @@ class Wheel:
             if np.min(least) < -_LEFT:
                 place = float(z[np.argmin(least)])
                 raise InputError(refusal(pair, CUT_AGAIN, place, None))
+
+    def _passes_base(self, z: FloatArray) -> bool:
+        """Whether a flank on its way to the tip passes below the hob's base cylinder."""
+        hob = self.pair.hob
+        base = hob.profile.base_radius
+        if base is None or base <= hob.root_radius:
+            return False
+        u = self.flank(1).at_shares([1.0], z).u
+        return bool(np.any(u <= (base - hob.root_radius) / (hob.flank_end - hob.root_radius)))
 
     def _solid(self, z: float) -> bool:
         return bool(np.min(self._thickness(np.array([-z, z]))) > 0.0)
