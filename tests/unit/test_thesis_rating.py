@@ -76,14 +76,16 @@ def test_a_number_asks_for_the_figure_and_the_table_that_have_it():
 def test_everything_belongs_to_a_chapter_of_the_page():
     chapters = {chapter.number for chapter in CHAPTERS}
     assert {chapter_of(claim.id) for claim in CLAIMS} <= chapters
-    assert {chapter_of(number) for number in (*FIGURES, *TABLES)} == chapters - {"7"}
+    assert {chapter_of(number) for number in (*FIGURES, *TABLES)} == chapters
 
 
 def test_claims_figures_and_tables_stand_in_the_order_of_the_thesis():
     assert [claim.id for claim in CLAIMS] == [
         *(f"3.{n}" for n in range(1, 9)), *(f"4.{n}" for n in range(1, 9)), "7.1",
     ]  # fmt: skip
-    assert list(FIGURES)[3:8] == ["3.1", "3.2", "3.3", "3.4", "3.5"]
+    assert [number for number in FIGURES if chapter_of(number) == "3"] == [
+        "3.1", "3.2", "3.3", "3.4", "3.5",
+    ]  # fmt: skip
     assert list(TABLES) == ["3.2", "3.3", "3.4", "3.5", "3.6", "3.7"]
 
 
