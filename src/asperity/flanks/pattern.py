@@ -2,7 +2,8 @@ r"""The contact pattern that a marking compound shows, and the gap it is made fr
 
 The worm turns through the mesh at the transmission-error position, and every point of the wheel's
 flank comes once as near to it as it ever does. Where that gap is less than the compound's thickness
-the compound is carried over: this is the check with blue dye of gear makers.
+the compound is carried over: this is the check with blue dye of gear makers. Between the places of
+the transmission error the worm follows the wheel linearly.
 """
 
 import dataclasses

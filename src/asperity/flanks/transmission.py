@@ -7,7 +7,8 @@ through the mesh, tells of all. With the lead of the worm over its nominal place
 :math:`D = \min s\varphi - s\,i\beta`, the wheel is ahead of :math:`\varphi/i` by :math:`-D/i` in
 the direction in which the flank drives it.
 
-Lengths are in mm, angles in rad; the frame is that of the right-handed gearset.
+The worm's threads are taken as long as the wheel reaches. Lengths are in mm, angles in rad; the
+frame is that of the right-handed gearset.
 """
 
 import dataclasses
@@ -166,7 +167,7 @@ class Transmission:
         return self.search.pair.ratio * self.wheel_angle + side * self.lead
 
     def contact_ratio(self, gap: float = 0.0) -> float:
-        r"""Mean number of teeth that bear.
+        r"""Mean number of teeth that bear, to about one place in the pitch.
 
         Parameters
         ----------
