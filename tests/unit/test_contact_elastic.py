@@ -1,5 +1,7 @@
 """Condensing a body: its cache, solvers, bounds and refusals."""
 
+import subprocess
+import sys
 from dataclasses import fields, replace
 
 import numpy as np
@@ -95,14 +97,15 @@ def test_every_solver_gives_the_same_body_and_says_its_name():
     first = condense(mesh, STEEL, "bottom", loads=LOADS, modes=3, use_cache=False)
     other = condense(mesh, STEEL, "bottom", loads=LOADS, modes=3, solver="superlu", use_cache=False)
     assert (first.solver, other.solver) == (chosen, "superlu")
-    for name in ("flexibility", "mode_frequency", "load_compliance", "modes"):
+    # Modes of equal frequency may be combined otherwise; what they carry together is the same.
+    for name in ("flexibility", "mode_frequency", "load_compliance", "residual_flexibility"):
         a, b = getattr(first, name), getattr(other, name)
         assert np.abs(a - b).max() < 1e-8 * np.abs(a).max(), name
     assert max(first.residual, other.residual) < 1e-9
 
 
 def test_without_pypardiso_superlu_is_taken(monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "pypardiso", None)
+    monkeypatch.setitem(sys.modules, "pypardiso", None)
     assert installed_solver() == "superlu"
     with pytest.raises(ImportError, match="'pypardiso' is not installed"):
         installed_solver("pypardiso")
@@ -198,3 +201,28 @@ def test_a_body_has_the_loads_it_was_given_and_gravity():
     assert body.load_names == ("gravity_x", "gravity_y", "gravity_z", "drive")
     with pytest.raises(InputError, match=r"no load 'drvie' .did you mean 'drive'"):
         body.load_response("drvie")
+
+
+_PEAK = """
+import resource, sys
+import numpy as np
+from asperity.contact.elastic import ElasticMaterial, condense, memory_needed
+from asperity.mesh import box
+
+material, solver = ElasticMaterial(209e9, 0.3, 7850.0), sys.argv[1]
+condense(box((1, 1, 1), (2, 1, 1)), material, "bottom", solver=solver, modes=1, use_cache=False)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+mesh = box((0.04, 0.03, 0.03), (8, 6, 6), 2)
+condense(mesh, material, "left", solver=solver, modes=2, use_cache=False)
+peak = 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+print(peak / memory_needed(mesh, len(mesh.node_set("left")), modes=2, solver=solver))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("solver", ["superlu", installed_solver()])
+def test_condensing_stays_within_the_memory_it_says_it_needs(solver):
+    ran = subprocess.run(
+        [sys.executable, "-c", _PEAK, solver], capture_output=True, text=True, check=True
+    )
+    assert 0.3 < float(ran.stdout) < 1.0

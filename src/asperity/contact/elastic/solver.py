@@ -27,7 +27,7 @@ COLUMNS_AT_A_TIME = 128
 _FILL = 20.0
 _OUT_OF_MEMORY = -2
 # Bytes an entry costs: SuperLU keeps both triangles, with their row numbers and working space.
-_BYTES = {"pypardiso": 10.0, "superlu": 32.0}
+_BYTES = {"pypardiso": 10.0, "superlu": 48.0}
 
 
 def installed_solver(wanted: str = "auto") -> str:
