@@ -142,18 +142,18 @@ def topology(dataset: "xr.Dataset") -> "Figure":
     tooth = Shape.read(dataset, "tooth")
     paint(faces, tooth, _PARTS, _TOOTH)
     faces.set_title("one face a flank (ochre), fillet (blue), tip (green)")
-    paint(meshed, Shape.read(dataset, "mesh"), {0: BRONZE}, _TOOTH, edges=0.35)
+    paint(meshed, Shape.read(dataset, "mesh"), {0: BRONZE}, _TOOTH, edges=0.25)
     meshed.set_title(f"{int(dataset['elements'])} hexahedra")
     return figure
 
 
 def densities(dataset: "xr.Dataset") -> "Figure":
-    """Draw the same teeth in three meshes."""
+    """Draw the same tooth in three meshes."""
     names = [str(name) for name in dataset["density"].values]
     figure, all_axes = _pictures([1.0] * len(names), 11.0, 3.4)
     for axes, name, letter in zip(all_axes, names, "abc", strict=True):
         own = dataset.sel(density=name)
-        paint(axes, Shape.read(dataset, name), {0: BRONZE}, _TOOTH, edges=0.3)
+        paint(axes, Shape.read(dataset, name), {0: BRONZE}, _TOOTH, edges=0.2)
         axes.set_title(
             f"{letter}) {name}: {float(own['element_size']):.2f} mm,\n"
             f"{int(own['elements'])} hexahedra a tooth"

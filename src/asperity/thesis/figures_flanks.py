@@ -161,7 +161,7 @@ def figure_2_11() -> Drawn:
 
 def _dyed(found: Meshing, marks: Pattern) -> Shape:
     """Some teeth, the flanks that bear in fine faces, those that are marked with the number 1."""
-    mesh = tooth(found.wheel, "fine", teeth=_TEETH)
+    mesh = tooth(found.wheel, "coarse", teeth=_TEETH)
     sets = [name for name in mesh.face_sets if name.split("_")[0] in ("fillet", "tip", "face")]
     sets += ["flank_minus", "cut_minus", "cut_plus"]
     bare = Shape.of_mesh(mesh, [name for name in sets if not name[-1].isdigit()])

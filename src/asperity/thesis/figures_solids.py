@@ -10,7 +10,7 @@ import numpy.typing as npt
 from asperity.flanks.distance import distances
 from asperity.flanks.export.together import mounted_worm
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.mesh import DENSITIES, element_size, tooth
+from asperity.flanks.mesh import COARSE, DENSITIES, element_size, tooth
 from asperity.flanks.setting import Pair
 from asperity.flanks.wheel import FlankGrid, Wheel, WheelFlank
 from asperity.mesh import HexMesh
@@ -83,7 +83,7 @@ def figure_7_1() -> Drawn:
     wheel = _wheel()
     teeth = wheel.pair.geometry.wheel_teeth
     ring = tooth(wheel, 1.2, teeth=teeth)
-    whole = joined([Shape.of_mesh(ring), Shape.of_body(mounted_worm(wheel), 1, every=(2, 2))])
+    whole = joined([Shape.of_mesh(ring), Shape.of_body(mounted_worm(wheel), 1, every=(2, 1))])
     flank = wheel.flank(1)
     grid = flank.grid(61, 97)
     height = facet_height(flank, grid, STEP)
@@ -91,8 +91,8 @@ def figure_7_1() -> Drawn:
     raised = grid.points + _ENLARGED * height[..., None] * grid.normals
     dataset = labelled(
         **whole.variables("gearset"),
-        **joined([rest, _flank_shape(raised)]).variables("stepped"),
-        **joined([rest, _flank_shape(grid.points)]).variables("exact"),
+        **joined([rest, Shape.of_grid(grid.points), Shape.of_grid(raised)]).variables("stepped"),
+        **joined([rest, Shape.of_grid(grid.points)]).variables("exact"),
         face=(("row", "column"), grid.z, "mm", "distance from mid-face"),
         radius=(("row", "column"), grid.radius, "mm", "distance from the wheel's axis"),
         facet_height=(("row", "column"), height, "mm", "material left by cuts at steps"),
@@ -106,14 +106,10 @@ def figure_7_1() -> Drawn:
     return Drawn(drawings.gearset(dataset), dataset, how)
 
 
-def _flank_shape(points: Floats) -> Shape:
-    return Shape.of_grid(points)
-
-
 def figure_7_2() -> Drawn:
     """The worm in some teeth of the wheel."""
-    teeth = _centred(Shape.of_mesh(_mesh("intermediate", _SECTOR)), _SECTOR)
-    both = joined([teeth, Shape.of_body(mounted_worm(_wheel()), 1, every=(2, 2))])
+    teeth = _centred(Shape.of_mesh(_mesh("coarse", _SECTOR)), _SECTOR)
+    both = joined([teeth, Shape.of_body(mounted_worm(_wheel()), 1, every=(2, 1))])
     dataset = labelled(**both.variables("gearset"))
     how = ["asperity flank gearset-3b --out out/flank"]
     return Drawn(drawings.sector(dataset), dataset, how)
@@ -133,8 +129,7 @@ def figure_7_4() -> Drawn:
         ("inner", "cut_minus", "cut_plus", "face_low", "face_high"),
         ("flank_plus", "flank_minus"), ("fillet_plus", "fillet_minus"), ("tip",),
     )  # fmt: skip
-    fine = tooth(_wheel(), "fine")
-    parts = [Shape.of_mesh(fine, sets, part) for part, sets in enumerate(groups)]
+    parts = [Shape.of_mesh(mesh, sets, part) for part, sets in enumerate(groups)]
     dataset = labelled(
         **joined(parts).variables("tooth"),
         **Shape.of_mesh(mesh).variables("mesh"),
@@ -147,14 +142,12 @@ def figure_7_4() -> Drawn:
 
 def figure_7_11() -> Drawn:
     """Three mesh densities."""
-    teeth = 3
-    meshes = {name: _mesh(name, teeth) for name in DENSITIES}
-    shapes = {name: _centred(Shape.of_mesh(mesh), teeth) for name, mesh in meshes.items()}
+    meshes = {name: _mesh(name, 1) for name in DENSITIES}
     variables: dict[str, Any] = {}
-    for name, shape in shapes.items():
-        variables |= shape.variables(name)
+    for name, mesh in meshes.items():
+        variables |= Shape.of_mesh(mesh).variables(name)
     size = [element_size(_wheel(), name) for name in DENSITIES]
-    count = [len(mesh.cells) // teeth for mesh in meshes.values()]
+    count = [len(mesh.cells) for mesh in meshes.values()]
     least = [float(mesh.scaled_jacobian().min()) for mesh in meshes.values()]
     dataset = labelled(
         density=(("density",), np.array(list(DENSITIES), dtype=object), "1", "mesh density"),
@@ -202,9 +195,9 @@ FIGURES = (
     ),
     FigureOf(
         "7.11", "Mesh densities of the wheel: coarse, intermediate, fine",
-        "As in the thesis the element sizes are 100, 75 and 50 % of the coarse one, which is 0.4 "
-        "axial modules here, as Table 7.4 is lost. Three teeth of the wheel; the worm needs no "
-        "mesh.",
+        "As in the thesis the element sizes are 100, 75 and 50 % of the coarse one, which is "
+        f"{COARSE:g} axial modules here, as Table 7.4 is lost. A tooth of the wheel; the worm "
+        "needs no mesh.",
         (GEAR.case,), figure_7_11,
     ),
 )  # fmt: skip
