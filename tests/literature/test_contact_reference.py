@@ -1,0 +1,182 @@
+"""The condensed contact against the same contact with every node: in statics and in motion.
+
+The uncondensed way solves one sparse system for all nodes in every iteration. It shares the contact
+laws at a point with the condensed one, and nothing of how the body is treated.
+"""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.contact import motion as mo
+from asperity.contact.block import BlockProblem
+from asperity.contact.elastic import ElasticMaterial, Pressure, condense, elastic_body
+from asperity.contact.friction_point import PointFriction
+from asperity.contact.increment import (
+    ContactState,
+    Drift,
+    IncrementProblem,
+    SurfaceMotion,
+    solve_increment,
+)
+from asperity.contact.normal import NormalLaw
+from asperity.contact.reference import WholeSystem
+from asperity.contact.rigid import Pose, RigidSurface
+from asperity.contact.steps import System, Walker, rest_under_load
+from asperity.contact.surface import contact_surface
+from asperity.contact.tables import TABLES
+from asperity.errors import ConvergenceError, InputError
+from asperity.mesh import box
+from asperity.slider.tables import TABLES as SLIDER_TABLES
+
+STEEL = ElasticMaterial(209e9, 0.3, 7850.0)
+CASE = "cases/block-longitudinal.toml"
+
+
+def tied_block(counter, element, elements):
+    """A block that hangs from its top, on a counter-surface: condensed, and with every node."""
+    mesh = box((0.04, 0.03, 0.03), elements, 2 if element == "hex27" else 1)
+    loads = {"side": Pressure("left")}
+    condensed = condense(
+        mesh, STEEL, "bottom", element=element, tied="top", loads=loads, use_cache=False
+    )
+    count = len(condensed.flexibility)
+    mechanism = mo.Mechanism(
+        flexibility=condensed.flexibility,
+        shapes=np.empty((count, 0)),
+        mass=np.empty((0, 0)),
+        stiffness=np.empty((0, 0)),
+        held=np.zeros(0, dtype=bool),
+    )
+    system = System(
+        mechanism=mechanism,
+        surface=contact_surface(mesh, "bottom"),
+        counter=counter,
+        normal=NormalLaw("linear", 1e14),
+        friction=PointFriction(model=1, mu=0.3, limit=2e-8, law=2),
+    )
+    whole = WholeSystem(
+        elastic_body(mesh, STEEL, element=element, tied="top"), system, tolerance=1e-10
+    )
+    return condensed, system, whole, loads["side"].forces(mesh).ravel()
+
+
+@pytest.mark.parametrize("element", ["hex8", "hex8i", "hex27"])
+@pytest.mark.parametrize("name", ["plane", "sphere"])
+def test_statics_are_exact_while_the_surface_presses_and_rubs_a_tied_block(name, element):
+    if name == "plane":
+        counter, far, deep = RigidSurface.plane(), 0.0, 1.0
+    else:
+        counter, far, deep = RigidSurface.sphere(1.0), -1.0, 16.0
+    elements = (3, 2, 2) if element == "hex27" else (5, 4, 3)
+    condensed, system, whole, side = tied_block(counter, element, elements)
+    problem = IncrementProblem(
+        condensed.flexibility,
+        system.surface,
+        counter,
+        system.normal,
+        system.friction,
+        tolerance=1e-10,
+    )
+    mine, theirs = ContactState.rest(problem), whole.start()
+    rise, shares = [4e-7, 8e-7, 8e-7, 8e-7, 3e-7], [0.0, 1e6, 3e6, 3e6, 1e6]
+    bent = 0.0
+    rub = [0.0, 5e-8, 4e-7, -6e-7, 6e-7]
+    for up, slide, share in zip(rise, rub, shares, strict=True):
+        motion = SurfaceMotion(
+            Pose(translation=np.array([0.0, 0.0, far + deep * up])),
+            Drift(np.array([slide, 0.0, 0.0])),
+            Drift(np.array([0.0, 0.5 * slide, 0.0])),
+        )
+        free = share * condensed.load_response("side").displacement
+        found = solve_increment(problem, free, motion, mine)
+        mine = found.state
+        theirs = whole.static_step(theirs, share * side, motion)
+        place = theirs.place.reshape(-1, 3)[condensed.nodes].ravel()
+        assert np.abs(found.displacement - place).max() < 1e-9 * np.abs(place).max()
+        assert np.abs(found.force - theirs.force).max() < 1e-9 * np.abs(theirs.force).max()
+        pressure = theirs.pressure
+        assert np.abs(found.pressure - pressure).max() < 1e-9 * pressure.max()
+        assert np.abs(mine.deflection - theirs.deflection).max() < 1e-9 * system.friction.limit
+        bent = max(bent, np.linalg.norm(mine.deflection, axis=1).max())
+    touching = np.count_nonzero(theirs.pressure)
+    share = touching / len(theirs.pressure)
+    assert share > 0.8 if name == "plane" else 0.0 < share < 0.5
+    assert bent > 0.5 * system.friction.limit
+
+
+def block(*settings):
+    """A shipped case on a light mesh, shaken from the start; condensed and with every node."""
+    tables = {**SLIDER_TABLES, **TABLES}
+    problem = BlockProblem.from_case(read_case(CASE, tables, ["vibration.start=0 s", *settings]))
+    body = elastic_body(problem.mesh, problem.material, element=problem.block.element)
+    whole = WholeSystem(body, problem.system, problem.nodal_drive)
+    return problem, whole
+
+
+def loads_of(problem, whole):
+    gravity = -9.80665 * whole.body.inertia[:, 2]
+    return gravity, problem.nodal_loads
+
+
+def test_a_block_at_rest_presses_its_base_as_the_whole_one_does():
+    problem, whole = block("block.elements=[3, 2, 2]", "block.modes=4")
+    mine = rest_under_load(problem.system, problem.loads)
+    theirs = whole.rest_under_load(loads_of(problem, whole))
+    pressure = theirs.pressure
+    assert np.abs(mine.contact.pressure - pressure).max() < 1e-7 * pressure.max()
+    assert whole.resultants(theirs)[2] == pytest.approx(55.0, rel=1e-8)
+
+
+def apart(settings, step, count):
+    """Differences of drive force, friction and normal force, over the largest of each."""
+    problem, whole = block(*settings)
+    walker = Walker(problem.system, rest_under_load(problem.system, problem.loads))
+    loads = loads_of(problem, whole)
+    theirs = whole.rest_under_load(loads)
+    mine, exact = [], []
+    for number in range(1, count + 1):
+        walker.step_to(number * step, step)
+        theirs = whole.step_to(theirs, number * step, loads[-1])
+        mine.append([walker.state.drive[mo.FORCE], *walker.state.forces[:3]])
+        exact.append([theirs.drive_force, *whole.resultants(theirs)[:3]])
+    mine, exact = np.array(mine), np.array(exact)
+    friction = np.abs(exact[:, 1:3]).max()
+    scale = np.array([np.abs(exact[:, 0]).max(), friction, friction, exact[:, 3].max()])
+    assert friction > 3.0
+    return np.abs(mine - exact).max(axis=0) / scale
+
+
+@pytest.mark.parametrize("direction", [0, 45])
+def test_with_modes_a_shaken_block_moves_as_the_whole_one_within_a_thousandth(direction):
+    light = ["block.element=hex8", "block.elements=[4, 3, 3]", f"vibration.direction={direction}"]
+    with_modes = apart([*light, "block.modes=24"], 1e-5, 200)
+    assert with_modes.max() < 1e-3
+    without = apart([*light, "block.modes=0"], 1e-5, 40)
+    assert without.max() > 5 * with_modes.max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("step", [1e-5, 1e-6])
+def test_with_modes_a_block_of_27_node_elements_moves_as_the_whole_one(step):
+    settings = ["block.elements=[4, 3, 3]", "block.modes=24", "vibration.direction=45"]
+    assert apart(settings, step, 200).max() < 1e-3
+
+
+def test_what_the_uncondensed_way_does_not_know_is_refused():
+    for setting in ("slider.lateral=guided", "contact.normal=hard"):
+        with pytest.raises(InputError, match="the uncondensed way knows no"):
+            block("block.elements=[2, 1, 1]", "block.element=hex8", setting)
+
+
+def test_no_equilibrium_is_told_with_the_residual():
+    problem, whole = block("block.elements=[2, 1, 1]", "block.element=hex8")
+    upwards = 20.0 * np.abs(loads_of(problem, whole)[-1])
+    with pytest.raises(ConvergenceError, match="does not come to rest"):
+        whole.rest_under_load((upwards,))
+    impatient = dataclasses.replace(whole, tolerance=1e-30)
+    with pytest.raises(ConvergenceError, match="relative residual") as caught:
+        impatient.rest_under_load(loads_of(problem, whole))
+    assert caught.value.reached["residual"] < 1e-6
