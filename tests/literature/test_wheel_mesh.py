@@ -184,3 +184,19 @@ def test_what_cannot_be_meshed_is_refused_in_a_line(wheel, changed, message):
     with pytest.raises(InputError, match=message) as error:
         mesh.tooth(wheel, **changed)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "message"),
+    [("500 mm", "has room for at most 5"), ("0.01 mm", "turned inside out")],
+)
+def test_a_rim_that_cannot_be_meshed_is_refused(thickness, message):
+    case = read_case("gearset-3b", TABLES, (f"gearset.rim_thickness={thickness}",))
+    wheel = Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
+    with pytest.raises(InputError, match=message):
+        mesh.tooth(wheel, "coarse")
+
+
+def test_an_element_larger_than_the_module_is_refused(wheel):
+    with pytest.raises(InputError, match="at most the axial module"):
+        mesh.tooth(wheel, 3.0)

@@ -109,9 +109,16 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
     for _ in range(_STEPS):
         if half_space >= widest:
             most = normal * (worm.reduced_lead * turn + 2.0 * (widest - worm.half_space))
+            # What there is beyond is less than this where both flanks do not touch alike.
+            room = math.floor(90.0 * most) / 100.0
+            advice = (
+                f"take one of at most about {room:g} mm"
+                if 0.0 < room < backlash
+                else "none is possible as the worm is mounted and modified: look at mount and "
+                "modification"
+            )
             raise InputError(
-                f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed, and "
-                f"about {most:.3g} mm is the most: take a smaller backlash"
+                f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed: {advice}"
             )
         thinned = {side: mesh.with_worm(half_space) for side, mesh in meshes.items()}
         least = min(normal_backlash(thinned[s], thinned[-s].search) for s in (1, -1))

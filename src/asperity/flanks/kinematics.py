@@ -125,7 +125,8 @@ def kinematics(
     lost = int(np.count_nonzero((met[:, rows.CONVERGED] == 0.0) & (met[:, rows.REACH] > 0.0)))
     if lost:
         raise ConvergenceError(
-            f"{lost} of {own.size} points of the flank have no phase at which the worm is nearest",
+            f"{lost} of {own.size} points of the flank have no phase at which the worm is nearest; "
+            "the mount is too far from where it should be",
             reached={"points": float(own.size - lost)},
         )
 

@@ -193,7 +193,8 @@ def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedL
         No contact line lies on the flank at this angle of the worm.
     """
     # The middles of the pieces are brought onto the flank, for curvatures as they are there.
-    found = mesh.search.flank.at(lines.radius, lines.z)
+    flank = mesh.search.flank
+    found = flank.at(np.minimum(lines.radius, flank.tip_radius(lines.z)), lines.z)
     motion = kinematics(mesh.search.pair, found, mesh.search.flank.side, load.worm_speed, mesh.mean)
     length = np.where(motion.on_flank, lines.length, 0.0)
     if not length.sum() > 0.0:
@@ -202,6 +203,13 @@ def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedL
         )
     place, normal = motion.position, motion.normal
     lever = np.abs(place[:, 0] * normal[:, 1] - place[:, 1] * normal[:, 0])
+    # A piece that the worm's core meets from within has no lever, and carries nothing.
+    length = np.where(lever > 0.0, length, 0.0)
+    if not length.sum() > 0.0:
+        raise InputError(
+            "the worm cuts so deep into the wheel that no contact line has a lever about the "
+            "wheel's axis: look at mount"
+        )
     torque = load.wheel_torque * 1e3
     twist = _twist(torque / load.line_stiffness, length, lever, motion.gap)
     closed = np.maximum(lever * twist - motion.gap, 0.0)

@@ -153,7 +153,8 @@ def tooth(
     Raises
     ------
     InputError
-        A density or a number of teeth that does not exist, or a mesh beyond the memory bound.
+        A density or a number of teeth that does not exist, a mesh beyond the memory bound, or a
+        rim that leaves no valid elements.
     """
     most = wheel.pair.geometry.wheel_teeth
     if not 1 <= teeth <= most:
@@ -162,8 +163,16 @@ def tooth(
         raise InputError(f"order is {order}; allowed: 1 (8 nodes), 2 (27 nodes)")
     number = _counted(wheel, size)
     _check_memory(number, teeth, order, memory)
+    _check_rim(wheel)
     points, lattice = _numbered(_fill(wheel, number, order))
     one = _one_tooth(points, lattice, number, order)
+    worst = float(one.scaled_jacobian().min())
+    if worst <= 0.0:
+        raise InputError(
+            f"elements of the mesh are turned inside out (least scaled Jacobian {worst:.2g}) under "
+            f"a rim of {wheel.pair.geometry.rim_thickness:.4g} mm: take a larger "
+            "gearset.rim_thickness or a smaller element size"
+        )
     several = _repeated(one, lattice, teeth, most)
     return _named(several, wheel.pair.mirror)
 
@@ -176,7 +185,23 @@ def _counted(wheel: Wheel, size: float | str | Counts) -> Counts:
     length = element_size(wheel, size) if isinstance(size, str) else float(size)
     if not (math.isfinite(length) and length > 0.0):
         raise InputError(f"the element size is {length:g} mm; it must be positive")
+    module = wheel.pair.geometry.axial_module
+    if length > module:
+        raise InputError(
+            f"the element size is {length:.5g} mm; it must be at most the axial module of "
+            f"{module:.5g} mm"
+        )
     return counts(wheel, length)
+
+
+def _check_rim(wheel: Wheel) -> None:
+    g = wheel.pair.geometry
+    most = 0.9 * g.wheel_root_diameter / 2.0
+    if not 0.0 < g.rim_thickness <= most:
+        raise InputError(
+            f"gearset.rim_thickness is {g.rim_thickness:.5g} mm; the wheel's root radius of "
+            f"{g.wheel_root_diameter / 2.0:.5g} mm has room for at most {most:.4g} mm: take less"
+        )
 
 
 def _check_memory(number: Counts, teeth: int, order: int, memory: float) -> None:

@@ -234,7 +234,8 @@ def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Trans
     np.minimum.at(least, index, rough)
     if not np.isfinite(least).all():
         raise ConvergenceError(
-            "the worm reaches no tooth of the wheel in a part of the pitch",
+            "the worm reaches no tooth of the wheel in a part of the pitch: look at "
+            "mount.centre_distance_error and mount.axial_offset",
             reached={"share_of_pitch": float(np.mean(np.isfinite(least)))},
         )
     near = _NEAR / pair.worm.reduced_lead
