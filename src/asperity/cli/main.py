@@ -312,13 +312,17 @@ def thesis(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder to write to.")] = Path(
         "out/thesis"
     ),
+    full: Annotated[
+        bool,
+        typer.Option("--full", help="Figures of elastic blocks on fine meshes; about an hour."),
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """Reproduce the thesis's claims, figures and tables into one page, index.html."""
     from asperity.cli import show
     from asperity.thesis import run
 
-    result = run(out, only or (), show.note)
+    result = run(out, only or (), show.note, full=full)
     if as_json:
         show.print_json(result.to_json())
     else:

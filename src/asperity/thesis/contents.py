@@ -6,8 +6,10 @@ from typing import TypeVar
 
 from asperity.errors import InputError, nearest
 from asperity.thesis import (
+    claims_contact,
     claims_rating,
     claims_sliding,
+    figures_contact,
     figures_flanks,
     figures_rating,
     figures_sliding,
@@ -46,13 +48,19 @@ CHAPTERS = (
     ),
     Chapter("4", "The sliding body", f"With Appendix A. {_SLIDING}"),
     Chapter(
+        "5", "The elastic block",
+        "The sliding body of chapter 4 as a block of steel, meshed with hexahedra and condensed to "
+        "the nodes of its base, with its friction integrated over the contact.",
+    ),
+    Chapter(
         "7", "The worm gearset under vibration",
-        "So far, the stiffness of the worm shaft, and gearset 3 in space with exact flanks.",
+        "So far, the stiffness of the worm shaft, gearset 3 in space with exact flanks, and the "
+        "block of chapter 5 shaken itself.",
     ),
 )  # fmt: skip
 """Those of which something is reproduced."""
 
-CASES = (*claims_rating.CASES, *claims_sliding.CASES)
+CASES = (*claims_rating.CASES, *claims_sliding.CASES, *claims_contact.CASES)
 """Cases the claims rest on."""
 
 
@@ -77,12 +85,16 @@ def chapter_of(number: str) -> str:
 
 
 CLAIMS = tuple(
-    sorted((*claims_sliding.CLAIMS, *claims_rating.CLAIMS), key=lambda claim: _order(claim.id))
+    sorted(
+        (*claims_sliding.CLAIMS, *claims_rating.CLAIMS, *claims_contact.CLAIMS),
+        key=lambda claim: _order(claim.id),
+    )
 )
 FIGURES: Mapping[str, FigureOf] = _by_number(
     (
         *figures_sliding.FIGURES,
         *figures_rating.FIGURES,
+        *figures_contact.FIGURES,
         *figures_flanks.FIGURES,
         *figures_solids.FIGURES,
     )

@@ -25,13 +25,17 @@ class Drawn:
 
 @dataclasses.dataclass(frozen=True)
 class FigureOf:
-    """A figure of the thesis: its number, what it shows, the cases it uses, and how to make it."""
+    """A figure of the thesis: its number, what it shows, the cases it uses, and how to make it.
+
+    ``full`` makes it in full where that takes long: on finer meshes, at more points.
+    """
 
     number: str
     title: str
     caption: str
     cases: tuple[str, ...]
     make: Callable[[], Drawn]
+    full: Callable[[], Drawn] | None = None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -21,7 +21,7 @@ _SCHEMES = ("exponential", "two-phase")
 _CLOSED = "asperity.slider.closed_forms"
 
 
-def _side_by_side(
+def side_by_side(
     names: Sequence[str],
     results: Sequence[SlideResult],
     keep: str,
@@ -44,7 +44,7 @@ def _side_by_side(
     return joined
 
 
-def _two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
+def two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
     """The last two whole cycles, with the time counted from the start of the first of them."""
     period = 1.0 / model.frequency
     end = float(history["time"][-1])
@@ -80,7 +80,7 @@ def figure_2_7() -> Drawn:
 def _cycle(bodies: Sequence[Body], names: Sequence[str]) -> Drawn:
     """Base velocity and friction over one cycle of periodic states."""
     results = [body.solve() for body in bodies]
-    dataset = _side_by_side(names, results, "friction")
+    dataset = side_by_side(names, results, "friction")
     model = results[0].model
     _, time = drawings.own_names("friction", names[0])
     base = np.cos(2.0 * np.pi * model.frequency * dataset[time].values)
@@ -113,7 +113,7 @@ def figure_2_15() -> Drawn:
 
 def _basic(names: Sequence[str]) -> Drawn:
     bodies = [Body(f"table-4.1-{name}", ("solve.duration=30 ms",)) for name in names]
-    dataset = _side_by_side(names, [body.solve() for body in bodies], "drive_force")
+    dataset = side_by_side(names, [body.solve() for body in bodies], "drive_force")
     return Drawn(drawings.stacked(dataset), dataset, [body.command for body in bodies])
 
 
@@ -165,14 +165,14 @@ def figure_4_20() -> Drawn:
 
 def _drive_over_time(case: str, ratio: str) -> Drawn:
     bodies = _schemes(case, ratio)
-    dataset = _side_by_side(_SCHEMES, [body.solve() for body in bodies], "drive_force")
+    dataset = side_by_side(_SCHEMES, [body.solve() for body in bodies], "drive_force")
     return Drawn(drawings.drive_over_time(dataset), dataset, [body.command for body in bodies])
 
 
 def _friction_over_cycles(case: str, ratio: str, axes: Sequence[str]) -> Drawn:
     bodies = _schemes(case, ratio)
     results = [body.solve() for body in bodies]
-    dataset = _side_by_side(_SCHEMES, results, "friction", _two_cycles).sel(axis=list(axes))
+    dataset = side_by_side(_SCHEMES, results, "friction", two_cycles).sel(axis=list(axes))
     how = [body.command for body in bodies]
     return Drawn(drawings.friction_over_cycles(dataset), dataset, how)
 

@@ -88,15 +88,19 @@ def _data_hash() -> str:
     return digest.hexdigest()
 
 
-def found_figure(folder: Path, figure: FigureOf) -> FigureFiles | None:
-    """Return a figure an earlier run left, if it is whole and still true."""
+def found_figure(folder: Path, figure: FigureOf, *, full: bool = False) -> FigureFiles | None:
+    """Return a figure an earlier run left, if it is whole and still true.
+
+    One that was made in full serves as well where that is not asked for.
+    """
     picture, path = _figure_paths(folder, figure)
     try:
         attributes = read_dataset(path).attrs
         digest = _sha256(picture)
     except (StorageError, OSError):
         return None
-    if attributes.get("stamp") != stamp(f"figure {figure.number}", figure.cases):
+    grades = {full, True} if figure.full else {False}
+    if attributes.get("stamp") not in {_figure_stamp(figure, full=grade) for grade in grades}:
         return None
     if attributes.get("picture_sha256") != digest:
         return None
@@ -104,15 +108,16 @@ def found_figure(folder: Path, figure: FigureOf) -> FigureFiles | None:
     return FigureFiles(figure.number, figure.title, figure.caption, picture, path, how, True)
 
 
-def make_figure(folder: Path, figure: FigureOf, say: Say) -> FigureFiles:
-    """Return a figure, drawn if it is not there."""
-    found = found_figure(folder, figure)
+def make_figure(folder: Path, figure: FigureOf, say: Say, *, full: bool = False) -> FigureFiles:
+    """Return a figure, drawn if it is not there; in full where there is more of it."""
+    full = full and figure.full is not None
+    found = found_figure(folder, figure, full=full)
     if found is not None:
         say(f"figure {figure.number}: there already")
         return found
     began = time.perf_counter()
     picture, path = _figure_paths(folder, figure)
-    drawn = figure.make()
+    drawn = figure.full() if full and figure.full else figure.make()
     metadata = {"Software": f"asperity {__version__}", "Title": figure.title}
     write_atomically(
         picture,
@@ -124,7 +129,7 @@ def make_figure(folder: Path, figure: FigureOf, say: Say) -> FigureFiles:
         caption=figure.caption,
         how=json.dumps(list(drawn.how)),
         asperity=__version__,
-        stamp=stamp(f"figure {figure.number}", figure.cases),
+        stamp=_figure_stamp(figure, full=full),
         picture_sha256=_sha256(picture),
     )
     write_dataset(dataset, path)
@@ -171,6 +176,10 @@ def make_table(folder: Path, table: TableOf, say: Say) -> TableFiles:
     write_text(beside, json.dumps(plain, indent=1, allow_nan=False))
     say(f"table {table.number}: made in {time.perf_counter() - began:.1f} s")
     return TableFiles(table.number, table.title, table.caption, path, grid, False)
+
+
+def _figure_stamp(figure: FigureOf, *, full: bool) -> str:
+    return stamp(f"figure {figure.number}" + full * " in full", figure.cases)
 
 
 def _sha256(path: Path) -> str:

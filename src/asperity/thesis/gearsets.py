@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Case, Table, read_case
+from asperity.contact.tables import TABLES as CONTACT_TABLES
 from asperity.flanks.tables import TABLES as FLANKS_TABLES
 from asperity.gearset import Gearset
 from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case
@@ -23,6 +24,7 @@ CASE_TABLES: Mapping[str, type[Table]] = {
     **SLIDER_TABLES,
     **RATING_TABLES,
     **FLANKS_TABLES,
+    **CONTACT_TABLES,
 }
 """Every table of the cases the thesis is reproduced from."""
 

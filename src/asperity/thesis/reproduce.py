@@ -84,6 +84,8 @@ def run(
     out: str | os.PathLike[str],
     only: Sequence[str] = (),
     progress: Callable[[str], None] | None = None,
+    *,
+    full: bool = False,
 ) -> ThesisResult:
     """Reproduce the thesis's figures, tables and claims into a folder.
 
@@ -99,6 +101,9 @@ def run(
         ledger if empty. A figure and a table may have the same number.
     progress : callable, optional
         Takes a line about each thing done.
+    full : bool
+        Make figures in full that take long: elastic blocks on the mesh of the shipped cases, in
+        25 directions.
 
     Raises
     ------
@@ -111,7 +116,9 @@ def run(
     say = progress or (lambda line: None)
     wanted_figures, wanted_tables = contents.select(only)
     folder = output_folder(out)
-    figures = {figure.number: make_figure(folder, figure, say) for figure in wanted_figures}
+    figures = {
+        figure.number: make_figure(folder, figure, say, full=full) for figure in wanted_figures
+    }
     tables = {table.number: make_table(folder, table, say) for table in wanted_tables}
     claims = _ledger(folder, say, compute=not only)
     all_figures = [

@@ -1,0 +1,308 @@
+"""Elastic blocks beside the sliding bodies they are: settled under vibration, or from rest.
+
+A block is marched from the sliding body's periodic state: at its velocity, drive force and
+deflection of the asperities. What is fast, the asperities and the swing of the body within a cycle,
+then settles in a few cycles; the drive force would take tens of milliseconds to follow, so that it
+would say more about the start than about the block. Read is therefore the block's own friction,
+averaged over whole cycles, and the mean velocity it slid at. That velocity is not quite the
+drive's; the sliding body's slope of friction over velocity brings the one to the other.
+"""
+
+import concurrent.futures as cf
+import dataclasses
+import functools
+import os
+import shlex
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.casefile import read_case
+from asperity.contact import hht, ledger
+from asperity.contact import motion as mo
+from asperity.contact.block import BlockProblem, shaking
+from asperity.contact.block_march import solve_block
+from asperity.contact.result import BlockResult
+from asperity.contact.steps import Shaking, System, SystemState, Walker, rest_under_load
+from asperity.contact.surface import contact_surface
+from asperity.mesh import box
+from asperity.slider import Model, SlideResult
+from asperity.slider.periodic import solve_periodic
+from asperity.thesis.gearsets import CASE_TABLES
+
+FloatArray = npt.NDArray[np.float64]
+
+LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
+"""A mesh of 20 contact nodes; without these settings a shipped block has 221."""
+
+STEPS = 200
+"""Increments a cycle."""
+
+# Long steps and much numerical damping first, which end the bounce on the contact that the start
+# excites; then steps that follow everything.
+_CALM_STEPS, _CALM_CYCLES, _CALM_ALPHA = 50, 12, -1.0 / 3.0
+_SETTLE_CYCLES = 2
+_MEASURED_CYCLES = 8
+_SLOPE = 0.01
+
+
+@dataclasses.dataclass(frozen=True)
+class Settled:
+    """What an elastic block under vibration comes to, and the sliding bodies beside it.
+
+    Attributes
+    ----------
+    ratio : float
+        Mean friction along the drive over mu F_N, at the drive's velocity.
+    slider : float
+        The sliding body's periodic state.
+    in_series : float
+        The sliding body with the block's compliance as a spring between it and its asperities,
+        settled as the block is.
+    unsteadiness : float
+        Standard deviation of the cycles' ratios, over the root of their number.
+    late : float
+        By how much of the drive's velocity the block was slower in the cycles measured.
+    """
+
+    ratio: float
+    slider: float
+    in_series: float
+    unsteadiness: float
+    late: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Block:
+    """A shipped case of an elastic block with settings."""
+
+    case: str
+    settings: tuple[str, ...] = ()
+
+    def model(self, **changes: float) -> Model:
+        """The sliding body it is, with values of keys in SI (``slider__drive_velocity=...``)."""
+        case = read_case(self.case, CASE_TABLES, self.settings)
+        values = {key.replace("__", "."): value for key, value in changes.items()}
+        return Model.from_case(case.replace_values(values) if values else case)
+
+    def settled(self) -> Settled:
+        """Its friction under steady vibration; solved once in a process."""
+        return _settled(self)
+
+    def march(self) -> BlockResult:
+        """From rest, as ``asperity block`` has it; solved once in a process."""
+        return _marched(self)
+
+    @property
+    def unshaken(self) -> tuple[str, ...]:
+        """Settings but those of the vibration."""
+        return tuple(s for s in self.settings if not s.startswith("vibration."))
+
+    @property
+    def how(self) -> str:
+        """How to come by what it settles to."""
+        settings = "".join(f"{setting!r}, " for setting in self.settings)
+        return f"asperity.thesis.blocks.Block({self.case!r}, ({settings})).settled()"
+
+    @property
+    def command(self) -> str:
+        """The march from rest on the command line."""
+        settings = " ".join(f"--set {shlex.quote(setting)}" for setting in self.settings)
+        return f"asperity block {self.case} {settings}".strip()
+
+
+def settle_all(blocks: Sequence[Block]) -> list[Settled]:
+    """Settle blocks on all cores, in threads: the compiled loops leave the interpreter free."""
+    _share(blocks)
+    with cf.ThreadPoolExecutor(os.cpu_count() or 1) as threads:
+        return list(threads.map(Block.settled, blocks))
+
+
+def march_all(blocks: Sequence[Block]) -> list[BlockResult]:
+    """March blocks from rest on all cores."""
+    _share(blocks)
+    with cf.ThreadPoolExecutor(os.cpu_count() or 1) as threads:
+        return list(threads.map(Block.march, blocks))
+
+
+def _share(blocks: Sequence[Block]) -> None:
+    """Make what several blocks share before they are solved side by side."""
+    for case, settings in dict.fromkeys((block.case, block.unshaken) for block in blocks):
+        _at_rest(case, settings)
+
+
+@functools.cache
+def _marched(block: Block) -> BlockResult:
+    return solve_block(BlockProblem.from_case(read_case(block.case, CASE_TABLES, block.settings)))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Resting:
+    """A block, and the sliding body with its compliance, both at rest under their loads."""
+
+    block: tuple[System, SystemState]
+    in_series: tuple[System, SystemState]
+
+
+@functools.cache
+def _at_rest(case: str, settings: tuple[str, ...]) -> _Resting:
+    problem = BlockProblem.from_case(read_case(case, CASE_TABLES, settings))
+    system, springy = problem.system, in_series(problem)
+    load = springy.mechanism.load
+    if load is None:
+        raise ValueError("not loaded")
+    return _Resting(
+        (system, rest_under_load(system, problem.loads)),
+        (springy, rest_under_load(springy, (load,))),
+    )
+
+
+@functools.cache
+def _settled(block: Block) -> Settled:
+    resting = _at_rest(block.case, block.unshaken)
+    slider = solve_periodic(block.model())
+    slope = _slope(block)
+    ratios, late = _settle(*resting.block, slider, slope)
+    springy, _ = _settle(*resting.in_series, slider, slope)
+    return Settled(
+        ratio=float(ratios.mean()),
+        slider=slider.ratio,
+        in_series=float(springy.mean()),
+        unsteadiness=float(ratios.std(ddof=1) / np.sqrt(ratios.size)),
+        late=late,
+    )
+
+
+def _settle(
+    system: System, rest: SystemState, slider: SlideResult, slope: float
+) -> tuple[FloatArray, float]:
+    """Ratio of each cycle, brought to the drive's velocity, and how much slower the body was."""
+    model = slider.model
+    shaken = dataclasses.replace(system, shaking=_from_the_start(model))
+    calm = Walker(dataclasses.replace(shaken, alpha=_CALM_ALPHA), _begin(system, rest, slider))
+    _cycles(calm, model, _CALM_CYCLES, _CALM_STEPS)
+    walker = Walker(shaken, calm.state)
+    _cycles(walker, model, _SETTLE_CYCLES, STEPS)
+    means = np.array([_mean(walker, model) for _ in range(_MEASURED_CYCLES)])
+    late = 1.0 - means[:, 1] / model.slider.drive_velocity
+    return means[:, 0] / model.full_friction + slope * late, float(late.mean())
+
+
+def _from_the_start(model: Model) -> Shaking | None:
+    wave = shaking(model)
+    return None if wave is None else dataclasses.replace(wave, start=0.0)
+
+
+def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemState:
+    """A body at rest under its loads, set going as the sliding body is between two cycles."""
+    history = slider.history
+    if history is None or system.mechanism.drive is None:
+        raise ValueError("solved without a history, or without a drive")
+    coordinates, drive = rest.coordinates.copy(), rest.drive.copy()
+    coordinates[hht.VELOCITY, :2] = history.velocity[-1]
+    pull = float(history.drive_force[-1])
+    drive[mo.FORCE] = pull
+    drive[mo.REACH] = drive[mo.WAY] + pull / system.mechanism.drive.stiffness
+    contact = rest.contact
+    deflection = np.zeros_like(contact.state.deflection)
+    deflection[:, :2] = history.deflection[-1]
+    contact = dataclasses.replace(
+        contact, state=dataclasses.replace(contact.state, deflection=deflection)
+    )
+    return dataclasses.replace(rest, coordinates=coordinates, drive=drive, contact=contact)
+
+
+def _cycles(walker: Walker, model: Model, count: int, steps: int) -> None:
+    step = 1.0 / (model.frequency * steps)
+    first = round(walker.state.time / step)
+    for n in range(first + 1, first + count * steps + 1):
+        walker.step_to(n * step, step)
+
+
+def _mean(walker: Walker, model: Model) -> tuple[float, float]:
+    """Friction along the drive and velocity, averaged over a cycle."""
+    walker.clear()
+    begin, place = walker.state.time, walker.state.coordinates[hht.PLACE, 0]
+    _cycles(walker, model, 1, STEPS)
+    way = walker.state.coordinates[hht.PLACE, 0] - place
+    friction = walker.sums[ledger.FRICTION_X] / walker.sums[ledger.TIME]
+    return float(friction), float(way / (walker.state.time - begin))
+
+
+def _slope(block: Block) -> float:
+    """Rise of the sliding body's ratio over a relative rise of its velocity, v_a being the same."""
+    model = block.model()
+    low, high = (
+        solve_periodic(
+            block.model(
+                slider__drive_velocity=share * model.slider.drive_velocity,
+                vibration__velocity_amplitude=model.peak_velocity,
+            ),
+            history=False,
+        ).ratio
+        for share in (1.0 - _SLOPE, 1.0 + _SLOPE)
+    )
+    return (high - low) / (2.0 * _SLOPE)
+
+
+def base_compliance(problem: BlockProblem) -> FloatArray:
+    """How far a block's base gives under friction spread evenly over it, m/N, along x and y.
+
+    The block is kept from turning by the pressure on its base, and accelerated as a whole: what
+    gives is its shear, its bending by that pressure, and its tilt on base and contact.
+    """
+    body, surface = problem.body, problem.surface
+    count = len(surface.nodes)
+    upright = np.zeros((3 * count, count))
+    upright[2::3] = np.eye(count)
+    # Springs of the contact at the nodes, by the area of each.
+    springs = problem.normal.stiffness * surface.nodal_area[:, None]
+    free = body.rigid[:, 2:5]
+    left = np.block(
+        [
+            [np.eye(count) + springs * (upright.T @ body.flexibility @ upright),
+             springs * (upright.T @ free)],
+            [free.T @ upright, np.zeros((3, 3))],
+        ]
+    )  # fmt: skip
+    give = np.empty(2)
+    for axis in range(2):
+        spread = np.zeros((count, 3))
+        spread[:, axis] = surface.nodal_area / surface.area
+        friction = spread.ravel()
+        bent = body.flexibility @ friction
+        right = np.concatenate([-springs[:, 0] * bent[2::3], -free.T @ friction])
+        answer = np.linalg.solve(left, right)
+        pressed = body.flexibility @ (upright @ answer[:count]) + free @ answer[count:]
+        give[axis] = friction @ (bent + pressed)
+    return give
+
+
+def in_series(problem: BlockProblem) -> System:
+    """The sliding body of a block with the block's compliance between it and its asperities.
+
+    A body that only shifts, on one face whose nodes give together under all the friction there is.
+    """
+    surface = contact_surface(box(problem.block.size, (1, 1, 1), 1), "bottom")
+    count = len(surface.nodes)
+    shapes = np.tile(np.eye(3), (count, 1))
+    give = np.append(base_compliance(problem), 0.0)
+    size, none = 3, np.zeros(3 * count)
+    slider = problem.model.slider
+    down = mo.Port(np.array([0.0, 0.0, -slider.normal_force]), none)
+    drive = mo.Drive(
+        mo.Port(np.array([1.0, 0.0, 0.0]), none),
+        slider.drive_stiffness or 0.0,
+        slider.drive_damping,
+    )
+    mechanism = mo.Mechanism(
+        flexibility=shapes @ np.diag(give) @ shapes.T,
+        shapes=shapes,
+        mass=problem.mass * np.eye(size),
+        stiffness=np.zeros((size, size)),
+        held=np.array([False, not slider.free, False]),
+        drive=drive,
+        load=down,
+    )
+    return dataclasses.replace(problem.system, mechanism=mechanism, surface=surface)
