@@ -259,3 +259,11 @@ def test_the_page_has_each_key_with_its_default(table):
         quantity = quantity_of(table, key)
         given = to_si(written, quantity.unit) if quantity and quantity.unit else written
         assert (float(given) if isinstance(default, float) else given) == default, key
+
+
+def test_both_flanks_carry_the_torque_alike(nominal):
+    twists = [
+        sorted(line["loaded_twist_rad"] for line in nominal["flanks"][side]["loaded"])
+        for side in ("+1", "-1")
+    ]
+    assert twists[1] == pytest.approx(twists[0], rel=5e-3)

@@ -266,7 +266,9 @@ def test_the_numbers_of_the_tables_are_those_of_the_reconstruction(result):
 def test_the_page_is_one_file_that_fetches_nothing(result):
     page = result.index.read_text("utf-8")
     assert "<script" not in page
-    assert "http" not in page
+    # Pictures stand in the page as base64, in which any letters may come by chance.
+    text = re.sub(r"base64,[A-Za-z0-9+/=]*", "", page)
+    assert "http" not in text
     sources = re.findall(r'src="([^"]{0,30})', page)
     assert len(sources) == len(FIGURES)
     assert all(source.startswith("data:image/png;base64,") for source in sources)

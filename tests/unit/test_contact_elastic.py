@@ -115,7 +115,7 @@ def test_a_mesh_too_large_for_the_memory_is_refused_with_the_figure_before_any_w
     mesh = box(SIZE, (40, 40, 40), 1)
     needed = memory_needed(mesh, 41 * 41)
     assert needed > 1e9
-    with pytest.raises(InputError, match=r"needs about \d(\.\d)? GB, more than the limit of 1 GB"):
+    with pytest.raises(InputError, match=r"needs about \d+(\.\d)? GB, more than the limit of 1 GB"):
         condense(mesh, STEEL, "bottom", memory_limit=1e9, use_cache=False)
 
 

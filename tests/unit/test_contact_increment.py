@@ -12,13 +12,12 @@ from asperity.contact.increment import (
     Drift,
     IncrementProblem,
     SurfaceMotion,
-    solve_increment,
 )
-from asperity.contact.increment_kernels import POINT, stiffness_forces, tractions
+from asperity.contact.increment_assembly import stiffness_forces
+from asperity.contact.increment_kernels import POINT, tractions
 from asperity.contact.normal import NormalLaw
 from asperity.contact.rigid import Pose, RigidSurface, distance
 from asperity.contact.surface import contact_surface
-from asperity.errors import ConvergenceError, InputError
 from asperity.friction import SPLIT, UNSPLIT, VECTOR
 from asperity.mesh import box
 
@@ -127,7 +126,7 @@ def test_the_tangent_is_the_derivative_of_the_nodal_forces(friction, kind):
     u = flat + rng.normal(size=3 * problem.nodes) * 1e-8
     state = dataclasses.replace(state, displacement=state.displacement + flat)
     _, _, _, points, stiffness = evaluated(problem, u, state, motion, True)
-    assert 10 < np.count_nonzero(points[:, 0] > 0.0)
+    assert np.count_nonzero(points[:, 0] > 0.0) > 10
     faces, shapes, weights = problem.arrays[:3]
     way = rng.normal(size=u.shape)
     predicted = np.empty_like(u)

@@ -8,11 +8,14 @@ from asperity.cli import show
 from asperity.cli.tables import TABLES
 from asperity.contact.block import BlockProblem
 from asperity.contact.block_march import BlockMarch
+from asperity.contact.block_resume import go_on, keep
 from asperity.contact.dataset import unfinished_dataset
 from asperity.contact.result import BlockResult
 from asperity.contact.series import write_block_series
 from asperity.errors import ConvergenceError
 from asperity.store import output_folder, write_dataset
+
+_KEPT = "block.interrupted.npz"
 
 
 def block(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None) -> None:
@@ -23,6 +26,8 @@ def block(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None
     folder = output_folder(out) if out is not None else None
     with show.progress_bar("increments") as progress:
         march = BlockMarch(problem, history=folder is not None, progress=progress)
+        if folder is not None and go_on(march, folder / _KEPT):
+            show.note(f"goes on after {march.done} increments, kept in {folder}/{_KEPT}")
         try:
             result = march.run()
         except ConvergenceError as error:
@@ -31,12 +36,13 @@ def block(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None
             _write_unfinished(march, folder, str(error))
             raise
         except KeyboardInterrupt as interrupt:
-            _write_unfinished(march, folder, "interrupted")
             done, steps = march.done, problem.timetable.steps
-            raise KeyboardInterrupt(
-                f"interrupted after {done} of {steps} increments"
-                + (f"; {folder}/block.nc holds them" if folder is not None and done else "")
-            ) from interrupt
+            line = f"interrupted after {done} of {steps} increments"
+            if folder is not None and done:
+                keep(march, folder / _KEPT)
+                _write_unfinished(march, folder, line)
+                line += "; the same command goes on from there"
+            raise KeyboardInterrupt(line) from interrupt
     answer = result.to_json()
     # Shown before it is written: what was solved is not lost to a disk that is full.
     if as_json:
@@ -46,6 +52,7 @@ def block(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None
     if folder is not None:
         _write(result, folder)
         show.write_json(answer, folder / "block.json")
+        (folder / _KEPT).unlink(missing_ok=True)
         show.note(
             f"written to {folder}: block.nc, block.png, block_pressure.png, block.pvd with its "
             "frames, block.json"

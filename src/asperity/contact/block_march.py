@@ -77,6 +77,10 @@ class BlockMarch:
             self._record(0)
         return self._walker
 
+    def begin_from(self, state: SystemState) -> None:
+        """Begin from a state instead of at rest under the load."""
+        self._walker = Walker(self.problem.system, state)
+
     def run(self) -> BlockResult:
         """March to the end.
 

@@ -204,6 +204,91 @@ def share_and_tangent(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p):
     )  # fmt: skip
 
 
+@kernel
+def aimed_slip(
+    sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, full, give, aim_x, aim_y
+):  # fmt: skip
+    """What to add to the first part of the slip so that friction plus ``give`` slip is ``aim``.
+
+    Parameters
+    ----------
+    sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p
+        As in `share_and_tangent`.
+    full : float
+        Stress of full friction mu p, Pa.
+    give : float
+        Stiffness, Pa/m.
+    aim_x, aim_y : float
+        Pa.
+
+    Returns
+    -------
+    tuple of 2 floats
+        m; nothing if it is not found.
+    """
+    limit = p[LIMIT]
+    dx = d1x + d2x
+    dy = d1y + d2y
+    if int(p[MODEL]) == COULOMB:
+        k = full / limit
+        ex = (aim_x - k * sx) / (k + give)
+        ey = (aim_y - k * sy) / (k + give)
+        if (sx + ex) ** 2 + (sy + ey) ** 2 > limit * limit:
+            nx = aim_x + give * sx
+            ny = aim_y + give * sy
+            length = math.sqrt(nx * nx + ny * ny)
+            reach = (length - full) / give
+            ex = reach * nx / length - sx
+            ey = reach * ny / length - sy
+        return ex - dx, ey - dy
+    best = np.inf
+    mx = 0.0
+    my = 0.0
+    # From the slip itself, or from none.
+    for start in range(2):
+        ax = d1x if start == 0 else -d2x
+        ay = d1y if start == 0 else -d2y
+        _, _, _, wx, wy, _, _ = share_and_tangent(sx, sy, size, ax, ay, d2x, d2y, one_sided, p)
+        rx = full * wx + give * (ax + d2x) - aim_x
+        ry = full * wy + give * (ay + d2y) - aim_y
+        miss = rx * rx + ry * ry
+        if miss < best:
+            best = miss
+            mx = ax
+            my = ay
+    for _ in range(60):
+        _, _, _, wx, wy, t, _ = share_and_tangent(sx, sy, size, mx, my, d2x, d2y, one_sided, p)
+        rx = full * wx + give * (mx + d2x) - aim_x
+        ry = full * wy + give * (my + d2y) - aim_y
+        kxx = full * t[0] + give
+        kxy = full * t[1]
+        kyx = full * t[2]
+        kyy = full * t[3] + give
+        det = kxx * kyy - kxy * kyx
+        if not det > 0.0:
+            break
+        cx = -(kyy * rx - kxy * ry) / det
+        cy = -(kxx * ry - kyx * rx) / det
+        step = 1.0
+        now = best
+        while step > 1e-3:
+            ax = mx + step * cx
+            ay = my + step * cy
+            _, _, _, wx, wy, _, _ = share_and_tangent(sx, sy, size, ax, ay, d2x, d2y, one_sided, p)
+            rx = full * wx + give * (ax + d2x) - aim_x
+            ry = full * wy + give * (ay + d2y) - aim_y
+            miss = rx * rx + ry * ry
+            if miss < best:
+                best = miss
+                mx = ax
+                my = ay
+                break
+            step *= 0.5
+        if not best < now or best <= 1e-24 * (full * full + aim_x * aim_x + aim_y * aim_y):
+            break
+    return mx - d1x, my - d1y
+
+
 @dataclass(frozen=True)
 class PointFriction:
     r"""A friction law made ready for a point of contact.

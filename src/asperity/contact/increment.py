@@ -19,6 +19,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from asperity.contact.increment_assembly import stiffness_forces
 from asperity.contact.increment_kernels import (
     DISTANCE,
     NORMAL,
@@ -27,7 +28,6 @@ from asperity.contact.increment_kernels import (
     SLIP_1,
     SLIP_2,
     TRACTION,
-    stiffness_forces,
 )
 from asperity.contact.increment_state import (
     ContactState,
@@ -101,6 +101,7 @@ def solve_increment(
             f"the free displacement has the shape {free.shape}; give ({3 * problem.nodes},), finite"
         )
     numbers = motion.parameters()
+    tractions = state.traction
     foretold = state.trend.foretold(problem.flexibility)
     if foretold is None:
         assumed = state.force
@@ -113,7 +114,9 @@ def solve_increment(
     iterations = 0
     off = np.inf
     for _ in range(_MOST_AUGMENTATIONS):
-        trial, residual, took = _solve_once(problem, free, numbers, state, multiplier, assumed, way)
+        trial, residual, took = _solve_once(
+            problem, free, numbers, state, multiplier, assumed, way, tractions
+        )
         iterations += took
         if not hard:
             return _result(problem, state, trial, multiplier, iterations, residual)
@@ -123,6 +126,7 @@ def solve_increment(
         if off <= problem.penetration * float(trial.points[:, PRESSURE].max(initial=0.0)):
             return _result(problem, state, trial, multiplier, iterations, residual)
         assumed, way = trial.assumed, trial.way
+        tractions = trial.points[:, TRACTION : TRACTION + 3]
         # The classical update always goes the right way, if slowly; it breaks a cycle of others.
         if off < last:
             gain = problem.inverses.gain
@@ -153,6 +157,7 @@ def _solve_once(
     multiplier: FloatArray,
     assumed: FloatArray,
     way: FloatArray,
+    tractions: FloatArray,
 ) -> tuple[Trial, float, int]:
     """Solve for given multipliers: by frozen tangents where they serve, else by Newton's method."""
     inverses = problem.inverses
@@ -176,7 +181,7 @@ def _solve_once(
             inverses.ended_with(trial.touching.tobytes())
             return trial, residual, took
         frozen = None
-    trial, count = solve(problem, free, motion, state, multiplier, assumed, way)
+    trial, count = solve(problem, free, motion, state, multiplier, tractions)
     inverses.ended_with(trial.touching.tobytes())
     return trial, trial.residual, took + count
 
@@ -222,14 +227,13 @@ def _result(
     points = trial.points
     trend = state.trend.followed_by(trial.force, trial.way, problem.flexibility)
     end = ContactState(
-        trial.u, trial.force, trial.deflection, trial.size, multiplier, trial.touching, trend
-    )
+        trial.u, trial.force, trial.deflection, trial.size, multiplier,
+        points[:, PRESSURE].copy(), points[:, TRACTION : TRACTION + 3].copy(), trend,
+    )  # fmt: skip
     return IncrementResult(
         end,
-        points[:, PRESSURE],
         points[:, DISTANCE],
         points[:, NORMAL : NORMAL + 3],
-        points[:, TRACTION : TRACTION + 3],
         points[:, SLIP_1 : SLIP_1 + 3],
         points[:, SLIP_2 : SLIP_2 + 3],
         iterations,

@@ -19,8 +19,8 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.friction_point import MU, share_and_tangent, share_of
-from asperity.contact.normal import pressure
+from asperity.contact.friction_point import MU, aimed_slip, share_and_tangent, share_of
+from asperity.contact.normal import aimed_overclosure, pressure
 from asperity.contact.rigid import distance
 
 # Places in the vector that describes the motion of the counter-surface.
@@ -98,7 +98,28 @@ def tractions(
     u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
     surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
 ):  # fmt: skip
-    """Evaluate the contact for a displacement of its nodes.
+    """Evaluate the contact for a displacement of its nodes; see `aimed_tractions`."""
+    touching, _ = aimed_tractions(
+        u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
+        surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
+        np.empty((0, 3)), 0.0,
+    )  # fmt: skip
+    return touching
+
+
+@kernel
+def aimed_tractions(
+    u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
+    surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
+    assumed, give,
+):  # fmt: skip
+    r"""Evaluate the contact for a displacement of its nodes, or near it.
+
+    With a stiffness ``give`` :math:`r > 0` the laws are taken not at the slip and overclosure
+    :math:`D` of the displacement, where a law much stiffer than the body says little, but at the
+    :math:`\hat D` with :math:`t(\hat D) + r \hat D = t_a + r D`, from the tractions :math:`t_a`
+    assumed at the points; what is written is then the tangent there, continued to :math:`D`. Both
+    meet in the solution.
 
     Parameters
     ----------
@@ -128,15 +149,27 @@ def tractions(
         Written with ``with_tangent``: derivative of the traction by the displacement, Pa/m.
     with_tangent : bool
         Whether to write it.
+    assumed : ndarray, shape (q, 3)
+        Tractions assumed, Pa.
+    give : float
+        r, Pa/m; 0: at the displacement itself.
 
     Returns
     -------
-    int
+    touching : int
         Number of points in contact.
+    off : float
+        Integral of the squared difference between the laws' tractions and those assumed, N^2/m^2.
     """
     force[:] = 0.0
     mu = friction[MU]
     touching = 0
+    off = 0.0
+    aimed = give > 0.0
+    px = 0.0
+    py = 0.0
+    pz = 0.0
+    far = 0.0
     one_sided = motion[ONE_SIDED] > 0.0
     width = faces.shape[1]
     rule = shapes.shape[0]
@@ -165,7 +198,15 @@ def tractions(
         y = places[q, 1] + uy
         z = places[q, 2] + uz
         d, nx, ny, nz, hxx, hyy, hzz, hxy, hxz, hyz = _place(x, y, z, surface, motion)
-        p, slope = pressure(-d, lam, law)
+        if aimed:
+            px = assumed[q, 0]
+            py = assumed[q, 1]
+            pz = assumed[q, 2]
+            over = aimed_overclosure(px * nx + py * ny + pz * nz - give * d, give, lam, law)
+            far = over + d
+            p, slope = pressure(over, lam, law)
+        else:
+            p, slope = pressure(-d, lam, law)
         points[q, PRESSURE] = p
         points[q, DISTANCE] = d
         points[q, NORMAL] = nx
@@ -197,6 +238,7 @@ def tractions(
             size[q] = 0.0
             if with_tangent:
                 stiffness[q] = 0.0
+            off += weights[q] * (px * px + py * py + pz * pz)
             continue
         touching += 1
         tx = p * nx
@@ -225,6 +267,16 @@ def tractions(
             a2 = v1x * fx + v1y * fy + v1z * fz
             b1 = v2x * ex + v2y * ey + v2z * ez
             b2 = v2x * fx + v2y * fy + v2z * fz
+            m1 = 0.0
+            m2 = 0.0
+            if aimed:
+                m1, m2 = aimed_slip(
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction, mu * p, give,
+                    give * (a1 + b1) - (px * ex + py * ey + pz * ez),
+                    give * (a2 + b2) - (px * fx + py * fy + pz * fz),
+                )  # fmt: skip
+                a1 += m1
+                a2 += m2
             if with_tangent:
                 s1, s2, new_size, w1, w2, t1, t2 = share_and_tangent(
                     s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction
@@ -234,6 +286,7 @@ def tractions(
                     ex, ey, ez, fx, fy, fz, hxx, hyy, hzz, hxy, hxz, hyz, motion,
                 )  # fmt: skip
             else:
+                t1 = (0.0, 0.0, 0.0, 0.0)
                 s1, s2, new_size, w1, w2 = share_of(
                     s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction
                 )
@@ -247,7 +300,19 @@ def tractions(
             tx -= p * sx
             ty -= p * sy
             tz -= p * sz
+            if aimed:
+                off += weights[q] * ((tx - px) ** 2 + (ty - py) ** 2 + (tz - pz) ** 2)
+                c1 = mu * p * (t1[0] * m1 + t1[1] * m2)
+                c2 = mu * p * (t1[2] * m1 + t1[3] * m2)
+                tx += c1 * ex + c2 * fx - slope * far * (nx - sx)
+                ty += c1 * ey + c2 * fy - slope * far * (ny - sy)
+                tz += c1 * ez + c2 * fz - slope * far * (nz - sz)
         else:
+            if aimed:
+                off += weights[q] * ((tx - px) ** 2 + (ty - py) ** 2 + (tz - pz) ** 2)
+                tx -= slope * far * nx
+                ty -= slope * far * ny
+                tz -= slope * far * nz
             deflection[q] = 0.0
             size[q] = 0.0
             if with_tangent:
@@ -277,7 +342,7 @@ def tractions(
             force[j] += share * tx
             force[j + 1] += share * ty
             force[j + 2] += share * tz
-    return touching
+    return touching, off
 
 
 @kernel
@@ -309,62 +374,3 @@ def _tangent(
         k[0, c] = w1 * ex + w2 * fx
         k[1, c] = w1 * ey + w2 * fy
         k[2, c] = w1 * ez + w2 * fz
-
-
-@kernel
-def add_stiffness(stiffness, faces, shapes, weights, local, matrix):
-    """Assemble the points' stiffness: ``matrix`` += sum of w N_a N_b k, at the nodes' numbers.
-
-    ``local`` renumbers the nodes; a negative number leaves one out.
-    """
-    width = faces.shape[1]
-    rule = shapes.shape[0]
-    for q in range(stiffness.shape[0]):
-        k = stiffness[q]
-        if not np.any(k != 0.0):
-            continue
-        face = q // rule
-        at = q - face * rule
-        for a in range(width):
-            i = local[faces[face, a]]
-            if i < 0:
-                continue
-            for b in range(width):
-                j = local[faces[face, b]]
-                if j < 0:
-                    continue
-                share = weights[q] * shapes[at, a] * shapes[at, b]
-                for c in range(3):
-                    for e in range(3):
-                        matrix[3 * i + c, 3 * j + e] += share * k[c, e]
-
-
-@kernel
-def stiffness_forces(stiffness, faces, shapes, weights, w, out):
-    """Nodal forces ``K w`` of the points' stiffness on a displacement of the nodes."""
-    out[:] = 0.0
-    width = faces.shape[1]
-    rule = shapes.shape[0]
-    for q in range(stiffness.shape[0]):
-        face = q // rule
-        at = q - face * rule
-        x = 0.0
-        y = 0.0
-        z = 0.0
-        for a in range(width):
-            j = 3 * faces[face, a]
-            shape = shapes[at, a]
-            x += shape * w[j]
-            y += shape * w[j + 1]
-            z += shape * w[j + 2]
-        k = stiffness[q]
-        weight = weights[q]
-        tx = weight * (k[0, 0] * x + k[0, 1] * y + k[0, 2] * z)
-        ty = weight * (k[1, 0] * x + k[1, 1] * y + k[1, 2] * z)
-        tz = weight * (k[2, 0] * x + k[2, 1] * y + k[2, 2] * z)
-        for a in range(width):
-            j = 3 * faces[face, a]
-            shape = shapes[at, a]
-            out[j] += shape * tx
-            out[j + 1] += shape * ty
-            out[j + 2] += shape * tz

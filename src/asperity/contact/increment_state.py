@@ -103,6 +103,13 @@ class IncrementProblem:
         return Inverses()
 
     @cached_property
+    def give(self) -> float:
+        """Stiffness of the body against a traction about one node, Pa/m: the mean over all."""
+        area = self.surface.nodal_area
+        own = np.diagonal(self.flexibility).reshape(-1, 3).mean(axis=1)
+        return float(area.sum() / (area**2 * own).sum())
+
+    @cached_property
     def corners(self) -> npt.NDArray[np.int64]:
         """Corner nodes of the faces, ascending: where hard contact has its multipliers."""
         return np.unique(self.surface.faces[:, :4])
@@ -204,8 +211,10 @@ class ContactState:
         Two-phase scheme: its signed size over the limit.
     multiplier : ndarray, shape (n,)
         Hard contact: pressure of the multipliers at the nodes, Pa.
-    touching : ndarray of bool, shape (q,)
-        Points in contact.
+    pressure : ndarray, shape (q,)
+        At the points, Pa.
+    traction : ndarray, shape (q, 3)
+        On the body at the points, Pa.
     trend : Trend
         Forces of the last increments, from which those of the next are foretold. The solution
         does not depend on it, the number of iterations does.
@@ -216,8 +225,15 @@ class ContactState:
     deflection: FloatArray
     size: FloatArray
     multiplier: FloatArray
-    touching: npt.NDArray[np.bool_]
+    pressure: FloatArray
+    traction: FloatArray
     trend: Trend
+
+    @property
+    def touching(self) -> npt.NDArray[np.bool_]:
+        """Points in contact, shape (q,)."""
+        touching: npt.NDArray[np.bool_] = self.pressure > 0.0
+        return touching
 
     @classmethod
     def rest(cls, problem: IncrementProblem) -> ContactState:
@@ -229,7 +245,8 @@ class ContactState:
             np.zeros((q, 3)),
             np.zeros(q),
             np.zeros(n),
-            np.zeros(q, dtype=bool),
+            np.zeros(q),
+            np.zeros((q, 3)),
             Trend(),
         )
 
@@ -307,14 +324,10 @@ class IncrementResult:
     ----------
     state : ContactState
         Trial state at the end.
-    pressure : ndarray, shape (q,)
-        Pa, 0 where open.
     distance : ndarray, shape (q,)
         To the surface, m, negative for an overclosure.
     normal : ndarray, shape (q, 3)
         Of the surface.
-    traction : ndarray, shape (q, 3)
-        On the body, Pa.
     slip_1, slip_2 : ndarray, shape (q, 3)
         The two parts of the slip, in the tangent plane, m.
     iterations : int
@@ -325,10 +338,8 @@ class IncrementResult:
     """
 
     state: ContactState
-    pressure: FloatArray
     distance: FloatArray
     normal: FloatArray
-    traction: FloatArray
     slip_1: FloatArray
     slip_2: FloatArray
     iterations: int
@@ -343,6 +354,16 @@ class IncrementResult:
     def force(self) -> FloatArray:
         """Contact forces on the body, N, shape (3n,)."""
         return self.state.force
+
+    @property
+    def pressure(self) -> FloatArray:
+        """Pa, 0 where open, shape (q,)."""
+        return self.state.pressure
+
+    @property
+    def traction(self) -> FloatArray:
+        """On the body, Pa, shape (q, 3)."""
+        return self.state.traction
 
     @property
     def active(self) -> int:

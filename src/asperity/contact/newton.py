@@ -1,9 +1,15 @@
 r"""Consistent Newton steps with a line search: the way that always has to work.
 
-The unknown is the force :math:`\varphi` the body answers to, :math:`u = u^* + A\varphi`; an
-increment is solved when it equals the forces of the tractions, :math:`R = \varphi - f(u) = 0`. The
-line search watches :math:`R^T A R`, the natural measure of such an error: in it the equations of
-frictionless contact are strongly monotone, so that every Newton step goes down.
+Friction and normal contact can be a thousand times stiffer than the body: then displacements that
+are off by little ask for tractions that are off by much, and Newton's method in displacements alone
+flips from sliding one way to sliding the other. So the tractions :math:`t_a` at the points are
+unknowns as well, as in Alart and Curnier's method. They and the displacements
+:math:`u = u^* + A \varphi`, :math:`\varphi = \int N t_a`, are a solution when the laws give
+:math:`t(\hat D) = t_a` at the slips and overclosures
+:math:`\hat D + t(\hat D)/r = D(u) + t_a/r`, with a stiffness :math:`r` like the body's own
+(`asperity.contact.increment_kernels.aimed_tractions`). For any :math:`r` that is the same as
+:math:`t(D(u)) = t_a`, but both sides of it now change at comparable rates. The line search watches
+the integral of :math:`|t(\hat D) - t_a|^2`.
 """
 
 from __future__ import annotations
@@ -15,7 +21,15 @@ import numpy.typing as npt
 import scipy.linalg
 from scipy import sparse
 
-from asperity.contact.increment_kernels import POINT, PRESSURE, add_stiffness, tractions
+from asperity.contact.increment_assembly import add_stiffness
+from asperity.contact.increment_kernels import (
+    POINT,
+    PRESSURE,
+    TRACTION,
+    TRANSLATION,
+    aimed_tractions,
+    tractions,
+)
 from asperity.contact.increment_state import ContactState, IncrementProblem
 from asperity.contact.newton_kernels import answer
 from asperity.errors import ConvergenceError
@@ -24,7 +38,14 @@ FloatArray = npt.NDArray[np.float64]
 
 _LEAST_STEP = 1.0 / 64.0
 _REMEMBERED = 3
-_STALLED = 6
+_STALLED = 12
+
+# Stiffnesses r that are tried, in parts of the body's own.
+_GIVES = (1.0, 0.2, 5.0)
+
+# Tractions that are assumed this well are worth a look at the displacement itself.
+_NEAR = 1e-4
+
 _ROUNDING = 16.0 * np.finfo(float).eps
 
 
@@ -92,6 +113,18 @@ def evaluate(
     return trial
 
 
+@dataclass(frozen=True, eq=False)
+class _Aim:
+    """Tractions assumed at the points, what the body makes of them, and what the laws say to it."""
+
+    assumed: FloatArray
+    way: FloatArray
+    points: FloatArray
+    force: FloatArray
+    stiffness: FloatArray
+    off: float
+
+
 def solve(
     problem: IncrementProblem,
     free: FloatArray,
@@ -99,9 +132,8 @@ def solve(
     state: ContactState,
     multiplier: FloatArray,
     assumed: FloatArray,
-    way: FloatArray,
 ) -> tuple[Trial, int]:
-    """Solve an increment for given multipliers from a guess of its forces.
+    """Solve an increment for given multipliers from a guess of its tractions.
 
     Parameters
     ----------
@@ -115,8 +147,8 @@ def solve(
         Committed state.
     multiplier : ndarray, shape (n,)
         Of the hard law, Pa.
-    assumed, way : ndarray, shape (3n,)
-        Guess of the contact forces and the body's answer to them.
+    assumed : ndarray, shape (q, 3)
+        Guess of the tractions, Pa.
 
     Returns
     -------
@@ -130,45 +162,18 @@ def solve(
     ConvergenceError
         With residual, iterations and points in contact.
     """
-
-    def at(forces: FloatArray, answers: FloatArray) -> tuple[Trial, FloatArray, float]:
-        trial = evaluate(problem, free, motion, state, multiplier, forces, answers)
-        gap = answers - _answer(problem, trial.force)
-        return trial, gap, float((forces - trial.force) @ gap)
-
-    now, gap, merit = at(assumed, way)
-    evaluations = 1
-    merits = [merit]
-    stalled = 0
-    best = now
-    for _ in range(problem.most_iterations):
-        if now.residual <= problem.tolerance:
-            return now, evaluations
-        if stalled >= _STALLED:
-            break
-        forces = _newton_forces(problem, now, gap)
-        step_force = forces - now.assumed
-        step_way = _answer(problem, forces) - now.way
-        step = 1.0
-        tried: tuple[Trial, FloatArray, float] | None = None
-        while step >= _LEAST_STEP:
-            trial = at(now.assumed + step * step_force, now.way + step * step_way)
-            evaluations += 1
-            if tried is None or trial[2] < tried[2]:
-                tried = trial
-            if trial[2] <= (1.0 - 1e-4 * step) * max(merits[-_REMEMBERED:]):
-                tried = trial
-                break
-            step *= 0.5
-        assert tried is not None
-        now, gap, merit = tried
-        merits.append(merit)
-        if now.residual < 0.9 * best.residual:
-            best, stalled = now, 0
-        else:
-            stalled += 1
-    if best.residual <= _rounding(problem, best):
-        return best, evaluations
+    evaluations = 0
+    best: Trial | None = None
+    for factor in _GIVES:
+        trial, count = _descend(
+            problem, free, motion, state, multiplier, assumed, factor * problem.give
+        )
+        evaluations += count
+        if trial.residual <= max(problem.tolerance, _rounding(problem, trial, motion)):
+            return trial, evaluations
+        if best is None or trial.residual < best.residual:
+            best = trial
+    assert best is not None
     active = int(best.touching.sum())
     raise ConvergenceError(
         f"the contact found no equilibrium in {evaluations} iterations: relative residual "
@@ -182,29 +187,108 @@ def solve(
     )
 
 
+def _descend(
+    problem: IncrementProblem,
+    free: FloatArray,
+    motion: FloatArray,
+    state: ContactState,
+    multiplier: FloatArray,
+    assumed: FloatArray,
+    give: float,
+) -> tuple[Trial, int]:
+    """Newton steps with one stiffness r; the best there was, and the evaluations it took."""
+    root = np.sqrt(problem.arrays[2])[:, None]
+
+    def at(tractions: FloatArray, answers: FloatArray) -> _Aim:
+        count = problem.points
+        points, stiffness = np.empty((count, POINT)), np.empty((count, 3, 3))
+        force = np.empty_like(free)
+        _, off = aimed_tractions(
+            free + answers, state.displacement, state.deflection, state.size, multiplier,
+            *problem.arrays, motion, force, np.empty((count, 3)), np.empty(count), points,
+            stiffness, True, tractions, give,
+        )  # fmt: skip
+        return _Aim(tractions, answers, points, force, stiffness, float(np.sqrt(off)))
+
+    def seen(aim: _Aim) -> Trial:
+        forces = _nodal(problem, aim.assumed)
+        return evaluate(problem, free, motion, state, multiplier, forces, aim.way)
+
+    now = at(assumed, _answer(problem, _nodal(problem, assumed)))
+    evaluations = 1
+    missed = [now.off]
+    best: Trial | None = None
+    least, stalled = now.off, 0
+    for _ in range(problem.most_iterations):
+        if now.off <= _NEAR * float(np.linalg.norm(root * now.assumed)):
+            trial = seen(now)
+            evaluations += 1
+            last = np.inf if best is None else best.residual
+            if best is None or trial.residual < best.residual:
+                best, stalled = trial, 0
+            if best.residual <= problem.tolerance:
+                break
+            # Nothing more is to be had where the arithmetic itself is no better.
+            if best.residual > 0.5 * last and best.residual <= _rounding(problem, best, motion):
+                break
+        if stalled >= _STALLED:
+            break
+        tractions = _newton_tractions(problem, now)
+        ahead = _answer(problem, _nodal(problem, tractions))
+        step = 1.0
+        tried: _Aim | None = None
+        while step >= _LEAST_STEP:
+            aim = at(
+                now.assumed + step * (tractions - now.assumed), now.way + step * (ahead - now.way)
+            )
+            evaluations += 1
+            if tried is None or aim.off < tried.off:
+                tried = aim
+            if aim.off <= (1.0 - 1e-4 * step) * max(missed[-_REMEMBERED:]):
+                tried = aim
+                break
+            step *= 0.5
+        assert tried is not None
+        now = tried
+        missed.append(now.off)
+        stalled = 0 if now.off < 0.9 * least else stalled + 1
+        least = min(least, now.off)
+    return best or seen(now), evaluations
+
+
+def _nodal(problem: IncrementProblem, tractions: FloatArray) -> FloatArray:
+    surface = problem.surface
+    forces: FloatArray = surface.to_forces(tractions.reshape(*surface.weights.shape, 3)).ravel()
+    return forces
+
+
 def _answer(problem: IncrementProblem, force: FloatArray) -> FloatArray:
     out = np.empty_like(force)
     answer(problem.flexibility, force, out)
     return out
 
 
-def _newton_forces(problem: IncrementProblem, now: Trial, gap: FloatArray) -> FloatArray:
-    """Forces that solve the increment with the tangent of now; they act on touching nodes alone."""
+def _newton_tractions(problem: IncrementProblem, now: _Aim) -> FloatArray:
+    """Tractions that solve the increment with the tangent of now."""
     faces, shapes, weights = problem.arrays[:3]
-    active = np.flatnonzero(now.touching)
-    touched = np.unique(faces[active // len(shapes)])
+    tractions = now.points[:, TRACTION : TRACTION + 3]
+    touched = np.unique(faces[np.flatnonzero(now.points[:, PRESSURE] > 0.0) // len(shapes)])
+    if not len(touched):
+        return np.zeros_like(tractions)
     local = np.full(problem.nodes, -1, dtype=np.int64)
     local[touched] = np.arange(len(touched))
     dofs = (3 * touched[:, None] + np.arange(3)).ravel()
-    forces = now.force.copy()
-    if not len(dofs):
-        return forces
     k = np.zeros((len(dofs), len(dofs)))
     add_stiffness(now.stiffness, faces, shapes, weights, local, k)
     matrix = tangent_matrix(problem.flexibility[np.ix_(dofs, dofs)], k)
-    change = scipy.linalg.solve(matrix, -gap[dofs], overwrite_a=True, check_finite=False)
-    forces[dofs] += k @ change
-    return forces
+    gap = _answer(problem, now.force) - now.way
+    change = np.zeros((problem.nodes, 3))
+    change[touched] = scipy.linalg.solve(
+        matrix, gap[dofs], overwrite_a=True, check_finite=False
+    ).reshape(-1, 3)
+    there = problem.surface.to_points(change).reshape(-1, 3)
+    new: FloatArray = tractions + np.einsum("qij,qj->qi", now.stiffness, there)
+    return new
 
 
 def tangent_matrix(flexibility: FloatArray, stiffness: FloatArray) -> FloatArray:
@@ -214,11 +298,12 @@ def tangent_matrix(flexibility: FloatArray, stiffness: FloatArray) -> FloatArray
     return matrix
 
 
-def _rounding(problem: IncrementProblem, trial: Trial) -> float:
+def _rounding(problem: IncrementProblem, trial: Trial, motion: FloatArray) -> float:
     """Relative residual that the arithmetic itself makes: positions are known to so many digits."""
     scale = float(np.linalg.norm(trial.force))
     if scale == 0.0:
         return 0.0
     reach = float(np.abs(problem.arrays[3]).max() + np.abs(trial.u).max())
+    reach += float(np.linalg.norm(motion[TRANSLATION : TRANSLATION + 3]))
     area = float(np.linalg.norm(problem.surface.nodal_area))
     return _ROUNDING * reach * problem.normal.stiffness * area / scale

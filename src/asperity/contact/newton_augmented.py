@@ -21,13 +21,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy.linalg
 
-from asperity.contact.increment_kernels import (
-    DISTANCE,
-    NORMAL,
-    PRESSURE,
-    TRACTION,
-    add_stiffness,
-)
+from asperity.contact.increment_assembly import add_stiffness
+from asperity.contact.increment_kernels import DISTANCE, NORMAL, PRESSURE, TRACTION
 from asperity.contact.increment_state import IncrementProblem
 from asperity.contact.newton import Trial, tangent_matrix
 

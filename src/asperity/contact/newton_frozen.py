@@ -16,7 +16,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy.linalg
 
-from asperity.contact.increment_kernels import NORMAL, add_stiffness
+from asperity.contact.increment_assembly import add_stiffness
+from asperity.contact.increment_kernels import NORMAL
 
 if TYPE_CHECKING:
     from asperity.contact.increment_state import IncrementProblem

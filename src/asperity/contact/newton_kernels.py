@@ -16,7 +16,8 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.increment_kernels import stiffness_forces, tractions
+from asperity.contact.increment_assembly import stiffness_forces
+from asperity.contact.increment_kernels import tractions
 
 CONVERGED = 0
 SLOW = 1

@@ -67,6 +67,29 @@ def pressure(over, multiplier, law):
     return value, stiffness
 
 
+@kernel
+def aimed_overclosure(aim, give, multiplier, law):
+    """Overclosure at which pressure plus ``give`` times it is ``aim``, m.
+
+    The law is monotone, so there is one for any stiffness ``give > 0``, Pa/m.
+    """
+    if law[0] == TWO_STAGE:
+        if aim <= 0.0:
+            return aim / give
+        # Convex: Newton's method comes down from above without overshoot.
+        over = aim / (give + law[2])
+        for _ in range(50):
+            value, slope = pressure(over, 0.0, law)
+            change = (value + give * over - aim) / (slope + give)
+            over -= change
+            if abs(change) <= 1e-15 * over:
+                break
+        return over
+    if aim <= -give * multiplier / law[1]:
+        return aim / give
+    return (aim - multiplier) / (law[1] + give)
+
+
 @dataclass(frozen=True)
 class NormalLaw:
     """How pressure grows with overclosure.

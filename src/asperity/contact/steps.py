@@ -33,7 +33,7 @@ FloatArray = npt.NDArray[np.float64]
 MOST_CUTS = 8
 _MOST_STATIC = 50
 _AT_REST = 1e-9
-# Steps of loading are so long that the inertia is this share of the contact's stiffness.
+# Steps of loading are so long that the inertia is this share of the stiffness on the contact.
 _INERTIA_AT_REST = 1e-4
 
 
@@ -215,8 +215,7 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
         No equilibrium was found: the loads do not press the body on the surface, or it tips over.
     """
     mechanism = system.mechanism
-    nodal = system.normal.stiffness * float(system.weights.sum())
-    long = float(np.sqrt(mechanism.mass[0, 0] / (_INERTIA_AT_REST * nodal)))
+    long = float(np.sqrt(mechanism.mass[0, 0] / (_INERTIA_AT_REST * _stiffness(system))))
     waiting = dataclasses.replace(mechanism, drive=None, load=None)
     first = mo.motion_step(waiting, long, alpha=0.0)
     problem = system._problem(first.compliance, long)
@@ -253,6 +252,14 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
         raise InputError("no load presses the body on its base; give gravity or a pressure")
     whole = dataclasses.replace(system, mechanism=dataclasses.replace(mechanism, load=loads[-1]))
     return _at_start(whole, result, coordinates)
+
+
+def _stiffness(system: System) -> float:
+    """Stiffness of contact and body under a pressure spread evenly over the contact, N/m."""
+    surface = system.surface
+    spread = (-surface.nodal_normals * surface.nodal_area[:, None] / surface.area).ravel()
+    body = float(spread @ (system.mechanism.flexibility @ spread))
+    return 1.0 / (1.0 / (system.normal.stiffness * surface.area) + body)
 
 
 def _at_start(system: System, result: IncrementResult, coordinates: FloatArray) -> SystemState:

@@ -195,7 +195,7 @@ def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedL
     # The middles of the pieces are brought onto the flank, for curvatures as they are there.
     flank = mesh.search.flank
     found = flank.at(np.minimum(lines.radius, flank.tip_radius(lines.z)), lines.z)
-    motion = kinematics(mesh.search.pair, found, mesh.search.flank.side, load.worm_speed, mesh.mean)
+    motion = kinematics(mesh.search.pair, found, flank.side, load.worm_speed, mesh.ahead)
     length = np.where(motion.on_flank, lines.length, 0.0)
     if not length.sum() > 0.0:
         raise InputError(

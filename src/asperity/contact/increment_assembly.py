@@ -1,0 +1,64 @@
+"""Stiffness of the points brought to the nodes: as a matrix, and times a displacement."""
+
+import numpy as np
+
+from asperity.compiled import kernel
+
+
+@kernel
+def add_stiffness(stiffness, faces, shapes, weights, local, matrix):
+    """Assemble the points' stiffness: ``matrix`` += sum of w N_a N_b k, at the nodes' numbers.
+
+    ``local`` renumbers the nodes; a negative number leaves one out.
+    """
+    width = faces.shape[1]
+    rule = shapes.shape[0]
+    for q in range(stiffness.shape[0]):
+        k = stiffness[q]
+        if not np.any(k != 0.0):
+            continue
+        face = q // rule
+        at = q - face * rule
+        for a in range(width):
+            i = local[faces[face, a]]
+            if i < 0:
+                continue
+            for b in range(width):
+                j = local[faces[face, b]]
+                if j < 0:
+                    continue
+                share = weights[q] * shapes[at, a] * shapes[at, b]
+                for c in range(3):
+                    for e in range(3):
+                        matrix[3 * i + c, 3 * j + e] += share * k[c, e]
+
+
+@kernel
+def stiffness_forces(stiffness, faces, shapes, weights, w, out):
+    """Nodal forces ``K w`` of the points' stiffness on a displacement of the nodes."""
+    out[:] = 0.0
+    width = faces.shape[1]
+    rule = shapes.shape[0]
+    for q in range(stiffness.shape[0]):
+        face = q // rule
+        at = q - face * rule
+        x = 0.0
+        y = 0.0
+        z = 0.0
+        for a in range(width):
+            j = 3 * faces[face, a]
+            shape = shapes[at, a]
+            x += shape * w[j]
+            y += shape * w[j + 1]
+            z += shape * w[j + 2]
+        k = stiffness[q]
+        weight = weights[q]
+        tx = weight * (k[0, 0] * x + k[0, 1] * y + k[0, 2] * z)
+        ty = weight * (k[1, 0] * x + k[1, 1] * y + k[1, 2] * z)
+        tz = weight * (k[2, 0] * x + k[2, 1] * y + k[2, 2] * z)
+        for a in range(width):
+            j = 3 * faces[face, a]
+            shape = shapes[at, a]
+            out[j] += shape * tx
+            out[j + 1] += shape * ty
+            out[j + 2] += shape * tz
