@@ -134,7 +134,13 @@ def test_volume_of_8_node_elements_is_within_1e_4_of_the_exact_one_at_the_defaul
     assert mesh.tooth(wheel).volume() == pytest.approx(exact, rel=1e-4)
 
 
-def _is_made_or_refused(starts, teeth, factor, angle, shift, hob):
+_GRID = list(
+    itertools.product((1, 2, 4, 6), (30, 50, 82), (8, 10, 14), (14.5, 20, 25, 30), (-0.5, 0, 0.5))
+)
+
+
+def _is_made(starts, teeth, factor, angle, shift, hob, size):
+    """Whether a gearset has a mesh, which then must be valid, or is refused for a known cause."""
     try:
         gearset = _gearset(
             starts=starts,
@@ -144,26 +150,29 @@ def _is_made_or_refused(starts, teeth, factor, angle, shift, hob):
             profile_shift=shift,
             pressure_angle=f"{angle} deg",
         )
-        made = mesh.tooth(Wheel.cut(Pair.of(gearset, hob)), 0.8)
+        wheel = Wheel.cut(Pair.of(gearset, hob))
     except InputError as error:
-        return any(reason in str(error) for reason in REASONS)
-    return made.jacobians().min() > 0.0 and made.is_watertight()
+        if any(reason in str(error) for reason in REASONS):
+            return False
+        raise
+    made = mesh.tooth(wheel, size)
+    assert made.jacobians().min() > 0.0
+    assert made.scaled_jacobian().min() > 0.0
+    assert made.is_watertight()
+    return True
 
 
-_GRID = list(
-    itertools.product((1, 2, 4, 6), (30, 50, 82), (8, 10, 14), (14.5, 20, 25, 30), (-0.5, 0, 0.5))
-)
-
-
-@pytest.mark.parametrize(("starts", "teeth", "factor", "angle", "shift"), _GRID[::17])
-def test_a_gearset_has_a_valid_mesh_or_a_reason_why_not(starts, teeth, factor, angle, shift):
-    assert _is_made_or_refused(starts, teeth, factor, angle, shift, Hob())
+def test_nearly_all_of_a_sample_of_gearsets_have_valid_meshes():
+    sample = _GRID[::17]
+    made = [case for case in sample if _is_made(*case, Hob(), "coarse")]
+    assert len(made) >= len(sample) - 2
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("hob", [Hob(), Hob(oversize=1.12, tilt="2 deg")], ids=["same", "larger"])
-def test_the_whole_grid_of_gearsets_has_valid_meshes_or_reasons(hob):
-    assert [case for case in _GRID if not _is_made_or_refused(*case, hob)] == []
+def test_nine_in_ten_of_all_gearsets_have_valid_meshes_and_the_others_a_reason(hob):
+    made = [case for case in _GRID if _is_made(*case, hob, 0.8)]
+    assert len(made) >= 0.88 * len(_GRID)
 
 
 @pytest.mark.parametrize(

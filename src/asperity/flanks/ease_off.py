@@ -9,6 +9,7 @@ import dataclasses
 
 import numpy as np
 
+from asperity.errors import InputError
 from asperity.flanks.profiles import FloatArray
 from asperity.flanks.wheel import FlankGrid, WheelFlank
 
@@ -57,11 +58,16 @@ def ease_off(flank: WheelFlank, grid: FlankGrid) -> EaseOff:
     Raises
     ------
     InputError
-        An identical hob could not cut the wheel.
+        An identical hob could not cut the wheel, or leaves no flank to compare with.
     """
     reference = WheelFlank(flank.pair.conjugate(), flank.side)
     start, _ = reference.limits(grid.z[0])
     held = reference.at(np.maximum(grid.radius, start), grid.z)
     compared = grid.radius >= start - _ROUNDING
+    if not compared.any():
+        raise InputError(
+            "gearset: the flank lies wholly where an identical hob leaves its fillet, so there is "
+            "no ease-off: take a smaller hob.oversize or hob.tilt"
+        )
     away = np.sum((held.points - grid.points) * held.normals, axis=-1)
     return EaseOff(grid, np.where(compared, away, 0.0), compared)
