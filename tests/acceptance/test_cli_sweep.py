@@ -10,7 +10,7 @@ import pytest
 
 POINTS = 1024
 LONG = [
-    "sweep", "table-4.3", "--set", "solve.duration=0.3 s", "--json",
+    "sweep", "table-4.3", "--set", "solve.duration=0.8 s", "--json",
     "--over", f"vibration.velocity_ratio=0.01:{POINTS / 100}:0.01",
 ]  # fmt: skip
 SMALL = [

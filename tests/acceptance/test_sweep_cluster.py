@@ -10,7 +10,7 @@ import pytest
 
 POINTS = 1024
 SWEEP = [
-    "sweep", "table-4.3", "--set", "solve.duration=0.4 s", "--json",
+    "sweep", "table-4.3", "--set", "solve.duration=0.8 s", "--json",
     "--over", f"vibration.velocity_ratio=0.02:{POINTS / 50}:0.02",
 ]  # fmt: skip
 

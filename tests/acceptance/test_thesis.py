@@ -279,8 +279,8 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
     page = result.index.read_text("utf-8")
     for entry in result.claims:
         assert f'id="claim-{entry.id}"' in page
-    assert page.count("✓ reproduced") == 15
-    assert page.count("≠ differs") == 2
+    assert page.count("✓ reproduced") == 16
+    assert page.count("≠ differs") == 3
     assert "asperity slide table-4.3 --set solve.method=periodic" in page
     assert "asperity sensitivity gearset-2" in page
 
