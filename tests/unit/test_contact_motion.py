@@ -1,9 +1,12 @@
 """Implicit motion of a few coordinates, and of a condensed body on its contact."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
-from asperity.contact import hht
+from asperity.contact import hht, ledger, motion
+from asperity.contact.normal import NormalLaw, pressure
 from asperity.errors import InputError
 
 
@@ -88,3 +91,131 @@ def test_a_held_coordinate_goes_on_whatever_pushes_it():
 def test_a_method_that_is_not_stable_is_refused(alpha):
     with pytest.raises(InputError, match=r"between -1/3 and 0"):
         hht.coefficients(alpha)
+
+
+def random_mechanism(seed=0, *, damping=30.0, modes=1):
+    """Build two contact nodes on three free coordinates and modes, pulled by a drive, loaded."""
+    rng = np.random.default_rng(seed)
+    size, count = 3 + modes, 6
+    root = rng.normal(size=(count, count))
+    mass = np.diag(rng.uniform(0.5, 2.0, size))
+    stiffness = np.diag([0.0] * 3 + [4e4] * modes)
+    drive = motion.Drive(
+        motion.Port(rng.normal(size=size), 1e-6 * rng.normal(size=count), 2e-6), 5e3, damping
+    )
+    load = motion.Port(rng.normal(size=size), 1e-6 * rng.normal(size=count))
+    return motion.Mechanism(
+        flexibility=1e-6 * (root @ root.T),
+        shapes=rng.normal(size=(count, size)),
+        mass=mass,
+        stiffness=stiffness,
+        held=np.zeros(size, bool),
+        drive=drive,
+        load=load,
+    )
+
+
+def one_step(mechanism, step, springs, state, drive_state, far, speed):
+    """Take a step on linear springs under the contact nodes; also what it takes from the energy."""
+    moving = motion.motion_step(mechanism, step)
+    operator, size = moving.operator, mechanism.size
+    place, velocity, room = np.empty(size), np.empty(size), np.empty(size)
+    free = np.empty(len(springs))
+    pull = motion.approach(
+        state, drive_state, far, speed, 1.0, operator.carry, operator.compliance,
+        operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
+        moving.load_force, moving.load_response, place, velocity, room, free,
+    )  # fmt: skip
+    u = np.linalg.solve(np.eye(len(springs)) + moving.compliance * springs, free)
+    trial, drive_trial = np.empty_like(state), np.empty_like(drive_state)
+    lost = motion.settle(
+        state, trial, drive_state, drive_trial, far, speed, 1.0, pull, -springs * u, place,
+        velocity, room, operator.mass, operator.stiffness, operator.held, operator.compliance,
+        operator.scalars, moving.shapes, moving.drop, moving.drive, moving.drive_shape,
+        moving.drive_response, moving.load_force,
+    )  # fmt: skip
+    return u, trial, drive_trial, lost
+
+
+def test_a_step_solves_motion_deformation_drive_and_contact_at_once():
+    mechanism, step = random_mechanism(), 1e-3
+    springs = np.array([2e5, 1e4, 3e5, 0.0, 5e4, 1e5])
+    size, drive, load = mechanism.size, mechanism.drive, mechanism.load
+    state = hht.rest(size)
+    state[:3] = np.random.default_rng(1).normal(size=(3, size)) * [[1e-4], [1e-2], [1.0]]
+    state[hht.FORCE] = [3.0, -2.0, 1.0, 5.0]
+    drive_state = np.zeros(motion.DRIVE_STATE)
+    drive_state[motion.STRAIN] = 3e-6
+    far, speed = 2e-3, 0.7
+    u, trial, drive_trial, _ = one_step(mechanism, step, springs, state, drive_state, far, speed)
+    q, v, a = trial[:3]
+    force, pull = -springs * u, drive_trial[motion.FORCE]
+    strain = drive.port.response @ force + drive.port.own * pull
+    way = drive.port.generalised @ q + strain
+    pace = drive.port.generalised @ v + (strain - drive_state[motion.STRAIN]) / step
+    assert pull == pytest.approx(
+        drive.stiffness * (far - way) + drive.damping * (speed - pace), rel=1e-9
+    )
+    shown = mechanism.shapes @ q + mechanism.flexibility @ force
+    shown += drive.port.response * pull + load.response
+    assert u == pytest.approx(shown, rel=1e-9)
+    resistance = mechanism.stiffness @ q - mechanism.shapes.T @ force
+    resistance -= drive.port.generalised * pull + load.generalised
+    left = mechanism.mass @ a + (1.0 + hht.ALPHA) * resistance - hht.ALPHA * state[hht.FORCE]
+    assert left == pytest.approx(np.zeros(size), abs=1e-9 * np.abs(resistance).max())
+    beta, gamma = hht.coefficients()
+    ahead = state[0] + step * state[1] + step**2 * ((0.5 - beta) * state[2] + beta * a)
+    assert q == pytest.approx(ahead, rel=1e-9)
+    assert v == pytest.approx(state[1] + step * ((1 - gamma) * state[2] + gamma * a), rel=1e-9)
+
+
+def test_without_a_dashpot_the_compliance_is_symmetric_and_positive():
+    compliance = motion.motion_step(random_mechanism(damping=0.0), 1e-3).compliance
+    assert compliance == pytest.approx(compliance.T, rel=1e-12)
+    assert np.linalg.eigvalsh(compliance).min() > 0.0
+
+
+def test_the_energy_of_motion_deformation_and_spring_balances_the_works():
+    mechanism, step = random_mechanism(), 1e-3
+    springs = np.array([2e5, 1e4, 3e5, 0.0, 5e4, 1e5])
+    state, drive_state = hht.rest(mechanism.size), np.zeros(motion.DRIVE_STATE)
+    u0, force0, far = np.zeros(6), np.zeros(6), 0.0
+    energy0, supplied = None, 0.0
+    for n in range(200):
+        far += 1e-5
+        u, trial, drive_trial, lost = one_step(
+            mechanism, step, springs, state, drive_state, far, 1e-2
+        )
+        force = -springs * u
+        stretch = [d[motion.REACH] - d[motion.WAY] for d in (drive_state, drive_trial)]
+        if n > 0:
+            supplied += 0.5 * (drive_state + drive_trial)[motion.FORCE] * 1e-5
+            supplied += 0.5 * (force0 + force) @ (u - u0)
+            supplied += mechanism.load.generalised @ (trial[0] - state[0])
+            supplied += mechanism.load.response @ (force - force0)
+            pull = 0.5 * (drive_state + drive_trial)[motion.PULL]
+            supplied -= lost + pull * (stretch[1] - stretch[0])
+        state, drive_state, u0, force0 = trial, drive_trial, u, force
+        if n == 0:
+            energy0 = sum(ledger.body_energies(mechanism, state, drive_state, force, 1.0))
+    change = sum(ledger.body_energies(mechanism, state, drive_state, force0, 1.0)) - energy0
+    assert change == pytest.approx(supplied, rel=1e-8)
+
+
+def test_a_drive_without_stiffness_is_refused():
+    mechanism = random_mechanism()
+    drive = motion.Drive(mechanism.drive.port, 0.0)
+    with pytest.raises(InputError, match="a stiffness of 0 N/m"):
+        motion.motion_step(dataclasses.replace(mechanism, drive=drive), 1e-3)
+
+
+@pytest.mark.parametrize("over", [0.5e-6, 1.5e-6, 4e-6])
+@pytest.mark.parametrize(
+    "law", [NormalLaw("linear", 2e13), NormalLaw("two-stage", 2e13, 3e12, 1e-6, 3e-6)]
+)
+def test_the_energy_of_the_overclosure_is_the_integral_of_the_pressure(law, over):
+    at = np.linspace(0.0, over, 20_001)
+    pressures = np.array([pressure(x, 0.0, law.parameters)[0] for x in at])
+    assert ledger.potential(over, law.parameters) == pytest.approx(
+        np.trapezoid(pressures, at), rel=1e-6
+    )

@@ -6,9 +6,11 @@ leading end (x = +size/2), evenly over that face: the force goes through the mid
 the height above the base. Time runs from there on as it does for ``asperity slide``: the drive's
 far end moves from 0 s on, the vibration begins at ``[vibration].start``.
 
-A guided block cannot shift sideways nor turn about z; a rigid drive moves it along x at the drive
-velocity. Guide and rigid drive act on the body as gravity does, on all of its mass, so that they
-deform nothing.
+A free block may shift and turn as it will: friction, which acts below its centre of mass, tilts it
+and presses its leading edge down. A guided block slides on a straight rail that lets it shift along
+x and z alone, neither sideways nor turning. A rigid drive moves it along x at the drive velocity.
+Rail and rigid drive act on the body as gravity does, on all of its mass, so that they deform
+nothing.
 """
 
 import dataclasses
@@ -44,7 +46,7 @@ from asperity.slider.model import FloatArray, Model
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""
 
-_SHIFT_X, _SHIFT_Y, _SHIFT_Z, _TURN_Z = 0, 1, 2, 5
+_SHIFT_X, _SHIFT_Y, _SHIFT_Z, _TURNS = 0, 1, 2, slice(3, 6)
 _GRAVITY, _PRESSURE, _DRIVE = "gravity_z", "pressure", "drive"
 
 
@@ -264,7 +266,7 @@ def held_coordinates(body: CondensedBody, *, rigid: bool, guided: bool) -> npt.N
     """Return which coordinates a rigid drive and a guide hold."""
     held = np.zeros(6 + len(body.mode_frequency), dtype=bool)
     held[_SHIFT_X] = rigid
-    held[[_SHIFT_Y, _TURN_Z]] = guided
+    held[_SHIFT_Y] = held[_TURNS] = guided
     return held
 
 

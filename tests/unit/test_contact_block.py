@@ -1,0 +1,279 @@
+"""The elastic block: at rest under its loads, pulled, shaken, stopped and taken up again."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact import ledger, steps
+from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
+from asperity.contact.block_march import BlockMarch, solve_block
+from asperity.contact.block_resume import go_on, keep
+from asperity.errors import ConvergenceError, InputError
+
+SMALL = ("block.elements=[2, 2, 2]", "block.element=hex8")
+SHAKEN = ("vibration.start=0 s", "solve.step=5 us", "solve.duration=1.5 ms")
+STIFF = ("slider.drive_stiffness=1e7 N/m", "slider.drive_damping=2000 N s/m")
+
+
+def problem(*settings, case="block-longitudinal"):
+    return BlockProblem.from_case(read_case(case, TABLES, [*SMALL, *SHAKEN, *settings]))
+
+
+def at_rest(block):
+    return steps.rest_under_load(block.system, block.loads)
+
+
+def centre_of_pressure(block, pressure):
+    weight = pressure * block.system.weights
+    return weight @ block.surface.points.reshape(-1, 3)[:, :2] / weight.sum()
+
+
+@pytest.mark.parametrize("mass", ["0.5 kg", "5.6 kg"])
+def test_gravity_and_pressure_together_press_with_the_normal_force(mass):
+    block = problem(f"slider.mass={mass}")
+    state = at_rest(block)
+    assert state.forces[ledger.FN] == pytest.approx(55.0, rel=1e-9)
+    assert state.forces[[ledger.FX, ledger.FY]] == pytest.approx([0.0, 0.0], abs=1e-6)
+    weight = block.top_pressure * block.block.area + block.mass * STANDARD_GRAVITY
+    assert weight == pytest.approx(55.0)
+
+
+@pytest.mark.parametrize("normal", ["linear", "two-stage", "hard"])
+def test_at_rest_the_pressure_is_symmetric_about_both_axes(normal):
+    block = problem(f"contact.normal={normal}")
+    state = at_rest(block)
+    assert centre_of_pressure(block, state.contact.pressure) == pytest.approx([0, 0], abs=1e-8)
+    assert state.contact.active == state.contact.pressure.size
+
+
+def test_a_block_pulled_at_half_its_height_leans_on_its_leading_edge():
+    block = problem(*STIFF, "vibration.velocity_ratio=0", "solve.duration=4 ms")
+    march = BlockMarch(block)
+    result = march.run()
+    state = march.walker.state
+    assert result.ratio == pytest.approx(1.0, rel=5e-3)
+    assert result.breakaway_time == pytest.approx(5.5 / (0.5e-3 * 1e7), rel=0.5)
+    # The moments of drive and friction about the base: h/2 F_d = x_p F_N.
+    lean = 0.5 * block.block.size[2] * state.drive[2] / state.forces[ledger.FN]
+    assert centre_of_pressure(block, state.contact.pressure)[0] == pytest.approx(lean, rel=1e-3)
+
+
+CLOSING = {
+    "longitudinal": (),
+    "coupled": ("vibration.direction=45 deg",),
+    "unsplit": ("vibration.direction=45 deg", "friction.law=unsplit"),
+    "vector, exponent 2": (
+        "vibration.direction=45 deg", "friction.law=vector", "friction.exponent=2",
+    ),
+    "two-phase": (
+        "vibration.direction=45 deg", "solve.scheme=two-phase", "solve.step=2 us",
+    ),
+    "coulomb": ("vibration.direction=45 deg", "friction.model=coulomb"),
+    "lugre": (
+        "friction.model=lugre", "friction.static_mu=0.15", "friction.stribeck_velocity=1 mm/s",
+        "friction.contact_damping=300 N s/m", "friction.viscous_damping=0.4 N s/m",
+    ),
+    "two stages": ("contact.normal=two-stage", "vibration.direction=45 deg"),
+    "hard": ("contact.normal=hard",),
+    "square wave": ("vibration.waveform=square", "vibration.rise_time=30 us"),
+    "triangle wave": ("vibration.waveform=triangle", "vibration.direction=30 deg"),
+    "modes": ("block.modes=4", "vibration.direction=45 deg"),
+    "dashpot": STIFF,
+    "guided": ("slider.lateral=guided", "vibration.direction=45 deg"),
+    "body": ("vibration.applied_to=body", "vibration.direction=45 deg"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CLOSING)
+def test_the_power_ledger_closes(name):
+    result = solve_block(problem(*CLOSING[name]), history=False)
+    assert result.ledger.residual < 1e-4
+    assert result.ledger.friction > 0.0
+    assert result.ledger.vibration > 0.0
+    assert result.to_json()["unconverged"] == 0
+
+
+def test_the_time_integration_takes_little_and_less_with_a_finer_step():
+    taken = [
+        solve_block(problem(f"solve.step={step} us"), history=False).ledger for step in (5, 2.5)
+    ]
+    assert 0.0 < taken[1].numerical < taken[0].numerical < 1e-3 * taken[0].friction
+
+
+def test_a_rigid_drive_moves_the_block_at_its_velocity():
+    raw = read_case("block-longitudinal", TABLES, [*SMALL, *SHAKEN])
+    block = BlockProblem.from_case(
+        raw.replace_values({"slider.drive_stiffness": None, "slider.drive_damping": None})
+    )
+    result = solve_block(block)
+    history = result.history
+    assert history.velocity[:, 0] == pytest.approx(np.full(history.time.size, 0.5e-3))
+    assert history.drive_force == pytest.approx(history.friction[:, 0], abs=1e-9)
+    assert result.ledger.residual < 1e-4
+    assert result.breakaway_time is None
+
+
+def test_a_guided_block_neither_shifts_sideways_nor_turns():
+    block = problem("slider.lateral=guided", "vibration.direction=60 deg")
+    march = BlockMarch(block)
+    result = march.run()
+    place = march.walker.state.coordinates[0]
+    assert place[[1, 3, 4, 5]] == pytest.approx(np.zeros(4), abs=1e-16)
+    assert np.abs(result.history.friction[:, 1]).max() > 1.0
+
+
+def test_vibrating_the_body_or_the_base_gives_the_same_ratio():
+    turned = ("friction.law=vector", "friction.transfer=1", "vibration.direction=45 deg", *STIFF)
+    base = solve_block(problem(*turned, "solve.duration=4 ms"), history=False)
+    # The body's own motion against the base's: half a cycle later.
+    body = solve_block(
+        problem(*turned, "solve.duration=4 ms", "vibration.applied_to=body"), history=False
+    )
+    assert body.ratio == pytest.approx(base.ratio, rel=2e-3)
+    assert body.ledger.vibration == pytest.approx(base.ledger.vibration, rel=2e-3)
+
+
+def test_a_mirrored_vibration_mirrors_the_lateral_friction():
+    left, right = (
+        solve_block(problem(f"vibration.direction={angle} deg"), history=False)
+        for angle in (40, -40)
+    )
+    assert left.ratio == pytest.approx(right.ratio, rel=1e-7)
+    assert left.friction_max[1] == pytest.approx(-right.friction_min[1], rel=1e-7)
+
+
+def test_an_increment_that_fails_is_taken_in_halves(monkeypatch):
+    block = problem()
+    whole = solve_block(block, history=False)
+    solve, full = steps.solve_increment, block.timetable.step
+    failed = []
+
+    def stumbles(given, *arguments):
+        if given.step == full and len(failed) < 3:
+            failed.append(given.step)
+            raise ConvergenceError("no equilibrium")
+        return solve(given, *arguments)
+
+    monkeypatch.setattr(steps, "solve_increment", stumbles)
+    cut = solve_block(problem(), history=False)
+    assert cut.cuts == len(failed) == 3
+    assert "3 increments did not converge at once" in " ".join(cut.notes)
+    assert cut.ratio == pytest.approx(whole.ratio, rel=1e-3)
+    assert cut.ledger.residual < 1e-4
+
+
+def test_an_increment_that_fails_however_small_says_where_and_keeps_what_was_done(monkeypatch):
+    march = BlockMarch(problem())
+    solve, calls = steps.solve_increment, []
+
+    def fails(*arguments):
+        calls.append(1)
+        if len(calls) > 60:
+            raise ConvergenceError("no equilibrium", reached={"residual": 0.5, "active": 16.0})
+        return solve(*arguments)
+
+    monkeypatch.setattr(steps, "solve_increment", fails)
+    with pytest.raises(ConvergenceError, match=r"at 0\.000\d+ s.*cut in half 8 times") as failure:
+        march.run()
+    reached = failure.value.reached
+    assert reached.keys() == {"time_s", "residual", "active", "increments"}
+    assert reached["increments"] == march.done > 0
+    assert reached["time_s"] == pytest.approx(march.done * 5e-6)
+    assert march.history.time[-1] == pytest.approx(march.done * 5e-6)
+    assert np.isfinite(march.history.drive_force).all()
+
+
+@pytest.mark.parametrize("stop", [20, 200])
+def test_an_interrupted_march_goes_on_to_the_same_end(stop, tmp_path):
+    whole = solve_block(problem("vibration.direction=45 deg"))
+
+    def interrupt(done, _):
+        if done == stop:
+            raise KeyboardInterrupt
+
+    first = BlockMarch(problem("vibration.direction=45 deg"), progress=interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        first.run()
+    path = keep(first, tmp_path / "kept.npz")
+    second = BlockMarch(problem("vibration.direction=45 deg"))
+    assert go_on(second, path)
+    assert second.done == stop
+    result = second.run()
+    assert result.ratio == pytest.approx(whole.ratio, rel=1e-9)
+    assert result.ledger.friction == pytest.approx(whole.ledger.friction, rel=1e-9)
+    assert result.history.time == pytest.approx(whole.history.time)
+    assert result.history.drive_force == pytest.approx(whole.history.drive_force, rel=1e-7)
+    assert len(result.frames) == len(whole.frames)
+
+
+def test_what_was_kept_of_another_problem_is_left_alone(tmp_path):
+    march = BlockMarch(problem())
+    assert march.walker.state.time == 0.0
+    path = keep(march, tmp_path / "kept.npz")
+    assert not go_on(BlockMarch(problem("friction.mu=0.2")), path)
+    path.write_bytes(b"not what it was")
+    assert not go_on(BlockMarch(problem()), path)
+    assert not go_on(BlockMarch(problem()), tmp_path / "nothing.npz")
+
+
+def test_the_frames_of_an_animation_deform_as_the_contact_does():
+    from asperity.contact.series import fields
+
+    block = problem("vibration.direction=45 deg", "block.modes=2")
+    march = BlockMarch(block)
+    result = march.run()
+    time, field = list(fields(block, result.frames))[-1]
+    assert time == pytest.approx(march.walker.state.time)
+    nodes = block.body.nodes
+    at_contact = march.walker.state.contact.displacement.reshape(-1, 3)
+    size = np.abs(at_contact).max()
+    # The contact does not ask what the loads do to the drive's own place.
+    assert field["displacement"][nodes] == pytest.approx(at_contact, abs=1e-9 * size)
+    pressure = field["pressure_Pa"][nodes]
+    assert block.surface.nodal_area @ pressure == pytest.approx(55.0, rel=1e-2)
+    others = np.setdiff1d(np.arange(len(block.mesh.points)), nodes)
+    assert not field["pressure_Pa"][others].any()
+
+
+def test_a_hard_contact_is_the_limit_of_a_stiff_one():
+    stiff = problem("contact.stiffness=2e17 Pa/m")
+    pressures = [
+        at_rest(block).contact.pressure for block in (problem("contact.normal=hard"), stiff)
+    ]
+    assert pressures[0] == pytest.approx(pressures[1], rel=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (("slider.mass=6 kg",), r"slider.normal_force is 55 N; it must be at least the weight"),
+        (("solve.method=periodic",), r"solve.method is 'periodic'; an elastic block is solved by"),
+        (("solve.step=20 us",), r"solve.step is 2e-05 s, too coarse for the vibration of 4000 Hz"),
+        (("solve.duration=0.1 ms",), r"solve.duration is 0.0001 s; with the vibration"),
+        (("contact.stiffness=0 Pa/m",), r"contact.stiffness is '0 Pa/m'"),
+        (
+            ("solve.scheme=two-phase", "vibration.velocity_ratio=60"),
+            r"two-phase scheme is unstable",
+        ),
+    ],
+)
+def test_what_cannot_be_solved_is_refused(settings, message):
+    with pytest.raises(InputError, match=message):
+        _ = problem(*settings).timetable
+
+
+def test_a_block_without_a_mass_is_refused():
+    raw = read_case("block-longitudinal", TABLES, SMALL)
+    none = {key: None for key in ("slider.mass", "slider.drive_stiffness", "slider.drive_damping")}
+    with pytest.raises(InputError, match=r"slider.mass is missing; it makes the density"):
+        BlockProblem.from_case(raw.replace_values({**none, "slider.lateral": None}))
+
+
+def test_a_block_that_is_not_pressed_on_its_base_does_not_come_to_rest():
+    block = problem()
+    up = dataclasses.replace(block.loads[0], generalised=-block.loads[0].generalised)
+    with pytest.raises(ConvergenceError, match=r"not\s+pressed on its base|no equilibrium at rest"):
+        steps.rest_under_load(block.system, (up,))

@@ -1,0 +1,118 @@
+"""Elastic blocks on the curves of the sliding body, and the ways they are read."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.contact.block import BlockProblem
+from asperity.thesis import pressed
+from asperity.thesis.blocks import LIGHT, Block, base_compliance, settle_all
+from asperity.thesis.contents import FIGURES
+from asperity.thesis.exhibits import FigureOf
+from asperity.thesis.figures_contact import _over_ratio
+from asperity.thesis.figures_sliding import figure_2_7
+from asperity.thesis.files import found_figure, make_figure
+from asperity.thesis.gearsets import CASE_TABLES
+
+K_2 = "vibration.velocity_ratio=2"
+STIFF = "block.youngs_modulus=20900 GPa"
+
+
+@functools.cache
+def problem(*settings):
+    return BlockProblem.from_case(
+        read_case("block-longitudinal", CASE_TABLES, [*LIGHT, *settings])
+    )
+
+
+def test_a_block_that_does_not_give_is_the_sliding_body():
+    stiff = Block("block-longitudinal", (*LIGHT, STIFF, K_2)).settled()
+    assert stiff.ratio == pytest.approx(stiff.slider, rel=5e-4)
+    assert stiff.in_series == pytest.approx(stiff.slider, rel=5e-4)
+
+
+def test_what_separates_block_and_sliding_body_is_the_blocks_compliance():
+    block, across = settle_all(
+        [
+            Block("block-longitudinal", (*LIGHT, K_2)),
+            Block("block-transverse", (*LIGHT, "vibration.velocity_ratio=3")),
+        ]
+    )
+    assert block.ratio / block.slider - 1.0 == pytest.approx(0.0107, abs=0.001)
+    assert block.ratio == pytest.approx(block.in_series, rel=1e-3)
+    assert across.ratio / across.slider - 1.0 == pytest.approx(0.0019, abs=0.0005)
+    assert across.ratio == pytest.approx(across.in_series, rel=1e-3)
+
+
+def test_a_block_settles_to_the_same_wherever_its_start_leaves_it():
+    block = Block("block-transverse", (*LIGHT, K_2)).settled()
+    assert abs(block.late) > 1e-3
+    assert block.unsteadiness < 3e-4
+
+
+def test_the_bases_compliance_goes_with_that_of_the_material():
+    soft, stiff = base_compliance(problem()), base_compliance(problem(STIFF))
+    assert soft / stiff == pytest.approx([100.0, 100.0], rel=1e-6)
+
+
+def test_pressure_on_the_base_makes_it_give_more_than_its_shear_alone():
+    whole = base_compliance(problem())
+    body, surface = problem().body, problem().surface
+    spread = np.zeros((len(surface.nodes), 3))
+    spread[:, 0] = surface.nodal_area / surface.area
+    shear = spread.ravel() @ body.flexibility @ spread.ravel()
+    # Shear of a prism accelerated as a whole, its lower face loaded: h/(3 G A) and some more.
+    size, modulus = problem().block.size, 209e9 / 2.6
+    assert 1.0 < shear / (size[2] / (3.0 * modulus * size[0] * size[1])) < 2.0
+    assert 1.5 < whole[0] / shear < 3.0
+
+
+def test_touched_at_its_nodes_a_cylinder_sinks_between_them():
+    over, between = (pressed.press("nodes", shift).approach for shift in (0.0, 0.5))
+    element = pressed.SIZE[0] / pressed.ELEMENTS[0]
+    assert between - over == pytest.approx(element**2 / (8.0 * pressed.RADIUS), rel=0.02)
+    over, integrated = (pressed.press("surface", shift).approach for shift in (0.0, 0.5))
+    assert 0.0 < integrated - over < 0.5 * element**2 / (8.0 * pressed.RADIUS)
+
+
+def test_a_surface_touched_at_its_nodes_keeps_its_area():
+    _, surface = pressed._body()
+    nodal = pressed.at_nodes(surface)
+    assert nodal.area == pytest.approx(surface.area)
+    assert np.allclose(nodal.points, nodal.positions[nodal.faces])
+
+
+def test_a_figure_holds_block_and_sliding_body_at_the_same_points():
+    drawn = _over_ratio("block-longitudinal", LIGHT, (2.0,), on_body=True)
+    assert list(drawn.dataset["shaken"].values) == ["base", "body"]
+    assert drawn.dataset["slider"].values == pytest.approx(
+        float(drawn.dataset["periodic"].sel(k=2.0)) * np.ones((2, 1)), rel=1e-9
+    )
+    assert any(line.startswith("asperity sweep table-4.3") for line in drawn.how)
+    assert len(drawn.figure.axes) == 2
+
+
+def test_figures_of_blocks_have_more_to_show_in_full():
+    with_more = {number for number, figure in FIGURES.items() if figure.full is not None}
+    assert with_more == {"5.5", "5.6", "5.7", "5.8", "5.9", "5.10", "5.11", "7.8", "7.9"}
+
+
+def test_what_was_made_in_full_serves_where_less_is_asked_for(tmp_path):
+    made = []
+
+    def grade(name):
+        def make():
+            made.append(name)
+            return figure_2_7()
+
+        return make
+
+    figure = FigureOf("2.7", "Title", "Caption", (), grade("light"), grade("full"))
+    make_figure(tmp_path, figure, lambda line: None)
+    assert found_figure(tmp_path, figure) is not None
+    assert found_figure(tmp_path, figure, full=True) is None
+    assert not make_figure(tmp_path, figure, lambda line: None, full=True).reused
+    assert make_figure(tmp_path, figure, lambda line: None).reused
+    assert made == ["light", "full"]
