@@ -72,7 +72,10 @@ def test_each_command_runs(asperity, tmp_path, command):
     assert output
     if "--out" in arguments:
         folder = tmp_path / arguments[arguments.index("--out") + 1]
-        assert read_dataset(folder / f"{arguments[0]}.nc").attrs
+        if arguments[0] == "export":
+            assert (folder / "block.inp").read_text("utf-8").startswith("*HEADING")
+        else:
+            assert read_dataset(folder / f"{arguments[0]}.nc").attrs
 
 
 def test_each_target_of_make_that_the_readme_names_exists():
