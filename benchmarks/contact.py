@@ -23,7 +23,8 @@ from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
 from asperity.contact.deck import BlockSetup, calculix_files
 from asperity.contact.elastic import Pressure, Traction, cache, condense, elastic_body
 from asperity.contact.reference import WholeSystem
-from asperity.contact.steps import Walker, rest_under_load
+from asperity.contact.rest import rest_under_load
+from asperity.contact.steps import Walker
 
 CASE = "block-longitudinal"
 # Shaken from the start, so that every increment counted is one with vibration.

@@ -14,7 +14,7 @@ from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.contact.deck import BlockSetup, calculix_files
 from asperity.contact.deck.calculix import overclosure, stick_slope
-from asperity.contact.steps import rest_under_load
+from asperity.contact.rest import rest_under_load
 
 FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
 

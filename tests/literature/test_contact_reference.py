@@ -23,9 +23,11 @@ from asperity.contact.increment import (
 )
 from asperity.contact.normal import NormalLaw
 from asperity.contact.reference import WholeSystem
+from asperity.contact.rest import rest_under_load
 from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.steps import System, Walker, rest_under_load
+from asperity.contact.steps import Walker
 from asperity.contact.surface import contact_surface
+from asperity.contact.system import System
 from asperity.contact.tables import TABLES
 from asperity.errors import ConvergenceError, InputError
 from asperity.mesh import box

@@ -11,6 +11,7 @@ from asperity.contact import ledger, steps
 from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
 from asperity.contact.block_march import BlockMarch, solve_block
 from asperity.contact.block_resume import go_on, keep
+from asperity.contact.rest import rest_under_load
 from asperity.errors import ConvergenceError, InputError
 
 SMALL = ("block.elements=[2, 2, 2]", "block.element=hex8")
@@ -23,7 +24,7 @@ def problem(*settings, case="block-longitudinal"):
 
 
 def at_rest(block):
-    return steps.rest_under_load(block.system, block.loads)
+    return rest_under_load(block.system, block.loads)
 
 
 def centre_of_pressure(block, pressure):
@@ -186,27 +187,84 @@ def test_an_increment_that_fails_however_small_says_where_and_keeps_what_was_don
     assert np.isfinite(march.history.drive_force).all()
 
 
-@pytest.mark.parametrize("stop", [20, 200])
-def test_an_interrupted_march_goes_on_to_the_same_end(stop, tmp_path):
-    whole = solve_block(problem("vibration.direction=45 deg"))
+RESUMED = {
+    "linear": ("vibration.direction=45 deg",),
+    "hard": ("contact.normal=hard", "vibration.direction=45 deg"),
+    "modes": ("block.modes=3", "friction.law=vector"),
+}
+TIMES = {"ms_per_increment", "seconds", "condense_seconds", "condensed_from_cache"}
 
-    def interrupt(done, _):
-        if done == stop:
+
+def stopped(block, after, path):
+    def stop():
+        if march.done == after:
+            keep(march, path)
             raise KeyboardInterrupt
 
-    first = BlockMarch(problem("vibration.direction=45 deg"), progress=interrupt)
+    march = BlockMarch(block, between=stop)
     with pytest.raises(KeyboardInterrupt):
-        first.run()
-    path = keep(first, tmp_path / "kept.npz")
-    second = BlockMarch(problem("vibration.direction=45 deg"))
-    assert go_on(second, path)
+        march.run()
+    assert march.done == after
+    return march
+
+
+@pytest.mark.parametrize("stop", [1, 20, 200])
+@pytest.mark.parametrize("name", RESUMED)
+def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path):
+    whole = solve_block(problem(*RESUMED[name]))
+    stopped(problem(*RESUMED[name]), stop, tmp_path / "kept.npz")
+    second = BlockMarch(problem(*RESUMED[name]))
+    assert go_on(second, tmp_path / "kept.npz")
     assert second.done == stop
     result = second.run()
-    assert result.ratio == pytest.approx(whole.ratio, rel=1e-9)
-    assert result.ledger.friction == pytest.approx(whole.ledger.friction, rel=1e-9)
-    assert result.history.time == pytest.approx(whole.history.time)
-    assert result.history.drive_force == pytest.approx(whole.history.drive_force, rel=1e-7)
-    assert len(result.frames) == len(whole.frames)
+    answers = [
+        {key: value for key, value in run.to_json().items() if key not in TIMES}
+        for run in (whole, result)
+    ]
+    assert answers[0] == answers[1]
+    for name in ("time", "drive_force", "friction", "deflection", "position", "velocity"):
+        assert np.array_equal(getattr(result.history, name), getattr(whole.history, name))
+    assert np.array_equal(result.point_pressure, whole.point_pressure)
+    for frame, other in zip(result.frames, whole.frames, strict=True):
+        assert frame.time == other.time
+        assert np.array_equal(frame.traction, other.traction)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
+def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_one(
+    monkeypatch, error
+):
+    whole = solve_block(problem("vibration.direction=45 deg"))
+    march = BlockMarch(problem("vibration.direction=45 deg"))
+    solve, calls = steps.solve_increment, []
+
+    def breaks(*arguments):
+        calls.append(1)
+        if len(calls) % 100 == 0:
+            raise error
+        return solve(*arguments)
+
+    def recording(number):
+        record(number)
+        if number % 70 == 0 and number not in seen:
+            seen.append(number)
+            raise error
+
+    monkeypatch.setattr(steps, "solve_increment", breaks)
+    record, seen = march._record, []
+    monkeypatch.setattr(march, "_record", recording)
+    result, breaks_off = None, 0
+    while result is None:
+        try:
+            result = march.run()
+        except error:
+            breaks_off += 1
+            assert march.walker.state.time == pytest.approx(march.done * 5e-6)
+            assert len(march.history.time) == march.done + 1
+    assert breaks_off > 5
+    assert result.ratio == pytest.approx(whole.ratio, rel=1e-7)
+    assert np.array_equal(result.history.time, whole.history.time)
+    assert result.history.drive_force == pytest.approx(whole.history.drive_force, rel=1e-6)
 
 
 def test_what_was_kept_of_another_problem_is_left_alone(tmp_path):
@@ -267,7 +325,7 @@ def test_what_cannot_be_solved_is_refused(settings, message):
 
 def test_a_block_without_a_mass_is_refused():
     raw = read_case("block-longitudinal", TABLES, SMALL)
-    none = {key: None for key in ("slider.mass", "slider.drive_stiffness", "slider.drive_damping")}
+    none = dict.fromkeys(("slider.mass", "slider.drive_stiffness", "slider.drive_damping"))
     with pytest.raises(InputError, match=r"slider.mass is missing; it makes the density"):
         BlockProblem.from_case(raw.replace_values({**none, "slider.lateral": None}))
 
@@ -276,4 +334,4 @@ def test_a_block_that_is_not_pressed_on_its_base_does_not_come_to_rest():
     block = problem()
     up = dataclasses.replace(block.loads[0], generalised=-block.loads[0].generalised)
     with pytest.raises(ConvergenceError, match=r"not\s+pressed on its base|no equilibrium at rest"):
-        steps.rest_under_load(block.system, (up,))
+        rest_under_load(block.system, (up,))

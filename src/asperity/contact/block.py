@@ -36,8 +36,8 @@ from asperity.contact.friction_point import PointFriction
 from asperity.contact.normal import NormalLaw
 from asperity.contact.parameters import Block, Contact
 from asperity.contact.rigid import RigidSurface
-from asperity.contact.steps import Shaking, System
 from asperity.contact.surface import ContactSurface, contact_surface
+from asperity.contact.system import Shaking, System
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
 from asperity.slider.march import Timetable
@@ -191,7 +191,7 @@ class BlockProblem:
 
     @functools.cached_property
     def system(self) -> System:
-        """Body, base, drive and vibration, as `asperity.contact.steps` takes them."""
+        """Body, base, drive and vibration, as `asperity.contact.system` takes them."""
         model, slider = self.model, self.model.slider
         return System(
             mechanism=mechanism(

@@ -9,8 +9,10 @@ import numpy as np
 from asperity.contact import hht, ledger
 from asperity.contact import motion as mo
 from asperity.contact.block import BlockProblem
+from asperity.contact.rest import rest_under_load
 from asperity.contact.result import BlockResult, Frame
-from asperity.contact.steps import SystemState, Walker, rest_under_load
+from asperity.contact.steps import Walker
+from asperity.contact.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.slider.march import march_notes
 from asperity.slider.model import FloatArray
@@ -21,6 +23,11 @@ _REPORTS = 1000
 _FRAMES = 48
 _FRAME_CYCLES = 2
 _MOST_SLIP = 0.5
+
+_Snapshot = tuple[SystemState, FloatArray, FloatArray, int]
+_Place = tuple[
+    int, _Snapshot, int, int, ledger.Energies | None, FloatArray | None, FloatArray | None
+]
 
 # Places in a recorded row.
 _TIME, _FD, _FX, _FY, _SX, _SY, _X, _Y, _VX, _VY = range(10)
@@ -39,6 +46,8 @@ class BlockMarch:
         of the last cycles.
     progress : callable, optional
         Told, now and then, how many increments are done, and of how many.
+    between : callable, optional
+        Called after every increment, when the march is whole: to keep it, or to end it by raising.
 
     Attributes
     ----------
@@ -52,6 +61,7 @@ class BlockMarch:
         *,
         history: bool = True,
         progress: Callable[[int, int], None] | None = None,
+        between: Callable[[], None] | None = None,
     ) -> None:
         self.problem = problem
         self.done = 0
@@ -61,7 +71,7 @@ class BlockMarch:
         self.first_half: FloatArray | None = None
         self.first_pressure: FloatArray | None = None
         self.seconds = self.march_seconds = 0.0
-        self._progress = progress
+        self._progress, self._between = progress, between
         table = problem.timetable
         self._stride = max(1, table.steps // _RECORDS) if history else 0
         self._told = max(1, table.steps // _REPORTS)
@@ -93,34 +103,55 @@ class BlockMarch:
             An increment did not converge however small; with time, residual, points in contact
             and the increments done.
         """
-        began = warm = time.perf_counter()
+        last = time.perf_counter()
         table, walker = self.problem.timetable, self.walker
-        whole = walker.snapshot()
+        first = self.done
+        whole = self._place()
         try:
             while self.done < table.steps:
                 if self.done == table.window_start and self.window_energies is None:
                     self._open_window()
                 elif self.done == table.middle and self.first_half is None:
                     self._close_first_half()
-                whole = walker.snapshot()
-                if self.done <= 1:
-                    warm = time.perf_counter()
                 walker.step_to((self.done + 1) * table.step, table.step)
                 self.done += 1
                 self._record(self.done)
+                now = time.perf_counter()
+                self.seconds += now - last
+                # The first increment of a program may have compiled kernels.
+                self.march_seconds += now - last if self.done > first + 1 else 0.0
+                last = now
+                whole = self._place()
+                self._tell()
         except ConvergenceError as error:
-            walker.restore(whole)
+            self._go_back(whole)
             raise ConvergenceError(
                 f"{error}; {self.done} of {table.steps} increments are solved",
                 reached={**error.reached, "increments": float(self.done)},
             ) from error
         except BaseException:
-            walker.restore(whole)
+            self._go_back(whole)
             raise
-        finally:
-            self.seconds += time.perf_counter() - began
-            self.march_seconds += time.perf_counter() - warm
         return self._result()
+
+    def _place(self) -> _Place:
+        """Return all that an increment changes, in one piece: no interruption can split it."""
+        return (
+            self.done, self.walker.snapshot(), len(self.rows), len(self.frames),
+            self.window_energies, self.first_half, self.first_pressure,
+        )  # fmt: skip
+
+    def _go_back(self, place: _Place) -> None:
+        self.done, snapshot, rows, frames, energies, half, pressure = place
+        self.walker.restore(snapshot)
+        del self.rows[rows:], self.frames[frames:]
+        self.window_energies, self.first_half, self.first_pressure = energies, half, pressure
+
+    def _tell(self) -> None:
+        if self._progress is not None and self.done % self._told == 0:
+            self._progress(self.done, self.problem.timetable.steps)
+        if self._between is not None:
+            self._between()
 
     def _open_window(self) -> None:
         walker = self.walker
@@ -134,8 +165,6 @@ class BlockMarch:
 
     def _record(self, number: int) -> None:
         table = self.problem.timetable
-        if self._progress is not None and number % self._told == 0:
-            self._progress(number, table.steps)
         if not self._stride or self._walker is None:
             return
         state = self._walker.state

@@ -1,8 +1,14 @@
-"""A block's march kept on disk where it was interrupted, to go on from there."""
+"""A block's march kept on disk as it stands, to go on from there.
+
+Numbers that decide the result are kept to the last bit, and what the solution has learnt on its
+way as well: a march that goes on ends exactly as one that was never interrupted.
+"""
 
 import dataclasses
+import functools
 import hashlib
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +20,21 @@ from asperity.contact.block import BlockProblem
 from asperity.contact.block_march import BlockMarch
 from asperity.contact.dataset import inputs
 from asperity.contact.increment import ContactState, IncrementResult
+from asperity.contact.increment_memory import (
+    inverses_as_arrays,
+    restore_inverses,
+    trend_as_arrays,
+    trend_from,
+)
+from asperity.contact.increment_state import Trend
 from asperity.contact.result import Frame
-from asperity.contact.steps import SystemState
+from asperity.contact.system import SystemState
 from asperity.store import write_atomically
 
-_CONTACT = ("pressure", "distance", "normal", "traction", "slip_1", "slip_2")
-_HISTORY = ("displacement", "force", "deflection", "size", "multiplier", "touching")
+_CONTACT = ("distance", "normal", "slip_1", "slip_2")
+_HISTORY = (
+    "displacement", "force", "deflection", "size", "multiplier", "pressure", "traction",
+)  # fmt: skip
 _STATE = ("coordinates", "drive", "forces")
 _FRAME = ("time", "coordinates", "drive_force", "force", "pressure", "traction")
 
@@ -27,10 +42,17 @@ _FRAME = ("time", "coordinates", "drive_force", "force", "pressure", "traction")
 def fingerprint(problem: BlockProblem) -> str:
     """Return a text that is the same for what calculates the same, by these sources."""
     digest = hashlib.sha256(repr(sorted(inputs(problem).items())).encode())
-    if problem.model.shape is not None:
-        digest.update(np.ascontiguousarray(problem.model.shape.table).tobytes())
-    digest.update(package_hash().encode())
+    shape = problem.model.shape
+    if shape is not None:
+        digest.update(repr((shape.code, shape.frequency, shape.rise)).encode())
+        digest.update(np.ascontiguousarray(shape.table).tobytes())
+    digest.update(_sources().encode())
     return digest.hexdigest()
+
+
+@functools.cache
+def _sources() -> str:
+    return package_hash()
 
 
 def keep(march: BlockMarch, path: Path) -> Path:
@@ -63,6 +85,15 @@ def keep(march: BlockMarch, path: Path) -> Path:
     if march.first_half is not None and march.first_pressure is not None:
         arrays["first_half"] = march.first_half
         arrays["first_pressure"] = march.first_pressure
+    system, trend = walker.system, contact.state.trend
+    arrays["lengths"] = system.lengths
+    arrays["trend_length"] = -1
+    for number, length in enumerate(system.lengths):
+        increments = system.stepping(length)[1]
+        arrays |= _named(f"inverses_{number}_", inverses_as_arrays(increments.inverses))
+        if increments.flexibility is trend.flexibility:
+            arrays["trend_length"] = number
+    arrays |= _named("trend_", trend_as_arrays(trend))
     return write_atomically(path, lambda target: np.savez(target, **arrays))
 
 
@@ -82,8 +113,14 @@ def go_on(march: BlockMarch, path: Path) -> bool:
     except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         return False
     time, load, iterations, residual = arrays["scalars"]
-    rest = ContactState.rest(march.problem.system.stepping(march.problem.timetable.step)[1])
-    history = dataclasses.replace(rest, **{name: arrays[f"history_{name}"] for name in _HISTORY})
+    system = march.problem.system
+    trend = Trend()
+    for number, length in enumerate(arrays["lengths"]):
+        increments = system.stepping(float(length))[1]
+        restore_inverses(increments, _under(f"inverses_{number}_", arrays))
+        if number == arrays["trend_length"]:
+            trend = trend_from(_under("trend_", arrays), increments.flexibility)
+    history = ContactState(**{name: arrays[f"history_{name}"] for name in _HISTORY}, trend=trend)
     contact = IncrementResult(
         state=history,
         iterations=int(iterations),
@@ -110,3 +147,11 @@ def go_on(march: BlockMarch, path: Path) -> bool:
     if "first_half" in arrays:
         march.first_half, march.first_pressure = arrays["first_half"], arrays["first_pressure"]
     return True
+
+
+def _named(prefix: str, arrays: Mapping[str, Any]) -> dict[str, Any]:
+    return {prefix + name: array for name, array in arrays.items()}
+
+
+def _under(prefix: str, arrays: Mapping[str, Any]) -> dict[str, Any]:
+    return {name.removeprefix(prefix): a for name, a in arrays.items() if name.startswith(prefix)}

@@ -122,7 +122,7 @@ class Inverses:
                 + k2 * _outer(tangents[:, 1])
             )
             stiffness[~touching] = 0.0
-            frozen = _invert(problem, name, touching, stiffness)
+            frozen = inverted(problem, touching, stiffness)
             used = sum(entry.inverse.nbytes for entry in self.kept.values())
             while self.kept and (
                 len(self.kept) >= _MOST_INVERSES or used + frozen.inverse.nbytes > _MOST_BYTES
@@ -165,12 +165,10 @@ def _mean_flexibility(problem: IncrementProblem, touching: npt.NDArray[np.bool_]
     return float(max(parts))
 
 
-def _invert(
-    problem: IncrementProblem,
-    name: bytes,
-    touching: npt.NDArray[np.bool_],
-    stiffness: FloatArray,
+def inverted(
+    problem: IncrementProblem, touching: npt.NDArray[np.bool_], stiffness: FloatArray
 ) -> Frozen:
+    """Return a frozen tangent with its inverse for the points in contact and their stiffness."""
     faces, shapes, weights = problem.arrays[:3]
     touched = np.unique(faces[np.flatnonzero(touching) // len(shapes)])
     local = np.full(problem.nodes, -1, dtype=np.int64)
@@ -183,4 +181,4 @@ def _invert(
     inverse = scipy.linalg.solve(matrix, part, overwrite_a=True, check_finite=False)
     if len(dofs) < 3 * problem.nodes:
         inverse = problem.flexibility[:, dofs] @ (np.eye(len(dofs)) + k @ inverse)
-    return Frozen(name, np.ascontiguousarray(inverse), stiffness, dofs)
+    return Frozen(touching.tobytes(), np.ascontiguousarray(inverse), stiffness, dofs)

@@ -28,7 +28,7 @@ from asperity.contact.increment_kernels import (
     tractions,
 )
 from asperity.contact.increment_state import SurfaceMotion
-from asperity.contact.steps import System
+from asperity.contact.system import System
 from asperity.errors import ConvergenceError, InputError
 
 Floats = NDArray[np.float64]

@@ -23,9 +23,11 @@ from asperity.contact import hht, ledger
 from asperity.contact import motion as mo
 from asperity.contact.block import BlockProblem, shaking
 from asperity.contact.block_march import solve_block
+from asperity.contact.rest import rest_under_load
 from asperity.contact.result import BlockResult
-from asperity.contact.steps import Shaking, System, SystemState, Walker, rest_under_load
+from asperity.contact.steps import Walker
 from asperity.contact.surface import contact_surface
+from asperity.contact.system import Shaking, System, SystemState
 from asperity.mesh import box
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic

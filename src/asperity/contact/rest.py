@@ -1,0 +1,103 @@
+"""A body brought to rest under its loads, friction and all: what a motion starts from."""
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.contact import hht
+from asperity.contact import motion as mo
+from asperity.contact.increment import ContactState, IncrementResult, SurfaceMotion
+from asperity.contact.steps import resultants, take_step
+from asperity.contact.system import System, SystemState
+from asperity.errors import ConvergenceError, InputError
+
+FloatArray = npt.NDArray[np.float64]
+
+_MOST_STATIC = 50
+_AT_REST = 1e-9
+# Steps of loading are so long that the inertia is this share of the stiffness on the contact.
+_INERTIA_AT_REST = 1e-4
+
+
+def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
+    """Bring a body to rest under loads that come one after the other, friction and all.
+
+    Parameters
+    ----------
+    system : System
+        The body; its drive and shaking wait.
+    loads : tuple of Port
+        Loads as they stand after each step, as gravity, then gravity and pressure.
+
+    Returns
+    -------
+    SystemState
+        At time zero, the drive just taut.
+
+    Raises
+    ------
+    ConvergenceError
+        No equilibrium was found: the loads do not press the body on the surface, or it tips over.
+    """
+    mechanism = system.mechanism
+    long = float(np.sqrt(mechanism.mass[0, 0] / (_INERTIA_AT_REST * _stiffness(system))))
+    waiting = dataclasses.replace(mechanism, drive=None, load=None)
+    first = mo.motion_step(waiting, long, alpha=0.0)
+    problem = system.increments(first.compliance, long)
+    contact = ContactState.rest(problem)
+    coordinates = hht.rest(mechanism.size)
+    drive = np.zeros(mo.DRIVE_STATE)
+    still = SurfaceMotion(pose=system.pose)
+    result = None
+    for number, load in enumerate(loads, start=1):
+        moving = mo.motion_step(dataclasses.replace(waiting, load=load), long, alpha=0.0)
+        for _ in range(_MOST_STATIC):
+            try:
+                result, coordinates, drive, _ = take_step(
+                    moving, problem, still, contact, coordinates, drive, (0.0, 0.0, 1.0)
+                )
+            except ConvergenceError as error:
+                raise ConvergenceError(
+                    f"no equilibrium at rest under load {number} of {len(loads)}: {error}",
+                    reached={"load": float(number), **error.reached},
+                ) from error
+            contact = result.state
+            # What the inertia still bears; each step starts anew without a velocity.
+            left = float(np.abs(coordinates[hht.FORCE]).max())
+            coordinates[1:] = 0.0
+            if left <= _AT_REST * float(np.abs(load.generalised).max()):
+                break
+        else:
+            raise ConvergenceError(
+                f"the body does not come to rest under load {number} of {len(loads)}; it is not "
+                "pressed on its base, or tips over",
+                reached={"load": float(number), "active": float(result.active if result else 0)},
+            )
+    if result is None:
+        raise InputError("no load presses the body on its base; give gravity or a pressure")
+    whole = dataclasses.replace(system, mechanism=dataclasses.replace(mechanism, load=loads[-1]))
+    return _at_start(whole, result, coordinates)
+
+
+def _stiffness(system: System) -> float:
+    """Stiffness of contact and body under a pressure spread evenly over the contact, N/m."""
+    surface = system.surface
+    spread = (-surface.nodal_normals * surface.nodal_area[:, None] / surface.area).ravel()
+    body = float(spread @ (system.mechanism.flexibility @ spread))
+    return 1.0 / (1.0 / (system.normal.stiffness * surface.area) + body)
+
+
+def _at_start(system: System, result: IncrementResult, coordinates: FloatArray) -> SystemState:
+    mechanism = system.mechanism
+    drive = np.zeros(mo.DRIVE_STATE)
+    if mechanism.drive is not None:
+        port = mechanism.drive.port
+        drive[mo.STRAIN] = port.response @ result.force
+        drive[mo.WAY] = port.generalised @ coordinates[hht.PLACE] + drive[mo.STRAIN]
+        drive[mo.REACH] = drive[mo.WAY]
+    else:
+        coordinates[hht.VELOCITY, 0] = system.drive_velocity if mechanism.held[0] else 0.0
+        drive[mo.REACH] = drive[mo.WAY] = coordinates[hht.PLACE, 0]
+    forces = resultants(system, result, coordinates, 1.0)
+    return SystemState(0.0, coordinates, drive, result, forces, 1.0)
