@@ -1,4 +1,4 @@
-"""A body brought to rest under its loads, friction and all: what a motion starts from."""
+"""What a motion starts from: a body at rest under its loads, or one let go anywhere."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from asperity.contact import hht
 from asperity.contact import motion as mo
-from asperity.contact.increment import ContactState, IncrementResult, SurfaceMotion
+from asperity.contact.increment import ContactState, IncrementResult, SurfaceMotion, solve_increment
 from asperity.contact.steps import resultants, take_step
 from asperity.contact.system import System, SystemState
 from asperity.errors import ConvergenceError, InputError
@@ -41,7 +41,7 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
         No equilibrium was found: the loads do not press the body on the surface, or it tips over.
     """
     mechanism = system.mechanism
-    long = float(np.sqrt(mechanism.mass[0, 0] / (_INERTIA_AT_REST * _stiffness(system))))
+    long = _long(system)
     waiting = dataclasses.replace(mechanism, drive=None, load=None)
     first = mo.motion_step(waiting, long, alpha=0.0)
     problem = system.increments(first.compliance, long)
@@ -80,12 +80,67 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
     return _at_start(whole, result, coordinates)
 
 
-def _stiffness(system: System) -> float:
-    """Stiffness of contact and body under a pressure spread evenly over the contact, N/m."""
-    surface = system.surface
+def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemState:
+    """Let a body go from a place with a velocity: above its base, tilted, thrown at it.
+
+    It is deformed by its loads, and by the contact where there is one, as if it had been held
+    there; the asperities stand as this little deformation bends them. The drive is just taut.
+
+    Parameters
+    ----------
+    system : System
+        The body, its loads on.
+    place, velocity : ndarray, shape (m,)
+        Generalised coordinates, rigid motion first: shift, m, and turn, rad; and their velocities.
+        Of held coordinates they are nil.
+
+    Returns
+    -------
+    SystemState
+        At time zero.
+
+    Raises
+    ------
+    InputError
+        Not a finite place and velocity for each coordinate.
+    ConvergenceError
+        No equilibrium of the contact at this place.
+    """
+    mechanism = system.mechanism
+    start = np.array([place, velocity], dtype=float)
+    if start.shape != (2, mechanism.size) or not np.isfinite(start).all():
+        raise InputError(
+            f"place and velocity have the shape {start.shape[1:]}; give ({mechanism.size},), finite"
+        )
+    start[:, mechanism.held] = 0.0
+    load = mechanism.load
+    free = mechanism.shapes @ start[0]
+    forces = mechanism.stiffness @ start[0]
+    if load is not None:
+        free, forces = free + load.response, forces - load.generalised
+    problem = system.increments(mechanism.flexibility, _long(system))
+    untouched = dataclasses.replace(ContactState.rest(problem), displacement=free)
+    result = solve_increment(problem, free, SurfaceMotion(pose=system.pose), untouched)
+    coordinates = hht.rest(mechanism.size)
+    coordinates[: hht.VELOCITY + 1] = start
+    forces -= mechanism.shapes.T @ result.force
+    moving = ~mechanism.held
+    coordinates[hht.FORCE] = forces
+    coordinates[hht.REACTION, ~moving] = forces[~moving]
+    coordinates[hht.ACCELERATION, moving] = np.linalg.solve(
+        mechanism.mass[np.ix_(moving, moving)], -forces[moving]
+    )
+    return _at_start(system, result, coordinates)
+
+
+def _long(system: System) -> float:
+    """Length of a step of loading, s."""
+    surface, mechanism = system.surface, system.mechanism
+    # What contact and body give under a pressure spread evenly over the contact, m/N.
     spread = (-surface.nodal_normals * surface.nodal_area[:, None] / surface.area).ravel()
-    body = float(spread @ (system.mechanism.flexibility @ spread))
-    return 1.0 / (1.0 / (system.normal.stiffness * surface.area) + body)
+    give = float(spread @ (mechanism.flexibility @ spread))
+    give += 1.0 / (system.normal.stiffness * surface.area)
+    return float(np.sqrt(mechanism.mass[0, 0] * give / _INERTIA_AT_REST))
 
 
 def _at_start(system: System, result: IncrementResult, coordinates: FloatArray) -> SystemState:
