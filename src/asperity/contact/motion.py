@@ -155,7 +155,9 @@ class MotionStep:
     load_response: FloatArray
 
 
-def motion_step(mechanism: Mechanism, step: float, *, alpha: float = hht.ALPHA) -> MotionStep:
+def motion_step(
+    mechanism: Mechanism, step: float, *, alpha: float = hht.ALPHA, impact: bool = False
+) -> MotionStep:
     """Return what a mechanism does in steps of one length.
 
     Parameters
@@ -166,6 +168,8 @@ def motion_step(mechanism: Mechanism, step: float, *, alpha: float = hht.ALPHA) 
         Length of the step, s.
     alpha : float
         Parameter of the method, -1/3 to 0.
+    impact : bool
+        Whether the body meets contacts that a step does not resolve.
 
     Raises
     ------
@@ -175,7 +179,12 @@ def motion_step(mechanism: Mechanism, step: float, *, alpha: float = hht.ALPHA) 
     shapes = mechanism.shapes
     count = shapes.shape[0]
     operator = hht.step_operator(
-        mechanism.mass, mechanism.stiffness, step, alpha=alpha, held=mechanism.held
+        mechanism.mass,
+        mechanism.stiffness,
+        step,
+        alpha=alpha,
+        impact=impact,
+        held=mechanism.held,
     )
     compliance = mechanism.flexibility + shapes @ operator.compliance @ shapes.T
     none = np.zeros(count), np.zeros(mechanism.size)
@@ -183,7 +192,7 @@ def motion_step(mechanism: Mechanism, step: float, *, alpha: float = hht.ALPHA) 
     drive_response, drive_shape = none
     numbers = np.zeros(DRIVE_SCALARS)
     numbers[YIELD] = 1.0
-    beta, gamma = hht.coefficients(alpha)
+    beta, gamma = hht.coefficients(alpha, impact=impact)
     numbers[GAIN] = gamma / (beta * step)
     if mechanism.drive is not None:
         drive = mechanism.drive

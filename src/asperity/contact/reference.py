@@ -100,6 +100,7 @@ class _Step:
     load: Floats
     far: float
     speed: float
+    impact: bool = False
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -245,7 +246,8 @@ class WholeSystem:
         length = end - state.time
         motion, _ = system.surface_motion(state.time, end)
         far = state.reach + system.drive_velocity * length
-        step = _Step(motion, length, system.alpha, load, far, system.drive_velocity)
+        impact = system.impact(length)
+        step = _Step(motion, length, system.alpha, load, far, system.drive_velocity, impact)
         return self._solve(state, step, end)
 
     def _solve(self, state: WholeState, step: _Step, end: float) -> WholeState:
@@ -296,7 +298,7 @@ class WholeSystem:
         )  # fmt: skip
         velocity, acceleration = np.zeros_like(place), np.zeros_like(place)
         if step.length is not None:
-            beta, gamma = hht.coefficients(step.alpha)
+            beta, gamma = hht.coefficients(step.alpha, impact=step.impact)
             h, rest = step.length, state.acceleration
             ahead = state.place + h * state.velocity + h * h * (0.5 - beta) * rest
             acceleration = (place - ahead) / (beta * h * h)
@@ -338,7 +340,7 @@ class WholeSystem:
             weight = 1.0 + step.alpha
             matrix = weight * self.body.stiffness
             if step.length is not None:
-                beta, gamma = hht.coefficients(step.alpha)
+                beta, gamma = hht.coefficients(step.alpha, impact=step.impact)
                 mass = sparse.kron(self.body.nodal_mass, sparse.eye_array(3))
                 matrix = matrix + mass / (beta * step.length**2)
                 drive = self.system.mechanism.drive

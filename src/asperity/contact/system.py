@@ -22,6 +22,10 @@ from asperity.vibration import Shape, fill_increments
 
 FloatArray = npt.NDArray[np.float64]
 
+# A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
+# touching, up to this angle of its oscillation in a step; at 3 it leaves 17 % faster.
+_RESOLVED = 2.0
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shaking:
@@ -107,9 +111,34 @@ class System:
     def stepping(self, step: float) -> tuple[mo.MotionStep, IncrementProblem]:
         """What a length of the step makes of body and contact; made once for each."""
         if step not in self._moving:
-            moving = mo.motion_step(self.mechanism, step, alpha=self.alpha)
+            moving = mo.motion_step(
+                self.mechanism, step, alpha=self.alpha, impact=self.impact(step)
+            )
             self._moving[step] = moving, self.increments(moving.compliance, step)
         return self._moving[step]
+
+    @functools.cached_property
+    def bounce(self) -> float:
+        """Highest angular frequency of the body on its contact, rad/s.
+
+        Of motion normal to the surface, all of it in contact, the body's own give in series; what
+        the body would do without contact is no part of it.
+        """
+        mechanism, surface = self.mechanism, self.surface
+        normals = surface.nodal_normals
+        moving = ~mechanism.held
+        shapes = np.einsum("na,nam->nm", normals, mechanism.shapes.reshape(*normals.shape, -1))
+        blocks = mechanism.flexibility.reshape(*normals.shape, *normals.shape)
+        give = np.einsum("na,nabc,bc->nb", normals, blocks, normals)
+        give += np.diag(1.0 / (self.normal.stiffness * surface.nodal_area))
+        stiffness = shapes.T @ np.linalg.solve(give, shapes)
+        inner = np.ix_(moving, moving)
+        squares = np.linalg.eigvals(np.linalg.solve(mechanism.mass[inner], stiffness[inner])).real
+        return float(np.sqrt(max(squares.max(initial=0.0), 0.0)))
+
+    def impact(self, step: float) -> bool:
+        """Whether a step does not resolve the contact: a hard one, or too stiff a one."""
+        return self.normal.name == "hard" or self.bounce * step > _RESOLVED
 
     @property
     def lengths(self) -> tuple[float, ...]:
