@@ -23,6 +23,7 @@ import numpy.typing as npt
 
 from asperity.casefile import Case
 from asperity.contact import motion as mo
+from asperity.contact.compliance import BaseCompliance, base_compliance
 from asperity.contact.elastic import (
     CondensedBody,
     ElasticBody,
@@ -210,26 +211,10 @@ class BlockProblem:
         )
 
     @functools.cached_property
-    def shear_compliance(self) -> FloatArray:
-        r"""How far the bottom gives under friction spread evenly over it, m/N, along x and y.
-
-        The work of the friction of 1 N on the deformation it causes, the block being accelerated
-        as a whole by it: :math:`t^T C t` with the nodal forces :math:`t` of the even spread, and
-        the tilt of the block on its contact stiffness. In series with it a tangential stiffness
-        :math:`k_t` is :math:`1/(1/k_t + c)`.
-        """
-        surface = self.surface
-        give = np.empty(2)
-        for axis in range(2):
-            spread = np.zeros((len(surface.nodes), 3))
-            spread[:, axis] = surface.nodal_area / surface.area
-            forces = spread.ravel()
-            give[axis] = forces @ self.body.flexibility @ forces
-            # Friction below the centre of mass tilts the block about the other axis.
-            length = self.block.size[axis]
-            turning = self.normal.stiffness * surface.area * length**2 / 12.0
-            give[axis] += float(self.body.centre[2]) ** 2 / turning
-        return give
+    def compliance(self) -> BaseCompliance:
+        """How the bottom gives under friction spread evenly over it, at the mean pressure."""
+        mean_pressure = self.model.slider.normal_force / self.surface.area
+        return base_compliance(self.system.mechanism, self.surface, self.normal, mean_pressure)
 
 
 def _pull() -> Traction:

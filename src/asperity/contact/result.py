@@ -119,8 +119,8 @@ class BlockResult(SlideResult):
             "normal_force_N": self.normal_force,
             "normal_law": problem.contact.normal,
             "normal_stiffness_Pa_per_m": problem.normal.stiffness,
-            "shear_compliance_x_m_per_N": float(problem.shear_compliance[0]),
-            "shear_compliance_y_m_per_N": float(problem.shear_compliance[1]),
+            "shear_compliance_x_m_per_N": float(problem.compliance.static[0, 0]),
+            "shear_compliance_y_m_per_N": float(problem.compliance.static[1, 1]),
             "pressure_max_MPa": 1e-6 * self.peak_pressure,
             "pressure_mean_MPa": 1e-6 * self.mean_pressure,
         }

@@ -44,8 +44,8 @@ STEPS = 200
 # Long steps and much numerical damping first, which end the bounce on the contact that the start
 # excites; then steps that follow everything.
 _CALM_STEPS, _CALM_CYCLES, _CALM_ALPHA = 50, 12, -1.0 / 3.0
-_SETTLE_CYCLES = 2
-_MEASURED_CYCLES = 8
+_SETTLE_CYCLES = 14
+_MEASURED_CYCLES = 16
 _SLOPE = 0.01
 
 
@@ -62,6 +62,8 @@ class Settled:
     in_series : float
         The sliding body with the block's compliance as a spring between it and its asperities,
         settled as the block is.
+    rocking : float
+        The same where the block's turns on its contact, most of that compliance, have inertia.
     unsteadiness : float
         Standard deviation of the cycles' ratios, over the root of their number.
     late : float
@@ -71,6 +73,7 @@ class Settled:
     ratio: float
     slider: float
     in_series: float
+    rocking: float
     unsteadiness: float
     late: float
 
@@ -141,22 +144,27 @@ def _marched(block: Block) -> BlockResult:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class _Resting:
-    """A block, and the sliding body with its compliance, both at rest under their loads."""
+    """A block, and the sliding bodies with its compliance, all at rest under their loads."""
 
     block: tuple[System, SystemState]
     in_series: tuple[System, SystemState]
+    rocking: tuple[System, SystemState]
 
 
 @functools.cache
 def _at_rest(case: str, settings: tuple[str, ...]) -> _Resting:
     problem = BlockProblem.from_case(read_case(case, CASE_TABLES, settings))
-    system, springy = problem.system, in_series(problem)
-    load = springy.mechanism.load
-    if load is None:
-        raise ValueError("not loaded")
+
+    def resting(system: System, loads: tuple[mo.Port, ...] = ()) -> tuple[System, SystemState]:
+        load = system.mechanism.load
+        if load is None:
+            raise ValueError("not loaded")
+        return system, rest_under_load(system, loads or (load,))
+
     return _Resting(
-        (system, rest_under_load(system, problem.loads)),
-        (springy, rest_under_load(springy, (load,))),
+        resting(problem.system, problem.loads),
+        resting(in_series(problem)),
+        resting(in_series(problem, rocking=True)),
     )
 
 
@@ -166,11 +174,14 @@ def _settled(block: Block) -> Settled:
     slider = solve_periodic(block.model())
     slope = _slope(block)
     ratios, late = _settle(*resting.block, slider, slope)
-    springy, _ = _settle(*resting.in_series, slider, slope)
+    springy, rocking = (
+        _settle(*body, slider, slope)[0] for body in (resting.in_series, resting.rocking)
+    )
     return Settled(
         ratio=float(ratios.mean()),
         slider=slider.ratio,
         in_series=float(springy.mean()),
+        rocking=float(rocking.mean()),
         unsteadiness=float(ratios.std(ddof=1) / np.sqrt(ratios.size)),
         late=late,
     )
@@ -248,63 +259,42 @@ def _slope(block: Block) -> float:
     return (high - low) / (2.0 * _SLOPE)
 
 
-def base_compliance(problem: BlockProblem) -> FloatArray:
-    """How far a block's base gives under friction spread evenly over it, m/N, along x and y.
+def in_series(problem: BlockProblem, *, rocking: bool = False) -> System:
+    """Return the sliding body of a block with the block's compliance before its asperities.
 
-    The block is kept from turning by the pressure on its base, and accelerated as a whole: what
-    gives is its shear, its bending by that pressure, and its tilt on base and contact.
-    """
-    body, surface = problem.body, problem.surface
-    count = len(surface.nodes)
-    upright = np.zeros((3 * count, count))
-    upright[2::3] = np.eye(count)
-    # Springs of the contact at the nodes, by the area of each.
-    springs = problem.normal.stiffness * surface.nodal_area[:, None]
-    free = body.rigid[:, 2:5]
-    left = np.block(
-        [
-            [np.eye(count) + springs * (upright.T @ body.flexibility @ upright),
-             springs * (upright.T @ free)],
-            [free.T @ upright, np.zeros((3, 3))],
-        ]
-    )  # fmt: skip
-    give = np.empty(2)
-    for axis in range(2):
-        spread = np.zeros((count, 3))
-        spread[:, axis] = surface.nodal_area / surface.area
-        friction = spread.ravel()
-        bent = body.flexibility @ friction
-        right = np.concatenate([-springs[:, 0] * bent[2::3], -free.T @ friction])
-        answer = np.linalg.solve(left, right)
-        pressed = body.flexibility @ (upright @ answer[:count]) + free @ answer[count:]
-        give[axis] = friction @ (bent + pressed)
-    return give
+    A body that only shifts, under its constant normal force, on one face whose nodes give together
+    under all the friction there is: by `BlockProblem.compliance`, which nothing is fitted to.
 
-
-def in_series(problem: BlockProblem) -> System:
-    """The sliding body of a block with the block's compliance between it and its asperities.
-
-    A body that only shifts, on one face whose nodes give together under all the friction there is.
+    Parameters
+    ----------
+    problem : BlockProblem
+        The block.
+    rocking : bool
+        Whether the block's turns on its contact have their inertia; without, all of the
+        compliance is a spring.
     """
     surface = contact_surface(box(problem.block.size, (1, 1, 1), 1), "bottom")
     count = len(surface.nodes)
-    shapes = np.tile(np.eye(3), (count, 1))
-    give = np.append(base_compliance(problem), 0.0)
-    size, none = 3, np.zeros(3 * count)
-    slider = problem.model.slider
-    down = mo.Port(np.array([0.0, 0.0, -slider.normal_force]), none)
-    drive = mo.Drive(
-        mo.Port(np.array([1.0, 0.0, 0.0]), none),
-        slider.drive_stiffness or 0.0,
-        slider.drive_damping,
-    )
+    compliance, slider = problem.compliance, problem.model.slider
+    levers = compliance.levers if rocking else np.empty((2, 0))
+    turns, size = levers.shape[1], 3 + levers.shape[1]
+    face, give = np.zeros((3, size)), np.zeros((3, 3))
+    face[:, :3] = np.eye(3)
+    face[:2, 3:] = levers
+    give[:2, :2] = compliance.at_once if rocking else compliance.static
+    mass, stiffness = problem.mass * np.eye(size), np.zeros((size, size))
+    if rocking:
+        mass[3:, 3:], stiffness[3:, 3:] = compliance.mass, compliance.stiffness
+    shapes, none = np.tile(face, (count, 1)), np.zeros(3 * count)
+    along, down = np.zeros(size), np.zeros(size)
+    along[0], down[2] = 1.0, -slider.normal_force
     mechanism = mo.Mechanism(
-        flexibility=shapes @ np.diag(give) @ shapes.T,
+        flexibility=np.tile(give, (count, count)),
         shapes=shapes,
-        mass=problem.mass * np.eye(size),
-        stiffness=np.zeros((size, size)),
-        held=np.array([False, not slider.free, False]),
-        drive=drive,
-        load=down,
+        mass=mass,
+        stiffness=stiffness,
+        held=np.array([False, not slider.free, False] + [False] * turns),
+        drive=mo.Drive(mo.Port(along, none), slider.drive_stiffness or 0.0, slider.drive_damping),
+        load=mo.Port(down, none),
     )
     return dataclasses.replace(problem.system, mechanism=mechanism, surface=surface)
