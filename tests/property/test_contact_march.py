@@ -1,0 +1,224 @@
+"""An elastic block off its base, thrown at it, shaken on it: the march goes on."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact import hht, ledger
+from asperity.contact.block import BlockProblem
+from asperity.contact.increment import ContactState, SurfaceMotion, solve_increment
+from asperity.contact.newton import evaluate
+from asperity.contact.rest import released, rest_under_load
+from asperity.contact.steps import Walker
+from asperity.errors import ConvergenceError
+
+MESHES = {"hex8": "[2, 2, 2]", "hex8i": "[2, 2, 2]", "hex27": "[1, 1, 1]"}
+LUGRE = (
+    "friction.model=lugre", "friction.static_mu=0.15", "friction.stribeck_velocity=1 mm/s",
+    "friction.contact_damping=300 N s/m", "friction.viscous_damping=0.4 N s/m",
+)  # fmt: skip
+TWO_PHASE = ("solve.scheme=two-phase",)
+# Friction of the first may exceed mu p by what its explicit steps overshoot, LuGre's by damping.
+LOOSE = (TWO_PHASE, LUGRE)
+LAWS = (
+    ("friction.law=split",),
+    ("friction.law=vector", "friction.exponent=2"),
+    ("friction.law=vector", "friction.exponent=0"),
+    ("friction.law=unsplit", "friction.exponent=0.5"),
+    ("friction.model=coulomb",),
+    *LOOSE,
+)
+SECONDS = 2e-6
+INCREMENTS = 150
+
+
+def block(*changes, element="hex8"):
+    common = (
+        f"block.elements={MESHES[element]}", f"block.element={element}", "vibration.start=0 s",
+        f"solve.step={SECONDS} s", "solve.duration=2 ms",
+    )  # fmt: skip
+    return BlockProblem.from_case(read_case("block-longitudinal", TABLES, [*common, *changes]))
+
+
+def thrown(system, lift, tilt, velocity, spin):
+    """Let a block go with its lowest corner at a height over the base."""
+    place, pace = np.zeros((2, system.mechanism.size))
+    free = ~system.mechanism.held
+    place[3:5] = tilt
+    pace[:3], pace[3:6] = velocity, spin
+    place[~free] = pace[~free] = 0.0
+    place[2] = lift - (system.mechanism.shapes @ place)[2::3].min()
+    return Walker(system, released(system, place, pace))
+
+
+def powers(balance):
+    names = ("drive", "vibration", "loads", "friction", "damping", "numerical", "transfer")
+    return [abs(getattr(balance, name)) for name in names]
+
+
+def check_contact(system, contact, *, bounded):
+    pressure = contact.pressure
+    assert np.isfinite(pressure).all()
+    assert np.isfinite(contact.traction).all()
+    assert pressure.min() >= 0.0
+    across = contact.traction - pressure[:, None] * contact.normal
+    friction = np.linalg.norm(across, axis=1)
+    assert not friction[pressure == 0.0].any()
+    if bounded:
+        assert (friction <= system.friction.mu * pressure * (1.0 + 1e-9)).all()
+
+
+small = st.floats(-1.0, 1.0)
+
+
+@settings(max_examples=24)
+@given(
+    law=st.sampled_from(LAWS),
+    normal=st.sampled_from(["linear", "two-stage", "hard"]),
+    element=st.sampled_from(list(MESHES)),
+    modes=st.sampled_from([0, 0, 2]),
+    ratio=st.floats(0.0, 20.0),
+    direction=st.floats(0.0, 360.0),
+    where=st.tuples(
+        st.sampled_from(["base", "body"]),
+        st.sampled_from(["free", "guided"]),
+        st.sampled_from([5, 55, 1000]),
+    ),
+    lift=st.floats(-9.0, -5.3).map(lambda power: 10.0**power),
+    tilt=st.tuples(small, small, st.floats(-8.0, -4.5)),
+    velocity=st.tuples(small, small, small, st.floats(-5.0, -2.0)),
+    spin=st.tuples(small, small, small),
+)
+def test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_on(
+    law, normal, element, modes, ratio, direction, where, lift, tilt, velocity, spin
+):
+    shaken, lateral, force = where
+    ratio = min(ratio, 6.0) if law is TWO_PHASE else ratio
+    problem = block(
+        *law, f"contact.normal={normal}", f"block.modes={modes}",
+        f"vibration.velocity_ratio={ratio}", f"vibration.direction={direction} deg",
+        f"vibration.applied_to={shaken}", f"slider.lateral={lateral}",
+        f"slider.normal_force={force} N", element=element,
+    )  # fmt: skip
+    system = problem.system
+    walker = thrown(
+        system, lift, 10.0 ** tilt[2] * np.array(tilt[:2]),
+        np.array([2e-3, 2e-3, 10.0 ** velocity[3]]) * velocity[:3], 0.2 * np.array(spin),
+    )  # fmt: skip
+    before = walker.state.energies(system)
+    for number in range(1, INCREMENTS + 1):
+        walker.step_to(number * SECONDS, SECONDS)
+        check_contact(system, walker.state.contact, bounded=law not in LOOSE)
+        assert walker.state.contact.residual <= 1e-9
+    balance = ledger.power_ledger(walker.sums, before, walker.state.energies(system))
+    sums = powers(balance)
+    assert np.isfinite(sums).all()
+    off = balance.drive + balance.vibration + balance.loads
+    off -= sum(
+        (balance.friction, balance.damping, balance.numerical, balance.transfer, balance.stored)
+    )
+    assert abs(off) <= 1e-6 * max(*sums, abs(balance.stored))
+
+
+def mechanical_energy(system, state):
+    load = system.mechanism.load
+    forces = load.generalised @ state.coordinates[hht.PLACE] + load.response @ state.contact.force
+    return state.energies(system).total - forces
+
+
+DROPS = {
+    "linear": (),
+    "linear, far stiffer than a step resolves": ("contact.stiffness=1e19 Pa/m",),
+    "two stages": ("contact.normal=two-stage",),
+    "hard": ("contact.normal=hard",),
+    "with modes": ("block.modes=2",),
+    "with modes, hard": ("block.modes=2", "contact.normal=hard"),
+}
+
+
+@pytest.mark.parametrize("name", DROPS)
+@pytest.mark.parametrize("element", ["hex8", "hex27"])
+def test_a_dropped_block_never_has_more_energy_than_it_fell_with(name, element):
+    problem = block(*DROPS[name], "vibration.velocity_ratio=0", element=element)
+    system = dataclasses.replace(problem.system, drive_velocity=0.0)
+    walker = thrown(system, 2e-6, (2e-5, -3e-5), (0.0, 0.0, -2e-3), (0.0, 0.0, 0.0))
+    start = mechanical_energy(system, walker.state)
+    touched = parted = 0
+    energies = []
+    for number in range(1, 601):
+        touching = walker.state.contact.active > 0
+        walker.step_to(number * SECONDS, SECONDS)
+        now = walker.state.contact.active > 0
+        touched, parted = touched + (now and not touching), parted + (touching and not now)
+        energies.append(mechanical_energy(system, walker.state))
+    assert touched >= 2
+    assert parted >= 1
+    assert max(energies) <= 1.02 * start
+
+
+def test_a_block_at_rest_that_is_let_go_stays_where_it_is():
+    system = block("vibration.velocity_ratio=0").system
+    still = dataclasses.replace(system, drive_velocity=0.0)
+    at_rest = rest_under_load(still, block().loads)
+    place = at_rest.coordinates[hht.PLACE]
+    walker = Walker(still, released(still, place, np.zeros_like(place)))
+    weight = at_rest.forces[ledger.FN]
+    for number in range(1, 41):
+        walker.step_to(number * SECONDS, SECONDS)
+        # The asperities bend anew, which leaves the block a little to do.
+        assert walker.state.forces[ledger.FN] == pytest.approx(weight, rel=1e-3)
+    assert walker.state.coordinates[hht.PLACE] == pytest.approx(place, abs=1e-3 * abs(place[2]))
+
+
+@settings(max_examples=40)
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    normal=st.sampled_from(["linear", "two-stage", "hard"]),
+    depth=st.floats(-9.0, -6.0).map(lambda power: 10.0**power),
+    roughness=st.floats(0.1, 3.0),
+)
+def test_no_active_set_chatters_unnoticed(seed, normal, depth, roughness):
+    """What is returned is an equilibrium, found anew; where none is found an error says so."""
+    problem = block(f"contact.normal={normal}", "contact.stiffness=1e17 Pa/m")
+    increments = problem.system.stepping(SECONDS)[1]
+    rng = np.random.default_rng(seed)
+    free = np.zeros((increments.nodes, 3))
+    free[:, 2] = depth * (roughness * rng.normal(size=increments.nodes) - 1.0)
+    free[:, :2] = 1e-7 * rng.normal(size=(increments.nodes, 2))
+    state, motion = ContactState.rest(increments), SurfaceMotion()
+    failure = None
+    try:
+        result = solve_increment(increments, free.ravel(), motion, state)
+    except ConvergenceError as error:
+        failure = error
+    if failure is not None:
+        assert failure.reached.keys() >= {"residual", "iterations", "active"}
+        return
+    way = result.displacement - free.ravel()
+    again = evaluate(
+        increments, free.ravel(), motion.parameters(), state, result.state.multiplier,
+        result.force, way,
+    )  # fmt: skip
+    assert again.force == pytest.approx(
+        result.force, rel=1e-6, abs=1e-7 * np.abs(result.force).max()
+    )
+    assert np.array_equal(again.touching, result.pressure > 0.0)
+    answer = increments.flexibility @ result.force
+    assert np.linalg.norm(answer - way) <= 1e-7 * np.linalg.norm(answer)
+
+
+def test_a_set_that_is_not_found_in_time_is_an_error_with_its_residual():
+    problem = block("contact.stiffness=1e17 Pa/m")
+    increments = dataclasses.replace(problem.system.stepping(SECONDS)[1], most_iterations=1)
+    rng = np.random.default_rng(1)
+    free = np.zeros((increments.nodes, 3))
+    free[:, 2] = 1e-7 * (rng.normal(size=increments.nodes) - 0.5)
+    with pytest.raises(ConvergenceError, match=r"found no equilibrium in \d+ iterations") as error:
+        solve_increment(increments, free.ravel(), SurfaceMotion(), ContactState.rest(increments))
+    assert error.value.reached["residual"] > 1e-9
+    assert error.value.reached["active"] >= 0.0
