@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from asperity.contact.friction_point import COULOMB, DAHL, LUGRE, TWO_PHASE, PointFriction
+from asperity.contact.friction_point import (
+    COULOMB,
+    DAHL,
+    LUGRE,
+    TWO_PHASE,
+    PointFriction,
+    share_and_tangent,
+)
 from asperity.contact.increment import (
     ContactState,
     Drift,
@@ -19,6 +26,7 @@ from asperity.contact.normal import NormalLaw
 from asperity.contact.rigid import Pose, RigidSurface, distance
 from asperity.contact.surface import contact_surface
 from asperity.friction import SPLIT, UNSPLIT, VECTOR
+from asperity.friction.two_phase import phases
 from asperity.mesh import box
 
 LIMIT = 7e-8
@@ -136,3 +144,26 @@ def test_the_tangent_is_the_derivative_of_the_nodal_forces(friction, kind):
     behind = evaluated(problem, u - step * way, state, motion, False)[0]
     slope = (ahead - behind) / (2 * step)
     assert slope == pytest.approx(predicted, rel=1e-5, abs=1e-5 * np.abs(predicted).max())
+
+
+@pytest.mark.parametrize("exponent", [1.5, 2.0, 2.5])
+@pytest.mark.parametrize("over", [4e-16, 1e-9, 0.01])
+def test_a_deflection_beyond_its_limit_stays_there_under_further_slip(exponent, over):
+    law = PointFriction(TWO_PHASE, 0.3, LIMIT, SPLIT, exponent)
+    size, slip = 1.0 + over, 0.2
+    assert phases(size, 1.0, 0.0, slip, 0.0, slip, 0.0, exponent, False) == (size, 1.0, 0.0)
+    found = share_and_tangent(
+        size * LIMIT, 0.0, size, slip * LIMIT, 0.0, slip * LIMIT, 0.0, False, law.parameters(0.0)
+    )
+    assert found[:5] == pytest.approx((size * LIMIT, 0.0, size, size, 0.0), rel=1e-15)
+    assert np.isfinite(found[5] + found[6]).all()
+    # Across the slip the deflection may turn; along it, it no longer grows.
+    assert found[5][0] == found[6][0] == 0.0
+
+
+def test_exponents_below_one_overshoot_the_limit_and_stay_numbers():
+    size, direction = 0.9, (1.0, 0.0)
+    for _ in range(5):
+        size, *direction = phases(size, *direction, 0.5, 0.0, 0.0, 0.0, 0.5, False)
+    assert 1.0 < size < 1.2
+    assert direction == [1.0, 0.0]

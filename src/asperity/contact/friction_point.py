@@ -66,8 +66,10 @@ def _along(size, reach, exponent):
     left = 1.0 - size * sign
     if exponent == 1.0:
         return size + change * left, left, 1.0 - left - sign * change
+    # Beyond the limit a power of a negative number has no value.
+    left = max(left, 0.0)
     power = left**exponent
-    slope = exponent * left ** (exponent - 1.0) if left > 0.0 or exponent > 1.0 else 0.0
+    slope = exponent * left ** (exponent - 1.0) if left > 0.0 else 0.0
     return size + change * power, power, 1.0 - power - sign * change * slope
 
 

@@ -177,7 +177,7 @@ def load_to(
     increments: int = 1,
     step: float | None = None,
     free: FloatArray | None = None,
-    tolerance: float = 1e-10,
+    tolerance: float = 1e-9,
 ) -> StaticState:
     """Push the counter-surface until it bears a load.
 
@@ -191,7 +191,7 @@ def load_to(
     step : float, optional
         First guess of how far to go, m or rad; needed from an untouched start.
     tolerance : float
-        Relative to the load.
+        Relative to the load; no tighter than the increments are solved.
 
     Returns
     -------
@@ -234,9 +234,14 @@ def _one_load(
         result = solve_increment(problem, loads, _motion(guide, at, at + way), state)
         return StaticState(at + way, guide.load(problem, result), result, 1)
 
+    def found(state: StaticState) -> bool:
+        # The forces of an increment are known no better than its residual.
+        known = max(tolerance, problem.tolerance, state.contact.residual)
+        return abs(state.load - target) <= known * scale
+
     here = tried(0.0)
     miss = here.load - target
-    if abs(miss) <= tolerance * scale:
+    if found(here):
         return here, 0.0
     if not step:
         raise InputError("step is missing; give a first guess of how far the surface goes")
@@ -259,7 +264,7 @@ def _one_load(
     best = high_state
     side = 0
     for _ in range(_MOST_SEARCHES):
-        if abs(best.load - target) <= tolerance * scale:
+        if found(best):
             return best, best.place - at
         way = (low * high_miss - high * low_miss) / (high_miss - low_miss)
         best = tried(way)

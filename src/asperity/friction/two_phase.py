@@ -7,8 +7,8 @@ which the exponential update shares:
   of the ratio at 33 steps a cycle, 0.03 % at 3333);
 - the direction is forced to the drive axis up to the start of the vibration, so friction is
   one-sided there and a backward drive runs away;
-- exponent 0 never saturates (:math:`1 - [..]^0` is 0), exponents below 1 overshoot into the root
-  of a negative number;
+- exponent 0 never saturates (:math:`1 - [..]^0` is 0), exponents below 1 overshoot the limit; the
+  root of a negative number that the printed formula asks for there is taken as 0;
 - the result depends on how the motion is divided into phases, hence on the axes chosen.
 """
 
@@ -22,9 +22,10 @@ def _along(size, reach, exponent):
     """Deflection after its end moved from ``size`` to ``reach``: (44), (33), (79), (86)."""
     change = reach - size
     sign = 1.0 if change >= 0.0 else -1.0
+    left = 1.0 - size * sign
     if exponent == 1.0:
-        return size + change * (1.0 - size * sign)
-    return size + change * (1.0 - size * sign) ** exponent
+        return size + change * left
+    return size + change * max(left, 0.0) ** exponent
 
 
 @kernel
