@@ -186,7 +186,7 @@ class Quantity:
     what : str
         The quantity with its article, as it reads in a message.
     example : str
-        A value that would be right.
+        A value that would be right, in the unit that messages write bounds in.
     gt, ge, lt, le : float, optional
         Bounds in SI units: above, at least, below, at most.
 
@@ -211,14 +211,19 @@ class Quantity:
         )
 
     def bounds(self) -> str:
-        """Return the bounds, as the end of a message."""
+        """Return the bounds in the example's unit, as the end of a message."""
         limits = {"above": self.gt, "at least": self.ge, "below": self.lt, "at most": self.le}
         given = {word: limit for word, limit in limits.items() if limit is not None}
         if given == {"above": 0}:
             return "it must be positive"
         if given == {"at least": 0}:
             return "it must be zero or positive"
-        texts = [f"{word} {limit:g} {self.unit}".strip() for word, limit in given.items()]
+        unit = (split_unit(self.example) or ("", self.unit))[1] if self.unit else ""
+        zero, one = (_convert(n, unit, self.unit) if unit else float(n) for n in ("0", "1"))
+        texts = [
+            f"{word} {(limit - zero) / (one - zero):g} {unit}".strip()
+            for word, limit in given.items()
+        ]
         return f"it must be {' and '.join(texts)}"
 
     def check(self, value: object, *, text_only: bool = False) -> float:

@@ -144,8 +144,11 @@ def test_a_field_says_what_it_must_be(field, value, message):
     assert str(raised.value.errors()[0]["ctx"]["error"]) == message
 
 
-def test_a_bound_says_its_unit():
-    assert Quantity("m", lt=0.5).bounds() == "it must be below 0.5 m"
+def test_a_bound_has_the_unit_of_the_example():
+    length = Quantity("m", "a length", "2 mm", lt=0.5)
+    assert length.bounds() == "it must be below 500 mm"
+    warm = Quantity("K", "a temperature", "20 degC", ge=273.15, lt=373.15)
+    assert warm.bounds() == "it must be at least 0 degC and below 100 degC"
     assert Quantity("m", ge=0).bounds() == "it must be zero or positive"
 
 

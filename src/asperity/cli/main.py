@@ -28,8 +28,18 @@ SetOption = Annotated[
 JsonOption = Annotated[
     bool, typer.Option("--json", help="Print one JSON object to standard output, nothing else.")
 ]
+
+
+def _folder(given: str) -> Path:
+    # Python takes "" for the working directory; it is a variable of the shell that was not set.
+    if not given:
+        raise typer.BadParameter("it is empty; give a folder, or . for the working directory")
+    return Path(given)
+
+
 OutOption = Annotated[
-    Path | None, typer.Option("--out", metavar="DIR", help="Folder to write files to.")
+    Path | None,
+    typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
 ]
 
 
@@ -290,7 +300,12 @@ def export(
     as_json: JsonOption = False,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="DIR", help="Folder to write to; out/PROGRAM if left out."),
+        typer.Option(
+            "--out",
+            metavar="DIR",
+            parser=_folder,
+            help="Folder to write to; out/PROGRAM if left out.",
+        ),
     ] = None,
 ) -> None:
     """Write an elastic block on its base as an input deck: block.inp.
@@ -309,9 +324,9 @@ def thesis(
         list[str] | None,
         typer.Option("--only", metavar="NUMBER", help="Only this figure or table, as 4.17."),
     ] = None,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder to write to.")] = Path(
-        "out/thesis"
-    ),
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write to.")
+    ] = Path("out/thesis"),
     full: Annotated[
         bool,
         typer.Option("--full", help="Figures of elastic blocks on fine meshes; about an hour."),
