@@ -220,7 +220,8 @@ condense(box((1, 1, 1), (2, 1, 1)), material, "bottom", solver=solver, modes=1, 
 before = peak_so_far()
 mesh = box((0.04, 0.03, 0.03), (8, 6, 6), 2)
 condense(mesh, material, "left", solver=solver, modes=2, use_cache=False)
-print((peak_so_far() - before) / memory_needed(mesh, len(mesh.node_set("left")), modes=2, solver=solver))
+needed = memory_needed(mesh, len(mesh.node_set("left")), modes=2, solver=solver)
+print((peak_so_far() - before) / needed)
 """
 
 
