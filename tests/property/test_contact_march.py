@@ -141,18 +141,19 @@ DROPS = {
 }
 
 
-@pytest.mark.parametrize("name", DROPS)
+@pytest.mark.parametrize("step", [2e-6, 2e-5])
 @pytest.mark.parametrize("element", ["hex8", "hex27"])
-def test_a_dropped_block_never_has_more_energy_than_it_fell_with(name, element):
+@pytest.mark.parametrize("name", DROPS)
+def test_a_dropped_block_never_has_more_energy_than_it_fell_with(name, element, step):
     problem = block(*DROPS[name], "vibration.velocity_ratio=0", element=element)
     system = dataclasses.replace(problem.system, drive_velocity=0.0)
     walker = thrown(system, 2e-6, (2e-5, -3e-5), (0.0, 0.0, -2e-3), (0.0, 0.0, 0.0))
     start = mechanical_energy(system, walker.state)
     touched = parted = 0
     energies = []
-    for number in range(1, 601):
+    for number in range(1, 501):
         touching = walker.state.contact.active > 0
-        walker.step_to(number * SECONDS, SECONDS)
+        walker.step_to(number * step, step)
         now = walker.state.contact.active > 0
         touched, parted = touched + (now and not touching), parted + (touching and not now)
         energies.append(mechanical_energy(system, walker.state))
@@ -182,8 +183,7 @@ def test_a_block_at_rest_that_is_let_go_stays_where_it_is():
     depth=st.floats(-9.0, -6.0).map(lambda power: 10.0**power),
     roughness=st.floats(0.1, 3.0),
 )
-def test_no_active_set_chatters_unnoticed(seed, normal, depth, roughness):
-    """What is returned is an equilibrium, found anew; where none is found an error says so."""
+def test_an_active_set_that_settles_is_an_equilibrium(seed, normal, depth, roughness):
     problem = block(f"contact.normal={normal}", "contact.stiffness=1e17 Pa/m")
     increments = problem.system.stepping(SECONDS)[1]
     rng = np.random.default_rng(seed)
@@ -191,14 +191,7 @@ def test_no_active_set_chatters_unnoticed(seed, normal, depth, roughness):
     free[:, 2] = depth * (roughness * rng.normal(size=increments.nodes) - 1.0)
     free[:, :2] = 1e-7 * rng.normal(size=(increments.nodes, 2))
     state, motion = ContactState.rest(increments), SurfaceMotion()
-    failure = None
-    try:
-        result = solve_increment(increments, free.ravel(), motion, state)
-    except ConvergenceError as error:
-        failure = error
-    if failure is not None:
-        assert failure.reached.keys() >= {"residual", "iterations", "active"}
-        return
+    result = solve_increment(increments, free.ravel(), motion, state)
     way = result.displacement - free.ravel()
     again = evaluate(
         increments, free.ravel(), motion.parameters(), state, result.state.multiplier,
@@ -212,7 +205,7 @@ def test_no_active_set_chatters_unnoticed(seed, normal, depth, roughness):
     assert np.linalg.norm(answer - way) <= 1e-7 * np.linalg.norm(answer)
 
 
-def test_a_set_that_is_not_found_in_time_is_an_error_with_its_residual():
+def test_an_active_set_that_does_not_settle_in_time_is_an_error_with_its_residual():
     problem = block("contact.stiffness=1e17 Pa/m")
     increments = dataclasses.replace(problem.system.stepping(SECONDS)[1], most_iterations=1)
     rng = np.random.default_rng(1)
