@@ -10,6 +10,8 @@ from asperity.contact.deck import WRITERS, BlockSetup
 from asperity.errors import InputError, choices, suggestion
 from asperity.store import output_folder, write_text
 
+_MOST_NODES = 2_000_000
+
 
 def export(
     case: str, program: str, settings: Sequence[str], *, as_json: bool, out: Path | None
@@ -20,6 +22,12 @@ def export(
             f"--to {program}: it must be one of {choices(WRITERS)}{suggestion(program, WRITERS)}"
         )
     setup = BlockSetup.from_case(read_case(case, TABLES, settings))
+    nodes = setup.problem.nodes
+    if nodes > _MOST_NODES:
+        raise InputError(
+            f"block.elements is {list(setup.block.elements)} with '{setup.block.element}', {nodes} "
+            f"nodes; a deck is written with at most {_MOST_NODES}: take fewer elements"
+        )
     files = WRITERS[program](setup)
     folder = output_folder(out if out is not None else Path("out") / program)
     written = [str(write_text(folder / name, text)) for name, text in files.items()]

@@ -24,6 +24,8 @@ _FRAMES = 48
 _FRAME_CYCLES = 2
 _MOST_SLIP = 0.5
 
+_NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
+
 _Snapshot = tuple[SystemState, FloatArray, FloatArray, int]
 _Place = tuple[
     int, _Snapshot, int, int, ledger.Energies | None, FloatArray | None, FloatArray | None
@@ -132,7 +134,10 @@ class BlockMarch:
         except BaseException:
             self._go_back(whole)
             raise
-        return self._result()
+        result = self._result()
+        if not all(math.isfinite(n) for n in result.to_json().values() if isinstance(n, float)):
+            raise ConvergenceError(_NOT_FINITE)
+        return result
 
     def _place(self) -> _Place:
         """Return all that an increment changes, in one piece: no interruption can split it."""
@@ -316,5 +321,5 @@ def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
 def _pair(sums: FloatArray, x: int, y: int, scale: float = 1.0) -> tuple[float, float]:
     pair = float(sums[x]) * scale, float(sums[y]) * scale
     if not all(map(math.isfinite, pair)):
-        raise ConvergenceError("the march left the finite numbers; give a smaller solve.step")
+        raise ConvergenceError(_NOT_FINITE)
     return pair

@@ -90,32 +90,49 @@ def solve_increment(
     Raises
     ------
     InputError
-        ``free`` has the wrong shape or is not finite.
+        ``free`` has the wrong shape.
     ConvergenceError
         No equilibrium, or no multipliers without overclosure; with residual, iterations and
         points in contact.
     """
     free = np.ascontiguousarray(free, dtype=np.float64)
-    if free.shape != (3 * problem.nodes,) or not np.isfinite(free).all():
+    if free.shape != (3 * problem.nodes,):
         raise InputError(
-            f"the free displacement has the shape {free.shape}; give ({3 * problem.nodes},), finite"
+            f"the free displacement has the shape {free.shape}; give ({3 * problem.nodes},)"
         )
+    if not np.isfinite(free).all():
+        raise ConvergenceError(
+            "the motion has left the finite numbers; look for values far out of the ordinary"
+        )
+    try:
+        return _solved(problem, free, motion, state)
+    except np.linalg.LinAlgError as error:
+        raise ConvergenceError(
+            f"the contact found no equilibrium: {error}; make body and contact less different in "
+            "stiffness",
+            reached={"active": float(state.touching.sum())},
+        ) from error
+
+
+def _solved(
+    problem: IncrementProblem,
+    free: FloatArray,
+    motion: SurfaceMotion,
+    state: ContactState,
+) -> IncrementResult:
     numbers = motion.parameters()
     tractions = state.traction
     foretold = state.trend.foretold(problem.flexibility)
-    if foretold is None:
-        assumed = state.force
-        way = np.empty_like(free)
-        answer(problem.flexibility, assumed, way)
-    else:
-        assumed, way = foretold
+    # Forces answered with A are far off where the contact is much stiffer than the body: a guess
+    # of the displacement goes with that of the forces.
+    assumed, place = (state.force, None) if foretold is None else foretold
     hard = problem.normal.name == "hard"
     multiplier = state.multiplier
     iterations = 0
     off = np.inf
     for _ in range(_MOST_AUGMENTATIONS):
         trial, residual, took = _solve_once(
-            problem, free, numbers, state, multiplier, assumed, way, tractions
+            problem, free, numbers, state, multiplier, assumed, place, tractions
         )
         iterations += took
         if not hard:
@@ -125,13 +142,13 @@ def solve_increment(
         last, off = off, float(np.abs(updated - corner).max(initial=0.0))
         if off <= problem.penetration * float(trial.points[:, PRESSURE].max(initial=0.0)):
             return _result(problem, state, trial, multiplier, iterations, residual)
-        assumed, way = trial.assumed, trial.way
+        assumed, place = trial.assumed, trial.u
         tractions = trial.points[:, TRACTION : TRACTION + 3]
         # The classical update always goes the right way, if slowly; it breaks a cycle of others.
         if off < last:
             gain = problem.inverses.gain
             if gain is None or off > _GOOD * last or not gain.fits(trial, corner, updated):
-                trial = evaluate(problem, free, numbers, state, multiplier, assumed, way)
+                trial = evaluate(problem, free, numbers, state, multiplier, assumed, trial.way)
                 iterations += 1
                 gain = gain_of(problem, trial, corner, updated)
                 problem.inverses.gain = gain
@@ -156,31 +173,41 @@ def _solve_once(
     state: ContactState,
     multiplier: FloatArray,
     assumed: FloatArray,
-    way: FloatArray,
+    place: FloatArray | None,
     tractions: FloatArray,
 ) -> tuple[Trial, float, int]:
     """Solve for given multipliers: by frozen tangents where they serve, else by Newton's method."""
     inverses = problem.inverses
     took = 0
     frozen = inverses.fitting(state.touching.tobytes())
+    if frozen is None:
+        way = np.empty_like(free)
+        answer(problem.flexibility, assumed, way)
+        trial = evaluate(problem, free, motion, state, multiplier, assumed, way)
+        took += 1
+        if trial.residual <= problem.tolerance:
+            return trial, trial.residual, took
+        if place is None:
+            place = trial.u
+    elif place is None:
+        place = state.displacement
+    tried = None
     for _ in range(2):
         if frozen is None:
-            trial = evaluate(problem, free, motion, state, multiplier, assumed, way)
+            trial = evaluate(problem, free, motion, state, multiplier, assumed, place - free)
             took += 1
-            if trial.residual <= problem.tolerance:
-                return trial, trial.residual, took
             frozen = inverses.chosen(problem, trial)
-            if frozen is None:
+            if frozen is None or frozen is tried:
                 break
         trial, residual, status, count = _iterate(
-            problem, free, motion, state, multiplier, assumed, way, frozen
+            problem, free, motion, state, multiplier, assumed, place, frozen
         )
         took += count
         frozen.stale = status != CONVERGED or count > _MANY
         if status == CONVERGED:
             inverses.ended_with(trial.touching.tobytes())
             return trial, residual, took
-        frozen = None
+        frozen, tried = None, frozen
     trial, count = solve(problem, free, motion, state, multiplier, tractions)
     inverses.ended_with(trial.touching.tobytes())
     return trial, trial.residual, took + count
@@ -193,20 +220,22 @@ def _iterate(
     state: ContactState,
     multiplier: FloatArray,
     assumed: FloatArray,
-    way: FloatArray,
+    place: FloatArray,
     frozen: Frozen,
 ) -> tuple[Trial, float, int, int]:
     faces, shapes, weights = problem.arrays[:3]
     count = problem.points
     force = np.empty_like(free)
-    stiffness_forces(frozen.stiffness, faces, shapes, weights, way, force)
+    stiffness_forces(frozen.stiffness, faces, shapes, weights, place - free, force)
     h = (assumed - force)[frozen.dofs]
     u = np.empty_like(free)
     deflection = np.empty((count, 3))
     size = np.empty(count)
     points = np.empty((count, POINT))
     status, took, residual = frozen_iterations(
-        free, h, frozen.inverse, frozen.stiffness, frozen.dofs, problem.tolerance, _MOST_FROZEN,
+        free, h, frozen.inverse, frozen.stiffness, frozen.dofs, frozen.pressing, frozen.moving,
+        frozen.spread, frozen.own, frozen.normals, frozen.areas, frozen.rounding,
+        problem.tolerance, _MOST_FROZEN,
         state.displacement, state.deflection, state.size, multiplier, *problem.arrays, motion,
         u, force, deflection, size, points,
     )  # fmt: skip
@@ -225,7 +254,7 @@ def _result(
     residual: float,
 ) -> IncrementResult:
     points = trial.points
-    trend = state.trend.followed_by(trial.force, trial.way, problem.flexibility)
+    trend = state.trend.followed_by(trial.force, trial.u, problem.flexibility)
     end = ContactState(
         trial.u, trial.force, trial.deflection, trial.size, multiplier,
         points[:, PRESSURE].copy(), points[:, TRACTION : TRACTION + 3].copy(), trend,

@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
 from scipy import sparse
 
 from asperity.contact.increment_assembly import add_stiffness
@@ -283,9 +282,7 @@ def _newton_tractions(problem: IncrementProblem, now: _Aim) -> FloatArray:
     matrix = tangent_matrix(problem.flexibility[np.ix_(dofs, dofs)], k)
     gap = _answer(problem, now.force) - now.way
     change = np.zeros((problem.nodes, 3))
-    change[touched] = scipy.linalg.solve(
-        matrix, gap[dofs], overwrite_a=True, check_finite=False
-    ).reshape(-1, 3)
+    change[touched] = np.linalg.solve(matrix, gap[dofs]).reshape(-1, 3)
     there = problem.surface.to_points(change).reshape(-1, 3)
     new: FloatArray = tractions + np.einsum("qij,qj->qi", now.stiffness, there)
     return new

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
+from scipy import sparse
 
 from asperity.contact.increment_assembly import add_stiffness
 from asperity.contact.increment_kernels import NORMAL
@@ -50,6 +50,18 @@ class Frozen:
         Pa/m.
     dofs : ndarray of int, shape (m,)
         Unknowns of the nodes about those points.
+    pressing : ndarray, shape (k, 3k)
+        Normal forces that forces along the surface call up at those nodes.
+    moving : ndarray, shape (3, 3k)
+        Mean displacement of the contact by forces on them, m/N.
+    spread : ndarray, shape (3, 3)
+        The same by a traction spread evenly, m/Pa.
+    own : ndarray, shape (3, 3)
+        Mean tangential part of the stiffness, Pa/m.
+    normals, areas : ndarray, shapes (k, 3), (k,)
+        Of the nodes, m^2.
+    rounding : float
+        Norm of the forces that the inverse's own error stands for, over that of ``h``.
     stale : bool
         It converged slowly the last time.
     """
@@ -58,6 +70,13 @@ class Frozen:
     inverse: FloatArray
     stiffness: FloatArray
     dofs: npt.NDArray[np.int64]
+    pressing: FloatArray
+    moving: FloatArray
+    spread: FloatArray
+    own: FloatArray
+    normals: FloatArray
+    areas: FloatArray
+    rounding: float
     stale: bool = False
 
 
@@ -178,7 +197,34 @@ def inverted(
     add_stiffness(stiffness, faces, shapes, weights, local, k)
     part = problem.flexibility[np.ix_(dofs, dofs)]
     matrix = np.eye(len(dofs)) - part @ k
-    inverse = scipy.linalg.solve(matrix, part, overwrite_a=True, check_finite=False)
+    among = np.linalg.solve(matrix, part)
+    called = sparse.csr_array(k) @ among
+    inverse = among
     if len(dofs) < 3 * problem.nodes:
-        inverse = problem.flexibility[:, dofs] @ (np.eye(len(dofs)) + k @ inverse)
-    return Frozen(touching.tobytes(), np.ascontiguousarray(inverse), stiffness, dofs)
+        inverse = problem.flexibility[:, dofs] @ (np.eye(len(dofs)) + called)
+    parts = (weights * touching).reshape(problem.surface.weights.shape)
+    areas = problem.surface.to_forces(parts / problem.surface.weights)[touched]
+    normals = problem.surface.nodal_normals[touched]
+    across = np.eye(3) - _outer(normals)
+    pressed = np.einsum("ai,aim->am", normals, called.reshape(-1, 3, len(dofs)))
+    pressing = np.einsum("abi,bij->abj", pressed.reshape(len(touched), -1, 3), across)
+    moving = np.einsum("a,aim->im", areas, among.reshape(-1, 3, len(dofs))) / areas.sum()
+    # G h is to be A (h + K G h); a contact far stiffer than the body leaves few digits of that.
+    off = sparse.csr_array(k) @ (part + part @ called - among)
+    own = np.einsum("q,qij->ij", weights * touching, stiffness) / areas.sum()
+    mean = normals.T @ areas
+    mean /= np.linalg.norm(mean) or 1.0
+    across = np.eye(3) - np.outer(mean, mean)
+    return Frozen(
+        touching.tobytes(),
+        np.ascontiguousarray(inverse),
+        stiffness,
+        dofs,
+        np.ascontiguousarray(pressing.reshape(len(touched), -1)),
+        np.ascontiguousarray(moving),
+        moving @ np.kron(areas[:, None], np.eye(3)),
+        across @ own @ across,
+        np.ascontiguousarray(normals),
+        areas,
+        float(np.linalg.norm(off)),
+    )

@@ -1,9 +1,9 @@
 """The `[block]` and `[contact]` tables: the elastic body and how its surface meets another."""
 
 import math
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
@@ -13,7 +13,15 @@ from asperity.units import Quantity
 # the squeeze of that layer, and the equations stay well conditioned.
 _PENALTY = 10.0
 
-_Length = Annotated[float, Quantity("m", what="a length", example="40 mm", gt=0)]
+# What lies outside is a slip of the pen, and beyond the digits of the arithmetic.
+_LEAST_LENGTH, _MOST_LENGTH = 1e-6, 1e3
+_MOST_MODULUS = 1e14
+_MOST_STIFFNESS = 1e20
+_MOST_ASPECT = 1e3
+
+_Length = Annotated[
+    float, Quantity("m", what="a length", example="40 mm", ge=_LEAST_LENGTH, le=_MOST_LENGTH)
+]
 _Count = Annotated[int, Field(strict=True, ge=1, le=1000)]
 
 
@@ -25,9 +33,10 @@ class Block(Table):
     Parameters
     ----------
     size : sequence of 3 floats or str
-        Edges along the drive (x), across it (y) and normal to the base (z), m.
+        Edges along the drive (x), across it (y) and normal to the base (z), 1e-6 to 1000 m; those
+        of an element may differ a thousandfold.
     youngs_modulus : float or str
-        :math:`E > 0`, Pa.
+        :math:`E`, above 0 to 1e14 Pa.
     poissons_ratio : float
         :math:`\nu`, 0 to below 0.5.
     elements : sequence of 3 int
@@ -42,7 +51,9 @@ class Block(Table):
     table: ClassVar[str] = "block"
 
     size: tuple[_Length, _Length, _Length]
-    youngs_modulus: Annotated[float, Quantity("Pa", what="a modulus", example="209 GPa", gt=0)]
+    youngs_modulus: Annotated[
+        float, Quantity("Pa", what="a modulus", example="209 GPa", gt=0, le=_MOST_MODULUS)
+    ]
     poissons_ratio: Annotated[float, Quantity("", what="a ratio", example="0.3", ge=0, lt=0.5)]
     elements: tuple[_Count, _Count, _Count] = (8, 6, 6)
     element: Literal["hex27", "hex8", "hex8i"] = "hex27"
@@ -54,6 +65,17 @@ class Block(Table):
         if not isinstance(value, list | tuple) or len(value) != 3:
             raise ValueError("it must be a list of three: along the drive, across it, and upwards")
         return value
+
+    @model_validator(mode="after")
+    def _compact(self) -> Self:
+        edges = [size / count for size, count in zip(self.size, self.elements, strict=True)]
+        if max(edges) > _MOST_ASPECT * min(edges):
+            given = " x ".join(f"{edge:.4g}" for edge in edges)
+            raise InputError(
+                f"block.size and block.elements make elements of {given} m; the longest edge may "
+                f"be {_MOST_ASPECT:g} times the shortest: change the number of elements"
+            )
+        return self
 
     @property
     def area(self) -> float:
@@ -85,7 +107,8 @@ class Contact(Table):
         Figure 5.3; no overclosure (augmented Lagrangian).
     stiffness : float or str, optional
         Pressure per overclosure, Pa/m: of the straight line, of the final stage, or the penalty
-        the augmented Lagrangian starts from. Left out or ``"auto"``: see `normal_stiffness`.
+        the augmented Lagrangian starts from; at most 1e20. Left out or ``"auto"``: see
+        `normal_stiffness`.
     """
 
     table: ClassVar[str] = "contact"
@@ -94,7 +117,13 @@ class Contact(Table):
     stiffness: (
         Annotated[
             float,
-            Quantity("Pa/m", what="'auto' or a pressure per length", example="40 GPa/um", gt=0),
+            Quantity(
+                "Pa/m",
+                what="'auto' or a pressure per length",
+                example="40 GPa/um",
+                gt=0,
+                le=_MOST_STIFFNESS,
+            ),
         ]
         | None
     ) = None

@@ -141,8 +141,20 @@ def memory_needed(
     solver : {'pypardiso', 'superlu'}
         Direct solver.
     """
-    unknowns = 3 * len(mesh.points)
-    pairs = len(mesh.cells) * mesh.cells.shape[1] ** 2
+    return memory_for(len(mesh.points), mesh.cells.shape, contact_nodes, modes=modes, solver=solver)
+
+
+def memory_for(
+    nodes: int,
+    cells: tuple[int, ...],
+    contact_nodes: int,
+    *,
+    modes: int = 0,
+    solver: str = "pypardiso",
+) -> float:
+    """Return the same for a mesh that is not made yet: its nodes, and its cells by their nodes."""
+    unknowns = 3 * nodes
+    pairs = cells[0] * cells[1] ** 2
     # A pair of nodes of a cell: its place and what sorting takes; its 3 x 3 block twice while the
     # matrix is put together; the matrix, its part that moves, and the upper triangle of that.
     assembly = pairs * (4 * 8 + 2 * 9 * 8 + 2.5 * 9 * 12)
