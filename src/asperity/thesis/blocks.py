@@ -2,7 +2,7 @@
 
 A block is marched from the sliding body's periodic state: at its velocity, drive force and
 deflection of the asperities. What is fast, the asperities and the swing of the body within a cycle,
-then settles in a few cycles; the drive force would take tens of milliseconds to follow, so that it
+settles in some ten cycles; the drive force would take tens of milliseconds to follow, so that it
 would say more about the start than about the block. Read is therefore the block's own friction,
 averaged over whole cycles, and the mean velocity it slid at. That velocity is not quite the
 drive's; the sliding body's slope of friction over velocity brings the one to the other.
@@ -41,9 +41,10 @@ LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
 STEPS = 200
 """Increments a cycle."""
 
-# Long steps and much numerical damping first, which end the bounce on the contact that the start
-# excites; then steps that follow everything.
+# Long steps and much numerical damping first, which end most of the rocking on the contact that the
+# start excites; then steps that follow everything.
 _CALM_STEPS, _CALM_CYCLES, _CALM_ALPHA = 50, 12, -1.0 / 3.0
+# What is left of the rocking dies away within some cycles, and a mean over as many evens it out.
 _SETTLE_CYCLES = 14
 _MEASURED_CYCLES = 16
 _SLOPE = 0.01
@@ -173,6 +174,7 @@ def _settled(block: Block) -> Settled:
     resting = _at_rest(block.case, block.unshaken)
     slider = solve_periodic(block.model())
     slope = _slope(block)
+    # All over the same cycles: the drive force has not settled, but it stands alike for all.
     ratios, late = _settle(*resting.block, slider, slope)
     springy, rocking = (
         _settle(*body, slider, slope)[0] for body in (resting.in_series, resting.rocking)
