@@ -84,7 +84,7 @@ def _place(x, y, z, surface, m):
 
 
 @kernel
-def _first_tangent(nx, ny, nz):
+def first_tangent(nx, ny, nz):
     """Unit vector of the tangent plane along x, the drive; along y where x is the normal."""
     if abs(nx) < 0.9:
         size = math.sqrt(1.0 - nx * nx)
@@ -248,7 +248,7 @@ def aimed_tractions(
         sy = 0.0
         sz = 0.0
         if mu > 0.0:
-            ex, ey, ez = _first_tangent(nx, ny, nz)
+            ex, ey, ez = first_tangent(nx, ny, nz)
             fx = ny * ez - nz * ey
             fy = nz * ex - nx * ez
             fz = nx * ey - ny * ex

@@ -55,14 +55,15 @@ def restore_inverses(problem: IncrementProblem, arrays: Arrays) -> None:
 def trend_as_arrays(trend: Trend) -> dict[str, Any]:
     """Return a trend as arrays, but for the flexibility it belongs to."""
     return {
-        "forces": np.array(trend.forces), "answers": np.array(trend.answers), "order": trend.order,
+        "forces": np.array(trend.forces), "displacements": np.array(trend.displacements),
+        "order": trend.order,
     }  # fmt: skip
 
 
 def trend_from(arrays: Arrays, flexibility: FloatArray) -> Trend:
     """Return the trend that `trend_as_arrays` told of, of increments with a flexibility."""
-    forces, answers = tuple(arrays["forces"]), tuple(arrays["answers"])
-    return Trend(forces, answers, int(arrays["order"]), flexibility)
+    forces, displacements = tuple(arrays["forces"]), tuple(arrays["displacements"])
+    return Trend(forces, displacements, int(arrays["order"]), flexibility)
 
 
 def _points(touching: Any) -> npt.NDArray[np.bool_]:

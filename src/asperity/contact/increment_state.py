@@ -147,41 +147,43 @@ class IncrementProblem:
 
 @dataclass(frozen=True, eq=False)
 class Trend:
-    """Forces of the last increments and the body's answers to them, the latest first.
+    """Forces and displacements of the last increments, the latest first.
 
     Attributes
     ----------
-    forces, answers : tuple of ndarray, shape (3n,)
-        Contact forces, N, and ``A f``, m.
+    forces, displacements : tuple of ndarray, shape (3n,)
+        Contact forces, N, and displacement of the contact nodes, m.
     order : int
         Order of the extrapolation that would have foretold the latest forces best.
     flexibility : ndarray or None
-        The `A` of the answers.
+        The `A` of those increments.
     """
 
     forces: tuple[FloatArray, ...] = ()
-    answers: tuple[FloatArray, ...] = ()
+    displacements: tuple[FloatArray, ...] = ()
     order: int = 0
     flexibility: FloatArray | None = None
 
-    def followed_by(self, force: FloatArray, answer: FloatArray, flexibility: FloatArray) -> Trend:
+    def followed_by(
+        self, force: FloatArray, displacement: FloatArray, flexibility: FloatArray
+    ) -> Trend:
         """Return the trend with one more increment; another flexibility begins it anew."""
         if flexibility is not self.flexibility:
-            return Trend((force,), (answer,), 0, flexibility)
+            return Trend((force,), (displacement,), 0, flexibility)
         forces = (force, *self.forces[: len(_WEIGHTS)])
-        answers = (answer, *self.answers[: len(_WEIGHTS) - 1])
+        displacements = (displacement, *self.displacements[: len(_WEIGHTS) - 1])
         errors = [
             float(np.linalg.norm(force - _combined(weights, forces[1:])))
             for weights in _WEIGHTS[: len(forces) - 1]
         ]
-        return Trend(forces[: len(_WEIGHTS)], answers, int(np.argmin(errors)), flexibility)
+        return Trend(forces[: len(_WEIGHTS)], displacements, int(np.argmin(errors)), flexibility)
 
     def foretold(self, flexibility: FloatArray) -> tuple[FloatArray, FloatArray] | None:
-        """Forces of the coming increment and the answer to them; None without a past."""
+        """Forces and displacement of the coming increment; None without a past."""
         if flexibility is not self.flexibility:
             return None
         weights = _WEIGHTS[min(self.order, len(self.forces) - 1)]
-        return _combined(weights, self.forces), _combined(weights, self.answers)
+        return _combined(weights, self.forces), _combined(weights, self.displacements)
 
 
 # Extrapolation from equal steps: constant, linear, quadratic.

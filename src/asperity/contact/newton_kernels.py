@@ -8,7 +8,8 @@ With a frozen stiffness :math:`K` of the contact (negative where contact resists
 solves the increment exactly where the contact is as linear as :math:`K` says, and the fixed point
 :math:`h \to f(u) - K(u - u^*)` is the solution whatever :math:`K` is. What the iteration leaves is
 the difference between the forces of the tractions and those the body answers to,
-:math:`R = f(u) - [h + K(u - u^*)]`. Anderson's method speeds it up.
+:math:`R = f(u) - [h + K(u - u^*)]`. What :math:`K` leaves out is put back smoothly
+(`asperity.contact.newton_coupling`), and Anderson's method speeds it up.
 """
 
 import math
@@ -18,6 +19,7 @@ import numpy as np
 from asperity.compiled import kernel
 from asperity.contact.increment_assembly import stiffness_forces
 from asperity.contact.increment_kernels import tractions
+from asperity.contact.newton_coupling import couple, mean_correction, mean_tangent, ratios
 
 CONVERGED = 0
 SLOW = 1
@@ -74,8 +76,8 @@ def _solve(gram, right, count):
 
 
 @kernel
-def _accelerate(h, rest, last_h, last_rest, steps_h, steps_rest, kept):
-    """Anderson's next ``h`` from the residuals of the last steps; moves the memory on."""
+def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
+    """Anderson's next ``h`` from the changes that the last steps asked for; moves the memory on."""
     size = h.shape[0]
     gram = np.empty((DEPTH, DEPTH))
     right = np.empty(DEPTH)
@@ -83,29 +85,30 @@ def _accelerate(h, rest, last_h, last_rest, steps_h, steps_rest, kept):
         for j in range(i + 1):
             total = 0.0
             for c in range(size):
-                total += steps_rest[i, c] * steps_rest[j, c]
+                total += steps_change[i, c] * steps_change[j, c]
             gram[i, j] = total
             gram[j, i] = total
         total = 0.0
         for c in range(size):
-            total += steps_rest[i, c] * rest[c]
+            total += steps_change[i, c] * change[c]
         right[i] = total
     for i in range(kept):
         gram[i, i] *= 1.0 + 1e-13
     use = kept > 0 and _solve(gram, right, kept)
     for c in range(size):
         last_h[c] = h[c]
-        last_rest[c] = rest[c]
-        h[c] += rest[c]
+        last_change[c] = change[c]
+        h[c] += change[c]
     if use:
         for i in range(kept):
             for c in range(size):
-                h[c] -= right[i] * (steps_h[i, c] + steps_rest[i, c])
+                h[c] -= right[i] * (steps_h[i, c] + steps_change[i, c])
 
 
 @kernel
 def frozen_iterations(
-    free, h, inverse, frozen, dofs, tolerance, most,
+    free, h, inverse, frozen, dofs, pressing, moving, spread, own, normals, areas,
+    rounding, tolerance, most,
     u0, deflection0, size0, multiplier,
     faces, shapes, weights, places, surface, law, friction, motion,
     u, force, deflection, size, points,
@@ -124,6 +127,8 @@ def frozen_iterations(
         The frozen stiffness of the points, Pa/m.
     dofs : ndarray of int, shape (m,)
         Those unknowns.
+    pressing, moving, spread, own, normals, areas, rounding : ndarray, float
+        As `asperity.contact.newton_frozen.Frozen` has them.
     tolerance : float
         Relative residual to be reached.
     most : int
@@ -147,10 +152,16 @@ def frozen_iterations(
     way = np.empty_like(u)
     carried = np.empty_like(u)
     rest = np.empty(count)
+    change = np.empty(count)
+    shares = np.empty_like(normals)
+    pressed = np.empty(areas.shape[0])
+    mean = np.empty(3)
+    tangent = np.empty((3, 3))
+    correction = np.empty((3, 3))
     last_h = np.empty(count)
-    last_rest = np.empty(count)
+    last_change = np.empty(count)
     steps_h = np.empty((DEPTH, count))
-    steps_rest = np.empty((DEPTH, count))
+    steps_change = np.empty((DEPTH, count))
     no_stiffness = np.empty((0, 3, 3))
     kept = 0
     place = 0
@@ -167,6 +178,7 @@ def frozen_iterations(
         stiffness_forces(frozen, faces, shapes, weights, way, carried)
         whole = 0.0
         norm = 0.0
+        asked = 0.0
         touched = 0
         within = 0
         for i in range(u.shape[0]):
@@ -178,6 +190,7 @@ def frozen_iterations(
             assumed = h[c] + carried[i]
             rest[c] = force[i] - assumed
             norm += rest[c] * rest[c]
+            asked += h[c] * h[c]
             if force[i] != 0.0:
                 within += 1
         if not math.isfinite(norm):
@@ -185,17 +198,24 @@ def frozen_iterations(
         residual = math.sqrt(norm / whole) if whole > 0.0 else (np.inf if norm > 0.0 else 0.0)
         if touched > within:
             return OUTSIDE, iteration, residual
+        if rounding * math.sqrt(asked) > tolerance * math.sqrt(whole):
+            return SLOW, iteration, residual
         if residual <= tolerance:
             return CONVERGED, iteration, residual
         slow = slow + 1 if residual > _SLOW * last else 0
         if slow >= 2:
             return SLOW, iteration, residual
         last = min(last, residual)
+        if iteration == 1:
+            ratios(force, dofs, normals, shares)
+            mean_tangent(points, deflection0, size0, weights, friction, motion, tangent)
+            mean_correction(tangent - own, spread, correction)
+        couple(rest, shares, pressing, moving, areas, correction, pressed, mean, change)
         if iteration > 1:
             for c in range(count):
                 steps_h[place, c] = h[c] - last_h[c]
-                steps_rest[place, c] = rest[c] - last_rest[c]
+                steps_change[place, c] = change[c] - last_change[c]
             place = (place + 1) % DEPTH
             kept = min(kept + 1, DEPTH)
-        _accelerate(h, rest, last_h, last_rest, steps_h, steps_rest, kept)
+        _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept)
     return SLOW, most, last
