@@ -60,6 +60,22 @@ def test_one_object_names_the_files(asperity, tmp_path):
             "Abaqus's own friction)",
         ),
         (
+            [
+                "block-longitudinal",
+                "--to",
+                "abaqus",
+                "--set",
+                "block.elements=[200, 100, 100]",
+            ],
+            "block.elements is [200, 100, 100] with 'hex27', 16200801 nodes; a deck is written "
+            "with at most 2000000: take fewer elements",
+        ),
+        (
+            ["block-longitudinal", "--to", "abaqus", "--set", "block.element=hex20"],
+            "--set block.element=hex20: block.element is 'hex20'; it must be one of 'hex27', "
+            "'hex8', 'hex8i' (did you mean 'hex27'?)",
+        ),
+        (
             ["block-longitudinal", "--to", "calculix", "--out", "taken"],
             "taken cannot be used as output folder: file exists; choose another",
         ),

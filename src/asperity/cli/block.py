@@ -24,7 +24,7 @@ from asperity.store import output_folder, write_dataset
 _KEPT = "block.interrupted.npz"
 
 # Between two times of keeping a march lie so many seconds, and so much of the time that takes.
-_PAUSE = 1.0
+_PAUSE = 0.5
 _WORK_TO_KEEPING = 50.0
 
 
