@@ -15,6 +15,11 @@ _COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE)
 _MARKERS = "osD^v"
 _RATIO = r"drive force over $\mu F_N$"
 _APART = r"apart (10$^{-3}\,\mu F_N$)"
+_FROM = {
+    "slider": "from the sliding body",
+    "in_series": "with its compliance",
+    "rocking": "and rocking",
+}
 _OPEN: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markeredgewidth": 1.2}
 
 
@@ -36,12 +41,11 @@ def over_ratio(dataset: "xr.Dataset") -> "Figure":
             "color": _COLOURS[1 + index],
         }
         upper.plot(places, part["block"], label=label, **_OPEN, **marks)
-        for other, style in (("slider", "-"), ("in_series", ":")):
+        for other, style in (("slider", "-"), ("in_series", ":"), ("rocking", "--")):
             lower.plot(
                 places, 1e3 * (part["block"] - part[other]), linestyle=style, linewidth=1.2,
                 markerfacecolor="none",
-                label={"slider": "from the sliding body", "in_series": "with its compliance"}[other]
-                + (f", {one} shaken" if len(shaken) > 1 else ""), **marks,
+                label=_FROM[other] + (f", {one} shaken" if len(shaken) > 1 else ""), **marks,
             )  # fmt: skip
     upper.set_ylabel(_RATIO)
     upper.set_ylim(0.0, 1.05)

@@ -72,6 +72,9 @@ def _compared(groups: Any, place: tuple[str, ...]) -> dict[str, Any]:
         "in_series": (
             place, of("in_series"), "1", "ratio, sliding body with the block's compliance"
         ),
+        "rocking": (
+            place, of("rocking"), "1", "ratio, that body with the inertia of the block's turns"
+        ),
         "unsteadiness": (place, of("unsteadiness"), "1", "standard error of the block's ratio"),
     }  # fmt: skip
 
@@ -168,9 +171,9 @@ def figure_5_2() -> Drawn:
 
 _BLOCK = (
     "Lines: the sliding body of chapter 4; markers: the elastic block, its friction read over "
-    "eight cycles after it has settled from the sliding body's periodic state. Below: how far it "
-    "is from the sliding body, and from one that has the block's compliance between itself and "
-    "its asperities; what is left beyond comes from the bounce of the block on its contact."
+    "sixteen cycles after it has settled from the sliding body's periodic state. Below: how far it "
+    "is from the sliding body, from one that has the block's compliance as a spring between itself "
+    "and its asperities, and from one that rocks on it as the block does."
 )
 _REST = "From rest over 0.3 s, with the same increments for the sliding body and the block."
 _ALONG, _ACROSS = ((case, SLIDING[case]) for case in (LONGITUDINAL, TRANSVERSE))
