@@ -20,7 +20,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from asperity.contact.increment_assembly import add_stiffness
 from asperity.contact.increment_kernels import (
     POINT,
     PRESSURE,
@@ -31,6 +30,7 @@ from asperity.contact.increment_kernels import (
 )
 from asperity.contact.increment_state import ContactState, IncrementProblem
 from asperity.contact.newton_kernels import answer
+from asperity.contact.newton_touched import Touched
 from asperity.errors import ConvergenceError
 
 FloatArray = npt.NDArray[np.float64]
@@ -269,20 +269,15 @@ def _answer(problem: IncrementProblem, force: FloatArray) -> FloatArray:
 
 def _newton_tractions(problem: IncrementProblem, now: _Aim) -> FloatArray:
     """Tractions that solve the increment with the tangent of now."""
-    faces, shapes, weights = problem.arrays[:3]
     tractions = now.points[:, TRACTION : TRACTION + 3]
-    touched = np.unique(faces[np.flatnonzero(now.points[:, PRESSURE] > 0.0) // len(shapes)])
-    if not len(touched):
+    touched = Touched.by(problem, now.points[:, PRESSURE] > 0.0)
+    if not len(touched.nodes):
         return np.zeros_like(tractions)
-    local = np.full(problem.nodes, -1, dtype=np.int64)
-    local[touched] = np.arange(len(touched))
-    dofs = (3 * touched[:, None] + np.arange(3)).ravel()
-    k = np.zeros((len(dofs), len(dofs)))
-    add_stiffness(now.stiffness, faces, shapes, weights, local, k)
-    matrix = tangent_matrix(problem.flexibility[np.ix_(dofs, dofs)], k)
+    k = touched.stiffness(problem, now.stiffness)
+    matrix = tangent_matrix(touched.flexibility(problem), k)
     gap = _answer(problem, now.force) - now.way
     change = np.zeros((problem.nodes, 3))
-    change[touched] = np.linalg.solve(matrix, gap[dofs]).reshape(-1, 3)
+    change[touched.nodes] = np.linalg.solve(matrix, gap[touched.dofs]).reshape(-1, 3)
     there = problem.surface.to_points(change).reshape(-1, 3)
     new: FloatArray = tractions + np.einsum("qij,qj->qi", now.stiffness, there)
     return new

@@ -21,10 +21,10 @@ import numpy as np
 import numpy.typing as npt
 import scipy.linalg
 
-from asperity.contact.increment_assembly import add_stiffness
 from asperity.contact.increment_kernels import DISTANCE, NORMAL, PRESSURE, TRACTION
 from asperity.contact.increment_state import IncrementProblem
 from asperity.contact.newton import Trial, tangent_matrix
+from asperity.contact.newton_touched import Touched
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -119,19 +119,14 @@ def gain_of(
     Gain or None
         None where a corner wants pressure about which nothing touches yet.
     """
-    faces, shapes, weights = problem.arrays[:3]
-    touched = np.unique(faces[np.flatnonzero(trial.touching) // len(shapes)])
+    touched = Touched.by(problem, trial.touching)
     keep = updated > 0.0
     bearing = np.flatnonzero(keep)
-    reached = np.isin(problem.corners[bearing], touched)
+    reached = np.isin(problem.corners[bearing], touched.nodes)
     if not len(bearing) or not reached.all():
         return None
-    local = np.full(problem.nodes, -1, dtype=np.int64)
-    local[touched] = np.arange(len(touched))
-    dofs = (3 * touched[:, None] + np.arange(3)).ravel()
-    k = np.zeros((len(dofs), len(dofs)))
-    add_stiffness(trial.stiffness, faces, shapes, weights, local, k)
-    a = problem.flexibility[np.ix_(dofs, dofs)]
+    k = touched.stiffness(problem, trial.stiffness)
+    a = touched.flexibility(problem)
     normals = trial.points[:, NORMAL : NORMAL + 3]
     pressures = trial.points[:, PRESSURE, None]
     # Force by a multiplier acts along the traction, of which the pressure is a factor.
@@ -139,9 +134,9 @@ def gain_of(
         trial.points[:, TRACTION : TRACTION + 3], pressures,
         out=np.zeros_like(normals), where=pressures > 0.0,
     )  # fmt: skip
-    basis = problem.from_corners[touched]
-    forces = _spread(problem, ways, local, len(touched)) @ basis
-    gaps = _spread(problem, normals, local, len(touched)) @ basis[:, bearing]
+    basis = problem.from_corners[touched.nodes]
+    forces = _spread(problem, ways, touched) @ basis
+    gaps = _spread(problem, normals, touched) @ basis[:, bearing]
     ending = np.where(keep, 0.0, -multiplier)
     columns = np.column_stack([forces[:, bearing], forces @ ending])
     moved = scipy.linalg.solve(
@@ -152,18 +147,17 @@ def gain_of(
     return Gain(trial.touching, keep, bearing, inverse, -inverse @ grown[:, -1])
 
 
-def _spread(
-    problem: IncrementProblem, ways: FloatArray, local: npt.NDArray[np.int64], count: int
-) -> FloatArray:
-    """``sum of w N_i N_j way`` as a matrix (3 count, count) on the renumbered nodes."""
+def _spread(problem: IncrementProblem, ways: FloatArray, touched: Touched) -> FloatArray:
+    """``sum of w N_i N_j way`` as a matrix (3t, t) on the touched nodes."""
     faces, shapes, _ = problem.arrays[:3]
     surface = problem.surface
     parts = np.einsum(
         "qa,kq,qb,kqc->kacb", shapes, surface.weights, shapes,
         ways.reshape(*surface.weights.shape, 3), optimize=True,
     )  # fmt: skip
+    count = len(touched.nodes)
     matrix = np.zeros((count, 3, count))
-    here = local[faces]
+    here = touched.local[faces]
     inside = (here >= 0).all(axis=1)
     rows = here[inside][:, :, None, None]
     columns = here[inside][:, None, None, :]

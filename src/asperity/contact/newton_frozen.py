@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from asperity.contact.increment_assembly import add_stiffness
 from asperity.contact.increment_kernels import NORMAL
+from asperity.contact.newton_touched import Touched
 
 if TYPE_CHECKING:
     from asperity.contact.increment_state import IncrementProblem
@@ -188,14 +188,10 @@ def inverted(
     problem: IncrementProblem, touching: npt.NDArray[np.bool_], stiffness: FloatArray
 ) -> Frozen:
     """Return a frozen tangent with its inverse for the points in contact and their stiffness."""
-    faces, shapes, weights = problem.arrays[:3]
-    touched = np.unique(faces[np.flatnonzero(touching) // len(shapes)])
-    local = np.full(problem.nodes, -1, dtype=np.int64)
-    local[touched] = np.arange(len(touched))
-    dofs = (3 * touched[:, None] + np.arange(3)).ravel()
-    k = np.zeros((len(dofs), len(dofs)))
-    add_stiffness(stiffness, faces, shapes, weights, local, k)
-    part = problem.flexibility[np.ix_(dofs, dofs)]
+    weights = problem.arrays[2]
+    about = Touched.by(problem, touching)
+    touched, dofs = about.nodes, about.dofs
+    k, part = about.stiffness(problem, stiffness), about.flexibility(problem)
     matrix = np.eye(len(dofs)) - part @ k
     among = np.linalg.solve(matrix, part)
     called = sparse.csr_array(k) @ among
