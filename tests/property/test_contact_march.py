@@ -215,3 +215,47 @@ def test_an_active_set_that_does_not_settle_in_time_is_an_error_with_its_residua
         solve_increment(increments, free.ravel(), SurfaceMotion(), ContactState.rest(increments))
     assert error.value.reached["residual"] > 1e-9
     assert error.value.reached["active"] >= 0.0
+
+
+def test_a_motion_that_is_not_finite_is_an_error():
+    increments = block().system.stepping(SECONDS)[1]
+    free = np.full(3 * increments.nodes, np.nan)
+    with pytest.raises(ConvergenceError, match="left the finite numbers"):
+        solve_increment(increments, free, SurfaceMotion(), ContactState.rest(increments))
+
+
+def leaving_speed(height, *, impact):
+    """Speed at which a mass leaves a wall it meets with 1 m/s, in steps of 1 s, hard contact."""
+    mass, none = np.eye(1), np.zeros((1, 1))
+    method = hht.step_operator(mass, none, 1.0, impact=impact)
+    state = hht.rest(1)
+    state[hht.PLACE], state[hht.VELOCITY] = height, -1.0
+    place, velocity = np.empty(1), np.empty(1)
+    for _ in range(60):
+        hht.predict(
+            state, np.zeros(1), method.carry, method.compliance, method.scalars, place, velocity
+        )
+        force = np.maximum(-place / method.compliance[0], 0.0)
+        trial = np.empty_like(state)
+        place += method.compliance[0] * force
+        hht.complete(state, trial, place, force, mass, none, method.held, method.scalars)
+        state = trial
+    return float(state[hht.VELOCITY, 0])
+
+
+def test_a_mass_leaves_a_hard_contact_no_faster_than_it_came():
+    heights = np.linspace(0.0, 1.0, 41)
+    assert max(leaving_speed(height, impact=True) for height in heights) <= 1.0 + 1e-12
+    beta, _ = hht.coefficients()
+    too_fast = 1.0 / ((1.0 + hht.ALPHA) * beta) - 1.0
+    assert leaving_speed(0.0, impact=False) == pytest.approx(too_fast, rel=1e-9)
+    assert too_fast > 2.8
+
+
+def test_the_bounce_of_a_stiff_block_on_a_soft_contact_is_that_of_a_mass_on_a_spring():
+    soft = block("contact.stiffness=1e10 Pa/m", "slider.lateral=guided").system
+    expected = np.sqrt(1e10 * 0.04 * 0.03 / 0.5)
+    assert soft.bounce == pytest.approx(expected, rel=1e-3)
+    assert not soft.impact(1.9 / expected)
+    assert soft.impact(2.1 / expected)
+    assert block("contact.normal=hard").system.impact(1e-9)
