@@ -51,6 +51,7 @@ def over_ratio(dataset: "xr.Dataset") -> "Figure":
     upper.set_ylim(0.0, 1.05)
     legend(upper, loc="upper right")
     _apart(lower)
+    lower.margins(y=0.55)
     legend(lower, loc="upper right", ncols=len(shaken))
     for axes in (upper, lower):
         axes.set_xlabel(r"velocity ratio $k = v_a/v_d$")
