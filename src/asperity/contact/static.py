@@ -1,14 +1,17 @@
 """Quasi-static contact: a counter-surface moved to a place, or pushed until it bears a load.
 
 The body is held (`CondensedBody` of a tied body, or any flexibility of held nodes). The
-counter-surface has one freedom, a shift or a turn; a tooth of a gear is loaded in this way by the
-worm.
+counter-surface has one freedom at a time, a shift or a turn; a tooth of a gear is loaded in this
+way by the worm. A path of several parts, such as pressing and then rubbing to and fro, goes from
+state to state: `on_guide` takes a state from one freedom to the next, `follow` through a list of
+places.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -95,12 +98,86 @@ class StaticState:
         The last increment.
     increments : int
         Increments taken since the state before.
+    friction_work : float
+        Done against friction since the state before, J: of the mean tractions of each increment on
+        its slip. Over a closed cycle it is dissipated; on the way the asperities hold a part of it.
     """
 
     place: float
     load: float
     contact: IncrementResult
     increments: int
+    friction_work: float = 0.0
+
+
+def on_guide(
+    problem: IncrementProblem, guide: Guide, state: StaticState, place: float = 0.0
+) -> StaticState:
+    """Count the place of a state on another guide, to go on along it.
+
+    Parameters
+    ----------
+    problem : IncrementProblem
+        Of the way to come; friction may differ from that of the way before.
+    guide : Guide
+        The next one; at ``place`` the counter-surface has to stand where it stands.
+    state : StaticState
+        Where the way before ended.
+    place : float
+        m or rad.
+
+    Returns
+    -------
+    StaticState
+        The same contact with its load along the next guide.
+    """
+    return StaticState(place, guide.load(problem, state.contact), state.contact, 0)
+
+
+def follow(
+    problem: IncrementProblem,
+    guide: Guide,
+    places: Sequence[float],
+    *,
+    start: StaticState | float = 0.0,
+    increments: int = 1,
+) -> tuple[StaticState, ...]:
+    """Move the counter-surface from place to place.
+
+    Parameters
+    ----------
+    problem, guide, start
+        As `move_to`.
+    places : sequence of float
+        Where to, m or rad, one after the other.
+    increments : int
+        Equal parts of the way to each.
+
+    Returns
+    -------
+    tuple of StaticState
+        One for each place.
+
+    Raises
+    ------
+    ConvergenceError
+        As `move_to`.
+    """
+    states: list[StaticState] = []
+    for place in places:
+        start = move_to(problem, guide, place, start=start, increments=increments)
+        states.append(start)
+    return tuple(states)
+
+
+def _friction_work(
+    problem: IncrementProblem, before: ContactState, result: IncrementResult
+) -> float:
+    slip = result.slip_1 + result.slip_2
+    # The slip lies in the tangent plane, so that the pressure has no share in the work.
+    mean = 0.5 * (before.traction + result.traction)
+    weights = problem.surface.weights.ravel()
+    return -float(np.einsum("q,qi,qi->", weights, mean, slip))
 
 
 def move_to(
@@ -143,7 +220,7 @@ def move_to(
         raise InputError(f"increments is {increments}; it must be at least 1")
     state, at, load_free = _begin(problem, start)
     last_free = np.zeros(3 * problem.nodes) if free is None else free
-    begin, done, count = at, 0.0, 0
+    begin, done, count, work = at, 0.0, 0, 0.0
     share = 1.0 / increments
     result = None
     while done < 1.0:
@@ -163,9 +240,10 @@ def move_to(
                     reached={"place": at, **error.reached},
                 ) from error
             continue
+        work += _friction_work(problem, state, result)
         state, at, done, count = result.state, to, ahead, count + 1
     assert result is not None
-    return StaticState(at, guide.load(problem, result), result, count)
+    return StaticState(at, guide.load(problem, result), result, count, work)
 
 
 def load_to(
@@ -206,14 +284,14 @@ def load_to(
         raise InputError(f"increments is {increments}; it must be at least 1")
     now = start
     first = start.load if isinstance(start, StaticState) else 0.0
-    count = 0
+    work = 0.0
     for part in range(1, increments + 1):
         target = first + part / increments * (load - first)
         now, way = _one_load(problem, guide, target, now, step, free, tolerance, abs(load))
         step = way or step
-        count += 1
+        work += now.friction_work
     assert isinstance(now, StaticState)
-    return dataclasses.replace(now, increments=count)
+    return dataclasses.replace(now, increments=increments, friction_work=work)
 
 
 def _one_load(
@@ -232,7 +310,8 @@ def _one_load(
 
     def tried(way: float) -> StaticState:
         result = solve_increment(problem, loads, _motion(guide, at, at + way), state)
-        return StaticState(at + way, guide.load(problem, result), result, 1)
+        work = _friction_work(problem, state, result)
+        return StaticState(at + way, guide.load(problem, result), result, 1, work)
 
     def found(state: StaticState) -> bool:
         # The forces of an increment are known no better than its residual.
