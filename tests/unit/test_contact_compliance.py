@@ -19,9 +19,9 @@ def problem(*settings):
 
 
 def test_a_rigid_block_on_springs_rocks_about_its_base():
-    block = problem("block.youngs_modulus=209e9 GPa", "contact.stiffness=1e13 Pa/m")
+    block = problem("block.youngs_modulus=100000 GPa", "contact.stiffness=1e10 Pa/m")
     (length, width, height), mass = block.block.size, block.mass
-    area, k = length * width, 1e13
+    area, k = length * width, 1e10
     turning = k * area * np.array([length, width]) ** 2 / 12.0
     give = 0.25 * height**2 / turning
     found = block.compliance
