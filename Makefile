@@ -38,7 +38,7 @@ examples: .venv/.dev
 	done
 
 bench: .venv/.dev
-	@for file in $(wildcard benchmarks/*.py); do \
+	@for file in $(wildcard benchmarks/[a-z]*.py); do \
 	  echo "$$file"; $(BIN)/python "$$file" || exit 1; \
 	done
 

@@ -1,142 +1,161 @@
 """How fast a block in contact is marched, against ways that condense nothing, in the same run.
 
-Run it with ``make bench``. On a shared machine only ratios mean something; everything runs on one
-core. The other ways: the same mesh with every node, a sparse factorisation in each iteration
-(`asperity.contact.reference`), and CalculiX where ``ccx`` is installed, quasi-static on the same
-mesh, since its implicit dynamics do not get through this contact.
+Run it with ``make bench``. Times are those of this process on one core. Marched are blocks of 221
+contact nodes that are shaken along and across the drive from the first increment, and one that is
+pulled until its asperities slide. The other ways: the same mesh with every node, a sparse
+factorisation in each iteration (`asperity.contact.reference`), and CalculiX where ``ccx`` is
+installed, quasi-static on the same mesh, since its implicit dynamics do not get through this
+contact.
 """
 
-import json
-import os
 import re
 import resource
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
+
+import numpy as np
+from _common import best, finish, on_one_core
 
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
 from asperity.contact.deck import BlockSetup, calculix_files
 from asperity.contact.elastic import Pressure, Traction, cache, condense, elastic_body
+from asperity.contact.elastic.solver import installed_solver
 from asperity.contact.reference import WholeSystem
 from asperity.contact.rest import rest_under_load
 from asperity.contact.steps import Walker
 
-CASE = "block-longitudinal"
-# Shaken from the start, so that every increment counted is one with vibration.
-SETTINGS = ("vibration.start=0 s",)
 MESHES = {
     "8x6x6 hex27": ("block.elements=[8,6,6]", "block.element=hex27"),
     "16x12x12 hex8i": ("block.elements=[16,12,12]", "block.element=hex8i"),
 }
-ONE_CORE = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+SHAKEN = ("vibration.start=0 s",)
+MODES = 24
+MARCHES = {
+    "increment": ("block-longitudinal", 0, SHAKEN),
+    "with_modes": ("block-longitudinal", MODES, SHAKEN),
+    "across": ("block-transverse", 0, SHAKEN),
+    "across_with_modes": ("block-transverse", MODES, SHAKEN),
+    "pulled": ("block-longitudinal", 0, ("vibration.start=10 s", "vibration.velocity_ratio=0")),
+}
 STEP = 1e-5
-WARM, COUNTED, WHOLE = 200, 2000, 5
-MODES = (0, 24)
+WARM, COUNTED, PIECE, WHOLE = 200, 1000, 100, 5
+
+MOST = {
+    **{f"{name}_ms": 1.0 for name in MARCHES},
+    "condense_s": 15.0,
+    "condense_superlu_s": 15.0,
+    "read_back_s": 0.5,
+}
+LEAST = {"uncondensed_over_condensed": 400.0}
 
 
-def problem_of(name, modes):
-    settings = (*SETTINGS, *MESHES[name], f"block.modes={modes}")
-    return BlockProblem.from_case(read_case(CASE, TABLES, settings))
+def problem_of(mesh, march):
+    case, modes, settings = MARCHES[march]
+    settings = (*settings, *MESHES[mesh], f"block.modes={modes}")
+    return BlockProblem.from_case(read_case(case, TABLES, settings))
 
 
-def condensing(report, name):
-    """Condensing once, and reading it back."""
-    problem = problem_of(name, 0)
-    loads = {"pressure": Pressure("top"), "drive": Traction("right", (1.0, 0.0, 0.0))}
-    arguments = {"element": problem.block.element, "loads": loads}
-    began = time.perf_counter()
-    body = condense(problem.mesh, problem.material, "bottom", use_cache=False, **arguments)
-    report[name]["condense_s"] = time.perf_counter() - began
-    report[name]["contact_nodes"] = len(body.nodes)
+def condensing(figures, mesh):
+    """Condensing once with each solver, and reading it back."""
+    problem = problem_of(mesh, "increment")
+    arguments = {
+        "element": problem.block.element,
+        "loads": {"pressure": Pressure("top"), "drive": Traction("right", (1.0, 0.0, 0.0))},
+        "use_cache": False,
+    }
+    figures["solver"] = installed_solver()
+    for solver in {figures["solver"], "superlu"}:
+        began = time.process_time()
+        body = condense(problem.mesh, problem.material, "bottom", solver=solver, **arguments)
+        label = "" if solver == figures["solver"] else f"_{solver}"
+        figures[f"condense{label}_s"] = time.process_time() - began
+    figures["contact_nodes"] = len(body.nodes)
     with tempfile.TemporaryDirectory() as folder:
         cache.save(Path(folder), "body", body)
-        began = time.perf_counter()
-        cache.load(Path(folder), "body")
-        report[name]["read_back_s"] = time.perf_counter() - began
+        figures["read_back_s"] = best(lambda: cache.load(Path(folder), "body"))
 
 
-def marching(report, name, modes):
-    """Milliseconds an increment with the body condensed."""
-    problem = problem_of(name, modes)
-    walker = Walker(problem.system, rest_under_load(problem.system, problem.loads))
+def marching(figures, mesh, march):
+    """Milliseconds an increment with the body condensed, the median of some pieces of the march."""
+    system = problem_of(mesh, march).system
+    walker = Walker(system, rest_under_load(system, problem_of(mesh, march).loads))
     for number in range(1, WARM + 1):
         walker.step_to(number * STEP, STEP)
-    began = time.perf_counter()
-    iterations = 0
-    for number in range(WARM + 1, WARM + COUNTED + 1):
-        walker.step_to(number * STEP, STEP)
-        iterations += walker.state.contact.iterations
-    seconds = time.perf_counter() - began
-    label = "" if not modes else f"_{modes}_modes"
-    report[name][f"increment_ms{label}"] = seconds / COUNTED * 1e3
-    report[name][f"iterations{label}"] = iterations / COUNTED
+    iterations, pieces = 0, []
+    for first in range(WARM + 1, WARM + COUNTED + 1, PIECE):
+        began = time.thread_time()
+        for number in range(first, first + PIECE):
+            walker.step_to(number * STEP, STEP)
+            iterations += walker.state.contact.iterations
+        pieces.append((time.thread_time() - began) / PIECE * 1e3)
+    figures[f"{march}_ms"] = float(np.median(pieces))
+    figures[f"{march}_iterations"] = iterations / COUNTED
 
 
-def uncondensed(report, name):
+def products(figures, mesh):
+    """Milliseconds of a product with the dense flexibility: the unit an increment is made of."""
+    flexibility = problem_of(mesh, "increment").body.flexibility
+    force = np.ones(len(flexibility))
+    figures["product_ms"] = best(lambda: [flexibility @ force for _ in range(100)]) * 10.0
+    figures["increment_over_product"] = figures["increment_ms"] / figures["product_ms"]
+
+
+def uncondensed(figures, mesh):
     """Milliseconds an increment with every node."""
-    problem = problem_of(name, 0)
+    problem = problem_of(mesh, "increment")
     body = elastic_body(problem.mesh, problem.material, element=problem.block.element)
     whole = WholeSystem(body, problem.system, problem.nodal_drive)
     gravity = -STANDARD_GRAVITY * body.inertia[:, 2]
     loads = (gravity, problem.nodal_loads)
     state = whole.step_to(whole.rest_under_load(loads), STEP, loads[-1])
-    began = time.perf_counter()
-    iterations = 0
+    iterations, times = 0, []
     for number in range(2, 2 + WHOLE):
+        began = time.thread_time()
         state = whole.step_to(state, number * STEP, loads[-1])
+        times.append((time.thread_time() - began) * 1e3)
         iterations += state.iterations
-    seconds = (time.perf_counter() - began) / WHOLE
-    report[name]["unknowns"] = 3 * len(problem.mesh.points)
-    report[name]["uncondensed_ms"] = seconds * 1e3
-    report[name]["uncondensed_iterations"] = iterations / WHOLE
-    report[name]["uncondensed_over_condensed"] = seconds * 1e3 / report[name]["increment_ms"]
+    figures["unknowns"] = 3 * len(problem.mesh.points)
+    figures["uncondensed_ms"] = float(np.median(times))
+    figures["uncondensed_iterations"] = iterations / WHOLE
+    figures["uncondensed_over_condensed"] = figures["uncondensed_ms"] / figures["increment_ms"]
 
 
-def calculix(report, name):
+def calculix(figures, mesh):
     """Milliseconds an increment of CalculiX, pressed down and pulled."""
-    settings = (*SETTINGS, *MESHES[name])
-    deck = calculix_files(BlockSetup.from_case(read_case(CASE, TABLES, settings)))["block.inp"]
+    case = read_case("block-longitudinal", TABLES, (*SHAKEN, *MESHES[mesh]))
     with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "block.inp").write_text(deck)
-        began = time.perf_counter()
+        (Path(folder) / "block.inp").write_text(
+            calculix_files(BlockSetup.from_case(case))["block.inp"]
+        )
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         done = subprocess.run(["ccx", "block"], cwd=folder, capture_output=True, text=True)
-        seconds = time.perf_counter() - began
+        seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         lines = (Path(folder) / "block.sta").read_text().splitlines()
-    if "Job finished" not in done.stdout:
-        report[name]["ccx_ms"] = None
-        return
     increments = sum(bool(re.match(r"\s*\d+\s+\d+", line)) for line in lines)
-    report[name]["ccx_increments"] = increments
-    report[name]["ccx_ms"] = seconds / increments * 1e3
-    report[name]["ccx_over_condensed"] = seconds / increments * 1e3 / report[name]["increment_ms"]
+    figures["ccx_increments"] = increments
+    if "Job finished" in done.stdout and increments:
+        figures["ccx_ms"] = seconds / increments * 1e3
+        figures["ccx_over_condensed"] = figures["ccx_ms"] / figures["increment_ms"]
 
 
 def main():
     """Run all and print one line a figure."""
-    if any(os.environ.get(name) != value for name, value in ONE_CORE.items()):
-        # Numerical libraries read these when they are imported, which is done by now.
-        os.execve(sys.executable, [sys.executable, *sys.argv], {**os.environ, **ONE_CORE})
-    report = {name: {} for name in MESHES}
-    for name in MESHES:
-        condensing(report, name)
-        for modes in MODES:
-            marching(report, name, modes)
-        uncondensed(report, name)
+    on_one_core()
+    report = {mesh: {} for mesh in MESHES}
+    for mesh, figures in report.items():
+        condensing(figures, mesh)
+        for march in MARCHES:
+            marching(figures, mesh, march)
+        products(figures, mesh)
+        uncondensed(figures, mesh)
     if shutil.which("ccx"):
-        calculix(report, "16x12x12 hex8i")
-    if "--json" in sys.argv:
-        print(json.dumps(report))
-        return
-    for name, figures in report.items():
-        for key, value in figures.items():
-            print(f"{name:18s} {key:32s} {value:12.4g}")
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"peak memory of this run {peak:.0f} MiB")
+        calculix(report["16x12x12 hex8i"], "16x12x12 hex8i")
+    finish(report, most=MOST, least=LEAST)
 
 
 if __name__ == "__main__":

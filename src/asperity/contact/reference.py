@@ -19,7 +19,7 @@ from scipy import sparse
 
 from asperity.contact import hht, ledger
 from asperity.contact.elastic.body import ElasticBody
-from asperity.contact.elastic.solver import solve_general
+from asperity.contact.elastic.solver import GeneralSolver
 from asperity.contact.increment_kernels import (
     NORMAL,
     POINT,
@@ -141,6 +141,10 @@ class WholeSystem:
         return np.arange(len(self.body.rigid)) if self.body.free else self.body.moving
 
     @functools.cached_property
+    def _solver(self) -> GeneralSolver:
+        return GeneralSolver(self.body.wanted_solver)
+
+    @functools.cached_property
     def _contact(self) -> NDArray[np.int64]:
         nodes = self.system.surface.nodes
         return np.asarray((3 * nodes[:, None] + np.arange(3)).reshape(-1))
@@ -260,7 +264,7 @@ class WholeSystem:
         for iteration in range(1, _MOST_ITERATIONS + 1):
             matrix = self._matrix(step, tangent)
             change = np.zeros_like(place)
-            change[unknowns] = -solve_general(matrix, left[unknowns], self.body.wanted_solver)
+            change[unknowns] = -self._solver.solve(matrix, left[unknowns])
             share = 1.0
             while True:
                 tried = self._evaluate(state, step, end, now.place + share * change)

@@ -26,6 +26,10 @@ COLUMNS_AT_A_TIME = 128
 # 27-node and 8-node hexahedra with 8,000 to 50,000 unknowns.
 _FILL = 20.0
 _OUT_OF_MEMORY = -2
+# SuperLU's ordering for matrices of symmetric pattern: half the fill of the default.
+_SYMMETRIC_PATTERN: dict[str, Any] = {
+    "permc_spec": "MMD_AT_PLUS_A", "options": {"SymmetricMode": True},
+}  # fmt: skip
 # Bytes an entry costs: SuperLU keeps both triangles, with their row numbers and working space.
 _BYTES = {"pypardiso": 10.0, "superlu": 48.0}
 
@@ -182,13 +186,7 @@ def _superlu(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
     from scipy.sparse.linalg import splu
 
     try:
-        # Ordered and pivoted for symmetry: half the fill of the default.
-        factors = splu(
-            sparse.csc_matrix(matrix),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        factors = splu(sparse.csc_matrix(matrix), **_SYMMETRIC_PATTERN, diag_pivot_thresh=0.0)
     except RuntimeError as error:
         raise _NotPositiveError from error
     if not (factors.U.diagonal() > 0.0).all():
@@ -197,24 +195,47 @@ def _superlu(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
     return solve
 
 
-def solve_general(matrix: sparse.csr_array, right: Floats, solver: str = "auto") -> Floats:
-    """Return the solution of one system of equations that need not be symmetric.
+class GeneralSolver:
+    """Solves one system of equations after another that need not be symmetric.
+
+    Where the places of the entries are those of the matrix before, PARDISO's ordering of them is
+    kept, and the matrix is only factorised anew.
 
     Parameters
     ----------
-    matrix : scipy.sparse.csr_array, shape (n, n)
-        Regular.
-    right : ndarray, shape (n,)
-        Right-hand side.
     solver : {'auto', 'pypardiso', 'superlu'}
         Direct solver.
     """
-    if installed_solver(solver) == "pypardiso":
-        unsymmetric = 11
-        backend = _new_pardiso(unsymmetric)
-        answer: Floats = backend.solve(sparse.csr_matrix(matrix), right)
-        backend.free_memory(everything=True)
-        return answer
-    from scipy.sparse.linalg import splu
 
-    return np.asarray(splu(sparse.csc_matrix(matrix)).solve(right))
+    def __init__(self, solver: str = "auto") -> None:
+        self.name = installed_solver(solver)
+        self._backend: Any = None
+        self._places: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None
+
+    def solve(self, matrix: sparse.csr_array, right: Floats) -> Floats:
+        """Return the solution.
+
+        Parameters
+        ----------
+        matrix : scipy.sparse.csr_array, shape (n, n)
+            Regular, of nearly symmetric pattern.
+        right : ndarray, shape (n,)
+            Right-hand side.
+        """
+        if self.name == "superlu":
+            from scipy.sparse.linalg import splu
+
+            return np.asarray(splu(sparse.csc_matrix(matrix), **_SYMMETRIC_PATTERN).solve(right))
+        ordered = sparse.csr_matrix(matrix)
+        ordered.sort_indices()
+        places = ordered.indptr, ordered.indices
+        known = self._places is not None and all(map(np.array_equal, places, self._places))
+        if self._backend is None:
+            unsymmetric = 11
+            self._backend = _new_pardiso(unsymmetric)
+            weakref.finalize(self, self._backend.free_memory, everything=True)
+        self._places = places
+        factorise_and_solve, all_phases = 23, 13
+        self._backend.set_phase(factorise_and_solve if known else all_phases)
+        answer: Floats = self._backend._call_pardiso(ordered, right[:, None])
+        return answer[:, 0]

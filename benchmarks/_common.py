@@ -1,0 +1,55 @@
+"""What the benchmarks share: one core, the shortest of some runs, and a report with its bounds."""
+
+import json
+import os
+import resource
+import sys
+import time
+
+ONE_CORE = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+
+
+def on_one_core():
+    """Go on with this process alone on one core, started anew where a library would take more."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    if any(os.environ.get(name) != value for name, value in ONE_CORE.items()):
+        # Numerical libraries read these when they are imported, which is done by now.
+        os.execve(sys.executable, [sys.executable, *sys.argv], {**os.environ, **ONE_CORE})
+
+
+def best(function, repeats=3, clock=time.thread_time):
+    """Shortest of a few runs, by default in seconds of this thread."""
+    times = []
+    for _ in range(repeats):
+        began = clock()
+        function()
+        times.append(clock() - began)
+    return min(times)
+
+
+def finish(report, *, most=None, least=None):
+    """Print one line a figure, or all as JSON with ``--json``, and end the process.
+
+    ``most`` bounds times by name, ``least`` ratios. What is missed is said. A time depends on the
+    machine and who shares it, so that ratios alone make the status 1.
+    """
+    most, least = most or {}, least or {}
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    missed = False
+    lines = []
+    for name, figures in report.items():
+        for key, value in figures.items():
+            text = f"{value:12.4g}" if isinstance(value, float | int) else f"{value:>12}"
+            line = f"{name:24s} {key:42s} {text}"
+            if key in most:
+                line += f"  {'missed' if value > most[key] else 'holds'}: at most {most[key]:g}"
+            if key in least:
+                missed |= value < least[key]
+                line += f"  {'missed' if value < least[key] else 'holds'}: at least {least[key]:g}"
+            lines.append(line)
+    if "--json" in sys.argv:
+        print(json.dumps(report))
+    else:
+        print(*lines, f"peak memory of this run {peak:.0f} MiB", sep="\n")
+    sys.exit(int(missed))
