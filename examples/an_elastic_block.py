@@ -17,7 +17,7 @@ from asperity.contact.tables import TABLES as CONTACT
 from asperity.slider import TABLES, Model, solve
 
 # %%
-# A case that ships, with a light mesh, over 20 cycles. Without a drive stiffness the drive is rigid.
+# A case that ships, with a light mesh, over 20 cycles. Without a stiffness the drive is rigid.
 
 settings = [
     "block.elements=[4, 3, 3]",

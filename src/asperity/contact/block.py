@@ -330,7 +330,7 @@ def shaking(model: Model) -> Shaking | None:
     along, across = model.unit_direction
     return Shaking(
         model.shape,
-        (model.amplitude * along, model.amplitude * across),
+        (model.amplitude * along, model.amplitude * across, 0.0),
         model.start,
         model.friction.transfer,
         model.on_body,

@@ -64,7 +64,8 @@ LOST = 7  # by the method, J
 TRIES = 8  # iterations
 TRANSFER = 9  # share of the body's lateral motion the contact sees
 FULL_FRICTION = 10  # N
-IMPOSED = 11
+BASE_Z = 11  # rise of the base, m
+IMPOSED = 12
 
 # Places in the vector of forces at the end of a step.
 FX = 0  # friction against the slip, N
@@ -121,7 +122,7 @@ def account(
     ----------
     sums : ndarray, shape (23,)
         Changed.
-    imposed : ndarray, shape (11,)
+    imposed : ndarray, shape (12,)
         What the step imposed.
     before, after : ndarray, shape (6,)
         Forces at both ends, see `resultants`.
@@ -156,8 +157,9 @@ def account(
     fy = 0.5 * (before[FY] + after[FY])
     sums[FRICTION_X] += step * fx
     sums[FRICTION_Y] += step * fy
-    sums[NORMAL_FORCE] += 0.5 * step * (before[FN] + after[FN])
-    sums[VIBRATION_WORK] -= fx * imposed[BASE_X] + fy * imposed[BASE_Y]
+    fn = 0.5 * (before[FN] + after[FN])
+    sums[NORMAL_FORCE] += step * fn
+    sums[VIBRATION_WORK] += fn * imposed[BASE_Z] - fx * imposed[BASE_X] - fy * imposed[BASE_Y]
     sums[UNTRANSFERRED] -= fy * (imposed[WHOLE_Y] - imposed[BASE_Y])
     sums[METHOD_LOSS] += imposed[LOST]
     unseen = 1.0 - imposed[TRANSFER]

@@ -190,7 +190,7 @@ class Walker:
         seen = shaking.transfer if shaking is not None and shaking.on_body else 1.0
         imposed = np.array([
             step, end, base[0], base[1], base[2], state.load, state.load, lost,
-            float(result.iterations), seen, system.full_friction,
+            float(result.iterations), seen, system.full_friction, base[3],
         ])  # fmt: skip
         before = state.contact
         # Copies, so that whoever stops in the middle of a step finds the state before it whole.

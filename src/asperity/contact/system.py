@@ -29,14 +29,14 @@ _RESOLVED = 2.0
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shaking:
-    """In-plane vibration of the base or of the body as a contact sees it.
+    """Vibration of a plane base or of the body as a contact sees it.
 
     Attributes
     ----------
     shape : Shape
         Waveform.
-    way : tuple of 2 floats
-        Displacement amplitude along x and y, m.
+    way : tuple of 3 floats
+        Displacement amplitude along x, y, and z (up, against the pressure), m.
     start : float
         When it begins, s.
     transfer : float
@@ -46,7 +46,7 @@ class Shaking:
     """
 
     shape: Shape
-    way: tuple[float, float]
+    way: tuple[float, float, float]
     start: float = 0.0
     transfer: float = 1.0
     on_body: bool = False
@@ -152,27 +152,30 @@ class System:
         )
 
     def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, FloatArray]:
-        """Motion of the base over a step, and the displacement x, y, whole y that makes the slip.
+        """Motion of the base over a step, and its displacement: x, y as far as seen, whole y, z.
 
         A body that is shaken is one at rest on a base that moves the other way, but for the share
         of its own lateral motion that the contact sees.
         """
         shaking = self.shaking
         if shaking is None:
-            return SurfaceMotion(pose=self.pose), np.zeros(3)
-        unit = shaking.increment(begin, end)
-        sign = -1.0 if shaking.on_body else 1.0
-        x, y = sign * unit * shaking.way[0], sign * unit * shaking.way[1]
+            return SurfaceMotion(pose=self.pose), np.zeros(4)
+        way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.way)
+        x, y, z = shaking.increment(begin, end) * way
+        pose = self.pose
+        if way[2] != 0.0:
+            height = shaking.increment(shaking.start, end) * way[2]
+            pose = Pose(pose.rotation, pose.translation + np.array([0.0, 0.0, height]))
         through = shaking.transfer * y
         one_sided = end <= shaking.start * (1.0 + 1e-12)
         return SurfaceMotion(
-            self.pose,
+            pose,
             Drift(np.array([x, 0.0, 0.0])),
             Drift(np.array([0.0, through, 0.0])),
             np.diag([1.0, 0.0, 1.0]) if shaking.on_body else np.eye(3),
             np.diag([0.0, shaking.transfer, 0.0]) if shaking.on_body else np.zeros((3, 3)),
             one_sided,
-        ), np.array([x, through, y])
+        ), np.array([x, through, y, z])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -1,0 +1,79 @@
+"""A block on a base that vibrates up and down."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact import hht, ledger
+from asperity.contact.block import BlockProblem
+from asperity.contact.rest import rest_under_load
+from asperity.contact.steps import Walker
+
+STEP = 5e-6
+STIFFNESS = 1e10  # Pa/m
+FREQUENCY = 400.0
+
+
+def shaken(amplitude, *changes):
+    """Let the base of a block on a soft contact rise and fall; also its resting state."""
+    settings = (
+        "block.elements=[2, 2, 2]", "block.element=hex8", "vibration.start=0 s",
+        f"vibration.frequency={FREQUENCY} Hz", f"solve.step={STEP} s", "slider.lateral=guided",
+        f"contact.stiffness={STIFFNESS} Pa/m", *changes,
+    )  # fmt: skip
+    problem = BlockProblem.from_case(read_case("block-longitudinal", TABLES, settings))
+    system = problem.system
+    shaking = dataclasses.replace(system.shaking, way=(0.0, 0.0, amplitude))
+    system = dataclasses.replace(system, shaking=shaking, drive_velocity=0.0)
+    return problem, Walker(system, rest_under_load(system, problem.loads))
+
+
+def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
+    amplitude = 1e-7
+    problem, walker = shaken(amplitude)
+    spring = STIFFNESS * problem.block.area
+    own, imposed = np.sqrt(spring / problem.mass), 2.0 * np.pi * FREQUENCY
+    times = STEP * np.arange(1, 1001)
+    forces = []
+    for time in times:
+        walker.step_to(time, STEP)
+        forces.append(walker.state.forces[ledger.FN])
+    # z'' + own^2 (z - z_base) = 0 from rest, with z_base = amplitude sin(imposed t).
+    share = own / (own**2 - imposed**2)
+    z = amplitude * share * (own * np.sin(imposed * times) - imposed * np.sin(own * times))
+    swing = spring * (amplitude * np.sin(imposed * times) - z)
+    assert 0.02 * 55.0 < np.abs(swing).max() < 55.0
+    assert np.array(forces) - 55.0 == pytest.approx(swing, abs=0.01 * np.abs(swing).max())
+
+
+@pytest.mark.parametrize(
+    "contact",
+    [
+        ("contact.normal=linear",),
+        ("contact.normal=two-stage", "contact.stiffness=1e12 Pa/m"),
+        ("contact.normal=hard",),
+    ],
+)
+def test_a_block_that_is_thrown_up_keeps_its_momentum_and_its_ledger(contact):
+    problem, walker = shaken(2e-5, *contact)
+    mass = problem.mass
+    before = walker.state.energies(walker.system)
+    touching, landings = True, 0
+    for number in range(1, 4001):
+        walker.step_to(number * STEP, STEP)
+        before_it, touching = touching, walker.state.contact.active > 0
+        landings += touching and not before_it
+    assert landings >= 2
+    sums = walker.sums
+    push = sums[ledger.NORMAL_FORCE] - 55.0 * sums[ledger.TIME]
+    assert push == pytest.approx(
+        mass * walker.state.coordinates[hht.VELOCITY, 2], abs=0.02 * 55.0 * sums[ledger.TIME]
+    )
+    balance = ledger.power_ledger(sums, before, walker.state.energies(walker.system))
+    assert balance.vibration > 0.0
+    missing = balance.drive + balance.vibration + balance.loads - balance.friction
+    missing -= balance.damping + balance.numerical + balance.stored
+    assert abs(missing) < 1e-6 * balance.vibration
