@@ -233,8 +233,8 @@ def _iterate(
     size = np.empty(count)
     points = np.empty((count, POINT))
     status, took, residual = frozen_iterations(
-        free, h, frozen.inverse, frozen.stiffness, frozen.dofs, frozen.pressing, frozen.moving,
-        frozen.spread, frozen.own, frozen.normals, frozen.areas, frozen.rounding,
+        free, h, frozen.inverse, frozen.stiffness, frozen.dofs, frozen.pressing, frozen.smooth,
+        frozen.moving, frozen.spread, frozen.own, frozen.normals, frozen.rounding,
         problem.tolerance, _MOST_FROZEN,
         state.displacement, state.deflection, state.size, multiplier, *problem.arrays, motion,
         u, force, deflection, size, points,

@@ -170,6 +170,15 @@ def aimed_tractions(
     py = 0.0
     pz = 0.0
     far = 0.0
+    lx = 0.0
+    ly = 0.0
+    lz = 0.0
+    ex = 0.0
+    ey = 0.0
+    ez = 0.0
+    fx = 0.0
+    fy = 0.0
+    fz = 0.0
     one_sided = motion[ONE_SIDED] > 0.0
     width = faces.shape[1]
     rule = shapes.shape[0]
@@ -248,21 +257,27 @@ def aimed_tractions(
         sy = 0.0
         sz = 0.0
         if mu > 0.0:
-            ex, ey, ez = first_tangent(nx, ny, nz)
-            fx = ny * ez - nz * ey
-            fy = nz * ex - nx * ez
-            fz = nx * ey - ny * ex
+            if nx != lx or ny != ly or nz != lz:
+                # On a plane one frame serves all points; roots and quotients are what costs here.
+                ex, ey, ez = first_tangent(nx, ny, nz)
+                fx = ny * ez - nz * ey
+                fy = nz * ex - nx * ez
+                fz = nx * ey - ny * ex
+                lx = nx
+                ly = ny
+                lz = nz
             # The committed deflection, turned into the plane of now with its length kept.
             gx = deflection0[q, 0]
             gy = deflection0[q, 1]
             gz = deflection0[q, 2]
             s1 = gx * ex + gy * ey + gz * ez
             s2 = gx * fx + gy * fy + gz * fz
-            flat = math.sqrt(s1 * s1 + s2 * s2)
-            if flat > 0.0:
-                keep = math.sqrt(gx * gx + gy * gy + gz * gz) / flat
-                s1 *= keep
-                s2 *= keep
+            if gx * nx + gy * ny + gz * nz != 0.0:
+                flat = math.sqrt(s1 * s1 + s2 * s2)
+                if flat > 0.0:
+                    keep = math.sqrt(gx * gx + gy * gy + gz * gz) / flat
+                    s1 *= keep
+                    s2 *= keep
             a1 = v1x * ex + v1y * ey + v1z * ez
             a2 = v1x * fx + v1y * fy + v1z * fz
             b1 = v2x * ex + v2y * ey + v2z * ez

@@ -5,12 +5,14 @@ With the residual :math:`R` of the nodal forces the frozen iteration corrects :m
 tangent less the frozen stiffness :math:`K`. Two parts of it matter. Tangential forces press the
 body on harder here and less there, :math:`D R` at the nodes with :math:`D = n^T K G`, and friction
 follows pressure in the ratio :math:`\rho` of tangential to normal force at the node. And friction
-follows the mean slip :math:`E R` by the tangent :math:`T` of a point with the mean deflection and
-slip of all. So the correction is, with the nodes' areas :math:`a`,
+follows the slip by the tangent :math:`T` of a point with the mean deflection and slip of all, in
+proportion to the pressure :math:`p`; of the displacement :math:`G R` it takes the smooth part
+:math:`E R`, in fields :math:`\varphi_r` orthonormal over the areas :math:`a` of the nodes. So
 
-.. math:: h \to h + R' + a\,T\,(I - E a T)^{-1} E R', \qquad R' = R + \rho\,D R .
+.. math:: R' = R + \rho\,D R' + \frac{p}{\bar p}\,a \sum_r \varphi_r T\,(E R')_r ,
 
-It changes the number of iterations and not what they lead to.
+solved by repeated insertion, but for the constant field, the largest part, at once. All that is
+taken with single precision, for it changes the number of iterations and not what they lead to.
 """
 
 import math
@@ -28,10 +30,13 @@ from asperity.contact.increment_kernels import (
     first_tangent,
 )
 
+# Insertions: with one, a fourth evaluation of the contact in an increment is the rule.
+PASSES = 2
+
 
 @kernel
-def ratios(force, dofs, normals, out):
-    """Write tangential over normal force at nodes with a normal force; 0 at others.
+def ratios(force, dofs, normals, smooth, out, load):
+    """Write tangential over normal force, and pressure over its mean, at the nodes.
 
     Parameters
     ----------
@@ -41,15 +46,24 @@ def ratios(force, dofs, normals, out):
         Unknowns of the nodes.
     normals : ndarray, shape (k, 3)
         Their unit normals.
+    smooth : ndarray, shape (r, k)
+        Smooth fields times areas, the first constant.
     out : ndarray, shape (k, 3)
-        Written.
+        Written: the ratio; 0 at nodes without a normal force.
+    load : ndarray, shape (k,)
+        Written: the pressure over its mean.
     """
+    total = 0.0
+    area = 0.0
     for a in range(normals.shape[0]):
         x = force[dofs[3 * a]]
         y = force[dofs[3 * a + 1]]
         z = force[dofs[3 * a + 2]]
         normal = x * normals[a, 0] + y * normals[a, 1] + z * normals[a, 2]
         # The ratio is about mu; what is far beyond it is no friction.
+        load[a] = normal / smooth[0, a]
+        total += normal
+        area += smooth[0, a]
         ratio = 0.0
         if x * x + y * y + z * z < 4.0 * normal * normal:
             ratio = 1.0 / normal
@@ -58,6 +72,8 @@ def ratios(force, dofs, normals, out):
         out[a, 2] = z * ratio - normals[a, 2]
         if ratio == 0.0:
             out[a] = 0.0
+    for a in range(normals.shape[0]):
+        load[a] *= area / total if total != 0.0 else 0.0
 
 
 @kernel
@@ -138,7 +154,9 @@ def mean_correction(tangent, spread, out):
 
 
 @kernel
-def couple(rest, shares, pressing, moving, areas, correction, pressed, mean, out):
+def couple(
+    rest, shares, pressing, smooth, moving, tangent, correction, load, single, pressed, moved, out
+):
     """Write the correction of ``h`` for a residual.
 
     Parameters
@@ -147,25 +165,33 @@ def couple(rest, shares, pressing, moving, areas, correction, pressed, mean, out
         Residual, N.
     shares : ndarray, shape (k, 3)
         Ratios of tangential to normal force.
-    pressing, moving : ndarray, shapes (k, 3k), (3, 3k)
-        D and E.
-    areas : ndarray, shape (k,)
-        m^2.
-    correction : ndarray, shape (3, 3)
-        ``T (I - F T)^-1``, Pa/m.
-    pressed, mean : ndarray, shapes (k,), (3,)
-        Room.
+    pressing, smooth, moving : ndarray, shapes (k, 3k), (r, k), (3r, 3k)
+        D, and E by smooth fields.
+    tangent, correction : ndarray, shape (3, 3)
+        T and ``T (I - F T)^-1``, Pa/m.
+    load : ndarray, shape (k,)
+        Pressure over its mean.
+    single, pressed, moved : ndarray, shapes (3k,), (k,), (3r,)
+        Room of single precision.
     out : ndarray, shape (3k,)
         Written, N.
     """
-    np.dot(pressing, rest, pressed)
-    for a in range(areas.shape[0]):
-        for c in range(3):
-            out[3 * a + c] = rest[3 * a + c] + shares[a, c] * pressed[a]
-    np.dot(moving, out, mean)
-    for c in range(3):
-        push = 0.0
-        for e in range(3):
-            push += correction[c, e] * mean[e]
-        for a in range(areas.shape[0]):
-            out[3 * a + c] += areas[a] * push
+    for c in range(rest.shape[0]):
+        out[c] = rest[c]
+    for _ in range(PASSES):
+        for c in range(rest.shape[0]):
+            single[c] = out[c]
+        np.dot(pressing, single, pressed)
+        for a in range(shares.shape[0]):
+            for c in range(3):
+                out[3 * a + c] = rest[3 * a + c] + shares[a, c] * pressed[a]
+        for c in range(rest.shape[0]):
+            single[c] = out[c]
+        np.dot(moving, single, moved)
+        for r in range(smooth.shape[0]):
+            for c in range(3):
+                push = 0.0
+                for e in range(3):
+                    push += (tangent if r else correction)[c, e] * moved[3 * r + e]
+                for a in range(shares.shape[0]):
+                    out[3 * a + c] += push * load[a] * smooth[r, a]

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from asperity.contact.newton_augmented import Gain
 
 FloatArray = npt.NDArray[np.float64]
+SingleArray = npt.NDArray[np.float32]
 
 # Mean stiffness times mean flexibility below which a direction needs no frozen stiffness, and the
 # factor between levels above it.
@@ -34,6 +35,9 @@ _FACTOR = 4.0
 _MOST_INVERSES = 24
 _MOST_BYTES = 256e6
 _MOST_SETS = 64
+
+# Part of a polynomial that the others leave, at which it counts.
+_NEW = 1e-3
 
 
 @dataclass(eq=False)
@@ -52,14 +56,16 @@ class Frozen:
         Unknowns of the nodes about those points.
     pressing : ndarray, shape (k, 3k)
         Normal forces that forces along the surface call up at those nodes.
-    moving : ndarray, shape (3, 3k)
-        Mean displacement of the contact by forces on them, m/N.
+    smooth : ndarray, shape (r, k)
+        Smooth fields over those nodes, times the nodes' areas; the first is constant.
+    moving : ndarray, shape (3r, 3k)
+        Share of the smooth fields in the displacement by forces on those nodes.
     spread : ndarray, shape (3, 3)
-        The same by a traction spread evenly, m/Pa.
+        Of the constant one by a traction that is it, m/Pa.
     own : ndarray, shape (3, 3)
         Mean tangential part of the stiffness, Pa/m.
-    normals, areas : ndarray, shapes (k, 3), (k,)
-        Of the nodes, m^2.
+    normals : ndarray, shape (k, 3)
+        Of the nodes.
     rounding : float
         Norm of the forces that the inverse's own error stands for, over that of ``h``.
     stale : bool
@@ -70,12 +76,12 @@ class Frozen:
     inverse: FloatArray
     stiffness: FloatArray
     dofs: npt.NDArray[np.int64]
-    pressing: FloatArray
-    moving: FloatArray
+    pressing: SingleArray
+    smooth: FloatArray
+    moving: SingleArray
     spread: FloatArray
     own: FloatArray
     normals: FloatArray
-    areas: FloatArray
     rounding: float
     stale: bool = False
 
@@ -198,16 +204,17 @@ def inverted(
     inverse = among
     if len(dofs) < 3 * problem.nodes:
         inverse = problem.flexibility[:, dofs] @ (np.eye(len(dofs)) + called)
-    parts = (weights * touching).reshape(problem.surface.weights.shape)
-    areas = problem.surface.to_forces(parts / problem.surface.weights)[touched]
+    areas = problem.surface.nodal_area[touched]
     normals = problem.surface.nodal_normals[touched]
     across = np.eye(3) - _outer(normals)
     pressed = np.einsum("ai,aim->am", normals, called.reshape(-1, 3, len(dofs)))
     pressing = np.einsum("abi,bij->abj", pressed.reshape(len(touched), -1, 3), across)
-    moving = np.einsum("a,aim->im", areas, among.reshape(-1, 3, len(dofs))) / areas.sum()
+    smooth = _smooth_fields(problem.surface.positions[touched], areas)
+    moving = np.einsum("ra,aim->rim", smooth, among.reshape(-1, 3, len(dofs)))
+    moving = moving.reshape(-1, len(dofs))
     # G h is to be A (h + K G h); a contact far stiffer than the body leaves few digits of that.
     off = sparse.csr_array(k) @ (part + part @ called - among)
-    own = np.einsum("q,qij->ij", weights * touching, stiffness) / areas.sum()
+    own = np.einsum("q,qij->ij", weights * touching, stiffness) / (weights @ touching)
     mean = normals.T @ areas
     mean /= np.linalg.norm(mean) or 1.0
     across = np.eye(3) - np.outer(mean, mean)
@@ -216,11 +223,26 @@ def inverted(
         np.ascontiguousarray(inverse),
         stiffness,
         dofs,
-        np.ascontiguousarray(pressing.reshape(len(touched), -1)),
-        np.ascontiguousarray(moving),
-        moving @ np.kron(areas[:, None], np.eye(3)),
+        pressing.reshape(len(touched), -1).astype(np.float32),
+        smooth,
+        moving.astype(np.float32),
+        moving[:3] @ np.kron(smooth[0][:, None], np.eye(3)),
         across @ own @ across,
         np.ascontiguousarray(normals),
-        areas,
         float(np.linalg.norm(off)),
     )
+
+
+def _smooth_fields(places: FloatArray, areas: FloatArray) -> FloatArray:
+    """Polynomials up to the second degree, orthonormal over the areas and times them."""
+    x = places - areas @ places / areas.sum()
+    x /= np.abs(x).max() or 1.0
+    fields = np.column_stack([x, x[:, [0, 1, 2, 0, 0, 1]] * x[:, [0, 1, 2, 1, 2, 2]]])
+    root = np.sqrt(areas)
+    constant = root / np.linalg.norm(root)
+    rest = root[:, None] * fields
+    rest -= np.outer(constant, constant @ rest)
+    left, sizes, _ = np.linalg.svd(rest, full_matrices=False)
+    new = left[:, sizes > _NEW * np.linalg.norm(root)]
+    product: FloatArray = np.ascontiguousarray(root * np.vstack([constant, new.T]))
+    return product

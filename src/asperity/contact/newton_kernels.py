@@ -107,7 +107,7 @@ def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
 
 @kernel
 def frozen_iterations(
-    free, h, inverse, frozen, dofs, pressing, moving, spread, own, normals, areas,
+    free, h, inverse, frozen, dofs, pressing, smooth, moving, spread, own, normals,
     rounding, tolerance, most,
     u0, deflection0, size0, multiplier,
     faces, shapes, weights, places, surface, law, friction, motion,
@@ -127,7 +127,7 @@ def frozen_iterations(
         The frozen stiffness of the points, Pa/m.
     dofs : ndarray of int, shape (m,)
         Those unknowns.
-    pressing, moving, spread, own, normals, areas, rounding : ndarray, float
+    pressing, smooth, moving, spread, own, normals, rounding : ndarray, float
         As `asperity.contact.newton_frozen.Frozen` has them.
     tolerance : float
         Relative residual to be reached.
@@ -154,8 +154,10 @@ def frozen_iterations(
     rest = np.empty(count)
     change = np.empty(count)
     shares = np.empty_like(normals)
-    pressed = np.empty(areas.shape[0])
-    mean = np.empty(3)
+    load = np.empty(normals.shape[0])
+    single = np.empty(count, dtype=np.float32)
+    pressed = np.empty(normals.shape[0], dtype=np.float32)
+    moved = np.empty(moving.shape[0], dtype=np.float32)
     tangent = np.empty((3, 3))
     correction = np.empty((3, 3))
     last_h = np.empty(count)
@@ -207,10 +209,24 @@ def frozen_iterations(
             return SLOW, iteration, residual
         last = min(last, residual)
         if iteration == 1:
-            ratios(force, dofs, normals, shares)
+            ratios(force, dofs, normals, smooth, shares, load)
             mean_tangent(points, deflection0, size0, weights, friction, motion, tangent)
-            mean_correction(tangent - own, spread, correction)
-        couple(rest, shares, pressing, moving, areas, correction, pressed, mean, change)
+            tangent -= own
+            mean_correction(tangent, spread, correction)
+        couple(
+            rest,
+            shares,
+            pressing,
+            smooth,
+            moving,
+            tangent,
+            correction,
+            load,
+            single,
+            pressed,
+            moved,
+            change,
+        )
         if iteration > 1:
             for c in range(count):
                 steps_h[place, c] = h[c] - last_h[c]
