@@ -74,54 +74,53 @@ def _along(size, reach, exponent):
 
 
 @kernel
+def _phase(rx, ry, size, exponent, one_sided):
+    """One of the two phases: the deflection's end moved to (rx, ry), in units of the limit.
+
+    Returns the new signed size and its direction; the direction of the end, the size's slopes by
+    the end's reach and by the size before; and the derivative of the deflection by the end,
+    slope e f^T + size/reach (I - f f^T) with the directions e and f.
+    """
+    reach = math.sqrt(rx * rx + ry * ry)
+    new, slope, keep = _along(size, reach, exponent)
+    fx = rx / reach if reach > 0.0 else 1.0
+    fy = ry / reach if reach > 0.0 else 0.0
+    ex = 1.0
+    ey = 0.0
+    turn = 0.0
+    if not one_sided and reach > 0.0:
+        ex = fx
+        ey = fy
+        turn = new / reach
+    derivative = (
+        slope * ex * fx + turn * (1.0 - fx * fx),
+        slope * ex * fy - turn * fx * fy,
+        slope * ey * fx - turn * fx * fy,
+        slope * ey * fy + turn * (1.0 - fy * fy),
+    )
+    return new, ex, ey, fx, fy, slope, keep, derivative
+
+
+@kernel
 def _two_phase(sx, sy, size, d1x, d1y, d2x, d2y, exponent, one_sided):
     """`asperity.friction.two_phase.phases` with its derivatives, in units of the limit.
 
     Returns the new signed size and direction, and the derivative of the deflection by both parts.
     """
-    rx = sx + d1x
-    ry = sy + d1y
-    reach = math.sqrt(rx * rx + ry * ry)
-    middle, grow, _ = _along(size, reach, exponent)
-    fx = rx / reach if reach > 0.0 else 1.0
-    fy = ry / reach if reach > 0.0 else 0.0
-    ca = 1.0
-    sa = 0.0
-    turn = 0.0
-    if not one_sided and reach > 0.0:
-        ca = fx
-        sa = fy
-        turn = middle / reach
-    # d(middle e)/d1 = grow e f^T + middle/reach (I - f f^T)
-    axx = grow * ca * fx + turn * (1.0 - fx * fx)
-    axy = grow * ca * fy - turn * fx * fy
-    ayx = grow * sa * fx - turn * fx * fy
-    ayy = grow * sa * fy + turn * (1.0 - fy * fy)
-    rx = middle * ca + d2x
-    ry = middle * sa + d2y
-    reach = math.sqrt(rx * rx + ry * ry)
-    last, grow_2, keep = _along(middle, reach, exponent)
-    gx = rx / reach if reach > 0.0 else 1.0
-    gy = ry / reach if reach > 0.0 else 0.0
-    ca = 1.0
-    sa = 0.0
-    turn = 0.0
-    if not one_sided and reach > 0.0:
-        ca = gx
-        sa = gy
-        turn = last / reach
-    bxx = grow_2 * ca * gx + turn * (1.0 - gx * gx)
-    bxy = grow_2 * ca * gy - turn * gx * gy
-    byx = grow_2 * sa * gx - turn * gx * gy
-    byy = grow_2 * sa * gy + turn * (1.0 - gy * gy)
+    middle, ex, ey, fx, fy, slope, _, first = _phase(sx + d1x, sy + d1y, size, exponent, one_sided)
+    last, ca, sa, _, _, _, keep, second = _phase(
+        middle * ex + d2x, middle * ey + d2y, middle, exponent, one_sided
+    )
+    axx, axy, ayx, ayy = first
+    bxx, bxy, byx, byy = second
     # The middle enters twice: through the reach, and as the size the second phase starts from.
-    mx = keep * grow * fx
-    my = keep * grow * fy
+    mx = keep * slope * fx
+    my = keep * slope * fy
     txx = bxx * axx + bxy * ayx + ca * mx
     txy = bxx * axy + bxy * ayy + ca * my
     tyx = byx * axx + byy * ayx + sa * mx
     tyy = byx * axy + byy * ayy + sa * my
-    return last, ca, sa, (txx, txy, tyx, tyy), (bxx, bxy, byx, byy)
+    return last, ca, sa, (txx, txy, tyx, tyy), second
 
 
 @kernel
