@@ -5,13 +5,11 @@ means something. All runs are on one core, over points within 0.3 mm of the flan
 The other ways: the closed form of ZI in NumPy, and a minimisation by SciPy for any flank.
 """
 
-import json
 import math
-import os
-import sys
 import time
 
 import numpy as np
+from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
 from asperity.flanks.distance import distance_each, distance_only_each
@@ -24,16 +22,6 @@ MINIMISED = 200
 REPEATS = 7
 TARGETS_NS = {"ZI": (35.0, 70.0)}
 GENERAL_NS = (350.0, 350.0)
-
-
-def best(function):
-    """Shortest of a few runs, in seconds of this thread."""
-    times = []
-    for _ in range(REPEATS):
-        began = time.thread_time()
-        function()
-        times.append(time.thread_time() - began)
-    return min(times)
 
 
 def cloud(worm):
@@ -71,8 +59,7 @@ def minimised(point, worm):
 
 def main():
     """Run all and print one line a figure."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    on_one_core()
     geometry = Geometry.of(starts=4, wheel_teeth=60, axial_module=2.15380, diameter_factor=8.4)
     report = {}
     for kind in TYPES:
@@ -81,8 +68,8 @@ def main():
         alone, every = np.empty(POINTS), np.empty((POINTS, 10))
         distance_only_each(points, params, alone)
         distance_each(points, params, every)
-        bare = best(lambda a=(points, params, alone): distance_only_each(*a)) / POINTS
-        whole = best(lambda a=(points, params, every): distance_each(*a)) / POINTS
+        bare = best(lambda a=(points, params, alone): distance_only_each(*a), REPEATS) / POINTS
+        whole = best(lambda a=(points, params, every): distance_each(*a), REPEATS) / POINTS
         began = time.thread_time()
         found = [minimised(point, worm) for point in points[:MINIMISED]]
         slow = (time.thread_time() - began) / MINIMISED
@@ -96,17 +83,12 @@ def main():
             "scipy_difference_mm": float(np.abs(found - np.abs(alone[:MINIMISED])).max()),
         }
         if kind == "ZI":
-            arrays = best(lambda p=points, w=worm: in_numpy(p, w)) / POINTS
+            arrays = best(lambda p=points, w=worm: in_numpy(p, w), REPEATS) / POINTS
             report[kind]["numpy_over_this"] = arrays / bare
             report[kind]["numpy_difference_mm"] = float(
                 np.abs(in_numpy(points, worm) - alone).max()
             )
-    if "--json" in sys.argv:
-        print(json.dumps(report))
-        return
-    for name, figures in report.items():
-        for key, value in figures.items():
-            print(f"{name:4s} {key:32s} {value:12.4g}")
+    finish(report, most={"of_the_target": 1.0, "of_the_target_with_derivatives": 1.0})
 
 
 if __name__ == "__main__":

@@ -8,15 +8,13 @@ many angles of the worm, to 1e-3 rad of it; and the triangles of the exact bodie
 distances are found is in ``flank_distance.py``.
 """
 
-import json
 import math
-import os
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
+from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
 from asperity.casefile import read_case
@@ -38,16 +36,6 @@ ROWS, COLUMNS = 20, 24
 SOLVED = 40
 REPEATS = 5
 TARGETS_S = {"flanks": 0.020, "mesh": 0.5, "contact": 1.0, "step": 1.0}
-
-
-def best(function, repeats=REPEATS):
-    """Shortest of a few runs, in seconds of this thread."""
-    times = []
-    for _ in range(repeats):
-        began = time.thread_time()
-        function()
-        times.append(time.thread_time() - began)
-    return min(times)
 
 
 def both_flanks(wheel):
@@ -83,7 +71,7 @@ def by_scipy(wheel, radius, z, near):
 
 def cutting(wheel, report):
     """Both flanks at 20 x 24 points, and some of the points by SciPy."""
-    seconds = best(lambda: both_flanks(wheel))
+    seconds = best(lambda: both_flanks(wheel), REPEATS)
     grid = both_flanks(wheel)[0]
     chosen = np.linspace(0, grid.radius.size - 1, SOLVED).astype(int)
     began = time.thread_time()
@@ -157,8 +145,7 @@ def step(wheel, report):
 
 def main():
     """Run all and print one line a figure."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    on_one_core()
     case = read_case("gearset-3b", {**RATING, **FLANKS})
     wheel = Wheel.cut(prepare_case(case).wheel.pair)
     both_flanks(wheel)
@@ -167,12 +154,7 @@ def main():
     meshing(wheel, report)
     contact(wheel, report)
     step(wheel, report)
-    if "--json" in sys.argv:
-        print(json.dumps(report))
-        return
-    for name, figures in report.items():
-        for key, value in figures.items():
-            print(f"{name:24s} {key:42s} {value:12.4g}")
+    finish(report, most={"of_the_target": 1.0})
 
 
 if __name__ == "__main__":

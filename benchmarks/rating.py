@@ -5,14 +5,10 @@ means something. All runs are on one core. The other ways: a loop of the package
 and the formulas written down plainly for floats, unchecked.
 """
 
-import json
 import math
-import os
-import resource
-import sys
-import time
 
 import numpy as np
+from _common import best, finish, on_one_core
 
 from asperity.gearset.materials import wheel_material
 from asperity.rating import iso14521
@@ -20,7 +16,6 @@ from asperity.rating import iso14521
 VARIANTS = 1_000_000
 SINGLE = 300
 PLAIN = 20_000
-REPEATS = 3
 TARGET_S = 2.0
 
 MATERIALS = ("CuSn12-C-GZ", "CuSn12Ni2-C-GZ", "CuAl10Fe5Ni5-C-GZ", "EN-GJS-400-15")
@@ -84,16 +79,6 @@ def plainly(columns, count):
     return np.array([plain(dict(zip(names, row, strict=True)), law, factor) for row in rows])
 
 
-def best(function):
-    """Shortest of a few runs, in seconds."""
-    times = []
-    for _ in range(REPEATS):
-        began = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - began)
-    return min(times)
-
-
 def one_by_one(columns, count):
     """Rate the first gearsets in a loop of single calls."""
     answers = []
@@ -140,19 +125,11 @@ def other_ways(report):
 
 def main():
     """Run all and print one line a figure."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    on_one_core()
     report = {}
     efficiency_chain(report)
     other_ways(report)
-    if "--json" in sys.argv:
-        print(json.dumps(report))
-        return
-    for name, figures in report.items():
-        for key, value in figures.items():
-            print(f"{name:18s} {key:32s} {value:12.4g}")
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"peak memory of this run {peak:.0f} MiB")
+    finish(report, most={"of_the_target": 1.0})
 
 
 if __name__ == "__main__":

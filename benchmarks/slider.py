@@ -5,15 +5,14 @@ means something. The other ways: a plain compiled loop over one body (what one w
 Numba), SciPy's LSODA on the same equations, and the march in place of the periodic state.
 """
 
-import json
 import math
-import resource
 import subprocess
 import sys
 import time
 
 import numba
 import numpy as np
+from _common import best, finish
 from scipy.integrate import solve_ivp
 
 from asperity.casefile import read_case
@@ -24,7 +23,6 @@ from asperity.slider.periodic import solve_periodic
 from asperity.slider.tables import TABLES
 
 RATIOS = (2.0, 3.0, 4.0, 6.0, 20.0)
-REPEATS = 3
 
 
 @numba.njit(cache=False, error_model="numpy")
@@ -116,26 +114,6 @@ def lsoda_seconds(model, span):
     if not answer.success:
         raise RuntimeError(answer.message)
     return time.thread_time() - began
-
-
-def best(function):
-    """Shortest of a few runs, in seconds of this thread."""
-    times = []
-    for _ in range(REPEATS):
-        began = time.thread_time()
-        function()
-        times.append(time.thread_time() - began)
-    return min(times)
-
-
-def best_wall(function):
-    """Shortest of a few runs, in seconds on the wall."""
-    times = []
-    for _ in range(REPEATS):
-        began = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - began)
-    return min(times)
 
 
 def march_batches(report):
@@ -237,12 +215,15 @@ def command_line(report):
         command = [sys.executable, "-m", "asperity", *arguments]
         subprocess.run(command, check=True, capture_output=True)
         report[f"asperity {name}"] = {
-            "seconds": best_wall(
-                lambda c=command: subprocess.run(c, check=True, capture_output=True)
+            "seconds": best(
+                lambda c=command: subprocess.run(c, check=True, capture_output=True),
+                clock=time.perf_counter,
             )
         }
     bare = [sys.executable, "-c", "import numba"]
-    report["asperity slide"]["import_numba_s"] = best_wall(lambda: subprocess.run(bare, check=True))
+    report["asperity slide"]["import_numba_s"] = best(
+        lambda: subprocess.run(bare, check=True), clock=time.perf_counter
+    )
 
 
 def main():
@@ -252,14 +233,7 @@ def main():
     periodic_points(report)
     sweep_memory(report)
     command_line(report)
-    if "--json" in sys.argv:
-        print(json.dumps(report))
-        return
-    for name, figures in report.items():
-        for key, value in figures.items():
-            print(f"{name:18s} {key:32s} {value:12.4g}")
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"peak memory of this run {peak:.0f} MiB")
+    finish(report)
 
 
 if __name__ == "__main__":
