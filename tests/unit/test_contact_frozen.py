@@ -1,0 +1,76 @@
+"""Increments solved with kept tangents: few iterations, and none trusted beyond its digits."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact.block import BlockProblem
+from asperity.contact.increment import ContactState, solve_increment
+from asperity.contact.newton_frozen import inverted
+from asperity.contact.rest import rest_under_load
+from asperity.contact.steps import Walker
+
+SMALL = ("block.elements=[4,3,3]", "block.element=hex8", "vibration.start=0 s")
+MARCHES = {
+    "along": ("block-longitudinal",),
+    "across": ("block-transverse",),
+    "with modes": ("block-transverse", "block.modes=4"),
+    "guided": ("block-longitudinal", "slider.lateral=guided"),
+}
+
+
+def walking(name):
+    case, *settings = MARCHES[name]
+    problem = BlockProblem.from_case(read_case(case, TABLES, [*SMALL, *settings]))
+    return Walker(problem.system, rest_under_load(problem.system, problem.loads))
+
+
+@pytest.mark.parametrize("step", [1e-6, 1e-5])
+@pytest.mark.parametrize("name", MARCHES)
+def test_increments_of_a_shaken_block_take_four_iterations_and_never_a_newton_step(name, step):
+    walker = walking(name)
+    numbers = []
+    for number in range(1, 301):
+        walker.step_to(number * step, step)
+        numbers.append(walker.state.contact.iterations)
+    assert np.mean(numbers[50:]) < 4.2
+    # Newton steps begin with two evaluations of the guess, and come after a tangent has failed.
+    assert max(numbers[50:]) <= 6
+
+
+def test_a_kept_tangent_finds_what_newtons_method_finds():
+    walker = walking("across")
+    step = 1e-5
+    for number in range(1, 31):
+        walker.step_to(number * step, step)
+    _, problem = walker.system.stepping(step)
+    motion, _ = walker.system.surface_motion(30 * step, 31 * step)
+    state = walker.state.contact.state
+    free = state.displacement - problem.flexibility @ state.force
+    kept = solve_increment(problem, free, motion, state)
+    anew = dataclasses.replace(problem)
+    assert anew.inverses.last is None
+    alone = solve_increment(anew, free, motion, dataclasses.replace(state, trend=no_trend(anew)))
+    assert kept.iterations < alone.iterations
+    assert kept.force == pytest.approx(alone.force, abs=1e-8 * np.abs(alone.force).max())
+
+
+def no_trend(problem):
+    return ContactState.rest(problem).trend
+
+
+def test_an_inverse_tells_how_many_digits_a_far_stiffer_contact_leaves():
+    walker = walking("along")
+    walker.step_to(1e-5, 1e-5)
+    _, problem = walker.system.stepping(1e-5)
+    touching = np.ones(problem.points, dtype=bool)
+    lost = []
+    for stiffness in (1e14, 1e17, 1e20):
+        at_points = np.zeros((problem.points, 3, 3))
+        at_points[:, 2, 2] = -stiffness
+        lost.append(inverted(problem, touching, at_points).rounding)
+    assert lost[0] < 1e-12
+    assert lost[0] < lost[1] < lost[2]
