@@ -212,7 +212,7 @@ def rubbed(pair, friction):
 
 @pytest.mark.parametrize(
     ("exponent", "least", "most"),
-    [(0.0, 0.95, 1.05), (0.5, 0.95, 1.05), (1.0, 0.95, 1.05), (1.5, 0.8, 1.0), (2.0, 0.6, 0.9)],
+    [(0.0, 0.9, 1.1), (0.5, 0.9, 1.1), (1.0, 0.9, 1.1), (1.5, 0.8, 1.0), (2.0, 0.6, 0.9)],
 )
 def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
     quarter_of_half_space, exponent, least, most
@@ -220,7 +220,7 @@ def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
     # Up to exponent 1 asperities are at the limit after a slip of a few s_max, and what is left is
     # the displacement of about s_max that they add: the order 1. Beyond 1 they come there by a
     # power of the slip alone, and the ring where the slip is small lags behind.
-    pair = spheres(quarter_of_half_space, 12, 0.0)
+    pair = spheres(quarter_of_half_space, 8, 0.0)
     rigid = rubbed(pair, pair.friction(1e-5))
     assert rigid == pytest.approx(0.7, rel=1e-3)
     limits = [0.03, 0.01, 0.003]
