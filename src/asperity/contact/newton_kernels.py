@@ -20,6 +20,7 @@ from asperity.compiled import kernel
 from asperity.contact.increment_assembly import stiffness_forces
 from asperity.contact.increment_kernels import tractions
 from asperity.contact.newton_coupling import couple, mean_correction, mean_tangent, ratios
+from asperity.elimination import eliminate
 
 CONVERGED = 0
 SLOW = 1
@@ -50,32 +51,6 @@ def answer(flexibility, force, out):
 
 
 @kernel
-def _solve(gram, right, count):
-    """Solve a small symmetric system in place by elimination; ``right`` becomes the solution."""
-    for i in range(count):
-        best = i
-        for j in range(i + 1, count):
-            if abs(gram[j, i]) > abs(gram[best, i]):
-                best = j
-        if gram[best, i] == 0.0:
-            return False
-        if best != i:
-            for j in range(count):
-                gram[i, j], gram[best, j] = gram[best, j], gram[i, j]
-            right[i], right[best] = right[best], right[i]
-        for j in range(i + 1, count):
-            factor = gram[j, i] / gram[i, i]
-            for c in range(i, count):
-                gram[j, c] -= factor * gram[i, c]
-            right[j] -= factor * right[i]
-    for i in range(count - 1, -1, -1):
-        for j in range(i + 1, count):
-            right[i] -= gram[i, j] * right[j]
-        right[i] /= gram[i, i]
-    return True
-
-
-@kernel
 def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
     """Anderson's next ``h`` from the changes that the last steps asked for; moves the memory on."""
     size = h.shape[0]
@@ -94,7 +69,7 @@ def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
         right[i] = total
     for i in range(kept):
         gram[i, i] *= 1.0 + 1e-13
-    use = kept > 0 and _solve(gram, right, kept)
+    use = kept > 0 and eliminate(gram, right, kept, 0.0)
     for c in range(size):
         last_h[c] = h[c]
         last_change[c] = change[c]

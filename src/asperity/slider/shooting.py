@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
+from asperity.elimination import eliminate
 from asperity.slider.kernels import (
     FD,
     FX,
@@ -43,32 +44,6 @@ _NEWTON_STEPS = 25
 _UNKNOWNS = 5
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
-
-
-@kernel
-def _solve(a, b, n):
-    """Gaussian elimination with pivoting, in place; False where the matrix is singular."""
-    for i in range(n):
-        pivot = i
-        for r in range(i + 1, n):
-            if abs(a[r, i]) > abs(a[pivot, i]):
-                pivot = r
-        if abs(a[pivot, i]) < 1e-14:
-            return False
-        if pivot != i:
-            for c in range(n):
-                a[i, c], a[pivot, c] = a[pivot, c], a[i, c]
-            b[i], b[pivot] = b[pivot], b[i]
-        for r in range(i + 1, n):
-            factor = a[r, i] / a[i, i]
-            for c in range(i, n):
-                a[r, c] -= factor * a[i, c]
-            b[r] -= factor * b[i]
-    for i in range(n - 1, -1, -1):
-        for c in range(i + 1, n):
-            b[i] -= a[i, c] * b[c]
-        b[i] /= a[i, i]
-    return True
 
 
 @kernel
@@ -163,7 +138,7 @@ def _newton(start, p, increments, steps, model, law, sums, places, scales, count
             step[i] = -defect[i]
             for j in range(count):
                 matrix[i, j] = jacobian[i, j]
-        if not _solve(matrix, step, count):
+        if not eliminate(matrix, step, count, 1e-14):
             break
         length = 1.0
         moved = False
