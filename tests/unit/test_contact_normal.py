@@ -1,10 +1,16 @@
-"""Laws of pressure against overclosure."""
+"""Laws of pressure against overclosure, and what they make of a body in contact."""
 
 import numpy as np
 import pytest
 
+from asperity.contact.elastic import ElasticMaterial, condense
+from asperity.contact.increment import IncrementProblem
 from asperity.contact.normal import NormalLaw, aimed_overclosure, pressure
+from asperity.contact.rigid import Pose, RigidSurface
+from asperity.contact.static import Guide, move_to
+from asperity.contact.surface import contact_surface
 from asperity.errors import InputError
+from asperity.mesh import box
 
 STIFF = 4e14
 TWO = NormalLaw("two-stage", STIFF, 0.1 * STIFF, 2e-9, 6e-9)
@@ -47,6 +53,23 @@ def test_the_two_stage_law_is_soft_first_stiff_last_and_smooth_between():
         assert below == pytest.approx(above, rel=1e-6)
 
 
+def test_past_its_transition_the_two_stage_law_is_a_line_that_starts_later():
+    late = (1.0 - TWO.initial / STIFF) * 0.5 * (TWO.start + TWO.end)
+    for over in (6e-9, 2e-8, 1e-6):
+        value, slope = pressure(over, 0.0, TWO.parameters)
+        assert value == pytest.approx(STIFF * (over - late), rel=1e-12)
+        assert slope == STIFF
+
+
+@pytest.mark.parametrize("over", [5e-10, 3e-9, 5.9e-9, 1e-7])
+def test_the_slope_of_the_two_stage_law_is_the_derivative_of_its_pressure(over):
+    step = 1e-4 * over
+    ahead, behind = (pressure(over + way, 0.0, TWO.parameters)[0] for way in (step, -step))
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(
+        pressure(over, 0.0, TWO.parameters)[1], rel=1e-9
+    )
+
+
 def test_the_hard_law_bears_its_multiplier_without_overclosure():
     law = NormalLaw("hard", STIFF).parameters
     assert pressure(0.0, 3e5, law) == (3e5, STIFF)
@@ -81,3 +104,89 @@ def test_two_stages_follow_from_the_size_of_the_elements():
 def test_a_law_that_cannot_be_is_refused(given, says):
     with pytest.raises(InputError, match=says):
         NormalLaw(**given)
+
+
+E = 2e11
+SIZE = 0.5e-3
+UP = Guide(np.array([0.0, 0.0, 1.0]))
+RADIUS = 0.1
+# The ball touches out to sqrt(RADIUS * DEEP), nearly three of the smaller elements.
+DEEP = 2e-5
+BALL = Guide(UP.axis, Pose(np.eye(3), np.array([0.0, 0.0, -RADIUS])))
+
+
+@pytest.fixture(scope="module", params=["hex8", "hex27"])
+def block(request):
+    """A block that hangs from its top: its flexibility and the surface below."""
+    order, elements = (1, (6, 6, 4)) if request.param == "hex8" else (2, (3, 3, 2))
+    mesh = box((6 * SIZE, 6 * SIZE, 4 * SIZE), elements, order)
+    material = ElasticMaterial(E, 0.3, 7850.0)
+    body = condense(mesh, material, "bottom", tied="top", use_cache=False)
+    return body.flexibility, contact_surface(mesh, "bottom")
+
+
+def pressed(block, law, guide, place):
+    counter = RigidSurface.plane() if guide is UP else RigidSurface.sphere(RADIUS)
+    problem = IncrementProblem(*block, counter, law)
+    return problem, move_to(problem, guide, place).contact
+
+
+@pytest.mark.parametrize("stiffness", [E / SIZE, 10 * E / SIZE, 100 * E / SIZE])
+def test_hard_contact_leaves_no_overclosure_beyond_its_tolerance(block, stiffness):
+    problem, contact = pressed(block, NormalLaw("hard", stiffness), BALL, DEEP)
+    surface = block[1]
+    basis = problem.from_corners
+    over = basis.T @ surface.to_forces(-contact.distance.reshape(surface.weights.shape))
+    mean = over / (basis.T @ surface.nodal_area)
+    multiplier = contact.state.multiplier[problem.corners]
+    bearing = multiplier > 0.0
+    allowed = problem.penetration * contact.pressure.max() / stiffness
+    assert 3 < bearing.sum() < len(bearing)
+    assert np.abs(mean[bearing]).max() <= allowed
+    assert mean[~bearing].max() <= 0.0
+    assert allowed < 1e-6 * DEEP
+
+
+def test_hard_contact_hardly_depends_on_its_penalty(block):
+    # Only by how the pressure is spread within an element.
+    forces = [
+        pressed(block, NormalLaw("hard", factor * E / SIZE), BALL, DEEP)[1].force[2::3]
+        for factor in (1.0, 10.0, 100.0)
+    ]
+    loads = [force.sum() for force in forces]
+    assert loads == pytest.approx([loads[1]] * 3, rel=0.006)
+    soft = pressed(block, NormalLaw("linear", E / SIZE), BALL, DEEP)[1].force[2::3].sum()
+    assert soft < 0.8 * loads[0]
+
+
+def test_a_hard_contact_much_narrower_than_an_element_bears_on_its_penalty(block):
+    laws = [NormalLaw(name, 10 * E / SIZE) for name in ("hard", "linear")]
+    hard, linear = (pressed(block, law, BALL, 2e-7)[1] for law in laws)
+    assert not hard.state.multiplier.any()
+    assert hard.force == pytest.approx(linear.force, rel=1e-7, abs=1e-7)
+
+
+def test_hard_contact_is_the_limit_of_linear_contact_with_growing_stiffness():
+    mesh = box((6 * SIZE, 4 * SIZE, 4 * SIZE), (6, 4, 4))
+    material = ElasticMaterial(E, 0.3, 7850.0)
+    body = condense(mesh, material, "bottom", tied="top", use_cache=False)
+    block = body.flexibility, contact_surface(mesh, "bottom")
+    _, hard = pressed(block, NormalLaw("hard", 10 * E / SIZE), UP, 1e-6)
+    assert hard.active == len(hard.pressure)
+    off = []
+    for factor in (1e2, 1e3, 1e4):
+        _, linear = pressed(block, NormalLaw("linear", factor * E / SIZE), UP, 1e-6)
+        off.append(np.abs(linear.force - hard.force).max() / hard.force.max())
+    # The overclosure, and with it what is off, is inversely proportional to the stiffness.
+    assert off[0] / off[1] == pytest.approx(10.0, rel=0.05)
+    assert off[1] / off[2] == pytest.approx(10.0, rel=0.05)
+    assert off[2] < 1e-3
+
+
+def test_a_body_on_a_two_stage_contact_gives_more_than_on_its_last_and_less_than_on_its_first(
+    block,
+):
+    law = NormalLaw.two_stage(10 * E / SIZE, SIZE / 1000)
+    ends = [NormalLaw("linear", stiffness) for stiffness in (law.initial, law.stiffness)]
+    loads = [pressed(block, each, BALL, DEEP)[1].force[2::3].sum() for each in (*ends, law)]
+    assert loads[0] < loads[2] < loads[1]

@@ -6,7 +6,8 @@ r"""Pressure against overclosure: linear, two-stage, hard.
   stiffness as in the thesis's Figure 5.3. Pressure and stiffness are continuous.
 - ``hard``: an augmented Lagrangian, :math:`p = \lambda + k\,g`, with multipliers
   :math:`\lambda \ge 0` at the nodes that grow until the overclosure, averaged about each node, is
-  nil.
+  nil. A contact much narrower than an element is open on the average about every node, and bears
+  on :math:`k` alone: resolve it.
 """
 
 from __future__ import annotations
