@@ -1,8 +1,16 @@
 """Settings shared by all tests."""
 
+import os
 import shutil
 
 import hypothesis
+
+if "PYTEST_XDIST_WORKER" in os.environ:
+    # The workers have the cores among themselves; threads of linear algebra on top of them wait
+    # for each other. Read by the libraries when they are first imported, here or by a program
+    # that a test starts.
+    for _library in ("OMP", "OPENBLAS", "MKL"):
+        os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
 # Without a deadline, because the first example may load a unit registry or compile a kernel; the
 # same examples every time, so that a failure is about the change at hand.
