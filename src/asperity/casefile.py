@@ -104,7 +104,9 @@ class Table(pydantic.BaseModel):
             reason = f"it must be one of {allowed}{hint}"
         elif cause is None:
             reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
-        return f"{key} is {_shown(given)}; {reason}"
+        place = detail["loc"][1] if len(detail["loc"]) > 1 else None
+        where = f", number {place + 1} of the list" if isinstance(place, int) else ""
+        return f"{key} is {_shown(given)}{where}; {reason}"
 
 
 T = TypeVar("T", bound=Table)
@@ -352,9 +354,9 @@ def _toml_value(text: str) -> Any:
 def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str) -> Any:
     quantity = quantity_of(model, key)
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    parts = (
-        (repr(value), "") if is_number else split_unit(value) if isinstance(value, str) else None
-    )
+    written = setting.partition("=")[2].strip()
+    number = written if split_unit(written) == (written, "") else repr(value)
+    parts = (number, "") if is_number else split_unit(value) if isinstance(value, str) else None
     if not (quantity and quantity.unit and parts and not parts[1]):
         return value
     unit = bare_unit(quantity, old)

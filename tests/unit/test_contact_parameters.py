@@ -48,7 +48,7 @@ def test_auto_refuses_a_body_without_stiffness_or_height(modulus, height):
     [
         ('block.size=["40 mm","30 mm"]', "it must be a list of three"),
         ('block.size="40 mm"', "it must be a list of three"),
-        ("block.size=[40,30,30]", "block.size is 40; it must be a length such as '40 mm'"),
+        ("block.size=[40,30,30]", "block.size is 40, number 1 of the list; it must be a length such as '40 mm'"),
         ('block.size=["40 mm","30 mm","-1 mm"]', "it must be at least 0.001 mm and at most 1e+06"),
         ('block.size=["40 mm","30 mm","0 mm"]', "it must be at least 0.001 mm and at most 1e+06"),
         ('block.size=["40 mm","30 mm","10 um"]', "elements of 0.005 x 0.005 x 1.667e-06 m"),

@@ -27,7 +27,10 @@ def plot_pressure(result: "BlockResult") -> "Figure":
     surface = result.problem.surface
     x, y = 1e3 * surface.positions[:, 0], 1e3 * surface.positions[:, 1]
     pressure = 1e-3 * result.nodal_pressure
-    figure, (axes,) = panels(width=7.0, height=5.0)
+    # The face fills the room beside the bar, whatever its shape, and leaves some for the title.
+    aspect = float(np.ptp(x) / np.ptp(y))
+    width = min(max(5.0, 2.1 + 4.0 * aspect), 9.0)
+    figure, (axes,) = panels(width=width, height=min(max(2.6, 1.2 + (width - 2.1) / aspect), 5.0))
     triangles = Triangulation(x, y, face_triangles(surface.faces))
     spread = float(np.ptp(pressure))
     if spread > 1e-6 * float(np.abs(pressure).max()):
@@ -44,7 +47,10 @@ def plot_pressure(result: "BlockResult") -> "Figure":
     axes.set_ylabel("across, y (mm)")
     mean = 1e-3 * result.mean_pressure
     peak = 1e-3 * result.peak_pressure
-    axes.set_title(f"Contact pressure, mean {mean:.3g} kPa, greatest {peak:.3g} kPa", loc="left")
+    figure.suptitle(
+        f"Contact pressure, mean {mean:.3g} kPa;\ngreatest at a point of integration {peak:.3g} kPa",
+        fontsize="medium",
+    )
     return figure
 
 
