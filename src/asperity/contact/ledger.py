@@ -7,10 +7,12 @@ Works are trapezoidal: the mean of a force at both ends of a step times the way 
 
 holds to the accuracy of the increments: kinetic, elastic and spring energy are quadratic forms
 whose changes trapezoidal works hit exactly, and what the time integration takes is known by itself
-(`asperity.contact.hht.complete`), not as what is missing. So is what the pressure's work differs
-from the change of its potential where it is not linear over a step; both are counted as numerical.
-Friction is the work of the tractions on the slip of the points of the surface, deformation
-included, less what the asperities store.
+(`asperity.contact.hht.complete`), not as what is missing. So is what the trapezoidal work of the
+pressure differs from its work along the way where it is not linear over a step; both are counted as
+numerical. Friction is the work of the tractions on the slip of the points of the surface,
+deformation included, less the work that goes into the asperities. What goes into asperities and
+overclosure is summed over the steps; the energies in :math:`\Delta E` are those of the states at
+both ends, so that one that is wrong leaves the balance open.
 """
 
 import dataclasses
@@ -21,7 +23,7 @@ import numpy.typing as npt
 from asperity.compiled import kernel
 from asperity.contact import hht
 from asperity.contact import motion as mo
-from asperity.contact.normal import HARD, TWO_STAGE
+from asperity.contact.normal import HARD, TWO_STAGE, pressure
 from asperity.slider.result import PowerLedger
 
 FloatArray = npt.NDArray[np.float64]
@@ -38,7 +40,7 @@ LOAD_WORK = 7
 SLIP_WORK = 8  # of friction on the slip
 DAMPING_WORK = 9
 METHOD_LOSS = 10
-PRESSURE_WORK = 11  # put into the overclosure
+PRESSURE_WORK = 11  # put into the overclosure, trapezoidal
 TRANSFER_WORK = 12
 UNTRANSFERRED = 13
 ITERATIONS = 14
@@ -50,7 +52,9 @@ MAX_FY = 19
 MIN_FY = 20
 MAX_PRESSURE = 21
 BREAKAWAY = 22  # s; negative while it has not come
-SUMS = 23
+ASPERITY_WORK = 23  # put into the asperities
+OVERCLOSURE_WORK = 24  # put into the overclosure, by the law along the way
+SUMS = 25
 
 # Places in the vector that says what a step imposed.
 LENGTH = 0  # s
@@ -65,7 +69,8 @@ TRIES = 8  # iterations
 TRANSFER = 9  # share of the body's lateral motion the contact sees
 FULL_FRICTION = 10  # N
 BASE_Z = 11  # rise of the base, m
-IMPOSED = 12
+BRISTLE = 12  # mu over the deflection at full friction, 1/m
+IMPOSED = 13
 
 # Places in the vector of forces at the end of a step.
 FX = 0  # friction against the slip, N
@@ -110,19 +115,48 @@ def resultants(pressure, traction, normal, deflection, weights, out):
 
 
 @kernel
+def overclosure_work(begin, end, law):
+    """Work per area of a pressure law without memory from one overclosure to another, J/m^2.
+
+    By Simpson's rule between the overclosures where the law's pressure has kinks, which is exact:
+    it is at most quadratic there. The hard law stores nothing, see `potential`.
+    """
+    if law[0] == HARD:
+        return 0.0
+    work = 0.0
+    least = 0.0
+    for part in range(3):
+        most = np.inf
+        if law[0] == TWO_STAGE and part < 2:
+            most = law[3 + part]
+        low = min(max(begin, least), most)
+        high = min(max(end, least), most)
+        if low != high:
+            p0, _ = pressure(low, 0.0, law)
+            middle, _ = pressure(0.5 * (low + high), 0.0, law)
+            p1, _ = pressure(high, 0.0, law)
+            work += (p0 + 4.0 * middle + p1) * (high - low) / 6.0
+        if most == np.inf:
+            break
+        least = most
+    return work
+
+
+@kernel
 def account(
     sums, imposed, before, after, drive_before, drive_after, u_before, u_after,
     force_before, force_after,
-    pressure_0, traction_0, normal_0, distance_0, pressure_1, traction_1, normal_1, distance_1,
-    slip_1, slip_2, weights, mean_pressure,
+    pressure_0, traction_0, normal_0, distance_0, deflection_0,
+    pressure_1, traction_1, normal_1, distance_1, deflection_1,
+    slip_1, slip_2, weights, law, mean_pressure,
 ):  # fmt: skip
     """Add one step to the sums.
 
     Parameters
     ----------
-    sums : ndarray, shape (23,)
+    sums : ndarray, shape (25,)
         Changed.
-    imposed : ndarray, shape (12,)
+    imposed : ndarray, shape (13,)
         What the step imposed.
     before, after : ndarray, shape (6,)
         Forces at both ends, see `resultants`.
@@ -130,11 +164,13 @@ def account(
         States of the drive.
     u_before, u_after, force_before, force_after : ndarray, shape (3 n,)
         Displacement of the contact nodes and contact forces.
-    pressure_0, traction_0, normal_0, distance_0, pressure_1, traction_1, normal_1, distance_1, \
-    slip_1, slip_2 : ndarray
+    pressure_0, traction_0, normal_0, distance_0, deflection_0, \
+    pressure_1, traction_1, normal_1, distance_1, deflection_1, slip_1, slip_2 : ndarray
         Of the points of the surface at both ends, and the slip between.
     weights : ndarray, shape (q,)
         Area of each.
+    law : ndarray
+        `asperity.contact.normal.NormalLaw.parameters`.
     mean_pressure : ndarray, shape (q,)
         Changed: pressure times time.
     """
@@ -178,13 +214,22 @@ def account(
         w = weights[q]
         most = max(most, p1)
         work = 0.0
+        # k s^2 / 2 grows by this, k = mu p / s_max, however far p and s go in the step.
+        k0 = imposed[BRISTLE] * max(p0, 0.0)
+        k1 = imposed[BRISTLE] * max(p1, 0.0)
+        into = 0.0
         for c in range(3):
+            s0 = deflection_0[q, c]
+            s1 = deflection_1[q, c]
+            into += (k0 * s0 + k1 * s1) * (s1 - s0) + (k1 - k0) * s0 * s1
             slip = slip_1[q, c] + slip_2[q, c]
             work -= slip * (
                 traction_0[q, c] - p0 * normal_0[q, c] + traction_1[q, c] - p1 * normal_1[q, c]
             )
         sums[SLIP_WORK] += 0.5 * w * work
+        sums[ASPERITY_WORK] += 0.5 * w * into
         sums[PRESSURE_WORK] += 0.5 * w * (p0 + p1) * (distance_0[q] - distance_1[q])
+        sums[OVERCLOSURE_WORK] += w * overclosure_work(-distance_0[q], -distance_1[q], law)
     sums[MAX_PRESSURE] = most
     sums[MAX_FX] = max(sums[MAX_FX], after[FX])
     sums[MIN_FX] = min(sums[MIN_FX], after[FX])
@@ -340,13 +385,11 @@ class ContactLedger(PowerLedger):
 def power_ledger(sums: FloatArray, start: Energies, end: Energies) -> ContactLedger:
     """Return the powers of a stretch of time from its sums and the energies at its ends."""
     time = float(sums[TIME])
-    overclosure = end.overclosure - start.overclosure
-    asperities = end.asperities - start.asperities
-    numerical = float(sums[METHOD_LOSS] + sums[PRESSURE_WORK]) - overclosure
+    numerical = float(sums[METHOD_LOSS] + sums[PRESSURE_WORK] - sums[OVERCLOSURE_WORK])
     return ContactLedger(
         drive=float(sums[DRIVE_WORK]) / time,
         vibration=float(sums[VIBRATION_WORK]) / time,
-        friction=(float(sums[SLIP_WORK]) - asperities) / time,
+        friction=float(sums[SLIP_WORK] - sums[ASPERITY_WORK]) / time,
         damping=float(sums[DAMPING_WORK]) / time,
         stored=(end.total - start.total) / time,
         untransferred=float(sums[UNTRANSFERRED]) / time,

@@ -191,6 +191,7 @@ class Walker:
         imposed = np.array([
             step, end, base[0], base[1], base[2], state.load, state.load, lost,
             float(result.iterations), seen, system.full_friction, base[3],
+            system.friction.mu / system.friction.limit,
         ])  # fmt: skip
         before = state.contact
         # Copies, so that whoever stops in the middle of a step finds the state before it whole.
@@ -199,8 +200,10 @@ class Walker:
             sums, imposed, state.forces, forces, state.drive, drive,
             before.displacement, result.displacement, before.force, result.force,
             before.pressure, before.traction, before.normal, before.distance,
+            before.state.deflection,
             result.pressure, result.traction, result.normal, result.distance,
-            result.slip_1, result.slip_2, system.weights, mean_pressure,
+            result.state.deflection,
+            result.slip_1, result.slip_2, system.weights, system.normal.parameters, mean_pressure,
         )  # fmt: skip
         self.sums, self.mean_pressure = sums, mean_pressure
         self.state = SystemState(end, coordinates, drive, result, forces, state.load)

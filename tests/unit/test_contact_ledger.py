@@ -1,0 +1,141 @@
+"""The power ledger of a body in contact: each term is found by itself, so a wrong one shows."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from asperity.casefile import read_case
+from asperity.cli.tables import TABLES
+from asperity.contact import ledger
+from asperity.contact.block import BlockProblem
+from asperity.contact.normal import NormalLaw, pressure
+from asperity.contact.rest import rest_under_load
+from asperity.contact.steps import Walker
+
+LINEAR = NormalLaw(stiffness=4e13)
+TWO_STAGE = NormalLaw("two-stage", 4e13, 4e12, 1e-7, 3e-7)
+LAWS = {"linear": LINEAR, "two-stage": TWO_STAGE}
+KINKS = (0.0, 1e-7, 3e-7)
+MU, LIMIT = 0.12, 2e-6
+CYCLE = 1.0 / 3000.0
+
+
+def steps_of(points=40, steps=30, seed=1):
+    """Pressed points that come and go, their deflections turning: (steps, points, ...)."""
+    rng = np.random.default_rng(seed)
+    distance = rng.uniform(-5e-7, 2e-7, (steps, points))
+    deflection = rng.uniform(-LIMIT, LIMIT, (steps, points, 3))
+    return distance, deflection, rng.uniform(1e-7, 1e-6, points)
+
+
+def pressures(distance, law):
+    return np.array([[pressure(-d, 0.0, law)[0] for d in row] for row in distance])
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law):
+    parameters = LAWS[law].parameters
+    distance, deflection, weights = steps_of()
+    pressed = pressures(distance, parameters)
+    deflection[pressed == 0.0] = 0.0
+    sums, none = np.zeros(ledger.SUMS), np.zeros((len(weights), 3))
+    imposed = np.zeros(ledger.IMPOSED)
+    imposed[ledger.BRISTLE] = MU / LIMIT
+    forces, drive, nodes = np.zeros(ledger.FORCES), np.zeros(6), np.zeros(3)
+    for n in range(len(distance) - 1):
+        ledger.account(
+            sums, imposed, forces, forces, drive, drive, nodes, nodes, nodes, nodes,
+            pressed[n], none, none, distance[n], deflection[n],
+            pressed[n + 1], none, none, distance[n + 1], deflection[n + 1],
+            none, none, weights, parameters, np.zeros(len(weights)),
+        )  # fmt: skip
+    over, asperities = np.subtract(
+        *(
+            ledger.surface_energies(
+                pressed[n], distance[n], deflection[n], weights, parameters, MU, LIMIT
+            )
+            for n in (-1, 0)
+        )
+    )
+    assert min(abs(over), abs(asperities)) > 0.0
+    assert sums[ledger.OVERCLOSURE_WORK] == pytest.approx(over, rel=1e-9)
+    assert sums[ledger.ASPERITY_WORK] == pytest.approx(asperities, rel=1e-9)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_work_of_a_pressure_is_its_integral_and_its_potential(law):
+    parameters = LAWS[law].parameters
+    for begin, end in [(-2e-7, 5e-8), (5e-8, 2e-7), (4e-7, 2e-7), (6e-7, -1e-7), (5e-7, 9e-7)]:
+        low, high = sorted((begin, end))
+        inside = [kink for kink in KINKS if low < kink < high]
+        between = quad(
+            lambda over: pressure(over, 0.0, parameters)[0], begin, end, points=inside or None
+        )[0]
+        work = ledger.overclosure_work(begin, end, parameters)
+        assert work == pytest.approx(between, rel=1e-10)
+        stored = ledger.potential(end, parameters) - ledger.potential(begin, parameters)
+        assert work == pytest.approx(stored, rel=1e-10)
+
+
+def test_hard_contact_stores_nothing():
+    assert ledger.overclosure_work(0.0, 1e-7, NormalLaw("hard", 4e13).parameters) == 0.0
+
+
+def marched(steps, cycles=4.25, rise=0.0, settings=()):
+    """A light block drawn over its base that vibrates along the drive, and perhaps rises."""
+    step = CYCLE / steps
+    case = [
+        "block.elements=[2, 2, 2]", "block.element=hex8", "vibration.start=0 s",
+        "vibration.frequency=3000 Hz", f"solve.step={step} s", *settings,
+    ]  # fmt: skip
+    problem = BlockProblem.from_case(read_case("block-longitudinal", TABLES, case))
+    system, start = problem.system, problem.system.shaking
+    shaking = dataclasses.replace(start, way=(start.way[0], start.way[1], rise))
+    system = dataclasses.replace(system, shaking=shaking)
+    walker = Walker(system, rest_under_load(system, problem.loads))
+    before = walker.state
+    for number in range(1, round(cycles * steps) + 1):
+        walker.step_to(number * step, step)
+    return walker, before
+
+
+def balance(walker, before):
+    start, end = (state.energies(walker.system) for state in (before, walker.state))
+    return ledger.power_ledger(walker.sums, start, end)
+
+
+SHAKEN = {"rise": 2e-9}
+
+
+def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypatch):
+    walker, before = marched(160, **SHAKEN)
+    right = ledger.surface_energies
+    assert balance(walker, before).residual < 1e-6
+    for over, asperities in [(1.01, 1.0), (1.0, 1.01), (0.0, 1.0), (1.0, 0.0)]:
+
+        def wrong(*contact, over=over, asperities=asperities):
+            energies = right(*contact)
+            return over * energies[0], asperities * energies[1]
+
+        monkeypatch.setattr(ledger, "surface_energies", wrong)
+        assert balance(walker, before).residual > 1e-5
+
+
+def test_friction_is_what_it_is_whatever_is_said_to_be_stored(monkeypatch):
+    walker, before = marched(160, **SHAKEN)
+    friction = balance(walker, before).friction
+    monkeypatch.setattr(ledger, "surface_energies", lambda *contact: (1.0, 1.0))
+    assert balance(walker, before).friction == friction
+
+
+def test_what_the_steps_take_is_small_and_goes_with_them():
+    shares = []
+    for steps in (100, 200, 400):
+        powers = balance(*marched(steps, **SHAKEN))
+        assert powers.residual < 1e-6
+        shares.append(abs(powers.numerical) / powers.friction)
+    assert shares[0] < 1e-4
+    assert shares[1] < 0.5 * shares[0]
+    assert shares[2] < 0.5 * shares[1]
