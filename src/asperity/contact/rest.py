@@ -16,8 +16,9 @@ FloatArray = npt.NDArray[np.float64]
 
 _MOST_STATIC = 50
 _AT_REST = 1e-9
-# Steps of loading are so long that the inertia is this share of the stiffness on the contact.
-_INERTIA_AT_REST = 1e-4
+# Steps of loading are so long that the inertia is this share of the stiffness on the contact, or
+# more where a contact is so stiff that digits are lost: each step leaves about as much undone.
+_INERTIA_AT_REST, _MOST_INERTIA = 1e-4, 0.1
 
 
 def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
@@ -41,7 +42,7 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
         No equilibrium was found: the loads do not press the body on the surface, or it tips over.
     """
     mechanism = system.mechanism
-    long = _long(system)
+    long, accuracy = _loading(system)
     waiting = dataclasses.replace(mechanism, drive=None, load=None)
     first = mo.motion_step(waiting, long, alpha=0.0)
     problem = system.increments(first.compliance, long)
@@ -66,13 +67,15 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
             # What the inertia still bears; each step starts anew without a velocity.
             left = float(np.abs(coordinates[hht.FORCE]).max())
             coordinates[1:] = 0.0
-            if left <= _AT_REST * float(np.abs(load.generalised).max()):
+            if left <= accuracy * float(np.abs(load.generalised).max()):
                 break
         else:
+            active = result.active if result else 0
             raise ConvergenceError(
-                f"the body does not come to rest under load {number} of {len(loads)}; it is not "
-                "pressed on its base, or tips over",
-                reached={"load": float(number), "active": float(result.active if result else 0)},
+                f"the body does not come to rest under load {number} of {len(loads)} in "
+                f"{_MOST_STATIC} steps, {active} of {system.weights.size} points in contact; press "
+                "it on its base, keep it from tipping over, or take a softer contact",
+                reached={"load": float(number), "active": float(active)},
             )
     if result is None:
         raise InputError("no load presses the body on its base; give gravity or a pressure")
@@ -118,7 +121,7 @@ def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemS
     forces = mechanism.stiffness @ start[0]
     if load is not None:
         free, forces = free + load.response, forces - load.generalised
-    problem = system.increments(mechanism.flexibility, _long(system))
+    problem = system.increments(mechanism.flexibility, _loading(system)[0])
     untouched = dataclasses.replace(ContactState.rest(problem), displacement=free)
     result = solve_increment(problem, free, SurfaceMotion(pose=system.pose), untouched)
     coordinates = hht.rest(mechanism.size)
@@ -133,14 +136,25 @@ def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemS
     return _at_start(system, result, coordinates)
 
 
-def _long(system: System) -> float:
-    """Length of a step of loading, s."""
+def _loading(system: System) -> tuple[float, float]:
+    """Length of a step of loading, s, and the share of a load that rest may leave to the inertia.
+
+    In a step without contact the body would fall by its give over the share of the inertia: so far
+    it is known to the digits of the arithmetic, and the overclosure is what the contact leaves of
+    it.
+    """
     surface, mechanism = system.surface, system.mechanism
     # What contact and body give under a pressure spread evenly over the contact, m/N.
     spread = (-surface.nodal_normals * surface.nodal_area[:, None] / surface.area).ravel()
+    modal = mechanism.shapes.T @ spread
     give = float(spread @ (mechanism.flexibility @ spread))
-    give += 1.0 / (system.normal.stiffness * surface.area)
-    return float(np.sqrt(mechanism.mass[0, 0] * give / _INERTIA_AT_REST))
+    give += float(modal @ np.linalg.pinv(mechanism.stiffness) @ modal)
+    overclosure = 1.0 / (system.normal.stiffness * surface.area)
+    give += overclosure
+    digits = 4.0 * float(np.finfo(float).eps) * give / overclosure
+    inertia = min(max(_INERTIA_AT_REST, digits / _AT_REST), _MOST_INERTIA)
+    long = float(np.sqrt(mechanism.mass[0, 0] * give / inertia))
+    return long, max(_AT_REST, digits / inertia)
 
 
 def _at_start(system: System, result: IncrementResult, coordinates: FloatArray) -> SystemState:
