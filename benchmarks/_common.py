@@ -28,13 +28,14 @@ def best(function, repeats=3, clock=time.thread_time):
     return min(times)
 
 
-def finish(report, *, most=None, least=None):
+def finish(report, *, most=None, least=None, wanted=None):
     """Print one line a figure, or all as JSON with ``--json``, and end the process.
 
-    ``most`` bounds times by name, ``least`` ratios. What is missed is said. A time depends on the
-    machine and who shares it, so that ratios alone make the status 1.
+    ``most`` bounds times by name, ``least`` ratios, ``wanted`` ratios of which one may miss it.
+    What is missed is said. A time depends on the machine and who shares it, so that the ratios of
+    ``least`` alone make the status 1.
     """
-    most, least = most or {}, least or {}
+    most, least, wanted = most or {}, least or {}, wanted or {}
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     missed = False
     lines = []
@@ -46,7 +47,9 @@ def finish(report, *, most=None, least=None):
                 line += f"  {'missed' if value > most[key] else 'holds'}: at most {most[key]:g}"
             if key in least:
                 missed |= value < least[key]
-                line += f"  {'missed' if value < least[key] else 'holds'}: at least {least[key]:g}"
+            bound = {**wanted, **least}.get(key)
+            if bound is not None:
+                line += f"  {'missed' if value < bound else 'holds'}: at least {bound:g}"
             lines.append(line)
     if "--json" in sys.argv:
         print(json.dumps(report))

@@ -144,7 +144,7 @@ def apart(settings, step, count):
     mine, exact = [], []
     for number in range(1, count + 1):
         walker.step_to(number * step, step)
-        theirs = whole.step_to(theirs, number * step, loads[-1])
+        theirs = whole.step_to(theirs, number * step, step, loads[-1])
         mine.append([walker.state.drive[mo.FORCE], *walker.state.forces[:3]])
         exact.append([theirs.drive_force, *whole.resultants(theirs)[:3]])
     mine, exact = np.array(mine), np.array(exact)
@@ -177,6 +177,22 @@ def test_with_modes_a_block_of_27_node_elements_moves_as_the_whole_one(step):
     *forces, swing = apart(settings, step, 200)
     assert max(forces) < 1e-3
     assert swing < 0.2
+
+
+def test_equal_steps_share_a_matrix_and_few_lengths_of_steps_are_kept():
+    problem, whole = block("block.elements=[2, 1, 1]", "block.element=hex8")
+    load = loads_of(problem, whole)[-1]
+    state = whole.rest_under_load(loads_of(problem, whole))
+    step = 1e-5
+    # Their ends are not as far apart as the steps are long, in the last digits.
+    assert len({(number + 1) * step - number * step for number in range(8)}) > 2
+    for number in range(1, 9):
+        state = whole.step_to(state, number * step, step, load)
+    assert whole.lengths == (step,)
+    lengths = [number * 1e-6 for number in range(1, 9)]
+    for length in lengths:
+        state = whole.step_to(state, state.time + length, length, load)
+    assert whole.lengths == tuple(lengths[4:])
 
 
 def test_what_the_uncondensed_way_does_not_know_is_refused():

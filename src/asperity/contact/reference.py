@@ -40,6 +40,7 @@ _MOST_AT_REST = 20
 _AT_REST = 1e-9
 # Steps of loading are so long that the inertia is this share of the contact's stiffness.
 _INERTIA_AT_REST = 1e-4
+_MOST_KEPT = 4
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -229,7 +230,7 @@ class WholeSystem:
         way = 0.0 if self.pull is None else float(self.pull @ state.place)
         return dataclasses.replace(state, reach=way)
 
-    def step_to(self, state: WholeState, end: float, load: Floats) -> WholeState:
+    def step_to(self, state: WholeState, end: float, length: float, load: Floats) -> WholeState:
         """Return the state at a later time, reached in one step.
 
         Parameters
@@ -238,6 +239,9 @@ class WholeSystem:
             Where it starts from.
         end : float
             Time at the end, s.
+        length : float
+            Of the step, s; ``end`` less the time of the state but for rounding, so that equal steps
+            share a matrix.
         load : ndarray, shape (3N,)
             Nodal forces at the end, N.
 
@@ -247,7 +251,6 @@ class WholeSystem:
             Newton's method found no equilibrium.
         """
         system = self.system
-        length = end - state.time
         motion, _ = system.surface_motion(state.time, end)
         far = state.reach + system.drive_velocity * length
         impact = system.impact(length)
@@ -334,12 +337,17 @@ class WholeSystem:
         return sparse.csr_array(matrix)
 
     @functools.cached_property
-    def _body_matrices(self) -> dict[tuple[float | None, float], sparse.csr_array]:
+    def _body_matrices(self) -> dict[tuple[float | None, float, bool], sparse.csr_array]:
         return {}
+
+    @property
+    def lengths(self) -> tuple[float | None, ...]:
+        """Lengths of the steps whose matrices are kept, s; None in statics."""
+        return tuple(length for length, *_ in self._body_matrices)
 
     def _body_matrix(self, step: _Step) -> sparse.csr_array:
         """Part of the derivative that does not change from step to step."""
-        kept, key = self._body_matrices, (step.length, step.alpha)
+        kept, key = self._body_matrices, (step.length, step.alpha, step.impact)
         if key not in kept:
             weight = 1.0 + step.alpha
             matrix = weight * self.body.stiffness
@@ -352,6 +360,8 @@ class WholeSystem:
                     gain = drive.stiffness + drive.damping * gamma / (beta * step.length)
                     pull = sparse.csr_array(self.pull[:, None])
                     matrix = matrix + weight * gain * (pull @ pull.T)
+            if len(kept) == _MOST_KEPT:
+                del kept[next(iter(kept))]
             kept[key] = sparse.csr_array(matrix)
         return kept[key]
 
