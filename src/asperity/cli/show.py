@@ -50,7 +50,7 @@ _BLOCK = (
     ("power_numerical_W", "power taken by the time integration", "P_n", "W"),
     ("normal_force_N", "normal force", "F_N", "N"),
     ("pressure_mean_MPa", "contact pressure, mean", "p", "MPa"),
-    ("pressure_max_MPa", "contact pressure, greatest at a point of integration", "p_max", "MPa"),
+    ("pressure_max_MPa", "contact pressure, greatest at an integration point", "p_max", "MPa"),
     ("iterations_mean", "iterations of an increment, mean", "", ""),
     ("iterations_max", "iterations of an increment, most", "", ""),
     ("ms_per_increment", "time of an increment", "", "ms"),

@@ -48,7 +48,7 @@ def plot_pressure(result: "BlockResult") -> "Figure":
     mean = 1e-3 * result.mean_pressure
     peak = 1e-3 * result.peak_pressure
     figure.suptitle(
-        f"Contact pressure, mean {mean:.3g} kPa;\ngreatest at a point of integration {peak:.3g} kPa",
+        f"Contact pressure, mean {mean:.3g} kPa;\ngreatest at an integration point {peak:.3g} kPa",
         fontsize="medium",
     )
     return figure
