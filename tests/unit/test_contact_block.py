@@ -11,6 +11,7 @@ from asperity.contact import ledger, steps
 from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
 from asperity.contact.block_march import BlockMarch, solve_block
 from asperity.contact.block_resume import go_on, keep
+from asperity.contact.normal import NormalLaw, pressure
 from asperity.contact.rest import rest_under_load
 from asperity.contact.system import System
 from asperity.errors import ConvergenceError, InputError
@@ -328,6 +329,38 @@ def test_a_hard_contact_is_the_limit_of_a_stiff_one():
     assert pressures[0] == pytest.approx(pressures[1], rel=2e-2)
 
 
+BENT = (
+    "contact.normal=two-stage", "contact.initial_stiffness=2e13 Pa/m",
+    'contact.transition=["2 nm", "2.1 nm"]',
+)  # fmt: skip
+
+
+def test_a_shaken_block_goes_to_and_fro_over_the_bend_between_two_stages():
+    block = problem(*BENT, "vibration.direction=45 deg")
+    law = block.normal
+    bends = [float(pressure(over, 0.0, law.parameters)[0]) for over in (law.start, law.end)]
+    result = solve_block(block)
+    pressures = np.array([frame.pressure for frame in result.frames])
+    assert (pressures.min(axis=0) < bends[0]).any()
+    assert (pressures.max(axis=0) > bends[1]).any()
+    crossing = (pressures.min(axis=0) < bends[0]) & (pressures.max(axis=0) > bends[1])
+    assert crossing.any()
+    assert result.ledger.residual < 1e-6
+    answer = result.to_json()
+    assert answer["unconverged"] == 0
+    assert answer["normal_stiffness_Pa_per_m"] == law.stiffness
+    at_mean = answer["normal_stiffness_at_mean_pressure_Pa_per_m"]
+    assert law.initial < at_mean < law.stiffness
+    assert result.to_dataset().attrs["contact.transition"] == [2e-9, 2.1e-9]
+
+
+def test_stages_left_out_are_those_of_the_element():
+    law = problem("contact.normal=two-stage").normal
+    assert law == NormalLaw.two_stage(law.stiffness, 0.02)
+    given = problem("contact.normal=two-stage", "contact.initial_stiffness=2e13 Pa/m").normal
+    assert given == dataclasses.replace(law, initial=2e13)
+
+
 @pytest.mark.parametrize("modes", [0, 4])
 def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
     kept = f"block.modes={modes}", "block.elements=[4, 3, 3]"
@@ -353,11 +386,26 @@ def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
             ("solve.scheme=two-phase", "vibration.velocity_ratio=60"),
             r"two-phase scheme is unstable",
         ),
+        (
+            ("contact.normal=two-stage", "contact.initial_stiffness=1 Pa/m"),
+            r"initial contact stiffness is 1 Pa/m; it must be at least 1.39\d*e\+08 Pa/m",
+        ),
+        (
+            ("contact.normal=two-stage", "contact.initial_stiffness=1e17 Pa/m"),
+            r"it must be at least .* at most that, 1.39\d*e\+14 Pa/m",
+        ),
+        (
+            (
+                "contact.normal=two-stage", "contact.stiffness=1e12 Pa/m",
+                "contact.initial_stiffness=1e6 Pa/m", 'contact.transition=["10 mm", "20 mm"]',
+            ),
+            r"contact.initial_stiffness 1e\+06 Pa/m lets it sink by 0.01\d+ m; it may be 0.003 m",
+        ),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_be_solved_is_refused(settings, message):
     with pytest.raises(InputError, match=message):
-        _ = problem(*settings).timetable
+        problem(*settings).check()
 
 
 def test_a_block_without_a_mass_is_refused():

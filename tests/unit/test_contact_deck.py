@@ -2,9 +2,11 @@ import re
 
 import numpy as np
 import pytest
+from scipy.linalg import null_space
 
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
+from asperity.contact.block import held_coordinates
 from asperity.contact.deck import BlockSetup, abaqus_files, calculix_files, fric_subroutine
 from asperity.contact.deck.calculix import overclosure
 from asperity.contact.deck.setup import numbers
@@ -221,18 +223,125 @@ def test_the_second_slip_direction_is_one_way_or_the_other():
         fric_subroutine(setup_of().model, side=0)
 
 
-def test_a_rigid_drive_pulls_at_the_face_itself():
-    case = read_case("block-transverse", TABLES, SMALL).replace_values(
-        {"slider.drive_stiffness": None, "slider.drive_damping": None}
-    )
+HELD = {
+    "guided": (["slider.lateral=guided"], False),
+    "rigid drive": ([], True),
+    "guided rigid drive": (["slider.lateral=guided"], True),
+}
+
+
+def held_setup(name, *more):
+    """A block with a guide, a rigid drive, or both, and which coordinates the package holds."""
+    settings, rigid = HELD[name]
+    case = read_case("block-transverse", TABLES, [*SMALL, *settings, *more])
+    if rigid:
+        case = case.replace_values({"slider.drive_stiffness": None, "slider.drive_damping": None})
     setup = BlockSetup.from_case(case)
-    for files in (abaqus_files, calculix_files):
-        deck = Deck(files(setup)["block.inp"])
-        assert not deck.all("SPRING")
-        pulled = [
-            row for _, rows in deck.all("BOUNDARY") for row in rows if len(row) > 3 and row[3]
-        ]
-        assert pulled[0][:3] == ["drive_point", "1", "1"]
+    slider = setup.model.slider
+    held = held_coordinates(setup.problem.body, rigid=slider.rigid, guided=not slider.free)
+    return setup, held[:6]
+
+
+def rigid_motion(points):
+    """Displacements, shape (3N, 6), of shifts and of turns about the middle of some points."""
+    arms = points - 0.5 * (points.min(axis=0) + points.max(axis=0))
+    turns = [np.cross(axis, arms).ravel() for axis in np.eye(3)]
+    return np.transpose([*(np.tile(axis, len(points)) for axis in np.eye(3)), *turns])
+
+
+def strained(points):
+    """Displacements, shape (3N, 30), whose gradients are constant or linear over a body."""
+    x, y, z = (points / np.ptp(points, axis=0)).T
+    fields = [x, y, z, x * x, y * y, z * z, x * y, y * z, z * x, x + y * y]
+    return np.transpose([np.outer(field, axis).ravel() for field in fields for axis in np.eye(3)])
+
+
+@pytest.mark.parametrize("name", HELD)
+def test_in_abaqus_guide_and_rigid_drive_hold_the_mean_motion_of_the_mass(name):
+    setup, held = held_setup(name)
+    deck = Deck(abaqus_files(setup)["block.inp"])
+    points = np.array([[float(x) for x in row[1:]] for row in deck.all("NODE")[0][1]])
+    ((options, rows),) = deck.all("SURFACE", TYPE="NODE")
+    assert [int(node) for node, _ in rows] == list(range(1, len(points) + 1))
+    weights = np.array([float(weight) for _, weight in rows])
+    assert weights.sum() == pytest.approx(setup.problem.mass, rel=1e-12)
+    ((coupling, _),) = deck.all("COUPLING", SURFACE=options["NAME"])
+    assert ["1", "6"] in [row[:2] for _, rows in deck.all("DISTRIBUTING") for row in rows]
+    # The reference node goes as the rigid body with the momenta of the weights does.
+    reference = rigid_motion(points)
+    weighted = reference * np.repeat(weights, 3)[:, None]
+    mean = np.linalg.solve(reference.T @ weighted, weighted.T)
+    np.testing.assert_allclose(mean @ reference, np.eye(6), atol=1e-12)
+    body = setup.problem.uncondensed
+    own = np.linalg.solve(body.rigid_mass, body.inertia.T)
+    fields = strained(points)
+    np.testing.assert_allclose(mean @ fields, own @ fields, atol=1e-10)
+    fixed = {int(row[1]) for row in deck.all("BOUNDARY")[0][1] if row[0] == coupling["REF NODE"]}
+    assert fixed == set(np.flatnonzero(held) + 1)
+    ((_, node),) = deck.all("NSET", NSET=coupling["REF NODE"])
+    place = {row[0]: row[1:] for _, rows in deck.all("NODE") for row in rows}[node[0][0]]
+    np.testing.assert_allclose([float(x) for x in place], body.centre, atol=1e-12)
+
+
+@pytest.mark.parametrize("element", ["hex27", "hex8i"])
+@pytest.mark.parametrize("name", HELD)
+def test_in_calculix_equations_hold_the_mean_motion_of_the_mass(name, element):
+    setup, held = held_setup(name, f"block.element={element}", "block.elements=[4,2,2]")
+    deck = Deck(calculix_files(setup)["block.inp"])
+    nodes = len(setup.problem.mesh.points)
+    (drive,) = deck.all("NSET", NSET="drive_point")
+    point = 3 * (int(drive[1][0][0]) - 1)
+    equations = []
+    for _, (count, *rows) in deck.all("EQUATION"):
+        terms = [row[i : i + 3] for row in rows for i in range(0, len(row), 3)]
+        assert len(terms) == int(count[0])
+        equations.append([(3 * (int(n) - 1) + int(f) - 1, float(c)) for n, f, c in terms])
+    matrix = np.zeros((len(equations), 1 + max(at for terms in equations for at, _ in terms)))
+    for row, terms in zip(matrix, equations, strict=True):
+        for at, factor in terms:
+            row[at] += factor
+    # The program takes the first freedom of each out of its unknowns: no other may hold it.
+    first = [terms[0][0] for terms in equations]
+    assert (np.count_nonzero(matrix[:, first], axis=0) == 1).all()
+    # What is left when the nodes added for the sums are taken out holds for the block alone.
+    others = np.delete(matrix[:, 3 * nodes :], point - 3 * nodes, axis=1)
+    alone = null_space(others.T).T if others.any() else np.eye(len(matrix))
+    left = alone @ matrix[:, [*range(3 * nodes), point]]
+    body = setup.problem.uncondensed
+    means = np.linalg.solve(body.rigid_mass, body.inertia.T)
+    wanted = [np.append(means[j], -float(j == 0)) for j in np.flatnonzero(held)]
+    if not setup.model.slider.rigid:
+        share = setup.problem.nodal_drive
+        wanted.append(np.append(share, -1.0))
+    assert np.linalg.matrix_rank(left) == len(left) == len(wanted)
+    for mean in wanted:
+        mean = mean / np.linalg.norm(mean)
+        part = np.linalg.lstsq(left.T, mean)[0] @ left
+        np.testing.assert_allclose(part, mean, atol=1e-9)
+    for j, shift in enumerate(rigid_motion(body.mesh.points).T):
+        # The drive's point goes along, or stays where a rigid drive holds it.
+        along = shift @ setup.problem.nodal_drive if not setup.model.slider.rigid else 0.0
+        broken = np.abs(left @ np.append(shift, along)).max() > 1e-6 * np.abs(shift).max()
+        assert broken == held[j]
+
+
+def test_a_free_block_with_a_spring_is_held_by_nothing_but_its_base():
+    abaqus, calculix = decks([])
+    assert not abaqus.all("SURFACE", TYPE="NODE")
+    assert len(abaqus.all("COUPLING")) == 1
+    assert len(calculix.all("EQUATION")) == 1
+
+
+@pytest.mark.parametrize("files", [abaqus_files, calculix_files])
+def test_a_rigid_drive_moves_what_it_holds_without_a_spring(files):
+    setup, _ = held_setup("rigid drive")
+    deck = Deck(files(setup)["block.inp"])
+    assert not deck.all("SPRING")
+    first, *later = (rows for _, rows in deck.all("BOUNDARY"))
+    (moved, *_) = [row for rows in later for row in rows if row[0] != "base_point"]
+    assert [row[1:] for row in first if row[0] == moved[0]][-1] == ["1", "1"]
+    assert moved[1:3] == ["1", "1"]
+    assert float(moved[3]) > 0.0
 
 
 def test_two_stages_are_written_point_by_point():
@@ -249,8 +358,18 @@ def test_two_stages_are_written_point_by_point():
         np.testing.assert_allclose([[float(v) for v in row] for row in rows], table, rtol=1e-12)
 
 
+def test_two_stages_are_written_as_far_as_a_block_goes():
+    stages = ["contact.normal=two-stage", 'contact.transition=["0 nm", "0.1 nm"]']
+    setup = setup_of(*stages)
+    table = np.array(setup.pressure_table())
+    assert np.all(np.diff(table, axis=0) > 0.0)
+    assert table[0] == pytest.approx([0.0, 0.0])
+    assert table[-1, 0] == pytest.approx(100.0 * setup.mean_pressure)
+
+
 def test_the_block_stands_in_the_base_as_deep_as_its_mean_pressure_presses_it():
-    for settings in ([], ["contact.normal=two-stage"]):
+    beyond = ["contact.normal=two-stage", 'contact.transition=["0.01 nm", "0.02 nm"]']
+    for settings in ([], ["contact.normal=two-stage"], beyond):
         setup = setup_of(*settings)
         depth = overclosure(setup)
         assert pressure(depth, 0.0, setup.normal.parameters)[0] == pytest.approx(

@@ -98,7 +98,10 @@ def test_two_stages_follow_from_the_size_of_the_elements():
         ({"stiffness": 0.0}, "positive"),
         ({"stiffness": np.nan}, "positive"),
         ({"name": "two-stage", "stiffness": 1.0, "initial": 2.0, "end": 1.0}, "at most"),
-        ({"name": "two-stage", "stiffness": 1.0, "initial": 0.5, "start": 2.0, "end": 1.0}, "<"),
+        (
+            {"name": "two-stage", "stiffness": 1.0, "initial": 0.5, "start": 2.0, "end": 1.0},
+            "greater",
+        ),
     ],
 )
 def test_a_law_that_cannot_be_is_refused(given, says):
@@ -190,3 +193,21 @@ def test_a_body_on_a_two_stage_contact_gives_more_than_on_its_last_and_less_than
     ends = [NormalLaw("linear", stiffness) for stiffness in (law.initial, law.stiffness)]
     loads = [pressed(block, each, BALL, DEEP)[1].force[2::3].sum() for each in (*ends, law)]
     assert loads[0] < loads[2] < loads[1]
+
+
+@pytest.mark.parametrize("start", [0.0, 1e-9])
+def test_two_stages_give_each_pressure_at_one_overclosure_with_the_slope_there(start):
+    law = NormalLaw("two-stage", 1e14, 2e13, start, 3e-9)
+    for over in (1e-10, 1e-9, 1.7e-9, 3e-9, 8e-9):
+        value, slope = pressure(over, 0.0, law.parameters)
+        assert law.overclosure(value) == pytest.approx(over, rel=1e-12)
+        assert law.slope_at(value) == pytest.approx(slope, rel=1e-9)
+    assert law.overclosure(0.0) == law.overclosure(-1.0) == 0.0
+    assert law.slope_at(0.0) == 2e13
+
+
+@pytest.mark.parametrize("name", ["linear", "hard"])
+def test_other_laws_have_one_slope(name):
+    law = NormalLaw(name, 1e14)
+    assert law.slope_at(5e4) == 1e14
+    assert law.overclosure(5e4) == (5e-10 if name == "linear" else 0.0)

@@ -48,7 +48,10 @@ def test_auto_refuses_a_body_without_stiffness_or_height(modulus, height):
     [
         ('block.size=["40 mm","30 mm"]', "it must be a list of three"),
         ('block.size="40 mm"', "it must be a list of three"),
-        ("block.size=[40,30,30]", "block.size is 40, number 1 of the list; it must be a length such as '40 mm'"),
+        (
+            "block.size=[40,30,30]",
+            "block.size is 40, number 1 of the list; it must be a length such as '40 mm'",
+        ),
         ('block.size=["40 mm","30 mm","-1 mm"]', "it must be at least 0.001 mm and at most 1e+06"),
         ('block.size=["40 mm","30 mm","0 mm"]', "it must be at least 0.001 mm and at most 1e+06"),
         ('block.size=["40 mm","30 mm","10 um"]', "elements of 0.005 x 0.005 x 1.667e-06 m"),
@@ -66,6 +69,10 @@ def test_auto_refuses_a_body_without_stiffness_or_height(modulus, height):
         ("contact.stiffness=0 Pa/m", "it must be above 0 GPa/um and at most 100000 GPa/um"),
         ("contact.stiffness=5 MPa", "'auto' or a pressure per length"),
         ("contact.stifness=auto", "did you mean 'stiffness'?"),
+        ('contact.transition=["1 nm", "3 nm"]', "contact.normal is 'linear', which has no stages"),
+        ('contact.transition="1 nm"', "it must be a list of two overclosures"),
+        ('contact.transition=["-1 nm", "1 nm"]', "it must be at least 0 nm and at most"),
+        ("contact.initial_stiffness=auto", "it must be a pressure per length such as '40 GPa/um'"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_line(setting, why):
@@ -74,6 +81,26 @@ def test_what_is_wrong_is_said_in_one_line(setting, why):
     line = str(caught.value)
     assert why in line
     assert "\n" not in line
+
+
+@pytest.mark.parametrize(
+    ("settings", "why"),
+    [
+        (
+            ["contact.normal=hard", "contact.initial_stiffness=1 GPa/um"],
+            "contact.initial_stiffness is given, and contact.normal is 'hard', which has no stages",
+        ),
+        (
+            ["contact.normal=two-stage", 'contact.transition=["3 nm", "1 nm"]'],
+            "contact.transition is from 3e-09 to 1e-09 m; the second must be greater",
+        ),
+    ],
+)
+def test_stages_are_for_two_and_in_their_order(settings, why):
+    with pytest.raises(InputError) as caught:
+        read_case("block-longitudinal", TABLES, settings)
+    assert why in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(("name", "table"), [("longitudinal", "4.3"), ("transverse", "4.4")])

@@ -178,6 +178,13 @@ class BlockProblem:
                 f"{given}contact.stiffness is {self.normal.stiffness:g} Pa/m; it must be at least "
                 f"{pressure / (_MOST_SQUEEZE * height):.4g} Pa/m, for the overclosure to be small"
             )
+        over = self.normal.overclosure(pressure)
+        if over > _MOST_SQUEEZE * height:
+            raise InputError(
+                f"{given}contact.initial_stiffness {self.normal.initial:g} Pa/m lets it sink by "
+                f"{over:.4g} m; it may be {_MOST_SQUEEZE * height:.4g} m, for the overclosure to "
+                "be small: give a greater one, or a shorter contact.transition"
+            )
 
     @property
     def mass(self) -> float:
@@ -238,10 +245,13 @@ class BlockProblem:
         """Pressure against overclosure."""
         height = self.block.size[2] / self.block.elements[2]
         stiffness = self.contact.normal_stiffness(self.block.youngs_modulus, height)
-        if self.contact.normal == "two-stage":
-            edge = max(self.block.size[i] / self.block.elements[i] for i in (0, 1))
-            return NormalLaw.two_stage(stiffness, edge)
-        return NormalLaw(self.contact.normal, stiffness)
+        if self.contact.normal != "two-stage":
+            return NormalLaw(self.contact.normal, stiffness)
+        edge = max(self.block.size[i] / self.block.elements[i] for i in (0, 1))
+        law = NormalLaw.two_stage(stiffness, edge)
+        start, end = self.contact.transition or (law.start, law.end)
+        initial = self.contact.initial_stiffness or law.initial
+        return NormalLaw("two-stage", stiffness, initial, start, end)
 
     @functools.cached_property
     def friction(self) -> PointFriction:

@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.contact.motion import Mechanism
-from asperity.contact.normal import NormalLaw, aimed_overclosure, pressure
+from asperity.contact.normal import NormalLaw
 from asperity.contact.surface import ContactSurface
 from asperity.errors import InputError
 
@@ -32,9 +32,6 @@ FloatArray = npt.NDArray[np.float64]
 # come after all six.
 _ON_THE_BED = (2, 3, 4)
 _RIGID = 6
-
-# Springs so soft, next to the greatest aimed at, that their law has not begun.
-_SOFT = 1e-9
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -124,7 +121,7 @@ def base_compliance(
     bed = flexibility[2::3, 2::3].copy()
     if normal.name != "hard":
         # The nodal springs of the integrated contact, neighbours coupled as its pressures are.
-        springs = _slope(normal, mean_pressure) * surface.to_forces(
+        springs = normal.slope_at(mean_pressure) * surface.to_forces(
             surface.to_points(np.eye(count))
         )
         bed += np.linalg.inv(springs)
@@ -138,11 +135,3 @@ def base_compliance(
         mass=mechanism.mass[chosen],
         stiffness=mechanism.stiffness[chosen] + upright.T @ by_motion,
     )
-
-
-def _slope(normal: NormalLaw, mean_pressure: float) -> float:
-    """Slope of the pressure over the overclosure at a pressure, Pa/m."""
-    law = normal.parameters
-    soft = normal.initial if normal.name == "two-stage" else normal.stiffness
-    over = aimed_overclosure(mean_pressure, _SOFT * soft, 0.0, law)
-    return float(pressure(over, 0.0, law)[1])

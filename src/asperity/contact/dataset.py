@@ -82,5 +82,9 @@ def inputs(problem: "BlockProblem") -> dict[str, Any]:
         for key, value in table:
             if value is not None:
                 plain[f"{table.table}.{key}"] = list(value) if isinstance(value, tuple) else value
-    plain["contact.stiffness"] = problem.normal.stiffness
+    normal = problem.normal
+    plain["contact.stiffness"] = normal.stiffness
+    if normal.name == "two-stage":
+        plain["contact.initial_stiffness"] = normal.initial
+        plain["contact.transition"] = [normal.start, normal.end]
     return plain

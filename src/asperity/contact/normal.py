@@ -23,6 +23,9 @@ from asperity.errors import InputError, choices
 
 FloatArray = npt.NDArray[np.float64]
 
+# A first stage softer than that is none, and what the last one needs is lost in its digits.
+_LEAST_INITIAL = 1e-6
+
 LINEAR = 0
 TWO_STAGE = 1
 HARD = 2
@@ -121,15 +124,17 @@ class NormalLaw:
                 f"contact stiffness is {self.stiffness:g} Pa/m; it must be positive and finite"
             )
         if self.name == "two-stage":
-            if not 0.0 < self.initial <= self.stiffness:
+            if not _LEAST_INITIAL * self.stiffness <= self.initial <= self.stiffness:
                 raise InputError(
-                    f"initial stiffness is {self.initial:g} Pa/m; it must be positive and at most "
-                    f"the final {self.stiffness:g} Pa/m"
+                    f"initial contact stiffness is {self.initial:g} Pa/m; it must be at least "
+                    f"{_LEAST_INITIAL * self.stiffness:g} Pa/m, a millionth of the final one, and "
+                    f"at most that, {self.stiffness:g} Pa/m"
                 )
-            if not 0.0 <= self.start < self.end:
+            if not (0.0 <= self.start < self.end and np.isfinite(self.end)):
                 raise InputError(
-                    f"the stiffness rises from {self.start:g} m to {self.end:g} m; give "
-                    "0 <= start < end"
+                    f"the contact stiffness rises from an overclosure of {self.start:g} m to one "
+                    f"of {self.end:g} m; the second must be greater than the first, and that at "
+                    "least 0"
                 )
 
     @classmethod
@@ -146,6 +151,31 @@ class NormalLaw:
         if not length > 0.0:
             raise InputError(f"length is {length:g} m; it must be positive")
         return cls("two-stage", stiffness, 0.1 * stiffness, 0.01 * length, 0.03 * length)
+
+    def overclosure(self, value: float) -> float:
+        """Overclosure at a pressure in Pa, m; 0 for hard contact, and where nothing presses."""
+        if self.name == "hard" or value <= 0.0:
+            return 0.0
+        if self.name == "linear":
+            return value / self.stiffness
+        bends = [float(pressure(over, 0.0, self.parameters)[0]) for over in (self.start, self.end)]
+        if value <= bends[0]:
+            return value / self.initial
+        if value >= bends[1]:
+            return self.end + (value - bends[1]) / self.stiffness
+        rise = (self.stiffness - self.initial) / (self.end - self.start)
+        beyond = value - bends[0]
+        root = np.sqrt(self.initial**2 + 2.0 * rise * beyond)
+        return self.start + 2.0 * beyond / (self.initial + float(root))
+
+    def slope_at(self, value: float) -> float:
+        """Slope of the pressure over the overclosure at a pressure in Pa, Pa/m.
+
+        Of hard contact it is the slope of the penalty.
+        """
+        if self.name != "two-stage":
+            return self.stiffness
+        return float(pressure(self.overclosure(value), 0.0, self.parameters)[1]) or self.initial
 
     @property
     def parameters(self) -> FloatArray:

@@ -18,9 +18,33 @@ _LEAST_LENGTH, _MOST_LENGTH = 1e-6, 1e3
 _MOST_MODULUS = 1e14
 _MOST_STIFFNESS = 1e20
 _MOST_ASPECT = 1e3
+_MOST_OVERCLOSURE = 1.0
 
 _Length = Annotated[
     float, Quantity("m", what="a length", example="40 mm", ge=_LEAST_LENGTH, le=_MOST_LENGTH)
+]
+_Overclosure = Annotated[
+    float, Quantity("m", what="a length", example="1 nm", ge=0, le=_MOST_OVERCLOSURE)
+]
+_Stiffness = Annotated[
+    float,
+    Quantity(
+        "Pa/m",
+        what="a pressure per length",
+        example="40 GPa/um",
+        gt=0,
+        le=_MOST_STIFFNESS,
+    ),
+]
+_FinalStiffness = Annotated[
+    float,
+    Quantity(
+        "Pa/m",
+        what="'auto' or a pressure per length",
+        example="40 GPa/um",
+        gt=0,
+        le=_MOST_STIFFNESS,
+    ),
 ]
 _Count = Annotated[int, Field(strict=True, ge=1, le=1000)]
 
@@ -109,24 +133,49 @@ class Contact(Table):
         Pressure per overclosure, Pa/m: of the straight line, of the final stage, or the penalty
         the augmented Lagrangian starts from; at most 1e20. Left out or ``"auto"``: see
         `normal_stiffness`.
+    initial_stiffness : float or str, optional
+        ``two-stage``: that of the first stage, Pa/m; a millionth of the final one to all of it.
+        Left out: a tenth.
+    transition : sequence of 2 floats or str, optional
+        ``two-stage``: overclosures where the first stage ends and the last begins, m, 0 to 1 m;
+        between them the stiffness rises evenly. Left out: 1 % and 3 % of the longer edge of an
+        element in contact.
     """
 
     table: ClassVar[str] = "contact"
 
     normal: Literal["linear", "two-stage", "hard"] = "linear"
-    stiffness: (
-        Annotated[
-            float,
-            Quantity(
-                "Pa/m",
-                what="'auto' or a pressure per length",
-                example="40 GPa/um",
-                gt=0,
-                le=_MOST_STIFFNESS,
-            ),
-        ]
-        | None
-    ) = None
+    stiffness: _FinalStiffness | None = None
+
+    initial_stiffness: _Stiffness | None = None
+    transition: tuple[_Overclosure, _Overclosure] | None = None
+
+    @field_validator("transition", mode="before")
+    @classmethod
+    def _two(cls, value: object) -> object:
+        if value is not None and (not isinstance(value, list | tuple) or len(value) != 2):
+            raise ValueError(
+                "it must be a list of two overclosures: where the first stage ends, and where the "
+                "last begins"
+            )
+        return value
+
+    @model_validator(mode="after")
+    def _staged(self) -> Self:
+        if self.normal != "two-stage":
+            for key in ("initial_stiffness", "transition"):
+                if getattr(self, key) is not None:
+                    raise InputError(
+                        f"contact.{key} is given, and contact.normal is '{self.normal}', which "
+                        "has no stages: leave it out, or give contact.normal 'two-stage'"
+                    )
+        if self.transition is not None and not self.transition[0] < self.transition[1]:
+            first, last = self.transition
+            raise InputError(
+                f"contact.transition is from {first:g} to {last:g} m; the second must be greater "
+                "than the first"
+            )
+        return self
 
     @field_validator("stiffness", mode="before")
     @classmethod

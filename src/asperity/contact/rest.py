@@ -149,8 +149,10 @@ def _loading(system: System) -> tuple[float, float]:
     modal = mechanism.shapes.T @ spread
     give = float(spread @ (mechanism.flexibility @ spread))
     give += float(modal @ np.linalg.pinv(mechanism.stiffness) @ modal)
-    overclosure = 1.0 / (system.normal.stiffness * surface.area)
-    give += overclosure
+    normal = system.normal
+    overclosure = 1.0 / (normal.stiffness * surface.area)
+    soft = normal.initial if normal.name == "two-stage" else normal.stiffness
+    give += 1.0 / (soft * surface.area)
     digits = 4.0 * float(np.finfo(float).eps) * give / overclosure
     inertia = min(max(_INERTIA_AT_REST, digits / _AT_REST), _MOST_INERTIA)
     long = float(np.sqrt(mechanism.mass[0, 0] * give / inertia))

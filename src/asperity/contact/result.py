@@ -87,6 +87,12 @@ class BlockResult(SlideResult):
         return self.normal_force / self.problem.surface.area
 
     @property
+    def normal_stiffness_at_mean_pressure(self) -> float | None:
+        """Slope of the normal law at the mean pressure, Pa/m; None of hard contact."""
+        normal = self.problem.normal
+        return None if normal.name == "hard" else normal.slope_at(self.mean_pressure)
+
+    @property
     def nodal_pressure(self) -> FloatArray:
         """Mean pressure in the window at the contact nodes, Pa, shape (n,)."""
         surface = self.problem.surface
@@ -119,6 +125,7 @@ class BlockResult(SlideResult):
             "normal_force_N": self.normal_force,
             "normal_law": problem.contact.normal,
             "normal_stiffness_Pa_per_m": problem.normal.stiffness,
+            "normal_stiffness_at_mean_pressure_Pa_per_m": self.normal_stiffness_at_mean_pressure,
             "shear_compliance_x_m_per_N": float(problem.compliance.static[0, 0]),
             "shear_compliance_y_m_per_N": float(problem.compliance.static[1, 1]),
             "pressure_max_MPa": 1e-6 * self.peak_pressure,

@@ -16,6 +16,7 @@ DRIVE_FACE = "right"
 # A rigid plane of 0.1 x 0.1 m under the thesis's block of 0.04 x 0.03 m.
 _BASE_OVER_BLOCK = 2.5
 _POINTS_OF_RISE = 33
+_MOST_OVER_MEAN = 100.0
 _LONGEST_NUMBER = 20
 
 
@@ -84,15 +85,26 @@ class BlockSetup:
         return self.model.slider.normal_force / self.block.area
 
     @property
+    def held(self) -> tuple[int, ...]:
+        """Mean motions that a rigid drive and a guide hold: 0 to 2 shifts, 3 to 5 turns."""
+        slider = self.model.slider
+        return (*((0,) if slider.rigid else ()), *(() if slider.free else (1, 3, 4, 5)))
+
+    @property
     def base(self) -> float:
         """Edge of the square base, m."""
         return _BASE_OVER_BLOCK * max(self.block.size[:2])
 
     def pressure_table(self) -> list[tuple[float, float]]:
-        """Pressure in Pa and overclosure in m of the two-stage law, point by point."""
+        """Pressure in Pa and overclosure in m of the two-stage law, point by point.
+
+        Up to where no block should come, as what lies beyond is not the same in all programs.
+        """
         law = self.normal
+        most = max(2.0 * law.end, law.overclosure(_MOST_OVER_MEAN * self.mean_pressure))
         rise = (law.end - law.start) / (_POINTS_OF_RISE - 1)
-        overs = [0.0, *(law.start + rise * i for i in range(_POINTS_OF_RISE)), 2.0 * law.end]
+        overs = [law.start + rise * i for i in range(_POINTS_OF_RISE)]
+        overs = [*([0.0] if law.start > 0.0 else []), *overs, most]
         return [(float(pressure(over, 0.0, law.parameters)[0]), over) for over in overs]
 
     def eight_node_mesh(self) -> HexMesh:
