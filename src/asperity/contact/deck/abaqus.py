@@ -4,7 +4,9 @@ Steps as in the thesis's Table 5.1: weight, load, drive, vibration. The first tw
 (their inertia is damped away), the others implicit dynamics by Hilber, Hughes and Taylor's method.
 The base is a discrete rigid surface that moves by its reference node; the drive pulls at a face of
 the block through a distributing coupling, by a spring and a dashpot with one end at the drive
-velocity.
+velocity. A guide and a rigid drive hold the reference node of a distributing coupling of all nodes,
+weighted by their masses: it moves as a rigid body of the same momenta would (Abaqus Theory Guide,
+Distributing coupling elements), and what holds it acts on all of the mass.
 """
 
 from collections.abc import Iterator
@@ -20,6 +22,7 @@ from asperity.contact.deck.fric import (
     needs_disp,
 )
 from asperity.contact.deck.setup import DRIVE_FACE, BlockSetup, numbers
+from asperity.contact.deck.whole import nodal_masses
 from asperity.contact.hht import ALPHA
 from asperity.mesh.inp import mesh_lines
 from asperity.slider.model import Model
@@ -66,35 +69,48 @@ def _deck(setup: BlockSetup, fric: FricSubroutine | None) -> Iterator[str]:
     half = 0.5 * setup.base
     for i, (x, y) in enumerate(((-half, -half), (half, -half), (half, half), (-half, half))):
         yield f"{corner + i}, {numbers(x, y, 0.0)}"
-    middle = mesh.points[mesh.node_set(DRIVE_FACE)]
-    where = 0.5 * (middle.min(axis=0) + middle.max(axis=0))
-    yield f"{base}, 0., 0., 0."
-    named = {"base_point": base, "drive_point": point}
-    if not setup.model.slider.rigid:
-        named["drive_end"] = end
-    for node in list(named.values())[1:]:
-        yield f"{node}, {numbers(*where)}"
-    for name, node in named.items():
+    slider = setup.model.slider
+    face = mesh.points[mesh.node_set(DRIVE_FACE)]
+    where = 0.5 * (face.min(axis=0) + face.max(axis=0))
+    named = {"base_point": (base, np.zeros(3))}
+    if not slider.rigid:
+        named |= {"drive_point": (point, where), "drive_end": (end, where)}
+    if setup.held:
+        named["body_point"] = (end + 1, setup.problem.uncondensed.centre)
+    for node, place in named.values():
+        yield f"{node}, {numbers(*place)}"
+    for name, (node, _) in named.items():
         yield from (f"*NSET, NSET={name}", str(node))
     yield "*ELEMENT, TYPE=R3D4, ELSET=base"
     yield f"{cells + 1}, {corner}, {corner + 1}, {corner + 2}, {corner + 3}"
     yield from ("*RIGID BODY, ELSET=base, REF NODE=base_point",)
     yield from ("*SURFACE, TYPE=ELEMENT, NAME=base_top", "base, SPOS")
     yield from _material(setup)
-    yield from (
-        f"*COUPLING, CONSTRAINT NAME=drive_face, REF NODE=drive_point, SURFACE={DRIVE_FACE}",
-        "*DISTRIBUTING",
-        "1, 3",
-    )
+    if not slider.rigid:
+        yield from (
+            f"*COUPLING, CONSTRAINT NAME=drive_face, REF NODE=drive_point, SURFACE={DRIVE_FACE}",
+            "*DISTRIBUTING",
+            "1, 3",
+        )
+    if setup.held:
+        yield from _whole(setup)
     yield from _drive(setup, cells + 2, point, end)
     yield from _interaction(setup, fric)
     yield from _amplitudes(setup)
     yield from ("*BOUNDARY", "base_point, 1, 6")
-    if not setup.model.slider.rigid:
+    if not slider.rigid:
         yield "drive_end, 1, 3"
-    if setup.model.slider.lateral == "guided":
-        yield "drive_point, 2, 2"
+    for freedom in setup.held:
+        yield f"body_point, {freedom + 1}, {freedom + 1}"
     yield from _steps(setup)
+
+
+def _whole(setup: BlockSetup) -> Iterator[str]:
+    yield "*SURFACE, TYPE=NODE, NAME=whole"
+    for node, mass in enumerate(nodal_masses(setup), start=1):
+        yield f"{node}, {numbers(mass)[:-1]}"
+    yield "*COUPLING, CONSTRAINT NAME=whole_body, REF NODE=body_point, SURFACE=whole"
+    yield from ("*DISTRIBUTING", "1, 6")
 
 
 def _heading(setup: BlockSetup, fric: FricSubroutine | None) -> Iterator[str]:
@@ -176,7 +192,7 @@ def _steps(setup: BlockSetup) -> Iterator[str]:
     yield from _output(setup, SETTLE)
 
     still = min(model.start, model.duration) if model.vibrates else model.duration
-    pulled = "drive_point" if model.slider.rigid else "drive_end"
+    pulled = "body_point" if model.slider.rigid else "drive_end"
     pull = ["*BOUNDARY, AMPLITUDE=drive", f"{pulled}, 1, 1, {numbers(model.slider.drive_velocity)}"]
     if still > 0.0:
         yield from _step("drive", still, increment=model.step)
@@ -216,8 +232,10 @@ def _output(setup: BlockSetup, length: float) -> Iterator[str]:
     yield f"*OUTPUT, FIELD, NUMBER INTERVAL={max(1, round(_FIELDS_A_SECOND * length))}"
     yield from ("*NODE OUTPUT", "U,", "*CONTACT OUTPUT", "CSTRESS, CDISP")
     yield f"*OUTPUT, HISTORY, FREQUENCY={_increments_a_record(setup.model, length)}"
-    yield from ("*NODE OUTPUT, NSET=drive_point", "U1, U2, V1, V2, RF1")
-    if not setup.model.slider.rigid:
+    if setup.model.slider.rigid:
+        yield from ("*NODE OUTPUT, NSET=body_point", "U1, U2, V1, V2, RF1")
+    else:
+        yield from ("*NODE OUTPUT, NSET=drive_point", "U1, U2, V1, V2")
         yield from ("*NODE OUTPUT, NSET=drive_end", "RF1,")
     yield from ("*NODE OUTPUT, NSET=base_point", "U1, U2, RF1, RF2, RF3")
     yield "*END STEP"

@@ -14,6 +14,7 @@ import numpy as np
 
 from asperity.contact.block import STANDARD_GRAVITY
 from asperity.contact.deck.setup import DRIVE_FACE, BlockSetup, numbers
+from asperity.contact.deck.whole import equation_lines, equations
 from asperity.contact.elastic.loads import Traction
 from asperity.mesh import HexMesh, box
 from asperity.mesh.inp import mesh_lines
@@ -23,7 +24,6 @@ DECK = "block.inp"
 _ELEMENTS = {"hex8": "C3D8", "hex8i": "C3D8I", "hex27": "C3D8I"}
 # The stick slope of Coulomb friction, which has no deflection, per stiffness of the contact.
 _STICK = 0.1
-_TERMS_A_LINE = 4
 _DRIVE_INCREMENTS = 20
 _BEYOND_BREAKAWAY = 1.25
 
@@ -66,8 +66,11 @@ def _deck(setup: BlockSetup) -> Iterator[str]:
     )
     where = mesh.points[mesh.node_set(DRIVE_FACE)]
     middle = 0.5 * (where.min(axis=0) + where.max(axis=0))
+    # A distributing coupling would say the same, but CalculiX 2.20 breaks off on it with contact.
+    face = Traction(DRIVE_FACE, (1.0, 0.0, 0.0)).forces(setup.problem.mesh)[:, 0]
+    held, sums = equations(setup, face, point, end + 1)
     yield "*NODE"
-    for number in (point, end):
+    for number in range(point, end + 1 + sums):
         yield f"{number}, {numbers(*middle)}"
     for name, number in (("drive_point", point), ("drive_end", end)):
         yield from (f"*NSET, NSET={name}", str(number))
@@ -76,7 +79,7 @@ def _deck(setup: BlockSetup) -> Iterator[str]:
     yield from ("*DENSITY", numbers(setup.density))
     yield "*SOLID SECTION, ELSET=block, MATERIAL=block"
     yield "*SOLID SECTION, ELSET=base, MATERIAL=block"
-    yield from _mean_of_face(mesh, point)
+    yield from equation_lines(held)
     stiffness = setup.model.slider.drive_stiffness
     if stiffness is not None:
         yield "*ELEMENT, TYPE=SPRING2, ELSET=drive_spring"
@@ -84,6 +87,8 @@ def _deck(setup: BlockSetup) -> Iterator[str]:
         yield from ("*SPRING, ELSET=drive_spring", "1, 1", numbers(stiffness))
     yield from _interaction(setup)
     yield from ("*BOUNDARY", "base, 1, 3", "drive_point, 2, 3", "drive_end, 1, 3")
+    if setup.model.slider.rigid:
+        yield "drive_point, 1, 1"
     yield from _steps(setup)
 
 
@@ -91,19 +96,6 @@ def _standing(setup: BlockSetup) -> HexMesh:
     mesh = setup.eight_node_mesh()
     down = np.array([0.0, 0.0, overclosure(setup)])
     return dataclasses.replace(mesh, points=mesh.points - down)
-
-
-def _mean_of_face(mesh: HexMesh, point: int) -> Iterator[str]:
-    """Let a node follow the mean of the drive's face along x, so that its force is spread evenly.
-
-    A distributing coupling would say the same, but CalculiX 2.20 breaks off on it with contact.
-    """
-    share = Traction(DRIVE_FACE, (1.0, 0.0, 0.0)).forces(mesh)[:, 0]
-    nodes = np.flatnonzero(share)
-    terms = [f"{node + 1}, 1, {numbers(share[node])[:-1]}" for node in nodes] + [f"{point}, 1, -1."]
-    yield from ("*EQUATION", str(len(terms)))
-    for start in range(0, len(terms), _TERMS_A_LINE):
-        yield ", ".join(terms[start : start + _TERMS_A_LINE])
 
 
 def _base(setup: BlockSetup) -> HexMesh:
