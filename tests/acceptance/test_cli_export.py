@@ -71,6 +71,16 @@ def test_one_object_names_the_files(asperity, tmp_path):
             "with at most 2000000: take fewer elements",
         ),
         (
+            ["block-longitudinal", "--to", "calculix", "--set", "slider.normal_force=40 MN"],
+            "slider.normal_force is 4e+07 N, a mean pressure of 3.333e+10 Pa; block.youngs_modulus "
+            "is 2.09e+11 Pa; it must be at least 3.333e+11 Pa, for the deformation to be small",
+        ),
+        (
+            ["block-transverse", "--to", "abaqus", "--set", "contact.stiffness=1 kPa/m"],
+            "slider.normal_force is 50.8 N, a mean pressure of 4.233e+04 Pa; contact.stiffness is "
+            "1000 Pa/m; it must be at least 1.411e+07 Pa/m, for the overclosure to be small",
+        ),
+        (
             ["block-longitudinal", "--to", "abaqus", "--set", "block.element=hex20"],
             "--set block.element=hex20: block.element is 'hex20'; it must be one of 'hex27', "
             "'hex8', 'hex8i' (did you mean 'hex27'?)",

@@ -22,6 +22,7 @@ def export(
             f"--to {program}: it must be one of {choices(WRITERS)}{suggestion(program, WRITERS)}"
         )
     setup = BlockSetup.from_case(read_case(case, TABLES, settings))
+    setup.problem.check_ranges()
     nodes = setup.problem.nodes
     if nodes > _MOST_NODES:
         raise InputError(

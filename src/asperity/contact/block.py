@@ -134,14 +134,7 @@ class BlockProblem:
             Steps that miss the vibration, forces or stiffnesses beyond small deformations, more
             modes than the mesh has, or a mesh too large for the memory bound.
         """
-        _ = self.timetable
-        self._check_squeeze()
-        limit = self.model.friction.max_deflection
-        if limit is not None and self.model.friction.model != "coulomb" and limit < _LEAST_LIMIT:
-            raise InputError(
-                f"friction.max_deflection is {limit:g} m; an elastic block takes {_LEAST_LIMIT:g} "
-                "m or more: give friction.model 'coulomb' for asperities that do not give"
-            )
+        self.check_ranges()
         block, unknowns = self.block, 3 * self.nodes
         if block.modes > unknowns // 4:
             raise InputError(
@@ -161,6 +154,23 @@ class BlockProblem:
                 f"block.elements is {list(block.elements)} with '{block.element}', {unknowns} "
                 f"unknowns; condensing them needs about {needed / 1e9:.3g} GB, more than the limit "
                 f"of {MEMORY_LIMIT / 1e9:.3g} GB: take fewer elements"
+            )
+
+    def check_ranges(self) -> None:
+        """Refuse what no program can solve on any mesh.
+
+        Raises
+        ------
+        InputError
+            Steps that miss the vibration, forces or stiffnesses beyond small deformations.
+        """
+        _ = self.timetable
+        self._check_squeeze()
+        limit = self.model.friction.max_deflection
+        if limit is not None and self.model.friction.model != "coulomb" and limit < _LEAST_LIMIT:
+            raise InputError(
+                f"friction.max_deflection is {limit:g} m; an elastic block takes {_LEAST_LIMIT:g} "
+                "m or more: give friction.model 'coulomb' for asperities that do not give"
             )
 
     def _check_squeeze(self) -> None:

@@ -70,11 +70,13 @@ def equations(
     added : int
         How many nodes were added; of each only the first freedom is used.
     """
+    if not setup.held:
+        nodes = np.flatnonzero(face)
+        return [[*((int(node) + 1, 1, float(face[node])) for node in nodes), (point, 1, -1.0)]], 0
     rows, follows = means(setup), [motion == 0 for motion in setup.held]
     if not setup.model.slider.rigid:
         rows, follows = np.vstack([rows, np.kron(face, [1.0, 0.0, 0.0])]), [*follows, True]
-    # One mean of one face is no more than the program bears.
-    parts = _parts(setup.problem.mesh.points) if setup.held else [np.flatnonzero(face)]
+    parts = _parts(setup.problem.mesh.points)
     freedoms = [(3 * nodes[:, None] + np.arange(3)).ravel() for nodes in parts]
     has = np.array([rows[:, own].any(axis=1) for own in freedoms])
     number = {
