@@ -1,13 +1,15 @@
 """The elastic block: at rest under its loads, pulled, shaken, stopped and taken up again."""
 
 import dataclasses
+import itertools
+import types
 
 import numpy as np
 import pytest
 
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact import ledger, steps
+from asperity.contact import block_march, hht, ledger, newton, steps
 from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
 from asperity.contact.block_march import BlockMarch, solve_block
 from asperity.contact.block_resume import go_on, keep
@@ -112,7 +114,83 @@ def test_increments_solved_poorly_leave_the_ledger_open(monkeypatch):
         return dataclasses.replace(prepare(system, compliance, step), tolerance=1e-2)
 
     monkeypatch.setattr(System, "increments", poorly)
-    assert march.run().ledger.residual > 1e-3 > 10.0 * exact.residual
+    result = march.run()
+    assert result.ledger.residual > 1e-3 > 10.0 * exact.residual
+    assert 1e-3 < result.residual_increment_max <= 1e-2
+
+
+def test_increments_that_end_above_their_tolerance_are_counted_also_over_an_interruption(
+    monkeypatch, tmp_path
+):
+    prepare = System.increments
+
+    def beyond_the_digits(system, compliance, step):
+        return dataclasses.replace(prepare(system, compliance, step), tolerance=1e-17)
+
+    monkeypatch.setattr(System, "increments", beyond_the_digits)
+    monkeypatch.setattr(newton, "_rounding", lambda *_: 1e-8)
+    kept = "solve.duration=0.8 ms"
+    whole = solve_block(problem(kept), history=False)
+    assert whole.unconverged == whole.increments == 160
+    assert 1e-17 < whole.residual_increment_max < 1e-8
+    answer = whole.to_json()
+    assert answer["unconverged"] == 160
+    assert answer["residual_increment_max"] == whole.residual_increment_max
+    assert "160 increments ended above the tolerance" in " ".join(whole.notes)
+    assert whole.to_dataset().attrs["unconverged"] == 160
+    stopped(problem(kept), 70, tmp_path / "kept.npz")
+    second = BlockMarch(problem(kept), history=False)
+    assert go_on(second, tmp_path / "kept.npz")
+    assert second.walker.unconverged == 70
+    result = second.run()
+    assert (result.unconverged, result.residual_increment_max) == (
+        160, whole.residual_increment_max,
+    )  # fmt: skip
+
+
+def test_a_step_that_does_not_resolve_the_bounce_is_integrated_for_impacts_and_says_so():
+    block = problem()
+    longest = block.system.resolving_step
+    assert block.system.bounce * longest == pytest.approx(2.0)
+    fine = solve_block(block, history=False)
+    assert fine.to_json()["newmark_beta"] == hht.coefficients()[0]
+    assert not fine.to_json()["impact_integration"]
+    assert "bounces" not in " ".join(fine.notes)
+    coarse = solve_block(problem("slider.mass=1 g"), history=False)
+    assert coarse.to_json()["newmark_beta"] == hht.coefficients(impact=True)[0]
+    assert coarse.to_json()["impact_integration"]
+    resolving = coarse.problem.system.resolving_step
+    (told,) = (note for note in coarse.notes if "bounces on its contact" in note)
+    assert f"a solve.step of {resolving:.2g} s resolves it" in told
+    hard = solve_block(problem("contact.normal=hard"), history=False)
+    assert hard.to_json()["impact_integration"]
+    assert hard.to_json()["normal_stiffness_at_mean_pressure_Pa_per_m"] is None
+    assert hard.problem.system.resolving_step == 0.0
+
+
+def test_with_a_fine_step_the_block_is_the_sliding_body():
+    block = problem("solve.step=2 us", "vibration.direction=45 deg", "slider.lateral=guided")
+    result = solve_block(block, history=False)
+    assert result.to_json()["newmark_beta"] == hht.coefficients()[0]
+    body = slide(block.model)
+    assert result.ratio == pytest.approx(body.ratio, rel=0.01)
+    assert result.ledger.friction == pytest.approx(body.ledger.friction, rel=0.01)
+    assert result.ledger.residual < 1e-8
+
+
+def test_the_time_of_an_increment_is_its_own_also_after_an_interruption(monkeypatch, tmp_path):
+    clock = itertools.count()
+    fake = types.SimpleNamespace(perf_counter=lambda: float(next(clock)))
+    monkeypatch.setattr(block_march, "time", fake)
+    # Reading the clock is all that takes time here, a second each; writing takes ten.
+    writing = BlockMarch(problem(), between=lambda: [next(clock) for _ in range(10)])
+    assert writing.run().to_json()["ms_per_increment"] == 1000.0
+    stopped(problem(), 20, tmp_path / "kept.npz")
+    second = BlockMarch(problem())
+    assert go_on(second, tmp_path / "kept.npz")
+    result = second.run()
+    assert result.timed == result.increments - 2
+    assert result.to_json()["ms_per_increment"] == 1000.0
 
 
 def test_the_powers_are_those_of_the_sliding_body():
@@ -377,6 +455,10 @@ def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
+        (
+            ("slider.mass=1e-300 kg",),
+            r"slider.mass is 1e-300 kg, .* it must be 3.6e-05 to 360 kg",
+        ),
         (("slider.mass=6 kg",), r"slider.normal_force is 55 N; it must be at least the weight"),
         (("solve.method=periodic",), r"solve.method is 'periodic'; an elastic block is solved by"),
         (("solve.step=20 us",), r"solve.step is 2e-05 s, too coarse for the vibration of 4000 Hz"),

@@ -53,6 +53,7 @@ _BLOCK = (
     ("pressure_max_MPa", "contact pressure, greatest at an integration point", "p_max", "MPa"),
     ("iterations_mean", "iterations of an increment, mean", "", ""),
     ("iterations_max", "iterations of an increment, most", "", ""),
+    ("residual_increment_max", "residual of an increment, greatest", "", ""),
     ("ms_per_increment", "time of an increment", "", "ms"),
 )
 

@@ -56,6 +56,9 @@ _MOST_SQUEEZE = 0.1
 # The size of an atom's nucleus; squares of far smaller numbers are none.
 _LEAST_LIMIT = 1e-15
 
+# From aerogel to far beyond any solid; a much lighter block is all contact, and no inertia is left.
+_LEAST_DENSITY, _MOST_DENSITY = 1.0, 1e7
+
 _SHIFT_X, _SHIFT_Y, _SHIFT_Z, _TURNS = 0, 1, 2, slice(3, 6)
 _GRAVITY, _PRESSURE, _DRIVE = "gravity_z", "pressure", "drive"
 
@@ -165,12 +168,23 @@ class BlockProblem:
             Steps that miss the vibration, forces or stiffnesses beyond small deformations.
         """
         _ = self.timetable
+        self._check_density()
         self._check_squeeze()
         limit = self.model.friction.max_deflection
         if limit is not None and self.model.friction.model != "coulomb" and limit < _LEAST_LIMIT:
             raise InputError(
                 f"friction.max_deflection is {limit:g} m; an elastic block takes {_LEAST_LIMIT:g} "
                 "m or more: give friction.model 'coulomb' for asperities that do not give"
+            )
+
+    def _check_density(self) -> None:
+        """Refuse a mass that makes no solid."""
+        volume = self.block.volume
+        if not _LEAST_DENSITY * volume <= self.mass <= _MOST_DENSITY * volume:
+            raise InputError(
+                f"slider.mass is {self.mass:g} kg, which makes a density of "
+                f"{self.block.density(self.mass):.4g} kg/m^3; with this block.size it must be "
+                f"{_LEAST_DENSITY * volume:.4g} to {_MOST_DENSITY * volume:.4g} kg"
             )
 
     def _check_squeeze(self) -> None:

@@ -11,7 +11,7 @@ from asperity.contact import motion as mo
 from asperity.contact.block import BlockProblem
 from asperity.contact.rest import rest_under_load
 from asperity.contact.result import BlockResult, Frame
-from asperity.contact.steps import Walker
+from asperity.contact.steps import Snapshot, Walker
 from asperity.contact.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.slider.march import march_notes
@@ -26,9 +26,8 @@ _MOST_SLIP = 0.5
 
 _NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
 
-_Snapshot = tuple[SystemState, FloatArray, FloatArray, int]
 _Place = tuple[
-    int, _Snapshot, int, int, ledger.Energies | None, FloatArray | None, FloatArray | None
+    int, Snapshot, int, int, ledger.Energies | None, FloatArray | None, FloatArray | None
 ]
 
 # Places in a recorded row.
@@ -73,6 +72,7 @@ class BlockMarch:
         self.first_half: FloatArray | None = None
         self.first_pressure: FloatArray | None = None
         self.seconds = self.march_seconds = 0.0
+        self.timed = 0
         self._progress, self._between = progress, between
         table = problem.timetable
         self._stride = max(1, table.steps // _RECORDS) if history else 0
@@ -115,13 +115,16 @@ class BlockMarch:
                     self._open_window()
                 elif self.done == table.middle and self.first_half is None:
                     self._close_first_half()
+                begin = time.perf_counter()
                 walker.step_to((self.done + 1) * table.step, table.step)
                 self.done += 1
                 self._record(self.done)
                 now = time.perf_counter()
                 self.seconds += now - last
                 # The first increment of a program may have compiled kernels.
-                self.march_seconds += now - last if self.done > first + 1 else 0.0
+                if self.done > first + 1:
+                    self.march_seconds += now - begin
+                    self.timed += 1
                 last = now
                 whole = self._place()
                 self._tell()
@@ -227,7 +230,10 @@ class BlockMarch:
             iterations_mean=float(sums[ledger.ITERATIONS] / sums[ledger.INCREMENTS]),
             iterations_max=int(sums[ledger.MOST_ITERATIONS]),
             cuts=walker.cuts,
+            unconverged=walker.unconverged,
+            residual_increment_max=walker.residual_max,
             march_seconds=self.march_seconds,
+            timed=self.timed,
             point_pressure=(self.first_pressure + walker.mean_pressure) / span,
             peak_pressure=float(sums[ledger.MAX_PRESSURE]),
             frames=tuple(self.frames),
@@ -243,6 +249,20 @@ class BlockMarch:
                 f"the slip in a step is up to {slip / self.problem.friction.limit:.2g} "
                 "max_deflection, which blurs reversals of the slip; a solve.step of "
                 f"{table.step * most / slip:.2g} s keeps it at {_MOST_SLIP:g}"
+            )
+        system = self.problem.system
+        if system.impact(table.step) and system.resolving_step:
+            notes.append(
+                "the step does not resolve how fast the block bounces on its contact, "
+                f"{system.bounce / (2e3 * math.pi):.3g} kHz: the time integration takes a beta of "
+                f"{system.newmark_beta(table.step):.3g}, for impacts; a solve.step of "
+                f"{system.resolving_step:.2g} s resolves it"
+            )
+        if self.walker.unconverged:
+            notes.append(
+                f"{self.walker.unconverged} increments ended above the tolerance, at a relative "
+                f"residual of up to {self.walker.residual_max:.2g}, for want of digits: a softer "
+                "contact does better"
             )
         if self.walker.cuts:
             notes.append(

@@ -68,11 +68,12 @@ def keep(march: BlockMarch, path: Path) -> Path:
     arrays: dict[str, Any] = {
         "fingerprint": fingerprint(march.problem),
         "done": march.done,
-        "seconds": [march.seconds, march.march_seconds],
+        "seconds": [march.seconds, march.march_seconds, march.timed],
         "rows": np.array(march.rows),
         "sums": walker.sums,
         "mean_pressure": walker.mean_pressure,
-        "cuts": walker.cuts,
+        "cuts": [walker.cuts, walker.unconverged],
+        "residual_max": walker.residual_max,
         "scalars": [state.time, state.load, contact.iterations, contact.residual],
         **{f"state_{name}": getattr(state, name) for name in _STATE},
         **{f"contact_{name}": getattr(contact, name) for name in _CONTACT},
@@ -134,9 +135,12 @@ def go_on(march: BlockMarch, path: Path) -> bool:
         **{name: arrays[f"state_{name}"] for name in _STATE},
     )
     march.begin_from(state)
-    march.walker.restore((state, arrays["sums"], arrays["mean_pressure"], int(arrays["cuts"])))
+    cuts, unconverged = map(int, arrays["cuts"])
+    worst = float(arrays["residual_max"])
+    march.walker.restore((state, arrays["sums"], arrays["mean_pressure"], cuts, unconverged, worst))
     march.done = int(arrays["done"])
-    march.seconds, march.march_seconds = map(float, arrays["seconds"])
+    march.seconds, march.march_seconds, timed = map(float, arrays["seconds"])
+    march.timed = int(timed)
     march.rows = list(arrays["rows"])
     march.frames = [
         Frame(float(t), q, float(pull), *rest_of)

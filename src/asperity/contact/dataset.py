@@ -45,7 +45,9 @@ def to_dataset(result: "BlockResult") -> "xr.Dataset":
         "title": "Elastic block",
         "iterations_max": result.iterations_max,
         "increments_cut": result.cuts,
-        "unconverged": 0,
+        "unconverged": result.unconverged,
+        "residual_increment_max": result.residual_increment_max,
+        "newmark_beta": problem.system.newmark_beta(problem.timetable.step),
         "solver": problem.body.solver,
     }
     return dataset.set_coords(["node_x", "node_y"]).assign_attrs(attributes | inputs(problem))

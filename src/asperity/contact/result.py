@@ -55,9 +55,17 @@ class BlockResult(SlideResult):
     iterations_mean, iterations_max : float
         Iterations of an increment in the window.
     cuts : int
-        Increments that were taken again in halves. None is left unconverged.
+        Increments that were taken again in halves.
+    unconverged : int
+        Increments, or parts of those taken in halves, that ended above the tolerance, where the
+        arithmetic has no more digits.
+    residual_increment_max : float
+        Greatest relative residual of an increment in the whole march.
     march_seconds : float
-        Time the increments took, s, without the first (which may have compiled kernels).
+        Time that increments took, s, without the first of a program (which may have compiled
+        kernels), and without what was done between them.
+    timed : int
+        How many those are.
     point_pressure : ndarray, shape (q,)
         Mean pressure in the window at the points of the contact, Pa.
     peak_pressure : float
@@ -71,7 +79,10 @@ class BlockResult(SlideResult):
     iterations_mean: float
     iterations_max: int
     cuts: int
+    unconverged: int
+    residual_increment_max: float
     march_seconds: float
+    timed: int
     point_pressure: FloatArray
     peak_pressure: float
     frames: tuple[Frame, ...] = ()
@@ -109,13 +120,17 @@ class BlockResult(SlideResult):
                 "power_transfer_W": ledger.transfer,
             }
         problem, body = self.problem, self.problem.body
+        step = problem.timetable.step
         return answer | {
             "increments": self.increments,
             "iterations_mean": self.iterations_mean,
             "iterations_max": self.iterations_max,
-            "ms_per_increment": 1e3 * self.march_seconds / max(self.increments - 1, 1),
+            "ms_per_increment": 1e3 * self.march_seconds / max(self.timed, 1),
             "increments_cut": self.cuts,
-            "unconverged": 0,
+            "unconverged": self.unconverged,
+            "residual_increment_max": self.residual_increment_max,
+            "newmark_beta": problem.system.newmark_beta(step),
+            "impact_integration": problem.system.impact(step),
             "contact_nodes": len(body.nodes),
             "unknowns": body.unknowns,
             "modes": len(body.mode_frequency),

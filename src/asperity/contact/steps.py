@@ -23,6 +23,8 @@ FloatArray = npt.NDArray[np.float64]
 
 MOST_CUTS = 8
 
+Snapshot = tuple[SystemState, FloatArray, FloatArray, int, int, float]
+
 
 def take_step(
     moving: mo.MotionStep,
@@ -116,6 +118,10 @@ class Walker:
         Pressure times time at each point since the sums were cleared, Pa s.
     cuts : int
         Steps that were taken again in halves.
+    unconverged : int
+        Steps that ended above the tolerance, where the arithmetic has no more digits.
+    residual_max : float
+        Greatest relative residual of a step.
     """
 
     def __init__(self, system: System, state: SystemState) -> None:
@@ -124,16 +130,21 @@ class Walker:
         self.sums = np.zeros(ledger.SUMS)
         self.sums[ledger.BREAKAWAY] = -1.0
         self.mean_pressure = np.zeros(system.weights.size)
-        self.cuts = 0
+        self.cuts = self.unconverged = 0
+        self.residual_max = 0.0
         ledger.clear(self.sums)
 
-    def snapshot(self) -> tuple[SystemState, FloatArray, FloatArray, int]:
-        """Return all that changes: state, sums, pressures, cuts."""
-        return self.state, self.sums, self.mean_pressure, self.cuts
+    def snapshot(self) -> Snapshot:
+        """Return all that changes: state, sums, pressures, cuts, unconverged, residual."""
+        return (
+            self.state, self.sums, self.mean_pressure, self.cuts, self.unconverged,
+            self.residual_max,
+        )  # fmt: skip
 
-    def restore(self, snapshot: tuple[SystemState, FloatArray, FloatArray, int]) -> None:
+    def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
-        self.state, self.sums, self.mean_pressure, self.cuts = snapshot
+        self.state, self.sums, self.mean_pressure, self.cuts = snapshot[:4]
+        self.unconverged, self.residual_max = snapshot[4:]
 
     def clear(self) -> None:
         """Begin the sums anew."""
@@ -206,4 +217,6 @@ class Walker:
             result.slip_1, result.slip_2, system.weights, system.normal.parameters, mean_pressure,
         )  # fmt: skip
         self.sums, self.mean_pressure = sums, mean_pressure
+        self.unconverged += result.residual > problem.tolerance
+        self.residual_max = max(self.residual_max, float(result.residual))
         self.state = SystemState(end, coordinates, drive, result, forces, state.load)

@@ -141,6 +141,17 @@ class System:
         return self.normal.name == "hard" or self.bounce * step > _RESOLVED
 
     @property
+    def resolving_step(self) -> float:
+        """Longest step that resolves the contact, s; 0 for a hard one, which none resolves."""
+        if self.normal.name == "hard":
+            return 0.0
+        return _RESOLVED / self.bounce if self.bounce > 0.0 else np.inf
+
+    def newmark_beta(self, step: float) -> float:
+        """Return the parameter the time integration takes for a length of the step."""
+        return hht.coefficients(self.alpha, impact=self.impact(step))[0]
+
+    @property
     def lengths(self) -> tuple[float, ...]:
         """Lengths of the steps taken so far, s."""
         return tuple(self._moving)
