@@ -74,6 +74,7 @@ def test_one_json_object_holds_everything_the_sliding_body_says_and_the_contact(
     assert body.keys() <= answer.keys()
     assert all(math.isfinite(n) for n in answer.values() if isinstance(n, float))
     assert answer["unconverged"] == 0
+    assert 0.0 < answer["residual_increment_max"] < 1e-8
     assert answer["increments"] == answer["steps"] == 300
     assert 1.0 <= answer["iterations_mean"] <= answer["iterations_max"]
     assert answer["ms_per_increment"] > 0.0
@@ -89,6 +90,7 @@ def test_without_json_a_table_is_printed(asperity):
     assert (code, errors) == (0, "")
     assert output.startswith("block-longitudinal: 9 contact nodes of 81 unknowns, 0 modes,\n")
     assert "F_d" in output
+    assert "residual of an increment, greatest" in output
     assert "{" not in output
     assert max(map(len, output.splitlines())) <= 100
 
@@ -168,11 +170,20 @@ TIPPING = (
 @pytest.mark.parametrize(
     ("setting", "line"),
     [
-        ("block.elements=[0, 2, 2]", "block.elements is 0; it must be greater than or equal to 1"),
+        (
+            "block.elements=[0, 2, 2]",
+            "block.elements is 0, number 1 of the list; it must be greater than or equal to 1",
+        ),
         ("block.element=hex20", "it must be one of 'hex27', 'hex8', 'hex8i' (did you mean"),
         ("block.modes=30", "block.modes is 30; allowed: 0 to 20 with this mesh"),
-        ('block.size=["4 cm", "3 cm", "0 cm"]', "block.size is '0 cm'; it must be at least"),
-        ('block.size=["4 cm", "3 cm", "2 N"]', "block.size is '2 N'; it must be a length such as"),
+        (
+            'block.size=["4 cm", "3 cm", "0 cm"]',
+            "block.size is '0 cm', number 3 of the list; it must be",
+        ),
+        (
+            'block.size=["4 cm", "3 cm", "2 N"]',
+            "block.size is '2 N', number 3 of the list; it must be a",
+        ),
         ('block.size=["4 cm", "3 cm", "8 um"]', "the longest edge may be 1000 times the shortest"),
         ("block.youngs_modulus=0 GPa", "it must be above 0 GPa and at most 100000 GPa"),
         ("block.youngs_modulus=-209 GPa", "it must be above 0 GPa and at most 100000 GPa"),
@@ -186,6 +197,11 @@ TIPPING = (
         ("contact.stifness=auto", "not a key of [contact] (did you mean 'stiffness'?)"),
         ("contract.normal=hard", "not a table of a case file (did you mean 'contact'?)"),
         ("slider.drive_stiffness=0 N/m", "slider.drive_stiffness is '0 N/m'; it must be positive"),
+        ("slider.mass=1e-300 kg", "with this block.size it must be 3.6e-05 to 360 kg"),
+        (
+            'contact.transition=["1 nm", "3 nm"]',
+            "contact.transition is given, and contact.normal is 'linear', which has no stages",
+        ),
         ("slider.mass=6 kg", "it must be at least the weight of the block, 58.84 N"),
         ("slider.normal_force=1e300 N", "block.youngs_modulus is 2.09e+11 Pa; it must be at least"),
         ("friction.max_deflection=1e-300 m", "friction.max_deflection is 1e-300 m; an elastic"),
