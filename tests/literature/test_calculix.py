@@ -103,6 +103,32 @@ def test_before_it_slides_the_contact_is_as_stiff_as_the_asperities(sliding):
     assert asperities < give < 1.1 * asperities
 
 
+def test_a_guide_keeps_the_pulled_block_from_leaning_and_bears_none_of_its_load(tmp_path):
+    small = ("block.elements=[3,2,2]", "block.element=hex8i")
+    runs = []
+    for name, *settings in (("free",), ("guided", "slider.lateral=guided")):
+        (tmp_path / name).mkdir()
+        runs.append(Run(tmp_path / name, *small, *settings))
+    free, guided = runs
+    body = guided.setup.problem.uncondensed
+    turn = body.inertia[:, 4] / body.rigid_mass[4, 4]
+    last = np.flatnonzero(guided.pull < 0.9 * guided.setup.model.full_friction)[-1]
+
+    def lean(run):
+        places = field(run, "DISP", last)
+        return turn @ np.ravel([places[node + 1] for node in range(len(turn) // 3)])
+
+    # Pulled at half its height a free block turns forwards, by what the contact gives and more.
+    length, width, height = free.setup.block.size
+    resists = free.setup.normal.stiffness * width * length**3 / 12.0
+    assert lean(free) > 0.5 * height * free.pull[last] / resists
+    # A way is written in six digits.
+    assert abs(lean(guided)) < 1e-4 * lean(free)
+    np.testing.assert_allclose(guided.normal, free.normal, rtol=1e-5)
+    for when in (slice(1, last + 1), slice(-2, None)):
+        np.testing.assert_allclose(guided.pull[when], guided.shear[when], rtol=1e-6)
+
+
 def test_without_friction_and_weight_the_block_is_a_bar_between_two_pressures(tmp_path):
     settings = ["block.elements=[3,2,2]", "block.element=hex8i", "friction.mu=1e-9"]
     run = Run(tmp_path, *settings, "slider.mass=1 mg", steps=1)

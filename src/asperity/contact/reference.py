@@ -39,7 +39,7 @@ _LEAST_STEP = 1.0 / 64.0
 _MOST_AT_REST = 20
 _AT_REST = 1e-9
 # Steps of loading are so long that the inertia is this share of the contact's stiffness.
-_INERTIA_AT_REST = 1e-4
+_INERTIA_AT_REST = 1e-5
 _MOST_KEPT = 4
 
 

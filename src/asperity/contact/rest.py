@@ -18,7 +18,7 @@ _MOST_STATIC = 50
 _AT_REST = 1e-9
 # Steps of loading are so long that the inertia is this share of the stiffness on the contact, or
 # more where a contact is so stiff that digits are lost: each step leaves about as much undone.
-_INERTIA_AT_REST, _MOST_INERTIA = 1e-4, 0.1
+_INERTIA_AT_REST, _MOST_INERTIA = 1e-5, 0.1
 
 
 def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
