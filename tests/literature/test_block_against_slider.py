@@ -2,8 +2,8 @@
 
 Table 4.3 along the drive, Table 4.4 across it and at 45 degrees, at k = 2, 6 and 20. What separates
 the two is the block's compliance under friction on its base, which is computed from the condensed
-body and not fitted: put in series with the asperities of the sliding body, as a spring or with the
-inertia of the block's turns on its contact, it accounts for all of it.
+body and not fitted: put in series with the asperities of the sliding body, as a spring or, where
+the block rocks, with the inertia of its turns on its contact, it accounts for all of it.
 """
 
 import numpy as np
@@ -29,20 +29,10 @@ CASES = [(way, k) for way in WAYS for k in (2, 6, 20)]
 GUIDED = ("slider.lateral=guided",)
 STIFF = ("block.youngs_modulus=20900 GPa",)
 
-# By how much of the sliding body's ratio the block's is higher.
-APART = {
-    ("longitudinal", 2): 0.0110,
-    ("longitudinal", 6): 0.0042,
-    ("longitudinal", 20): -0.0098,
-    ("transverse", 2): 0.0014,
-    ("transverse", 6): 0.0000,
-    ("transverse", 20): -0.0026,
-    ("coupled", 2): 0.0040,
-    ("coupled", 6): 0.0050,
-    ("coupled", 20): -0.0050,
-}
-# The reversals of friction are so steep that they set the block rocking; a spring cannot do that.
-ROCKED = {("longitudinal", 20), ("coupled", 20)}
+# Along the drive at k = 2 the block tilts far enough; at k = 20 along the drive and at 45 degrees
+# the reversals of friction are so steep that they set it rocking.
+ROCKING = [("longitudinal", 2), ("longitudinal", 20), ("coupled", 20)]
+CALM = [case for case in CASES if case not in ROCKING]
 
 
 def block(way, k, *settings, mesh=LIGHT):
@@ -50,35 +40,60 @@ def block(way, k, *settings, mesh=LIGHT):
     return Block(case, (*mesh, f"vibration.velocity_ratio={k}", *direction, *settings))
 
 
-@pytest.mark.parametrize(("way", "k"), CASES)
-def test_a_block_is_the_sliding_body_with_the_blocks_compliance_in_series(way, k):
-    found = block(way, k).settled()
-    assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
-    apart = abs(found.ratio / found.in_series - 1.0)
-    assert apart > 0.004 if (way, k) in ROCKED else apart < 0.002
-    assert found.ratio / found.slider - 1.0 == pytest.approx(APART[way, k], abs=1e-3)
+def some_slow(cases, slow):
+    return [pytest.param(*one, marks=pytest.mark.slow if one in slow else ()) for one in cases]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("way", "k"), CASES)
-def test_a_block_that_cannot_rock_is_within_half_a_percent_and_its_shear_is_all_there_is(way, k):
+def is_the_sliding_body(found):
+    """Within 1 % of the sliding body, and 0.2 % of it with the compliance in series."""
+    return (
+        abs(found.ratio / found.slider - 1.0) < 1e-2
+        and abs(found.ratio / found.in_series - 1.0) < 2e-3
+    )
+
+
+@pytest.mark.parametrize(("way", "k"), some_slow(CASES, [c for c in CASES if c not in ROCKING]))
+def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_that_is_between(
+    way, k
+):
     found = block(way, k, *GUIDED).settled()
-    assert found.ratio == pytest.approx(found.slider, rel=5e-3)
-    assert found.ratio == pytest.approx(found.in_series, rel=2e-4)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("way", "k"), CASES)
-def test_a_block_a_hundred_times_as_stiff_is_the_sliding_body(way, k):
-    found = block(way, k, *STIFF).settled()
-    assert found.ratio == pytest.approx(found.slider, rel=2e-3)
-
-
-@pytest.mark.slow
-def test_on_the_shipped_mesh_too_a_block_is_the_sliding_body_with_its_compliance():
-    found = block("longitudinal", 6, mesh=()).settled()
     assert found.ratio == pytest.approx(found.slider, rel=1e-2)
     assert found.ratio == pytest.approx(found.in_series, rel=2e-3)
+
+
+@pytest.mark.parametrize(("way", "k"), some_slow(CALM, [("coupled", 6), ("transverse", 20)]))
+def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(way, k):
+    found = block(way, k).settled()
+    assert found.ratio == pytest.approx(found.slider, rel=1e-2)
+    assert found.ratio == pytest.approx(found.in_series, rel=2e-3)
+    assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
+
+
+@pytest.mark.parametrize(("way", "k"), some_slow(ROCKING, ROCKING[1:]))
+def test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking(way, k):
+    free = block(way, k).settled()
+    assert not is_the_sliding_body(free)
+    assert free.ratio == pytest.approx(free.rocking, rel=1e-3)
+    assert is_the_sliding_body(block(way, k, *GUIDED).settled())
+    stiff = block(way, k, *STIFF).settled()
+    assert stiff.ratio == pytest.approx(stiff.slider, rel=2e-3)
+    assert stiff.ratio == pytest.approx(stiff.in_series, rel=2e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("way", "k"), [("transverse", 6), ("coupled", 2)])
+def test_on_the_shipped_mesh_too_a_block_is_the_sliding_body_with_its_compliance(way, k):
+    found = block(way, k, mesh=()).settled()
+    assert found.ratio == pytest.approx(found.slider, rel=1e-2)
+    assert found.ratio == pytest.approx(found.in_series, rel=2e-3)
+    assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", ["longitudinal", "coupled"])
+def test_on_the_shipped_mesh_too_it_is_the_rocking_at_k_20(way):
+    found = block(way, 20, mesh=()).settled()
+    assert not is_the_sliding_body(found)
     assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
 
 

@@ -1,14 +1,15 @@
 """Elastic blocks on the curves of the sliding body, and the ways they are read."""
 
 import functools
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from asperity.casefile import read_case
 from asperity.contact.block import BlockProblem
-from asperity.thesis import pressed
-from asperity.thesis.blocks import LIGHT, Block, settle_all
+from asperity.thesis import blocks, claims_contact, pressed
+from asperity.thesis.blocks import LIGHT, Block, Settled, settle_all
 from asperity.thesis.contents import FIGURES
 from asperity.thesis.exhibits import FigureOf
 from asperity.thesis.figures_contact import _over_ratio
@@ -42,16 +43,37 @@ def test_what_separates_block_and_sliding_body_is_the_blocks_compliance():
             Block("block-transverse", (*LIGHT, "vibration.velocity_ratio=3")),
         ]
     )
-    assert block.ratio / block.slider - 1.0 == pytest.approx(0.0107, abs=0.001)
-    assert block.ratio == pytest.approx(block.in_series, rel=1e-3)
-    assert across.ratio / across.slider - 1.0 == pytest.approx(0.0019, abs=0.0005)
-    assert across.ratio == pytest.approx(across.in_series, rel=1e-3)
+    for found in (block, across):
+        assert found.ratio == pytest.approx(found.in_series, rel=1e-3)
+        assert abs(found.ratio - found.in_series) < 0.2 * abs(found.ratio - found.slider)
 
 
 def test_a_block_settles_to_the_same_wherever_its_start_leaves_it():
     block = Block("block-transverse", (*LIGHT, K_2)).settled()
     assert abs(block.late) > 1e-3
-    assert block.unsteadiness < 3e-4
+    assert block.unsteadiness < 0.5 * blocks.STEADY * block.slider
+
+
+def test_a_block_is_read_anew_in_longer_windows_until_they_agree(monkeypatch):
+    block = Block("block-transverse", (*LIGHT, K_2))
+    assert block.settled().cycles == 16
+    monkeypatch.setattr(blocks, "STEADY", block.settled().unsteadiness / block.settled().slider)
+    monkeypatch.setattr(blocks, "_LONGEST", 8)
+    longer = blocks._settled.__wrapped__(block)
+    assert longer.cycles == 32
+    assert longer.ratio == pytest.approx(block.settled().ratio, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_a_rocking_block_read_for_twice_as_long_comes_to_the_same(monkeypatch):
+    block = Block("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=20"))
+    found = block.settled()
+    assert found.cycles > 16
+    monkeypatch.setattr(blocks, "STEADY", 0.0)
+    further = blocks._settled.__wrapped__(block)
+    assert further.cycles == 128
+    assert further.unsteadiness < found.unsteadiness
+    assert further.ratio == pytest.approx(found.ratio, abs=found.unsteadiness)
 
 
 def test_the_bases_compliance_goes_with_that_of_the_material():
@@ -72,6 +94,27 @@ def test_pressure_on_the_base_makes_it_give_more_than_its_shear_alone():
     share = 1.0 / 3.0 - r / 6.0 + r**2 / 30.0
     assert 1.0 < shear / (share * height / (209e9 / 2.6 * length * width)) < 1.3
     assert 1.5 < whole[0] / shear < 3.0
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.01, "reproduced"), (0.03, "differs")])
+def test_claims_of_equal_ratios_are_judged_by_the_ratio_too(monkeypatch, share, verdict):
+    """At k = 20 the ratio is a thirtieth: 3 % of it are a thousandth of mu F_N."""
+
+    def settled(all_blocks):
+        for one in all_blocks:
+            ratio = (1.0 + share) / 30.0 if claims_contact.ON_BODY in one.settings else 1.0 / 30.0
+            yield Settled(ratio, 1.0 / 30.0 / (1.0 + share), ratio, ratio, 0.0, 16, 0.0)
+
+    slid = SimpleNamespace(ratio=0.15)
+    monkeypatch.setattr(claims_contact, "settle_all", lambda all_blocks: [*settled(all_blocks)])
+    monkeypatch.setattr(claims_contact, "march_all", lambda all_blocks: [slid])
+    monkeypatch.setattr(claims_contact.Block, "settled", lambda one: next(settled([one])))
+    monkeypatch.setattr(claims_contact.Body, "solve", lambda one: slid)
+    monkeypatch.setattr(claims_contact.Sweep, "ratios", lambda one: np.full(8, 1.0 / 30.0))
+    for claim in (claims_contact._equal_ratios, claims_contact._base_or_body):
+        finding = claim()
+        assert finding.verdict == verdict
+        assert f"({share:.1%})" in finding.ours
 
 
 def test_touched_at_its_nodes_a_cylinder_sinks_between_them():

@@ -1,11 +1,13 @@
 """Elastic blocks beside the sliding bodies they are: settled under vibration, or from rest.
 
 A block is marched from the sliding body's periodic state: at its velocity, drive force and
-deflection of the asperities. What is fast, the asperities and the swing of the body within a cycle,
-settles in some ten cycles; the drive force would take tens of milliseconds to follow, so that it
-would say more about the start than about the block. Read is therefore the block's own friction,
-averaged over whole cycles, and the mean velocity it slid at. That velocity is not quite the
-drive's; the sliding body's slope of friction over velocity brings the one to the other.
+deflection of the asperities. The asperities and the swing of the body within a cycle settle in
+some ten cycles; its rocking on the contact, which nothing but friction damps, may take a hundred.
+The drive force would take tens of milliseconds to follow, so that it would say more about the
+start than about the block. Read is therefore the block's own friction, averaged over whole cycles,
+and the mean velocity it slid at. That velocity is not quite the drive's; the sliding body's slope
+of friction over velocity brings the one to the other. It is read in four windows, one after the
+other, and anew in four twice as long until they agree.
 """
 
 import concurrent.futures as cf
@@ -44,10 +46,15 @@ STEPS = 200
 # Long steps and much numerical damping first, which end most of the rocking on the contact that the
 # start excites; then steps that follow everything.
 _CALM_STEPS, _CALM_CYCLES, _CALM_ALPHA = 50, 12, -1.0 / 3.0
-# What is left of the rocking dies away within some cycles, and a mean over as many evens it out.
 _SETTLE_CYCLES = 14
-_MEASURED_CYCLES = 16
+# The rocking that is left makes cycles differ by far more than their mean is off: windows of whole
+# cycles tell whether it has gone.
+_WINDOWS = 4
+_SHORTEST, _LONGEST = 4, 32
 _SLOPE = 0.01
+
+STEADY = 1e-3
+"""How far windows may be apart, over the ratio of the sliding body, for a block to have settled."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,7 +73,10 @@ class Settled:
     rocking : float
         The same where the block's turns on its contact, most of that compliance, have inertia.
     unsteadiness : float
-        Standard deviation of the cycles' ratios, over the root of their number.
+        Half of what the highest and the lowest of four successive windows of the block's ratio, as
+        long as one another, are apart.
+    cycles : int
+        In the four windows together.
     late : float
         By how much of the drive's velocity the block was slower in the cycles measured.
     """
@@ -76,6 +86,7 @@ class Settled:
     in_series: float
     rocking: float
     unsteadiness: float
+    cycles: int
     late: float
 
 
@@ -174,32 +185,46 @@ def _settled(block: Block) -> Settled:
     resting = _at_rest(block.case, block.unshaken)
     slider = solve_periodic(block.model())
     slope = _slope(block)
-    # All over the same cycles: the drive force has not settled, but it stands alike for all.
-    ratios, late = _settle(*resting.block, slider, slope)
-    springy, rocking = (
-        _settle(*body, slider, slope)[0] for body in (resting.in_series, resting.rocking)
-    )
+    bodies = (resting.block, resting.in_series, resting.rocking)
+    walkers = [_calmed(*body, slider) for body in bodies]
+    length = _SHORTEST
+    while True:
+        # All over the same cycles: the drive force has not settled, but it stands alike for all.
+        windows, late = zip(*(_read(w, slider.model, slope, length) for w in walkers), strict=True)
+        apart = max(float(np.ptp(ratios)) for ratios in windows)
+        if apart <= STEADY * abs(slider.ratio) or length >= _LONGEST:
+            break
+        length *= 2
+    ratio, springy, rocking = (float(ratios.mean()) for ratios in windows)
     return Settled(
-        ratio=float(ratios.mean()),
+        ratio=ratio,
         slider=slider.ratio,
-        in_series=float(springy.mean()),
-        rocking=float(rocking.mean()),
-        unsteadiness=float(ratios.std(ddof=1) / np.sqrt(ratios.size)),
-        late=late,
+        in_series=springy,
+        rocking=rocking,
+        unsteadiness=0.5 * float(np.ptp(windows[0])),
+        cycles=_WINDOWS * length,
+        late=late[0],
     )
 
 
-def _settle(
-    system: System, rest: SystemState, slider: SlideResult, slope: float
-) -> tuple[FloatArray, float]:
-    """Ratio of each cycle, brought to the drive's velocity, and how much slower the body was."""
+def _calmed(system: System, rest: SystemState, slider: SlideResult) -> Walker:
+    """A body on its way from the sliding body's periodic state, most of its rocking gone."""
     model = slider.model
     shaken = dataclasses.replace(system, shaking=_from_the_start(model))
     calm = Walker(dataclasses.replace(shaken, alpha=_CALM_ALPHA), _begin(system, rest, slider))
     _cycles(calm, model, _CALM_CYCLES, _CALM_STEPS)
     walker = Walker(shaken, calm.state)
     _cycles(walker, model, _SETTLE_CYCLES, STEPS)
-    means = np.array([_mean(walker, model) for _ in range(_MEASURED_CYCLES)])
+    return walker
+
+
+def _read(walker: Walker, model: Model, slope: float, length: int) -> tuple[FloatArray, float]:
+    """Ratio in each window, brought to the drive's velocity, and how much slower the body was."""
+    # The rocking comes round in other than whole cycles. Weights that fade in and out let it
+    # cancel within a window, where equal ones would leave what is cut off at its ends.
+    weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
+    cycles = np.array([_cycle(walker, model) for _ in range(_WINDOWS * length)])
+    means = np.average(cycles.reshape(_WINDOWS, length, 2), axis=1, weights=weights)
     late = 1.0 - means[:, 1] / model.slider.drive_velocity
     return means[:, 0] / model.full_friction + slope * late, float(late.mean())
 
@@ -235,7 +260,7 @@ def _cycles(walker: Walker, model: Model, count: int, steps: int) -> None:
         walker.step_to(n * step, step)
 
 
-def _mean(walker: Walker, model: Model) -> tuple[float, float]:
+def _cycle(walker: Walker, model: Model) -> tuple[float, float]:
     """Friction along the drive and velocity, averaged over a cycle."""
     walker.clear()
     begin, place = walker.state.time, walker.state.coordinates[hht.PLACE, 0]

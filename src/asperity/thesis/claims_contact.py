@@ -21,6 +21,12 @@ AROUND = (2.0, 3.0, 4.0, 6.0, 20.0)
 DIRECTIONS = (30.0, 135.0, 240.0)
 FROM_REST = ("solve.duration=0.3 s", "solve.step=4 us")
 _SAME = 0.01
+# At k = 20 along the drive that is a third of the ratio. Of the ratio the block's compliance takes
+# about 1 %, and one read off a figure of the thesis is no surer than this.
+_SAME_SHARE = 0.02
+
+
+_WITHIN = f"within {_SAME:g} of mu F_N and {_SAME_SHARE:.0%} of the ratio"
 
 
 def at_ratios(case: str, ratios: Sequence[float], settings: Sequence[str]) -> list[Block]:
@@ -73,7 +79,10 @@ def _equal_ratios() -> Finding:
     settings = (f"{RATIO}=6", *FROM_REST)
     block, body = Block(LONGITUDINAL, (*LIGHT, *settings)), Body(SLIDING[LONGITUDINAL], settings)
     marched, slid = march_all([block])[0].ratio, body.solve().ratio
-    parts = {f"{name}: within {_SAME:g} of mu F_N": part[0] < _SAME for name, part in apart.items()}
+    parts = {
+        f"{name}: {_WITHIN}": part[0] < _SAME and part[1] < _SAME_SHARE
+        for name, part in apart.items()
+    }
     return Finding.judged(
         parts | {"from rest to 0.3 s, k = 6, the same": abs(marched - slid) < _SAME},
         "apart by at most "
@@ -113,6 +122,9 @@ def _base_or_body() -> Finding:
     ours = {key: np.array([found[b].ratio for b in group]) for key, group in blocks.items()}
     theirs = {key: np.array([found[b].slider for b in group]) for key, group in blocks.items()}
     along, across = (float(np.abs(ours[c, ()] - ours[c, (ON_BODY,)]).max()) for c in ratios)
+    along_share, across_share = (
+        float(np.abs(ours[c, (ON_BODY,)] / ours[c, ()] - 1.0).max()) for c in ratios
+    )
     slid = float(np.abs(theirs[TRANSVERSE, ()] - theirs[TRANSVERSE, (ON_BODY,)]).max())
     axes = ((RATIO, ",".join(f"{k:g}" for k in ACROSS)),)
     guided = [
@@ -122,17 +134,21 @@ def _base_or_body() -> Finding:
     held = float(np.abs(guided[0].ratios() - guided[1].ratios()).max())
     return Finding.judged(
         {
-            f"longitudinal: within {_SAME:g} of mu F_N": along < _SAME,
-            f"transverse: within {_SAME:g} of mu F_N": across < _SAME,
+            f"longitudinal: {_WITHIN}": along < _SAME and along_share < _SAME_SHARE,
+            f"transverse: {_WITHIN}": across < _SAME and across_share < _SAME_SHARE,
         },
-        f"apart by at most {along:.4f} longitudinal, {across:.4f} transverse",
-        "The slip is not the same where eta_y is below 1: of a body that is shaken the contact "
-        "sees all lateral motion with the share eta_y, its answer to friction among it; of a base "
-        "that is shaken, the base's motion alone. The sliding body is apart by "
+        f"apart by at most {along:.4f} longitudinal ({along_share:.1%}), {across:.4f} transverse "
+        f"({across_share:.1%})",
+        "Percentages are of the ratio itself. The slip is not the same where eta_y is below 1: of "
+        "a body that is shaken the contact sees all lateral motion with the share eta_y, its "
+        "answer to friction among it; of a base that is shaken, the base's motion alone. The "
+        "sliding body is apart by "
         f"{slid:.4f} for that reason, and by {held:.0e} where it is guided and cannot answer.",
         {
             "longitudinal_largest_difference": along,
             "transverse_largest_difference": across,
+            "longitudinal_largest_relative_difference": along_share,
+            "transverse_largest_relative_difference": across_share,
             "slider_transverse_largest_difference": slid,
             "guided_slider_transverse_largest_difference": held,
         },

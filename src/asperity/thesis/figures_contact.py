@@ -75,7 +75,9 @@ def _compared(groups: Any, place: tuple[str, ...]) -> dict[str, Any]:
         "rocking": (
             place, of("rocking"), "1", "ratio, that body with the inertia of the block's turns"
         ),
-        "unsteadiness": (place, of("unsteadiness"), "1", "standard error of the block's ratio"),
+        "unsteadiness": (
+            place, of("unsteadiness"), "1", "half of what four windows of the block are apart"
+        ),
     }  # fmt: skip
 
 
@@ -170,10 +172,11 @@ def figure_5_2() -> Drawn:
 
 
 _BLOCK = (
-    "Lines: the sliding body of chapter 4; markers: the elastic block, its friction read over "
-    "sixteen cycles after it has settled from the sliding body's periodic state. Below: how far it "
-    "is from the sliding body, from one that has the block's compliance as a spring between itself "
-    "and its asperities, and from one that rocks on it as the block does."
+    "Lines: the sliding body of chapter 4; markers: the elastic block, its friction read after it "
+    "has settled from the sliding body's periodic state, over sixteen cycles or more until four "
+    "parts of them agree within 0.1 %. Below: how far it is from the sliding body, from one that "
+    "has the block's compliance as a spring between itself and its asperities, and from one that "
+    "rocks on it as the block does."
 )
 _REST = "From rest over 0.3 s, with the same increments for the sliding body and the block."
 _ALONG, _ACROSS = ((case, SLIDING[case]) for case in (LONGITUDINAL, TRANSVERSE))
