@@ -87,6 +87,11 @@ def test_the_pressure_over_the_face_is_that_of_the_package(tmp_path):
     assert np.corrcoef(nodal, other)[0, 1] > 0.999
 
 
+def test_a_block_on_contact_in_two_stages_is_brought_to_rest(tmp_path):
+    run = Run(tmp_path, "block.elements=[2, 2, 2]", "contact.normal=two-stage")
+    assert run.normal[-1] == pytest.approx(55.0, rel=1e-3)
+
+
 def test_the_spring_pulls_until_full_friction_and_no_further(sliding):
     full = sliding.setup.model.full_friction
     np.testing.assert_allclose(sliding.pull[1:], sliding.shear[1:], rtol=1e-5)

@@ -121,17 +121,15 @@ def _heading(setup: BlockSetup) -> Iterator[str]:
         yield "** CalculiX has no 27-node element: each is eight C3D8I on the same nodes."
     if setup.normal.name == "hard":
         yield "** Hard contact is a stiff linear one here; CalculiX has no multipliers for it."
+    if setup.normal.name == "two-stage":
+        yield "** Contact in two stages is a linear one here, right at the mean pressure: CalculiX"
+        yield "** finds no equilibrium with a table this stiff."
 
 
 def _interaction(setup: BlockSetup) -> Iterator[str]:
     yield "*SURFACE INTERACTION, NAME=sliding"
-    if setup.normal.name == "two-stage":
-        yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR"
-        for value, over in setup.pressure_table():
-            yield numbers(value, over)
-    else:
-        yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
-        yield numbers(setup.normal.stiffness)
+    yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
+    yield numbers(setup.mean_pressure / overclosure(setup))
     yield from ("*FRICTION", numbers(setup.model.friction.mu, stick_slope(setup)))
     yield "*CONTACT PAIR, INTERACTION=sliding, TYPE=SURFACE TO SURFACE"
     yield "bottom, base_top"

@@ -185,6 +185,8 @@ def _heading(model: Model, properties: tuple[float, ...], moves_base: bool) -> l
         law = f"in two explicit phases, {what} vibrated"
     else:
         law = f"law '{friction.law}', exponential step, {what} vibrated"
+    sampled = model.shape is not None and model.shape.code == SAMPLED
+    waveforms = "3, that sampled below" if sampled else "0 sine, 1 triangle, 2 square"
     meaning = (
         "coefficient of friction",
         "Dahl's exponent",
@@ -193,7 +195,7 @@ def _heading(model: Model, properties: tuple[float, ...], moves_base: bool) -> l
         "total time at which the vibration starts, s",
         "its frequency, Hz",
         "amplitude of the base's motion across the drive, m",
-        "its waveform: 0 sine, 1 triangle, 2 square, 3 sampled",
+        f"its waveform: {waveforms}",
         "rise time of a square wave, periods",
         "1 if the second slip direction is +y, -1 if it is -y",
     )

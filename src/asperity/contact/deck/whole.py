@@ -3,8 +3,8 @@ r"""What a guide or a rigid drive holds of the block: means over all of its mass
 The package holds coordinates of the whole body: with its rigid motions :math:`R` (shifts along x, y
 and z, turns about them through the centre of mass) and its mass matrix :math:`M`, those of
 :math:`R^T M u`. An equation of such a mean has a term for every freedom of the block, and a program
-that takes one of them out of its unknowns would couple all others with one another. So the sums are
-written part by part, each part a few nodes on a side, with nodes of their own for what it adds.
+that takes one of them out of its unknowns would couple all others with one another. So the sums
+run from part to part, each a few nodes on a side, with nodes of their own for what they have come to.
 """
 
 from collections.abc import Iterator
@@ -79,25 +79,23 @@ def equations(
     parts = _parts(setup.problem.mesh.points)
     freedoms = [(3 * nodes[:, None] + np.arange(3)).ravel() for nodes in parts]
     has = np.array([rows[:, own].any(axis=1) for own in freedoms])
+    # The sums run from part to part: each has a node for what it and those before it add.
     number = {
         (int(part), row): first + place
         for place, (part, row) in enumerate(
-            (part, row) for row in range(len(rows)) for part in np.flatnonzero(has[:, row])[1:]
+            (part, row) for row in range(len(rows)) for part in np.flatnonzero(has[:, row])[:-1]
         )
     }
     made: list[list[Term]] = []
     for part, own in enumerate(freedoms):
         chosen = np.flatnonzero(has[part])
-        sums = [
-            [(number[part, row], 1.0)]
-            if (part, row) in number
-            # The first part adds what all others leave of the whole.
-            else [
-                *((node, -1.0) for (_, of), node in number.items() if of == row),
-                *([(point, 1.0)] if follows[row] else []),
-            ]
-            for row in chosen.tolist()
-        ]
+        sums: list[list[tuple[int, float]]] = []
+        for row in chosen.tolist():
+            whole = [(point, 1.0)] if follows[row] else []
+            before = np.flatnonzero(has[:part, row])
+            sums.append([(number[part, row], 1.0)] if (part, row) in number else whole)
+            if before.size:
+                sums[-1] = [*sums[-1], (number[int(before[-1]), row], -1.0)]
         if sums:
             made += _solved(rows[np.ix_(chosen, own)], own, sums, _preference(setup, own))
     return made, len(number)
