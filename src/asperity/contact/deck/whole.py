@@ -4,7 +4,7 @@ The package holds coordinates of the whole body: with its rigid motions :math:`R
 and z, turns about them through the centre of mass) and its mass matrix :math:`M`, those of
 :math:`R^T M u`. An equation of such a mean has a term for every freedom of the block, and a program
 that takes one of them out of its unknowns would couple all others with one another. So the sums
-run from part to part, each a few nodes on a side, with nodes of their own for what they have come to.
+run from part to part, each a few nodes on a side, with nodes of their own for what they come to.
 """
 
 from collections.abc import Iterator
