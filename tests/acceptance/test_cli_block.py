@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import signal
 import time
 
@@ -267,3 +268,15 @@ def test_no_convergence_says_where_and_leaves_what_was_solved(asperity, tmp_path
     done = answer["reached"]["increments"]
     assert float(unfinished.time[-1]) == pytest.approx(done * 5e-6, abs=5 * 5e-6)
     assert all(bool(abs(unfinished[name]).max() < 1e12) for name in unfinished)
+
+
+def test_nothing_of_an_older_run_stays_beside_a_new_one(asperity, tmp_path):
+    for name in ("block_0048.vtu", "block_0049.vtu", "notes.txt"):
+        (tmp_path / name).write_text("older")
+    code, _, errors = asperity(*SHORT, "--out", tmp_path)
+    assert code == 0, errors
+    listed = set(re.findall(r"block_\d+\.vtu", (tmp_path / "block.pvd").read_text()))
+    assert {path.name for path in tmp_path.glob("*.vtu")} == listed
+    assert all(path.read_bytes() != b"older" for path in tmp_path.glob("*.vtu"))
+    assert asperity(*LONG, *TIPPING, "--out", tmp_path)[0] == 3
+    assert {path.name for path in tmp_path.iterdir()} <= {"block.nc", "notes.txt", KEPT}

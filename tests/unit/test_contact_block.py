@@ -11,6 +11,7 @@ from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.contact import block_march, hht, ledger, newton, steps
 from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
+from asperity.contact.block_check import check
 from asperity.contact.block_march import BlockMarch, solve_block
 from asperity.contact.block_resume import go_on, keep
 from asperity.contact.normal import NormalLaw, pressure
@@ -463,6 +464,10 @@ def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
         (("solve.method=periodic",), r"solve.method is 'periodic'; an elastic block is solved by"),
         (("solve.step=20 us",), r"solve.step is 2e-05 s, too coarse for the vibration of 4000 Hz"),
         (("solve.duration=0.1 ms",), r"solve.duration is 0.0001 s; with the vibration"),
+        (
+            ("vibration.velocity_ratio=1e6",),
+            r"slips of up to 500 m/s a deflection of at most \S+ m takes a step of at most",
+        ),
         (("contact.stiffness=0 Pa/m",), r"contact.stiffness is '0 Pa/m'"),
         (
             ("solve.scheme=two-phase", "vibration.velocity_ratio=60"),
@@ -487,7 +492,15 @@ def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
 )  # fmt: skip
 def test_what_cannot_be_solved_is_refused(settings, message):
     with pytest.raises(InputError, match=message):
-        problem(*settings).check()
+        check(problem(*settings))
+
+
+def test_a_block_too_high_for_its_length_is_said_to_tip_over_before_it_slides():
+    high = 'block.size=["4 mm", "30 mm", "41 mm"]'
+    result = solve_block(problem(high, "solve.duration=0.5 ms"), history=False)
+    assert "mu times its height, 4.1 mm, is more than its length, 4 mm" in result.notes[0]
+    for held in ("slider.lateral=guided", 'block.size=["4 mm", "30 mm", "39 mm"]'):
+        assert not problem(high, held).tips
 
 
 def test_a_block_without_a_mass_is_refused():

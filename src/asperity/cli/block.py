@@ -13,6 +13,7 @@ from asperity.casefile import read_case
 from asperity.cli import show
 from asperity.cli.tables import TABLES
 from asperity.contact.block import BlockProblem
+from asperity.contact.block_check import check
 from asperity.contact.block_march import BlockMarch
 from asperity.contact.block_resume import go_on, keep
 from asperity.contact.dataset import unfinished_dataset
@@ -32,7 +33,7 @@ def block(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None
     """Solve an elastic block, print the result and write it to files."""
     problem = BlockProblem.from_case(read_case(case, TABLES, settings))
     # A case that is refused leaves no folder behind, and a folder that is refused costs no time.
-    problem.check()
+    check(problem)
     folder = output_folder(out) if out is not None else None
     # What is not finite is found where it matters, and told in a line.
     with show.progress_bar("increments") as progress, np.errstate(all="ignore"):
@@ -158,10 +159,20 @@ def _write(result: BlockResult, folder: Path) -> None:
     show.write_picture(result.plot(), folder / "block.png")
     show.write_picture(result.plot_pressure(), folder / "block_pressure.png")
     write_block_series(result, folder / "block.pvd")
+    frames = len(result.frames)
+    for path in _others(folder, "block_[0-9]*.vtu")[frames:]:
+        path.unlink(missing_ok=True)
+
+
+def _others(folder: Path, *patterns: str) -> list[Path]:
+    return sorted(path for pattern in patterns for path in folder.glob(pattern))
 
 
 def _write_unfinished(march: BlockMarch, folder: Path | None, why: str) -> None:
     if folder is None or not march.rows:
         return
     write_dataset(unfinished_dataset(march.problem, march.history, why), folder / "block.nc")
+    # What a run before this one left would be taken for part of it.
+    for path in _others(folder, "block.json", "block*.png", "block.pvd", "block_[0-9]*.vtu"):
+        path.unlink(missing_ok=True)
     show.note(f"written to {folder}: block.nc, up to {march.history.time[-1]:.6g} s")

@@ -6,6 +6,7 @@ from pathlib import Path
 from asperity.casefile import read_case
 from asperity.cli import show
 from asperity.cli.tables import TABLES
+from asperity.contact.block_check import check_ranges
 from asperity.contact.deck import WRITERS, BlockSetup
 from asperity.errors import InputError, choices, suggestion
 from asperity.store import output_folder, write_text
@@ -22,7 +23,7 @@ def export(
             f"--to {program}: it must be one of {choices(WRITERS)}{suggestion(program, WRITERS)}"
         )
     setup = BlockSetup.from_case(read_case(case, TABLES, settings))
-    setup.problem.check_ranges()
+    check_ranges(setup.problem)
     nodes = setup.problem.nodes
     if nodes > _MOST_NODES:
         raise InputError(

@@ -25,7 +25,6 @@ from asperity.casefile import Case
 from asperity.contact import motion as mo
 from asperity.contact.compliance import BaseCompliance, base_compliance
 from asperity.contact.elastic import (
-    MEMORY_LIMIT,
     CondensedBody,
     ElasticBody,
     ElasticMaterial,
@@ -33,9 +32,7 @@ from asperity.contact.elastic import (
     Traction,
     condense,
     elastic_body,
-    memory_for,
 )
-from asperity.contact.elastic.solver import installed_solver
 from asperity.contact.friction_point import PointFriction
 from asperity.contact.normal import NormalLaw
 from asperity.contact.parameters import Block, Contact
@@ -49,15 +46,6 @@ from asperity.slider.model import FloatArray, Model
 
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""
-
-# Strain of the block, and overclosure over its height, under the mean pressure.
-_MOST_SQUEEZE = 0.1
-
-# The size of an atom's nucleus; squares of far smaller numbers are none.
-_LEAST_LIMIT = 1e-15
-
-# From aerogel to far beyond any solid; a much lighter block is all contact, and no inertia is left.
-_LEAST_DENSITY, _MOST_DENSITY = 1.0, 1e7
 
 _SHIFT_X, _SHIFT_Y, _SHIFT_Z, _TURNS = 0, 1, 2, slice(3, 6)
 _GRAVITY, _PRESSURE, _DRIVE = "gravity_z", "pressure", "drive"
@@ -128,87 +116,15 @@ class BlockProblem:
         """Number of nodes of the mesh."""
         return math.prod(self.block.order * count + 1 for count in self.block.elements)
 
-    def check(self) -> None:
-        """Refuse what cannot be solved, before anything is built.
+    @property
+    def tips(self) -> bool:
+        """Whether the block tips over its leading edge before it slides.
 
-        Raises
-        ------
-        InputError
-            Steps that miss the vibration, forces or stiffnesses beyond small deformations, more
-            modes than the mesh has, or a mesh too large for the memory bound.
+        The drive pulls at half the height: full friction moves the middle of the pressure forward
+        by mu h/2, which at half the length is its edge.
         """
-        self.check_ranges()
-        block, unknowns = self.block, 3 * self.nodes
-        if block.modes > unknowns // 4:
-            raise InputError(
-                f"block.modes is {block.modes}; allowed: 0 to {unknowns // 4} with this mesh"
-            )
-        along, across, _ = block.elements
-        faces = (block.order * along + 1) * (block.order * across + 1)
-        needed = memory_for(
-            self.nodes,
-            (math.prod(block.elements), (block.order + 1) ** 3),
-            faces,
-            modes=block.modes,
-            solver=installed_solver(),
-        )
-        if needed > MEMORY_LIMIT:
-            raise InputError(
-                f"block.elements is {list(block.elements)} with '{block.element}', {unknowns} "
-                f"unknowns; condensing them needs about {needed / 1e9:.3g} GB, more than the limit "
-                f"of {MEMORY_LIMIT / 1e9:.3g} GB: take fewer elements"
-            )
-
-    def check_ranges(self) -> None:
-        """Refuse what no program can solve on any mesh.
-
-        Raises
-        ------
-        InputError
-            Steps that miss the vibration, forces or stiffnesses beyond small deformations.
-        """
-        _ = self.timetable
-        self._check_density()
-        self._check_squeeze()
-        limit = self.model.friction.max_deflection
-        if limit is not None and self.model.friction.model != "coulomb" and limit < _LEAST_LIMIT:
-            raise InputError(
-                f"friction.max_deflection is {limit:g} m; an elastic block takes {_LEAST_LIMIT:g} "
-                "m or more: give friction.model 'coulomb' for asperities that do not give"
-            )
-
-    def _check_density(self) -> None:
-        """Refuse a mass that makes no solid."""
-        volume = self.block.volume
-        if not _LEAST_DENSITY * volume <= self.mass <= _MOST_DENSITY * volume:
-            raise InputError(
-                f"slider.mass is {self.mass:g} kg, which makes a density of "
-                f"{self.block.density(self.mass):.4g} kg/m^3; with this block.size it must be "
-                f"{_LEAST_DENSITY * volume:.4g} to {_MOST_DENSITY * volume:.4g} kg"
-            )
-
-    def _check_squeeze(self) -> None:
-        """Refuse a body or a contact that gives way by more than a small part of the block."""
-        block, force = self.block, self.model.slider.normal_force
-        pressure, height = force / block.area, block.size[2]
-        given = f"slider.normal_force is {force:g} N, a mean pressure of {pressure:.4g} Pa; "
-        if pressure > _MOST_SQUEEZE * block.youngs_modulus:
-            raise InputError(
-                f"{given}block.youngs_modulus is {block.youngs_modulus:g} Pa; it must be at least "
-                f"{pressure / _MOST_SQUEEZE:.4g} Pa, for the deformation to be small"
-            )
-        if pressure > _MOST_SQUEEZE * height * self.normal.stiffness:
-            raise InputError(
-                f"{given}contact.stiffness is {self.normal.stiffness:g} Pa/m; it must be at least "
-                f"{pressure / (_MOST_SQUEEZE * height):.4g} Pa/m, for the overclosure to be small"
-            )
-        over = self.normal.overclosure(pressure)
-        if over > _MOST_SQUEEZE * height:
-            raise InputError(
-                f"{given}contact.initial_stiffness {self.normal.initial:g} Pa/m lets it sink by "
-                f"{over:.4g} m; it may be {_MOST_SQUEEZE * height:.4g} m, for the overclosure to "
-                "be small: give a greater one, or a shorter contact.transition"
-            )
+        slider, size = self.model.slider, self.block.size
+        return slider.free and self.friction.mu * size[2] > size[0]
 
     @property
     def mass(self) -> float:

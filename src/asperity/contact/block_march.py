@@ -242,6 +242,14 @@ class BlockMarch:
     def _notes(self, residual: float, *, broke: bool) -> tuple[str, ...]:
         model, table = self.problem.model, self.problem.timetable
         notes = list(march_notes(model, table, residual, broke=broke))
+        block = self.problem.block
+        if self.problem.tips:
+            notes.insert(
+                0,
+                "without vibration the block tips over before it slides: mu times its height, "
+                f"{1e3 * model.friction.mu * block.size[2]:.4g} mm, is more than its length, "
+                f"{1e3 * block.size[0]:.4g} mm",
+            )
         slip = (model.slider.drive_velocity + model.peak_velocity) * table.step
         most = _MOST_SLIP * self.problem.friction.limit
         if model.friction.model != "coulomb" and slip > most:
