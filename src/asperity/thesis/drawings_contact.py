@@ -16,8 +16,8 @@ _MARKERS = "osD^v"
 _RATIO = r"drive force over $\mu F_N$"
 _APART = r"apart (10$^{-3}\,\mu F_N$)"
 _FROM = {
-    "slider": "from the sliding body",
-    "in_series": "with its compliance",
+    "slider": "from sliding body",
+    "in_series": "with compliance",
     "rocking": "and rocking",
 }
 _OPEN: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markeredgewidth": 1.2}
@@ -26,33 +26,35 @@ _OPEN: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "marker
 def over_ratio(dataset: "xr.Dataset") -> "Figure":
     """Draw ratios over k above, and how far block and sliding body are apart below."""
     figure, (upper, lower) = panels(2, height=6.8)
-    upper.plot(dataset["k"], dataset["periodic"], color=BLUE, label="sliding body")
+    shaken = [str(one) for one in dataset["shaken"].values]
+    for index, one in enumerate(shaken):
+        what = f", {one} shaken" if len(shaken) > 1 else ""
+        part = dataset.sel(shaken=one)
+        upper.plot(
+            dataset["k"], part["periodic"], color=BLUE, dashes=((1, 0), (4, 1.5))[index],
+            label=f"sliding body{what}",
+        )  # fmt: skip
+        upper.plot(
+            dataset["k_block"], part["block"], label=f"elastic block{what}",
+            color=(VERMILION, GREEN)[index], marker="os"[index], markersize=7 + 3 * index, **_OPEN,
+        )  # fmt: skip
+        for other, colour, marker in (
+            ("slider", BLACK, "o"), ("in_series", PURPLE, "^"), ("rocking", ORANGE, "s"),
+        ):  # fmt: skip
+            lower.plot(
+                dataset["k_block"], 1e3 * (part["block"] - part[other]), color=colour,
+                marker=marker, markersize=6, markerfacecolor=("none", colour)[index],
+                linewidth=1.0, dashes=((1, 0), (4, 1.5))[index], label=f"{_FROM[other]}{what}",
+            )  # fmt: skip
     upper.plot(
         dataset["k"], dataset["rigid"], color=BLACK, dashes=(1, 1.5), label="rigid Coulomb friction"
     )
-    shaken = [str(one) for one in dataset["shaken"].values]
-    places = dataset["k_block"]
-    for index, one in enumerate(shaken):
-        part = dataset.sel(shaken=one)
-        label = "elastic block" + (f", {one} shaken" if len(shaken) > 1 else "")
-        marks: dict[str, Any] = {
-            "marker": "os"[index],
-            "markersize": 7 + 3 * index,
-            "color": _COLOURS[1 + index],
-        }
-        upper.plot(places, part["block"], label=label, **_OPEN, **marks)
-        for other, style in (("slider", "-"), ("in_series", ":"), ("rocking", "--")):
-            lower.plot(
-                places, 1e3 * (part["block"] - part[other]), linestyle=style, linewidth=1.2,
-                markerfacecolor="none",
-                label=_FROM[other] + (f", {one} shaken" if len(shaken) > 1 else ""), **marks,
-            )  # fmt: skip
     upper.set_ylabel(_RATIO)
     upper.set_ylim(0.0, 1.05)
     legend(upper, loc="upper right")
     _apart(lower)
-    lower.margins(y=0.55)
-    legend(lower, loc="upper right", ncols=len(shaken))
+    lower.margins(y=0.1)
+    legend(lower, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=max(2, len(shaken)))
     for axes in (upper, lower):
         axes.set_xlabel(r"velocity ratio $k = v_a/v_d$")
         axes.set_xlim(0.0, 20.5)

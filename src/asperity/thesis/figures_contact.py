@@ -41,8 +41,9 @@ def _over_ratio(case: str, mesh: Sequence[str], ratios: Sequence[float], *, on_b
     shaken = at_ratios(case, ratios, (*mesh, ON_BODY)) if on_body else []
     solved = settle_all([*base, *shaken])
     groups = [solved[: len(base)], solved[len(base) :]][: 1 + on_body]
-    sweep = Sweep(SLIDING[case], ((RATIO, _DENSE),), (PERIODIC,))
-    dense = sweep.values()
+    modes = [(), (ON_BODY,)][: 1 + on_body]
+    sweeps = [Sweep(SLIDING[case], ((RATIO, _DENSE),), (PERIODIC, *mode)) for mode in modes]
+    dense = sweeps[0].values()
     if case == LONGITUDINAL:
         rigid, closed = longitudinal_ratio(dense), f"{_CLOSED}.longitudinal_ratio(k)"
     else:
@@ -52,11 +53,16 @@ def _over_ratio(case: str, mesh: Sequence[str], ratios: Sequence[float], *, on_b
         k=(("k",), dense, "1", "velocity ratio v_a/v_d"),
         k_block=(("k_block",), np.array(ratios), "1", "velocity ratio v_a/v_d, blocks"),
         shaken=(("shaken",), _objects(["base", "body"][: len(groups)]), "1", "what is shaken"),
-        periodic=(("k",), sweep.ratios(), "1", "ratio, sliding body, periodic state"),
+        periodic=(
+            ("shaken", "k"), np.array([sweep.ratios() for sweep in sweeps]), "1",
+            "ratio, sliding body, periodic state",
+        ),
         rigid=(("k",), rigid, "1", "ratio, rigid Coulomb friction and rigid drive"),
         **_compared(groups, place),
-    )
-    how = [sweep.command, closed, *(block.how for block in (*base, *shaken))]
+    )  # fmt: skip
+    how = [
+        *(sweep.command for sweep in sweeps), closed, *(block.how for block in (*base, *shaken)),
+    ]  # fmt: skip
     return Drawn(drawings.over_ratio(dataset), dataset, how)
 
 
@@ -198,7 +204,8 @@ FIGURES = (
         "5.2", "Contact at nodes and integrated over the surface",
         "A rigid cylinder on a block of 8-node elements nearly as wide as the contact's "
         "half-width, with the same law of pressure and the same load. Above: it stands between two "
-        "lines of nodes; so coarse, neither is near Hertz's pressure point by point. Below: how "
+        "lines of nodes; so coarse, neither is Hertz's pressure point by point, at nodes too low, "
+        "integrated as much too high in the middle. Below, what tells them apart: how "
         "far it goes while it moves over an element; held at nodes alone it sinks between them, "
         "integrated less than half as much.",
         (), figure_5_2,
