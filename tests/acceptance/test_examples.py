@@ -23,6 +23,7 @@ def test_every_example_is_tested():
     names = {path.stem for path in EXAMPLES.glob("*.py")}
     assert names == {
         "a_first_slide",
+        "an_elastic_block",
         "every_direction",
         "flanks_of_a_worm_gearset",
         "friction_law_across_the_drive",
@@ -59,3 +60,16 @@ def test_flanks_of_a_worm_gearset(example):
     assert names["errors"]["ZI"] < 1e-12
     assert names["errors"]["ZA"] == pytest.approx(2.58e-4, rel=0.02)
     assert names["room"] == pytest.approx(0.0295, abs=1e-3)
+
+
+def test_an_elastic_block(example):
+    names = example("an_elastic_block")
+    assert names["block"].ratio == pytest.approx(names["body"].ratio, rel=0.02)
+    assert names["block"].ledger.residual < 1e-4
+    assert names["block"].unconverged == 0
+    # A rigid block pulled at half its height: moments of drive and pressure about its middle.
+    front, slider = names["front"], names["problem"].model.slider
+    length, _, height = names["problem"].block.size
+    lean = 1.5 * names["block"].drive_force / slider.normal_force * height / length
+    ratio = names["pressure"][front].mean() / names["pressure"][~front].mean()
+    assert ratio == pytest.approx((1.0 + lean) / (1.0 - lean), abs=0.01)

@@ -107,12 +107,15 @@ def balance(walker, before):
 
 
 SHAKEN = {"rise": 2e-9}
+# The forces of an increment are right to 1e-9; their work is 500 times that of the drive, which is
+# what the residual is a share of. Digits of the library decide what remains of it.
+CLOSED = 5e-6
 
 
 def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypatch):
     walker, before = marched(160, **SHAKEN)
     right = ledger.surface_energies
-    assert balance(walker, before).residual < 1e-6
+    assert balance(walker, before).residual < CLOSED
     for over, asperities in [(1.01, 1.0), (1.0, 1.01), (0.0, 1.0), (1.0, 0.0)]:
 
         def wrong(*contact, over=over, asperities=asperities):
@@ -120,7 +123,7 @@ def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypat
             return over * energies[0], asperities * energies[1]
 
         monkeypatch.setattr(ledger, "surface_energies", wrong)
-        assert balance(walker, before).residual > 1e-5
+        assert balance(walker, before).residual > 3.0 * CLOSED
 
 
 def test_friction_is_what_it_is_whatever_is_said_to_be_stored(monkeypatch):
@@ -134,7 +137,7 @@ def test_what_the_steps_take_is_small_and_goes_with_them():
     shares = []
     for steps in (100, 200, 400):
         powers = balance(*marched(steps, **SHAKEN))
-        assert powers.residual < 1e-6
+        assert powers.residual < CLOSED
         shares.append(abs(powers.numerical) / powers.friction)
     assert shares[0] < 1e-4
     assert shares[1] < 0.5 * shares[0]
