@@ -108,7 +108,7 @@ def test_claims_of_equal_ratios_are_judged_by_the_ratio_too(monkeypatch, share, 
 
     slid = SimpleNamespace(ratio=0.15)
     monkeypatch.setattr(claims_contact, "settle_all", lambda all_blocks: [*settled(all_blocks)])
-    monkeypatch.setattr(claims_contact, "march_all", lambda all_blocks: [slid])
+    monkeypatch.setattr(claims_contact.Block, "march", lambda one: slid)
     monkeypatch.setattr(claims_contact.Block, "settled", lambda one: next(settled([one])))
     monkeypatch.setattr(claims_contact.Body, "solve", lambda one: slid)
     monkeypatch.setattr(claims_contact.Sweep, "ratios", lambda one: np.full(8, 1.0 / 30.0))

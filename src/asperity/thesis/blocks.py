@@ -10,10 +10,8 @@ of friction over velocity brings the one to the other. It is read in four window
 other, and anew in four twice as long until they agree.
 """
 
-import concurrent.futures as cf
 import dataclasses
 import functools
-import os
 import shlex
 from collections.abc import Sequence
 
@@ -130,23 +128,12 @@ class Block:
 
 
 def settle_all(blocks: Sequence[Block]) -> list[Settled]:
-    """Settle blocks on all cores, in threads: the compiled loops leave the interpreter free."""
-    _share(blocks)
-    with cf.ThreadPoolExecutor(os.cpu_count() or 1) as threads:
-        return list(threads.map(Block.settled, blocks))
+    """Settle blocks one after the other.
 
-
-def march_all(blocks: Sequence[Block]) -> list[BlockResult]:
-    """March blocks from rest on all cores."""
-    _share(blocks)
-    with cf.ThreadPoolExecutor(os.cpu_count() or 1) as threads:
-        return list(threads.map(Block.march, blocks))
-
-
-def _share(blocks: Sequence[Block]) -> None:
-    """Make what several blocks share before they are solved side by side."""
-    for case, settings in dict.fromkeys((block.case, block.unshaken) for block in blocks):
-        _at_rest(case, settings)
+    Threads would not be faster: between the compiled loops, which are short, they wait for the
+    interpreter and wake each other.
+    """
+    return [block.settled() for block in blocks]
 
 
 @functools.cache

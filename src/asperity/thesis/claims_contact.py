@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from asperity.thesis.blocks import LIGHT, Block, Settled, march_all, settle_all
+from asperity.thesis.blocks import LIGHT, Block, Settled, settle_all
 from asperity.thesis.bodies import PERIODIC, Body, Sweep
 from asperity.thesis.claims_sliding import DIRECTION, RATIO
 from asperity.thesis.ledger import Claim, Finding
@@ -78,7 +78,7 @@ def _equal_ratios() -> Finding:
     stiff_apart, *_ = _apart([stiff.settled()])
     settings = (f"{RATIO}=6", *FROM_REST)
     block, body = Block(LONGITUDINAL, (*LIGHT, *settings)), Body(SLIDING[LONGITUDINAL], settings)
-    marched, slid = march_all([block])[0].ratio, body.solve().ratio
+    marched, slid = block.march().ratio, body.solve().ratio
     parts = {
         f"{name}: {_WITHIN}": part[0] < _SAME and part[1] < _SAME_SHARE
         for name, part in apart.items()

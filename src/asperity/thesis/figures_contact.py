@@ -9,7 +9,7 @@ import numpy as np
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
 from asperity.thesis import drawings_contact as drawings
 from asperity.thesis import drawings_sliding, pressed
-from asperity.thesis.blocks import LIGHT, Block, march_all, settle_all
+from asperity.thesis.blocks import LIGHT, Block, settle_all
 from asperity.thesis.bodies import PERIODIC, Body, Sweep
 from asperity.thesis.claims_contact import (
     ACROSS,
@@ -119,7 +119,7 @@ def _from_rest(
     """The sliding body and the block marched from rest side by side."""
     settings = (f"{RATIO}={ratio}", *(FROM_REST if mesh else FINE))
     body, block = Body(SLIDING[case], settings), Block(case, (*mesh, *settings))
-    results = [body.solve(), march_all([block])[0]]
+    results = [body.solve(), block.march()]
     if part is None:
         dataset = side_by_side(_NAMES, results, keep)
         figure = drawings_sliding.drive_over_time(dataset)
