@@ -1,8 +1,9 @@
-"""Compiled kernels, cached on disk under a name made from the package's own sources.
+"""Compiled kernels, cached on disk under a name made from the sources they follow from.
 
 Numba recompiles a function when the file it stands in changes, but not when a function it calls
-from another file does: it would answer with yesterday's code. Here any change to any source of the
-package, to Numba or to NumPy leads to another cache folder.
+from another file does: it would answer with yesterday's code. Here a change to a kernel's module or
+to any that it imports, to Numba or to NumPy leads to another cache folder, and nothing else does:
+not a change elsewhere, nor another place on the disk.
 """
 
 import contextlib
@@ -23,7 +24,8 @@ import numba
 import numpy as np
 from numba.core import caching
 
-_PACKAGE = Path(__file__).parent
+from asperity.closure import closure, digest_of
+
 _KEPT_DAYS = 30
 _DIGEST_BYTES = 32
 
@@ -31,21 +33,18 @@ _DIGEST_BYTES = 32
 Kernel = Callable[..., Any]
 
 
-def package_hash(root: Path = _PACKAGE) -> str:
-    """Return a hash of every Python source under a folder, the same on every machine."""
-    digest = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
-        content = path.read_bytes()
-        digest.update(f"{path.relative_to(root).as_posix()}\0{len(content)}\0".encode() + content)
-    return digest.hexdigest()[:16]
+def kernel_key(module: str, file: Path) -> str:
+    """Return what machine code follows from: a module and its imports, Numba, NumPy, processor."""
+    sources = closure(module, file=file)
+    root = file.parents[module.count(".")] if "." in module else file.parent
+    parts = (digest_of(sources, root), *machine())
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
 @functools.cache
-def source_hash(root: Path = _PACKAGE) -> str:
-    """Return a hash of every Python source under a folder, of Numba, NumPy and this processor."""
-    host = llvmlite.binding.get_host_cpu_name()
-    parts = (package_hash(root), numba.__version__, np.__version__, host)
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+def machine() -> tuple[str, ...]:
+    """Return versions of Numba and NumPy and the processor's name, on which last bits depend."""
+    return numba.__version__, np.__version__, llvmlite.binding.get_host_cpu_name()
 
 
 def cache_folder(name: str) -> Path | None:
@@ -67,21 +66,34 @@ def cache_folder(name: str) -> Path | None:
     return folder.absolute()
 
 
-@functools.cache
-def _kernel_folder(base: str | None, xdg: str | None, version: str) -> Path | None:
-    # The arguments are what the answer depends on; they make it once per process and setting.
-    folder = cache_folder(f"kernels/{version}")
-    if folder is not None:
-        with contextlib.suppress(OSError):
-            os.utime(folder)
-            _remove_old(folder.parent, keep=folder)
+def _kernel_folder(key: str) -> Path | None:
+    environment = os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME")
+    kernels = _kernels(*environment)
+    if kernels is None:
+        return None
+    folder = kernels / key
+    try:
+        folder.mkdir(exist_ok=True)
+        os.utime(folder)
+    except OSError:
+        return None
     return folder
 
 
-def _remove_old(kernels: Path, *, keep: Path) -> None:
+@functools.cache
+def _kernels(base: str | None, xdg: str | None) -> Path | None:
+    # The arguments are what the answer depends on; they make it once per process and setting.
+    folder = cache_folder("kernels")
+    if folder is not None:
+        with contextlib.suppress(OSError):
+            _remove_old(folder)
+    return folder
+
+
+def _remove_old(kernels: Path) -> None:
     oldest = time.time() - _KEPT_DAYS * 86400
     for folder in kernels.iterdir():
-        is_ours = re.fullmatch(r"[0-9a-f]{16}", folder.name) and folder != keep
+        is_ours = re.fullmatch(r"[0-9a-f]{16}", folder.name)
         if is_ours and folder.stat().st_mtime < oldest:
             shutil.rmtree(folder, ignore_errors=True)
 
@@ -101,9 +113,20 @@ class _DigestedFile(caching.IndexDataCacheFile):
         return pickle.loads(data)
 
 
+class _ContentLocator(caching.UserProvidedCacheLocator):
+    """Names a kernel's files by what it follows from, wherever its source stands on the disk."""
+
+    def __init__(self, py_func: Callable[..., Any], py_file: str) -> None:
+        super().__init__(py_func, py_file)
+        self._cache_path = numba.config.CACHE_DIR
+
+    def get_source_stamp(self) -> tuple[int, int]:
+        return (0, 0)  # the folder's name tells of every change
+
+
 class _FolderImpl(caching.CompileResultCacheImpl):
     # Otherwise Numba may fall back to writing next to the sources.
-    _locator_classes = (caching.UserProvidedCacheLocator,)
+    _locator_classes = (_ContentLocator,)
 
 
 class _ForgivingCache(caching.FunctionCache):
@@ -144,13 +167,14 @@ def _numba_cache_in(folder: Path) -> Iterator[None]:
 
 
 def _enable_cache(dispatcher: Any) -> None:
-    environment = os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME")
-    folder = _kernel_folder(*environment, source_hash())
-    if folder is None:
-        return
-    # RuntimeError: a function without a source file, such as one typed at a prompt.
-    with _numba_cache_in(folder), contextlib.suppress(OSError, RuntimeError):
-        dispatcher._cache = _ForgivingCache(dispatcher.py_func)
+    function = dispatcher.py_func
+    # OSError, RuntimeError: a function without a source file, such as one typed at a prompt.
+    with contextlib.suppress(OSError, RuntimeError):
+        file = Path(function.__code__.co_filename).absolute()
+        folder = _kernel_folder(kernel_key(function.__module__ or "", file))
+        if folder is not None:
+            with _numba_cache_in(folder):
+                dispatcher._cache = _ForgivingCache(function)
 
 
 @overload

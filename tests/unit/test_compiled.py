@@ -1,5 +1,6 @@
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -9,15 +10,12 @@ import numba
 import numpy as np
 import pytest
 
-from asperity.compiled import cache_folder, kernel, source_hash
+from asperity.compiled import cache_folder, kernel, kernel_key
 
 PROGRAM = """
 import json, sys
-from asperity import compiled
 from pathlib import Path
 package = Path(sys.argv[1])
-original = compiled.source_hash
-compiled.source_hash = lambda: original(package)
 sys.path.insert(0, str(package.parent))
 from fake.outer import outer
 value = outer(2.0)
@@ -46,7 +44,7 @@ def package(tmp_path):
 def run(package, tmp_path):
     """Call ``outer(2)`` in a fresh process; returns value, cache hits and cache folder."""
 
-    def call(cache=tmp_path / "cache"):
+    def call(cache=tmp_path / "cache", package=package):
         done = subprocess.run(
             [sys.executable, "-W", "error", "-c", PROGRAM, str(package)],
             env={**os.environ, "ASPERITY_CACHE": str(cache)},
@@ -142,23 +140,31 @@ def test_a_function_without_a_file_is_compiled_uncached():
     assert kernel(space["double"])(3) == 6
 
 
-def test_the_hash_follows_content_names_and_nothing_else(package):
-    fresh = source_hash.__wrapped__
-    before = fresh(package)
-    (package / "notes.txt").write_text("not a source")
-    assert fresh(package) == before
-    (package / "inner.py").rename(package / "other.py")
-    assert fresh(package) != before
+def test_the_key_follows_the_imports_and_nothing_else(package):
+    def key():
+        return kernel_key("fake.outer", package / "outer.py")
+
+    before = key()
     assert len(before) == 16
+    (package / "other.py").write_text("from fake.outer import outer\n")
+    assert key() == before
+    inner = package / "inner.py"
+    inner.write_text(inner.read_text() + "# changed\n")
+    assert key() != before
 
 
-def test_the_hash_takes_less_than_20_ms():
-    def seconds():
-        start = time.perf_counter()
-        source_hash.__wrapped__()
-        return time.perf_counter() - start
+def test_the_key_is_the_same_in_another_place(package, tmp_path):
+    moved = tmp_path / "elsewhere" / "fake"
+    shutil.copytree(package, moved)
+    key = kernel_key("fake.outer", package / "outer.py")
+    assert kernel_key("fake.outer", moved / "outer.py") == key
 
-    assert min(seconds() for _ in range(5)) < 0.02
+
+def test_a_kernel_compiled_in_one_place_serves_in_another(run, package, tmp_path):
+    run()
+    moved = tmp_path / "elsewhere" / "fake"
+    shutil.copytree(package, moved)
+    assert run(package=moved)[:2] == [30.0, 1]
 
 
 def test_cache_folders_stand_under_the_folder_that_the_environment_names(monkeypatch, tmp_path):
@@ -194,5 +200,5 @@ def test_folders_of_old_sources_go_after_a_month(monkeypatch, tmp_path):
     assert {folder.name for folder in kernels.iterdir()} == {
         recent.name,
         other.name,
-        source_hash(),
+        kernel_key(__name__, Path(__file__)),
     }

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from asperity.compiled import package_hash
 from asperity.contact import ledger
 from asperity.contact.block import BlockProblem
 from asperity.contact.block_march import BlockMarch
@@ -29,6 +28,7 @@ from asperity.contact.increment_memory import (
 from asperity.contact.increment_state import Trend
 from asperity.contact.result import Frame
 from asperity.contact.system import SystemState
+from asperity.runs.key import code_key
 from asperity.store import write_atomically
 
 _CONTACT = ("distance", "normal", "slip_1", "slip_2")
@@ -52,7 +52,7 @@ def fingerprint(problem: BlockProblem) -> str:
 
 @functools.cache
 def _sources() -> str:
-    return package_hash()
+    return code_key("asperity.contact.block_march")
 
 
 def keep(march: BlockMarch, path: Path) -> Path:

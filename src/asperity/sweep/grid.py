@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from asperity.casefile import Case, Table
-from asperity.compiled import source_hash
 from asperity.errors import AsperityError, InputError
+from asperity.runs.key import code_key
 from asperity.slider.march import Timetable
 from asperity.slider.model import Model
 from asperity.slider.tables import TABLES
@@ -18,6 +18,8 @@ from asperity.sweep.axes import Axis
 
 # Enough for the inner axis of a large grid; more would let memory grow with the grid.
 _KEPT_TABLES = 4096
+
+_SOLVER = "asperity.sweep.tasks"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,7 +101,7 @@ class Grid:
         for name, members in self._members.items():
             tables[name], texts[name] = self._table(name, tuple(places[m] for m in members))
         model = Model.from_case(dataclasses.replace(self.case, tables=tables))
-        content = "\n".join((source_hash(), *(texts[name] for name in sorted(texts))))
+        content = "\n".join((code_key(_SOLVER), *(texts[name] for name in sorted(texts))))
         return Point(index, model, hashlib.sha256(content.encode()).digest(), _kind(model))
 
     def _make_table(self, name: str, places: tuple[int, ...]) -> tuple[Table, str]:

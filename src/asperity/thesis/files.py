@@ -11,7 +11,7 @@ from pathlib import Path
 import asperity
 from asperity import __version__
 from asperity.casefile import read_case
-from asperity.compiled import source_hash
+from asperity.closure import package_hash
 from asperity.errors import StorageError
 from asperity.store import read_dataset, write_atomically, write_dataset, write_text
 from asperity.thesis.exhibits import FigureOf, Grid, TableOf
@@ -74,7 +74,7 @@ class TableFiles:
 
 def stamp(name: str, cases: Sequence[str]) -> str:
     """Hash of all that decides what comes out: the sources, their data and the cases' values."""
-    digest = hashlib.sha256(f"{source_hash()}\0{_data_hash()}\0{name}".encode())
+    digest = hashlib.sha256(f"{package_hash()}\0{_data_hash()}\0{name}".encode())
     for case in cases:
         digest.update(b"\0" + read_case(case, CASE_TABLES).canonical().encode())
     return digest.hexdigest()

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity import compiled, mesh, store
+from asperity import compiled, store
+from asperity.closure import source_key
 from asperity.contact.elastic.condensed import CondensedBody
 from asperity.errors import StorageError
 
@@ -23,9 +24,7 @@ _PLAIN = "plain"
 
 @functools.cache
 def _version() -> str:
-    # What is computed depends on these sources alone, so that other rooms may change.
-    rooms = (Path(__file__).parent, Path(mesh.__file__).parent)
-    return "".join(compiled.package_hash(room) for room in rooms)
+    return source_key("asperity.contact.elastic")
 
 
 def key(*parts: NDArray[np.generic] | str) -> str:
