@@ -24,7 +24,7 @@ from asperity.compiled import kernel
 from asperity.contact import hht
 from asperity.contact import motion as mo
 from asperity.contact.normal import HARD, TWO_STAGE, pressure
-from asperity.slider.result import PowerLedger
+from asperity.results.ledger import PowerLedger
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -1,7 +1,8 @@
 """A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms.
 
 >>> from asperity.friction import Friction
->>> from asperity.slider import Model, Slider, solve
+>>> from asperity.results.ledger import PowerLedger
+from asperity.slider import Model, Slider, solve
 >>> from asperity.vibration import Vibration
 >>> body = Slider(drive_velocity="0.5 mm/s", normal_force="55 N")
 >>> contact = Friction(mu=0.1, max_deflection="68.75 nm")
@@ -16,7 +17,7 @@ from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.parameters import Slider, Solve
-from asperity.slider.result import History, PowerLedger, SlideResult
+from asperity.slider.result import History, SlideResult
 from asperity.slider.tables import TABLES
 
 __all__ = [

@@ -13,6 +13,7 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
+from asperity.results.ledger import PowerLedger
 from asperity.slider import homogenised_law as hl
 from asperity.slider import kernels as k
 from asperity.slider.homogenised_law import (
@@ -23,7 +24,7 @@ from asperity.slider.homogenised_law import (
 )
 from asperity.slider.march import Timetable, Walk, march_notes
 from asperity.slider.model import FloatArray, Model
-from asperity.slider.result import History, PowerLedger, SlideResult
+from asperity.slider.result import History, SlideResult
 
 __all__ = ["HomogenisedLaw", "homogenise", "interpolate", "solve_homogenised"]
 

@@ -7,10 +7,11 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.errors import ConvergenceError, InputError
+from asperity.results.ledger import PowerLedger
 from asperity.slider import kernels as k
 from asperity.slider import model as m
 from asperity.slider.model import WINDOW_SHARE, FloatArray, Model
-from asperity.slider.result import History, PowerLedger, SlideResult, finite, mean_pair
+from asperity.slider.result import History, SlideResult, finite, mean_pair
 from asperity.slider.two_phase import march_two_phase
 from asperity.vibration import fill_increments
 

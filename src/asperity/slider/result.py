@@ -5,50 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.results.ledger import PowerLedger
 from asperity.slider.model import FloatArray, Model
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
-
-
-@dataclasses.dataclass(frozen=True)
-class PowerLedger:
-    """Mean powers over the window, W: drive + vibration = friction + damping + stored.
-
-    Attributes
-    ----------
-    drive : float
-        The drive force times v_d.
-    vibration : float
-        What the actuator puts in: friction on the transferred velocity of the vibration.
-    friction : float
-        Dissipated in the contact (elastic energy of the asperities not counted).
-    damping : float
-        Dissipated in the drive's damper.
-    stored : float
-        Rate of change of kinetic energy and of the energy in drive spring and asperities.
-    untransferred : float
-        What friction would do on the share 1 - eta_y of the lateral vibration that does not
-        reach the contact. It does no work in this model and stands outside the balance.
-    """
-
-    drive: float
-    vibration: float
-    friction: float
-    damping: float
-    stored: float
-    untransferred: float
-
-    @property
-    def residual(self) -> float:
-        """What is missing from the balance, over the drive power.
-
-        Where the drive does less than a thousandth of friction's work, over that much.
-        """
-        missing = self.drive + self.vibration - self.friction - self.damping - self.stored
-        scale = max(abs(self.drive), 1e-3 * abs(self.friction)) or 1.0
-        return abs(missing) / scale
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

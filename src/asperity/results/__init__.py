@@ -1,0 +1,1 @@
+"""What every answer is: quantities, the power ledger, tables, pages, figures, files."""

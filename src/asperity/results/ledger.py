@@ -1,0 +1,87 @@
+"""The power ledger of a time integration, and what becomes of one that does not close."""
+
+import dataclasses
+from collections.abc import Mapping
+
+from asperity.errors import ConvergenceError
+
+NOTED = 1e-3
+REFUSED = 1e-2
+
+
+@dataclasses.dataclass(frozen=True)
+class PowerLedger:
+    """Mean powers over the window, W: drive + vibration = friction + damping + stored.
+
+    Attributes
+    ----------
+    drive : float
+        The drive force times v_d.
+    vibration : float
+        What the actuator puts in: friction on the transferred velocity of the vibration.
+    friction : float
+        Dissipated in the contact (elastic energy of the asperities not counted).
+    damping : float
+        Dissipated in the drive's damper.
+    stored : float
+        Rate of change of kinetic energy and of the energy in drive spring and asperities.
+    untransferred : float
+        What friction would do on the share 1 - eta_y of the lateral vibration that does not
+        reach the contact. It does no work in this model and stands outside the balance.
+    """
+
+    drive: float
+    vibration: float
+    friction: float
+    damping: float
+    stored: float
+    untransferred: float
+
+    @property
+    def residual(self) -> float:
+        """What is missing from the balance, over the drive power.
+
+        Where the drive does less than a thousandth of friction's work, over that much.
+        """
+        missing = self.drive + self.vibration - self.friction - self.damping - self.stored
+        scale = max(abs(self.drive), 1e-3 * abs(self.friction)) or 1.0
+        return abs(missing) / scale
+
+
+def guard(
+    ledger: PowerLedger,
+    advice: str,
+    *,
+    reached: Mapping[str, float] | None = None,
+) -> tuple[str, ...]:
+    """Refuse an answer whose powers do not balance, and note one whose nearly do not.
+
+    Parameters
+    ----------
+    ledger : PowerLedger
+        The powers of the answer.
+    advice : str
+        What a user can do about it, such as ``give a smaller solve.step``.
+    reached : mapping of str to float, optional
+        What else was reached, for the exception; the residual is added as ``power_residual``.
+
+    Returns
+    -------
+    tuple of str
+        A note where the residual is above `NOTED`, else nothing.
+
+    Raises
+    ------
+    ConvergenceError
+        The residual is above `REFUSED`.
+    """
+    residual = ledger.residual
+    if not residual <= REFUSED:
+        raise ConvergenceError(
+            f"the powers do not balance: {residual:.2g} of the drive's is missing, at most "
+            f"{REFUSED:g} may be: {advice}",
+            reached={**(reached or {}), "power_residual": residual},
+        )
+    if residual > NOTED:
+        return (f"the powers balance only to {residual:.2g} of the drive's: {advice}",)
+    return ()

@@ -1,0 +1,46 @@
+import dataclasses
+
+import pytest
+
+from asperity.errors import ConvergenceError
+from asperity.results.ledger import PowerLedger, guard
+
+CLOSED = PowerLedger(
+    drive=1.0, vibration=2.0, friction=2.5, damping=0.25, stored=0.25, untransferred=7.0
+)
+ADVICE = "give a smaller solve.step"
+
+
+def missing(power, **changes):
+    return dataclasses.replace(CLOSED, vibration=2.0 + power, **changes)
+
+
+@pytest.mark.parametrize("power", [0.0, 9e-4, -9e-4])
+def test_a_ledger_that_closes_to_a_thousandth_of_the_drive_needs_no_word(power):
+    assert guard(missing(power), ADVICE) == ()
+
+
+def test_a_ledger_that_nearly_closes_is_noted():
+    (note,) = guard(missing(5e-3), ADVICE)
+    assert "0.005 of the drive's" in note
+    assert ADVICE in note
+
+
+@pytest.mark.parametrize("power", [2e-2, -2e-2, float("nan")])
+def test_an_answer_whose_powers_do_not_balance_is_refused_with_what_was_reached(power):
+    with pytest.raises(ConvergenceError, match=ADVICE) as raised:
+        guard(missing(power), ADVICE, reached={"ratio": 0.1})
+    assert raised.value.reached["ratio"] == 0.1
+    assert raised.value.reached["power_residual"] == pytest.approx(abs(power), nan_ok=True)
+
+
+def test_a_drive_that_does_nothing_is_measured_by_a_thousandth_of_frictions_work():
+    idle = PowerLedger(
+        drive=0.0, vibration=2.5, friction=2.5 + 2e-6, damping=0.0, stored=0.0, untransferred=0.0
+    )
+    assert idle.residual == pytest.approx(8e-4, rel=1e-4)
+    assert guard(idle, ADVICE) == ()
+
+
+def test_where_nothing_happens_nothing_is_missing():
+    assert PowerLedger(0.0, 0.0, 0.0, 0.0, 0.0, 0.0).residual == 0.0
