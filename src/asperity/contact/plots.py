@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.slider.plots import panels
+from asperity.results.figures import panels
 
 if TYPE_CHECKING:
     from matplotlib.collections import Collection

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.flanks.profiles import FloatArray
-from asperity.slider.plots import BLACK, BLUE, STYLE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

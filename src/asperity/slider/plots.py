@@ -1,57 +1,18 @@
 """Pictures of a solved sliding body."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity.errors import InputError
+from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, legend, panels
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from asperity.slider.result import SlideResult
 
-# Okabe and Ito's colours, which colour-blind readers tell apart; dashes and markers tell as well.
-BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK = (
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000",
-)  # fmt: skip
-STYLE: dict[Any, Any] = {
-    "font.size": 11.0,
-    "axes.labelsize": 11.0,
-    "axes.titlesize": 11.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "legend.fontsize": 10.0,
-    "legend.frameon": False,
-    "lines.linewidth": 1.5,
-    "axes.grid": True,
-    "grid.color": "#DDDDDD",
-    "grid.linewidth": 0.6,
-    "axes.axisbelow": True,
-}
 _CYCLES = 3
-
-
-def panels(
-    rows: int = 1, columns: int = 1, *, width: float = 7.0, height: float = 4.2
-) -> "tuple[Figure, list[Axes]]":
-    """Return a figure of the house's style and its axes, without touching matplotlib's state."""
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(width, height), layout="constrained")
-        axes = figure.subplots(rows, columns, squeeze=False)
-    return figure, list(axes.flat)
-
-
-def legend(axes: "Axes", **options: Any) -> None:
-    """Put a legend where it hides least."""
-    import matplotlib as mpl
-
-    with mpl.rc_context(STYLE):
-        axes.legend(**options)
 
 
 def plot_result(result: "SlideResult") -> "Figure":

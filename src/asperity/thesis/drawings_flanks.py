@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.slider.plots import BLACK, BLUE, STYLE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 from asperity.thesis.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint
 from asperity.thesis.shapes import Shape
 

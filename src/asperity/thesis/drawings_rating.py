@@ -4,7 +4,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.slider.plots import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, legend, panels
+from asperity.results.figures import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    legend,
+    panels,
+)
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.slider.plots import (
+from asperity.results.figures import (
     BLACK,
     BLUE,
     GREEN,

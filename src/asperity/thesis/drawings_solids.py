@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.slider.plots import panels
+from asperity.results.figures import panels
 from asperity.thesis.shapes import Floats, Shape
 
 if TYPE_CHECKING:

@@ -5,7 +5,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.rating.studies.optimise import design_numbers
-from asperity.slider.plots import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, legend, panels
+from asperity.results.figures import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    legend,
+    panels,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

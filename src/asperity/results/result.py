@@ -1,0 +1,255 @@
+"""An answer: what it holds follows from its fields, what it can do is here once."""
+
+import importlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from asperity.errors import AsperityError, InputError, StorageError
+from asperity.results import dataset as datasets
+from asperity.results.quantity import Entry, Label, Quantities, plain
+from asperity.results.table import Table, table_of, text_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_ANSWER, _OF = "answer", "answer_of"
+_MOST_SHOWN = 8
+
+_known: dict[str, "type[Result]"] = {}
+
+
+def _path_of(cls: type) -> str:
+    return f"{cls.__module__}:{cls.__qualname__}"
+
+
+class Result(Quantities):
+    """Base of every answer.
+
+    A subclass declares its fields with :func:`quantity` and may name its pictures in `drawings`:
+    functions of the dataset, so that a file can be drawn as well as the answer it came from.
+
+    Attributes
+    ----------
+    title : str
+        What it is an answer about.
+    stem : str
+        What its files are called.
+    drawings : mapping of str to str
+        Name of a picture's file to ``"module:function"``.
+    labels : mapping
+        Of dimensions: the names along them and what they are.
+    notes : tuple of str
+        What a reader of the numbers should know.
+    """
+
+    title: ClassVar[str] = ""
+    stem: ClassVar[str] = "result"
+    drawings: ClassVar[Mapping[str, str]] = {}
+    labels: ClassVar[datasets.Labels] = {}
+
+    notes: tuple[str, ...] = ()
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        _known[_path_of(cls)] = cls
+
+    @property
+    def kind(self) -> "type[Result]":
+        """The class that says how it is drawn and what its files are called."""
+        return type(self)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What was asked: values in SI and texts by ``table.key``."""
+        return {}
+
+    @property
+    def failure(self) -> AsperityError | None:
+        """What keeps the answer from being whole; shown and written all the same."""
+        return None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the scalars by key, each key with its unit, and the notes."""
+        found = {entry.key: entry.value for entry in self.entries() if entry.in_json}
+        return {key: plain(value) for key, value in found.items()} | {"notes": list(self.notes)}
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return everything as a labelled dataset in SI, every variable with its unit."""
+        attributes = {"notes": "; ".join(self.notes), **self.inputs}
+        return datasets.to_dataset(self, self.labels, attributes, title=self.title)
+
+    def to_frame(self) -> Any:
+        """Return the scalars as a data frame of pandas, indexed by key."""
+        import pandas  # type: ignore[import-untyped]
+
+        shown = [entry for entry in self.entries() if entry.in_json]
+        rows = [
+            {
+                "symbol": entry.label.symbol,
+                "value": entry.value,
+                "unit": entry.label.unit,
+                "meaning": entry.label.meaning,
+            }
+            for entry in shown
+        ]
+        index = pandas.Index([entry.key for entry in shown], name="key")
+        return pandas.DataFrame(rows, index=index, columns=["symbol", "value", "unit", "meaning"])
+
+    def heading(self) -> str:
+        """Return the line above the tables."""
+        return self.title
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return what a person reads, whatever shows it."""
+        return (table_of(self, remarks=self.notes),)
+
+    def figure(self, name: str | None = None) -> "Figure":
+        """Draw one of the pictures; the first if none is named."""
+        drawings = self.kind.drawings
+        if not drawings:
+            from asperity.results.figures import draw
+
+            return draw(self.to_dataset())
+        wanted = next(iter(drawings)) if name is None else name
+        if wanted not in drawings:
+            raise InputError(f"{wanted!r} is not a picture; there are {', '.join(drawings)}")
+        module, _, function = drawings[wanted].partition(":")
+        drawn: Figure = getattr(importlib.import_module(module), function)(self.to_dataset())
+        return drawn
+
+    plot = figure
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write everything as netCDF, whole or not at all; :func:`read` gives it back."""
+        from asperity.store import write_dataset
+
+        return write_dataset(self._with_answer(), path)
+
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write JSON, netCDF and the pictures to a folder that exists; returns their names.
+
+        The numbers come first, so that a picture that fails costs the picture.
+        """
+        from asperity.results.files import write_json, write_picture
+
+        kind = self.kind
+        names = [f"{kind.stem}.json", f"{kind.stem}.nc"]
+        write_json(self.to_json(), folder / names[0])
+        self.save(folder / names[1])
+        for name in (kind.drawings or [kind.stem]) if pictures else ():
+            figure = self.figure(name if kind.drawings else None)
+            write_picture(figure, folder / f"{name}.png")
+            names.append(f"{name}.png")
+        return names
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> "Saved":
+        """Read an answer of this kind back from a file; raises InputError for another kind."""
+        saved = read(path)
+        if not issubclass(saved.of, cls):
+            raise InputError(f"{path} holds {_path_of(saved.of)}, not {_path_of(cls)}")
+        return saved
+
+    def __repr__(self) -> str:
+        shown = [
+            f"{entry.name}={text_of(entry.value)}{' ' * bool(entry.label.unit)}{entry.label.unit}"
+            for entry in self.entries()
+            if entry.label.shown and not entry.label.dims and entry.value is not None
+        ]
+        more = f", ... {len(shown) - _MOST_SHOWN} more" if len(shown) > _MOST_SHOWN else ""
+        return f"{type(self).__name__}({', '.join(shown[:_MOST_SHOWN])}{more})"
+
+    def _repr_html_(self) -> str:
+        from asperity.results.page import fragment
+
+        return fragment(self.tables())
+
+    def _with_answer(self) -> "xr.Dataset":
+        answer = json.dumps(self.to_json(), allow_nan=False)
+        return self.to_dataset().assign_attrs({_OF: _path_of(type(self)), _ANSWER: answer})
+
+
+class Saved(Result):
+    """An answer read back from its file.
+
+    Attributes
+    ----------
+    of : type of Result
+        What it was.
+    dataset : xarray.Dataset
+        What the file holds.
+    """
+
+    of: type[Result]
+    dataset: "xr.Dataset"
+
+    @property
+    def kind(self) -> type[Result]:
+        """What it was."""
+        return self.of
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the scalars by key, as they were."""
+        answer: dict[str, Any] = json.loads(self.dataset.attrs[_ANSWER])
+        return answer
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return what the file holds."""
+        attributes = dict(self.dataset.attrs)
+        del attributes[_OF], attributes[_ANSWER]
+        return self.dataset.drop_attrs(deep=False).assign_attrs(attributes)
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield what the class declares, with the values of the file."""
+        answer = self.to_json()
+        declared = list(self.of.declared())
+        for entry in declared:
+            if entry.in_json and entry.key in answer:
+                yield Entry(entry.name, entry.label, answer[entry.key])
+            elif entry.variable in self.dataset.variables:
+                yield Entry(entry.name, entry.label, self.dataset[entry.variable].values)
+        known = {entry.key for entry in declared}
+        for key, value in answer.items():
+            # What an answer puts together by itself has its unit in the key alone.
+            if key not in known and isinstance(value, int | float | str):
+                yield Entry(key, Label("", "", key.replace("_", " "), key=key), value)
+
+    def heading(self) -> str:
+        """Return the line above the tables."""
+        return str(self.dataset.attrs.get("title", self.of.title))
+
+    def _with_answer(self) -> "xr.Dataset":
+        return self.dataset
+
+
+def read(path: str | os.PathLike[str]) -> Saved:
+    """Read an answer back from a file that :meth:`Result.save` or ``--out`` wrote.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be read, is damaged, or holds no answer.
+    """
+    from asperity.store import read_dataset
+
+    dataset = read_dataset(path)
+    try:
+        of = _class_of(str(dataset.attrs[_OF]))
+        notes = tuple(json.loads(dataset.attrs[_ANSWER]).get("notes", ()))
+    except (KeyError, ValueError, LookupError, ImportError, AttributeError):
+        raise StorageError(f"{path} holds no answer that this version can read back") from None
+    return Saved(of=of, dataset=dataset, notes=notes)
+
+
+def _class_of(path: str) -> type[Result]:
+    if path not in _known:
+        module, _, _ = path.partition(":")
+        # A file does not get to say what is imported.
+        if not module.startswith("asperity."):
+            raise LookupError(path)
+        importlib.import_module(module)
+    return _known[path]

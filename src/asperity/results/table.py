@@ -1,0 +1,103 @@
+"""A table of an answer, whatever shows it: terminal, page, notebook."""
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from asperity.results.quantity import Quantities
+
+_DIGITS = 5
+
+
+@dataclasses.dataclass(frozen=True)
+class Column:
+    """A column.
+
+    Attributes
+    ----------
+    heading : str
+        Above it.
+    right : bool
+        Whether it is aligned to the right, as numbers are.
+    weight : int
+        Its share of the width where texts must fold; 0: it never folds.
+    """
+
+    heading: str
+    right: bool = False
+    weight: int = 0
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """Rows of texts below headings.
+
+    Attributes
+    ----------
+    columns : tuple of Column
+        The columns.
+    rows : tuple of tuple of str
+        A text for every column.
+    title : str
+        Above the table.
+    remarks : tuple of str
+        Sentences below it.
+    """
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, ...], ...]
+    title: str = ""
+    remarks: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        headings: Iterable[str],
+        rows: Iterable[Sequence[Any]],
+        *,
+        title: str = "",
+        left: int = 1,
+        remarks: Iterable[str] = (),
+    ) -> "Table":
+        """Return a table whose first columns are words and whose others are numbers."""
+        columns = tuple(Column(text, right=place >= left) for place, text in enumerate(headings))
+        return cls(columns, tuple(tuple(map(text_of, row)) for row in rows), title, tuple(remarks))
+
+
+def text_of(value: Any, resolution: float = 0.0) -> str:
+    """Return a value as a table shows it.
+
+    Parameters
+    ----------
+    value : object
+        A number, text, truth, a list of them or None.
+    resolution : float
+        A number that is not larger is rounding: "none" is shown.
+    """
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        if value != value:
+            return "-"
+        return "none" if abs(value) <= resolution and value else f"{value + 0.0:.{_DIGITS}g}"
+    if isinstance(value, list | tuple):
+        return ", ".join(text_of(entry, resolution) for entry in value)
+    return str(value)
+
+
+def table_of(answer: Quantities, *, title: str = "", remarks: Iterable[str] = ()) -> Table:
+    """Return the scalars of an answer: what each is, its symbol, value and unit."""
+    rows = [
+        (
+            entry.label.meaning,
+            entry.label.symbol,
+            text_of(entry.value, answer.resolution(entry.name)),
+            entry.label.unit,
+        )
+        for entry in answer.entries()
+        if entry.label.shown and not entry.label.dims and entry.value is not None
+    ]
+    columns = Column("", weight=1), Column("symbol"), Column("value", right=True), Column("unit")
+    return Table(columns, tuple(rows), title, tuple(remarks))
