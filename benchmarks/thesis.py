@@ -10,7 +10,7 @@ import time
 from _common import finish, on_one_core
 
 from asperity.thesis import contents
-from asperity.thesis.reproduce import run
+from asperity.thesis.reproduce.run import run
 
 CHAPTER = "5."
 MOST = {"chapter_s": 180.0}

@@ -17,8 +17,8 @@ from asperity.contact.block_march import solve_block
 from asperity.contact.rest import rest_under_load
 from asperity.contact.steps import Walker
 from asperity.slider.march import march
-from asperity.thesis.blocks import LIGHT, Block, in_series
-from asperity.thesis.gearsets import CASE_TABLES
+from asperity.thesis.contact.blocks import LIGHT, Block, in_series
+from asperity.thesis.rating.gearsets import CASE_TABLES
 
 WAYS = {
     "longitudinal": ("block-longitudinal", ()),

@@ -8,14 +8,15 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.contact.block import BlockProblem
-from asperity.thesis import blocks, claims_contact, pressed
-from asperity.thesis.blocks import LIGHT, Block, Settled, settle_all
+from asperity.thesis.contact import blocks, pressed
+from asperity.thesis.contact import claims as claims_contact
+from asperity.thesis.contact.blocks import LIGHT, Block, Settled, settle_all
+from asperity.thesis.contact.figures import _over_ratio
 from asperity.thesis.contents import FIGURES
 from asperity.thesis.exhibits import FigureOf
-from asperity.thesis.figures_contact import _over_ratio
-from asperity.thesis.figures_sliding import figure_2_7
-from asperity.thesis.files import found_figure, make_figure
-from asperity.thesis.gearsets import CASE_TABLES
+from asperity.thesis.rating.gearsets import CASE_TABLES
+from asperity.thesis.reproduce.files import found_figure, make_figure
+from asperity.thesis.sliding.figures import figure_2_7
 
 K_2 = "vibration.velocity_ratio=2"
 STIFF = "block.youngs_modulus=20900 GPa"

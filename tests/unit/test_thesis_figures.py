@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError
-from asperity.thesis import contents, files
+from asperity.thesis import contents
 from asperity.thesis.contents import FIGURES, TABLES, select
-from asperity.thesis.figures_sliding import figure_2_7, figure_2_14, figure_2_15
-from asperity.thesis.reproduce import run
+from asperity.thesis.reproduce import files
+from asperity.thesis.reproduce.run import run
+from asperity.thesis.sliding.figures import figure_2_7, figure_2_14, figure_2_15
 
 
 @pytest.fixture
@@ -88,7 +89,7 @@ def test_a_damaged_file_is_made_again(tmp_path, counted, harm):
 
 def test_a_figure_of_other_sources_is_made_again(tmp_path, counted, monkeypatch):
     run(tmp_path, ["2.7"])
-    monkeypatch.setattr(files, "source_hash", lambda: "changed")
+    monkeypatch.setattr(files, "package_hash", lambda: "changed")
     assert not run(tmp_path, ["2.7"]).figures[0].reused
     assert counted == ["2.7", "2.7"]
 

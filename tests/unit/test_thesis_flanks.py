@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from asperity.mesh import box
-from asperity.thesis import figures_flanks, figures_solids
-from asperity.thesis.drawings_solids import View, paint
 from asperity.thesis.exhibits import labelled
-from asperity.thesis.meshing import meshing
-from asperity.thesis.shapes import Shape, joined
+from asperity.thesis.flanks import figures as figures_flanks
+from asperity.thesis.flanks import solids as figures_solids
+from asperity.thesis.flanks.drawings_solids import View, paint
+from asperity.thesis.flanks.meshing import meshing
+from asperity.thesis.flanks.shapes import Shape, joined
 
 IDENTICAL, MISALIGNED, MODIFIED = 0, 1, 2
 

@@ -3,10 +3,10 @@ import json
 
 import pytest
 
-from asperity.thesis import report
-from asperity.thesis.bodies import Body, Sweep
-from asperity.thesis.claims_sliding import CLAIMS, drive_stiffness
 from asperity.thesis.ledger import Claim, Entry, Finding, settle
+from asperity.thesis.page import report
+from asperity.thesis.sliding.bodies import Body, Sweep
+from asperity.thesis.sliding.claims import CLAIMS, drive_stiffness
 
 
 def finding(**parts):

@@ -6,11 +6,12 @@ import json
 
 import pytest
 
-from asperity.thesis import contents, report
+from asperity.thesis import contents
 from asperity.thesis.contents import CHAPTERS, CLAIMS, FIGURES, TABLES, chapter_of
 from asperity.thesis.exhibits import Grid, TableOf
-from asperity.thesis.gearsets import GEARSET_2, Gear
-from asperity.thesis.reproduce import run
+from asperity.thesis.page import report
+from asperity.thesis.rating.gearsets import GEARSET_2, Gear
+from asperity.thesis.reproduce.run import run
 
 GRID = Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("a, b", 60), ("gone", "")), ("how",))
 
@@ -63,7 +64,7 @@ def test_a_damaged_table_is_made_again(tmp_path, counted, suffix):
 
 def test_other_tables_of_a_standard_make_a_table_again(tmp_path, counted, monkeypatch):
     run(tmp_path, ["9.1"])
-    monkeypatch.setattr("asperity.thesis.files._data_hash", lambda: "changed")
+    monkeypatch.setattr("asperity.thesis.reproduce.files._data_hash", lambda: "changed")
     assert not run(tmp_path, ["9.1"]).tables[0].reused
 
 

@@ -5,18 +5,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from asperity.errors import InputError, nearest
-from asperity.thesis import (
-    claims_contact,
-    claims_rating,
-    claims_sliding,
-    figures_contact,
-    figures_flanks,
-    figures_rating,
-    figures_sliding,
-    figures_solids,
-    tables_rating,
-)
+from asperity.thesis.contact import claims as claims_contact
+from asperity.thesis.contact import figures as figures_contact
 from asperity.thesis.exhibits import FigureOf, TableOf
+from asperity.thesis.flanks import figures as figures_flanks
+from asperity.thesis.flanks import solids as figures_solids
+from asperity.thesis.rating import claims as claims_rating
+from asperity.thesis.rating import figures as figures_rating
+from asperity.thesis.rating import tables as tables_rating
+from asperity.thesis.sliding import claims as claims_sliding
+from asperity.thesis.sliding import figures as figures_sliding
 
 E = TypeVar("E", FigureOf, TableOf)
 

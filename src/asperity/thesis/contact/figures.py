@@ -7,11 +7,9 @@ from typing import Any
 import numpy as np
 
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
-from asperity.thesis import drawings_contact as drawings
-from asperity.thesis import drawings_sliding, pressed
-from asperity.thesis.blocks import LIGHT, Block, settle_all
-from asperity.thesis.bodies import PERIODIC, Body, Sweep
-from asperity.thesis.claims_contact import (
+from asperity.thesis.contact import drawings, pressed
+from asperity.thesis.contact.blocks import LIGHT, Block, settle_all
+from asperity.thesis.contact.claims import (
     ACROSS,
     ALONG,
     DIRECTIONS,
@@ -23,9 +21,11 @@ from asperity.thesis.claims_contact import (
     at_ratios,
     in_directions,
 )
-from asperity.thesis.claims_sliding import DIRECTION, PLOTTED, RATIO
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
-from asperity.thesis.figures_sliding import side_by_side, two_cycles
+from asperity.thesis.sliding import drawings as drawings_sliding
+from asperity.thesis.sliding.bodies import PERIODIC, Body, Sweep
+from asperity.thesis.sliding.claims import DIRECTION, PLOTTED, RATIO
+from asperity.thesis.sliding.figures import side_by_side, two_cycles
 
 ALL_DIRECTIONS = tuple(np.arange(0.0, 360.1, 15.0).tolist())
 FINE = ("solve.duration=0.3 s", "solve.step=1 us")
@@ -173,7 +173,10 @@ def figure_5_2() -> Drawn:
         element=((), pressed.SIZE[0] / pressed.ELEMENTS[0], "m", "width of an element"),
         **profiles,
     )  # fmt: skip
-    how = ["asperity.thesis.pressed.press(kind, shift)", "asperity.thesis.pressed.hertz()"]
+    how = [
+        "asperity.thesis.contact.pressed.press(kind, shift)",
+        "asperity.thesis.contact.pressed.hertz()",
+    ]
     return Drawn(drawings.pressure(dataset), dataset, how)
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.results.figures import panels
-from asperity.thesis.shapes import Floats, Shape
+from asperity.thesis.flanks.shapes import Floats, Shape
 
 if TYPE_CHECKING:
     import xarray as xr

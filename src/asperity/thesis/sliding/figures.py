@@ -8,10 +8,10 @@ import numpy as np
 
 from asperity.slider import Model, SlideResult
 from asperity.slider.closed_forms import dahl_from_rest, longitudinal_ratio, transverse_ratio
-from asperity.thesis import drawings_sliding as drawings
-from asperity.thesis.bodies import PERIODIC, TWO_PHASE, Body, Sweep
-from asperity.thesis.claims_sliding import ALL_AROUND, DIRECTION, LUGRE, MARKED, PLOTTED, RATIO
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.sliding import drawings
+from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body, Sweep
+from asperity.thesis.sliding.claims import ALL_AROUND, DIRECTION, LUGRE, MARKED, PLOTTED, RATIO
 
 if TYPE_CHECKING:
     import xarray as xr

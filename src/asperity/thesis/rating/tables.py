@@ -7,7 +7,7 @@ from typing import NamedTuple
 from asperity.rating import Rated
 from asperity.rating.result import Entry
 from asperity.thesis.exhibits import Cell, Grid, TableOf
-from asperity.thesis.gearsets import (
+from asperity.thesis.rating.gearsets import (
     GEARSET_2,
     GEARSETS,
     comparison_of,

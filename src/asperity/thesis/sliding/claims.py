@@ -6,8 +6,8 @@ import numpy as np
 
 from asperity.slider import SlideResult
 from asperity.slider.closed_forms import transverse_ratio
-from asperity.thesis.bodies import PERIODIC, TWO_PHASE, Body, Sweep
 from asperity.thesis.ledger import Claim, Finding
+from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body, Sweep
 
 RATIO = "vibration.velocity_ratio"
 DIRECTION = "vibration.direction"
@@ -117,7 +117,7 @@ def _digitised_stiffness() -> Finding:
             "ratio_at_stiffness_from_mean_force": ratio,
         },
         [
-            "asperity.thesis.claims_sliding.drive_stiffness, on the points of 4.3.1",
+            "asperity.thesis.sliding.claims.drive_stiffness, on the points of 4.3.1",
             body.command,
             other.command,
         ],

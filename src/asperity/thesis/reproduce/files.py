@@ -15,7 +15,7 @@ from asperity.closure import package_hash
 from asperity.errors import StorageError
 from asperity.store import read_dataset, write_atomically, write_dataset, write_text
 from asperity.thesis.exhibits import FigureOf, Grid, TableOf
-from asperity.thesis.gearsets import CASE_TABLES
+from asperity.thesis.rating.gearsets import CASE_TABLES
 
 Say = Callable[[str], None]
 

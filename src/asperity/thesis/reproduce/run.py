@@ -11,7 +11,9 @@ from typing import Any
 from asperity import __version__
 from asperity.store import output_folder, write_text
 from asperity.thesis import contents
-from asperity.thesis.files import (
+from asperity.thesis.ledger import Entry, settle
+from asperity.thesis.page.report import render
+from asperity.thesis.reproduce.files import (
     FigureFiles,
     TableFiles,
     found_figure,
@@ -20,8 +22,6 @@ from asperity.thesis.files import (
     make_table,
     stamp,
 )
-from asperity.thesis.ledger import Entry, settle
-from asperity.thesis.report import render
 
 _LEDGER = "claims.json"
 

@@ -5,9 +5,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.rating.variants import variants
-from asperity.thesis import drawings_rating as drawings
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
-from asperity.thesis.gearsets import GEARSET_2, GEARSETS, comparison_of, optimum_of, sensitivity_of
+from asperity.thesis.rating import drawings
+from asperity.thesis.rating.gearsets import (
+    GEARSET_2,
+    GEARSETS,
+    comparison_of,
+    optimum_of,
+    sensitivity_of,
+)
 
 if TYPE_CHECKING:
     import xarray as xr

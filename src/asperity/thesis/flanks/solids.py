@@ -14,11 +14,11 @@ from asperity.flanks.mesh import COARSE, DENSITIES, element_size, tooth
 from asperity.flanks.setting import Pair
 from asperity.flanks.wheel import FlankGrid, Wheel, WheelFlank
 from asperity.mesh import HexMesh
-from asperity.thesis import drawings_solids as drawings
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
-from asperity.thesis.gearsets import Gear
-from asperity.thesis.meshing import pair_of, stood
-from asperity.thesis.shapes import Shape, joined
+from asperity.thesis.flanks import drawings_solids as drawings
+from asperity.thesis.flanks.meshing import pair_of, stood
+from asperity.thesis.flanks.shapes import Shape, joined
+from asperity.thesis.rating.gearsets import Gear
 
 Floats = npt.NDArray[np.float64]
 
@@ -101,7 +101,7 @@ def figure_7_1() -> Drawn:
     )
     how = [
         "asperity.flanks.mesh.tooth, asperity.flanks.export.together.mounted_worm of gearset-3b",
-        "asperity.thesis.figures_solids.facet_height",
+        "asperity.thesis.flanks.solids.facet_height",
     ]
     return Drawn(drawings.gearset(dataset), dataset, how)
 

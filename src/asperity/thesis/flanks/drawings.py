@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
-from asperity.thesis.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint
-from asperity.thesis.shapes import Shape
+from asperity.thesis.flanks.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint
+from asperity.thesis.flanks.shapes import Shape
 
 if TYPE_CHECKING:
     import xarray as xr

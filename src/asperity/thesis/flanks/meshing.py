@@ -19,7 +19,7 @@ from asperity.flanks.transmission import Transmission, transmission
 from asperity.flanks.wheel import FlankGrid, Wheel
 from asperity.gearset import Gearset
 from asperity.rating import Operation
-from asperity.thesis.gearsets import Gear
+from asperity.thesis.rating.gearsets import Gear
 
 Floats = npt.NDArray[np.float64]
 T = TypeVar("T", bound=Table)

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from asperity.thesis.blocks import LIGHT, Block, Settled, settle_all
-from asperity.thesis.bodies import PERIODIC, Body, Sweep
-from asperity.thesis.claims_sliding import DIRECTION, RATIO
+from asperity.thesis.contact.blocks import LIGHT, Block, Settled, settle_all
 from asperity.thesis.ledger import Claim, Finding
+from asperity.thesis.sliding.bodies import PERIODIC, Body, Sweep
+from asperity.thesis.sliding.claims import DIRECTION, RATIO
 
 LONGITUDINAL, TRANSVERSE = "block-longitudinal", "block-transverse"
 SLIDING = {LONGITUDINAL: "table-4.3", TRANSVERSE: "table-4.4"}

@@ -11,8 +11,8 @@ from typing import Any
 
 from asperity.thesis.contents import CHAPTERS, Chapter, chapter_of
 from asperity.thesis.exhibits import Cell
-from asperity.thesis.files import FigureFiles, TableFiles
 from asperity.thesis.ledger import Entry
+from asperity.thesis.reproduce.files import FigureFiles, TableFiles
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 _GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "µ", "nu": "ν", "sigma": "σ"}

@@ -31,7 +31,7 @@ from asperity.contact.system import Shaking, System, SystemState
 from asperity.mesh import box
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic
-from asperity.thesis.gearsets import CASE_TABLES
+from asperity.thesis.rating.gearsets import CASE_TABLES
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -118,7 +118,7 @@ class Block:
     def how(self) -> str:
         """How to come by what it settles to."""
         settings = "".join(f"{setting!r}, " for setting in self.settings)
-        return f"asperity.thesis.blocks.Block({self.case!r}, ({settings})).settled()"
+        return f"asperity.thesis.contact.blocks.Block({self.case!r}, ({settings})).settled()"
 
     @property
     def command(self) -> str:

@@ -8,11 +8,11 @@ import numpy as np
 
 from asperity.flanks.mesh import tooth
 from asperity.flanks.pattern import MARKING, Pattern, pattern
-from asperity.thesis import drawings_flanks as drawings
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
-from asperity.thesis.gearsets import Gear
-from asperity.thesis.meshing import Meshing, meshing, pair_of
-from asperity.thesis.shapes import Shape, joined
+from asperity.thesis.flanks import drawings
+from asperity.thesis.flanks.meshing import Meshing, meshing, pair_of
+from asperity.thesis.flanks.shapes import Shape, joined
+from asperity.thesis.rating.gearsets import Gear
 
 _CASE = "gearset-3b"
 _IDENTICAL = ("hob.oversize=1", "hob.tilt=0 deg")
@@ -127,7 +127,7 @@ def figure_2_10() -> Drawn:
         worm_tip=((), worm.tip_radius, "mm", "tip radius of the worm"),
         film=((), _MICROMETRES * MARKING, "um", "gap that counts as contact"),
     )  # fmt: skip
-    how = [*_commands(*HOBS.values()), "asperity.thesis.meshing.Meshing.in_worm"]
+    how = [*_commands(*HOBS.values()), "asperity.thesis.flanks.meshing.Meshing.in_worm"]
     return Drawn(drawings.formation(dataset), dataset, how)
 
 

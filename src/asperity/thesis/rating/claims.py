@@ -8,7 +8,8 @@ from asperity.rating import STANDARDS, Rated
 from asperity.rating.shaft import torsional_stiffness
 from asperity.rating.studies.design import Bounds
 from asperity.rating.studies.optimise import Optimum, optimise
-from asperity.thesis.gearsets import (
+from asperity.thesis.ledger import Claim, Finding
+from asperity.thesis.rating.gearsets import (
     GEARSET_2,
     GEARSET_3,
     GEARSETS,
@@ -18,7 +19,6 @@ from asperity.thesis.gearsets import (
     optimum_of,
     sensitivity_of,
 )
-from asperity.thesis.ledger import Claim, Finding
 
 CASES = tuple(gear.case for gear in GEARSETS.values())
 

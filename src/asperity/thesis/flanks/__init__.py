@@ -1,0 +1,1 @@
+"""Flanks of worm and wheel: section 2.6, and the solids of chapter 7."""

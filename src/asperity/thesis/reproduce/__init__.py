@@ -1,0 +1,1 @@
+"""A run: what is made, found again and written."""
