@@ -12,9 +12,9 @@ import numpy as np
 from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
-from asperity.flanks.distance import distance_each, distance_only_each
-from asperity.flanks.helicoid import Helicoid
-from asperity.flanks.types import TYPES
+from asperity.flanks.worm.distance import distance_each, distance_only_each
+from asperity.flanks.worm.helicoid import Helicoid
+from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry
 
 POINTS = 20_000

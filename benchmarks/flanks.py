@@ -18,18 +18,18 @@ from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
 from asperity.casefile import read_case
-from asperity.flanks.analysis import analyse
-from asperity.flanks.distance import distances
 from asperity.flanks.export.brep import require_cad
 from asperity.flanks.export.step import write_step
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.mesh import tooth
-from asperity.flanks.pattern import pattern
+from asperity.flanks.mesh.tooth import tooth
+from asperity.flanks.meshing.analysis import analyse
+from asperity.flanks.meshing.pattern.marking import pattern
+from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.study import prepare_case
 from asperity.flanks.tables import TABLES as FLANKS
-from asperity.flanks.transmission import transmission
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.distance import distances
 from asperity.rating.tables import TABLES as RATING
 
 ROWS, COLUMNS = 20, 24

@@ -16,10 +16,10 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.flanks.distance import distances
 from asperity.flanks.parameters import Hob
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 IDENTICAL = Hob()

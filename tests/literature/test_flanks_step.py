@@ -12,14 +12,14 @@ from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-from asperity.flanks.distance import distances
 from asperity.flanks.export.step import read_step, write_step
 from asperity.flanks.export.tooth import FLANK_ERROR, tooth_body
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.mesh import tooth
+from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.parameters import Hob
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 GEARSET_3B = {

@@ -21,15 +21,15 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.flanks import transmission_kernels as kernels
-from asperity.flanks.analysis import analyse
-from asperity.flanks.conjugate import cut_params
-from asperity.flanks.kinematics import kinematics
-from asperity.flanks.lubrication import Load
+from asperity.flanks.meshing.analysis import analyse
+from asperity.flanks.meshing.kernels import transmission as kernels
+from asperity.flanks.meshing.kinematics import kinematics
+from asperity.flanks.meshing.lubrication import Load
+from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.parameters import Hob, Mount
-from asperity.flanks.setting import Pair
-from asperity.flanks.transmission import transmission
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.cutting.conjugate import cut_params
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.rating.iso14521 import contact, film

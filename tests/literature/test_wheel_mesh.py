@@ -8,10 +8,10 @@ import pytest
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import InputError
-from asperity.flanks import mesh
+from asperity.flanks.mesh import tooth as mesh
 from asperity.flanks.parameters import Hob
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 REASONS = ("undercut", "pointed", "hob too short", "does not reach")

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from asperity.flanks import ground
-from asperity.flanks.distance import distances
-from asperity.flanks.helicoid import Helicoid
 from asperity.flanks.parameters import Hob
+from asperity.flanks.worm import ground
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.helicoid import Helicoid
 from asperity.gearset import Geometry
 
 TYPES = ("ZI", "ZA", "ZN", "ZK", "ZC")

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError
-from asperity.flanks.distance import distances_with_derivatives
-from asperity.flanks.helicoid import Helicoid
 from asperity.flanks.parameters import Hob, Modification
-from asperity.flanks.types import TYPES
+from asperity.flanks.worm.distance import distances_with_derivatives
+from asperity.flanks.worm.helicoid import Helicoid
+from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry
 
 geometries = st.builds(

@@ -5,8 +5,8 @@ import pytest
 
 from asperity.contact.rigid import RigidSurface, distance
 from asperity.errors import InputError
-from asperity.flanks.distance import distances
-from asperity.flanks.helicoid import Helicoid
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.helicoid import Helicoid
 from asperity.gearset import Geometry
 
 WORM = Helicoid.worm(

@@ -10,20 +10,20 @@ import pytest
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks import transmission_kernels as kernels
-from asperity.flanks.analysis import analyse
-from asperity.flanks.conjugate import cut_params
-from asperity.flanks.contact_lines import contact_lines
-from asperity.flanks.distance import distances
-from asperity.flanks.ease_off import ease_off
-from asperity.flanks.kinematics import kinematics
-from asperity.flanks.lubrication import Load, film_thickness, loaded_lines
+from asperity.flanks.meshing.analysis import analyse
+from asperity.flanks.meshing.contact_lines import contact_lines
+from asperity.flanks.meshing.ease_off import ease_off
+from asperity.flanks.meshing.kernels import transmission as kernels
+from asperity.flanks.meshing.kinematics import kinematics
+from asperity.flanks.meshing.lubrication import Load, film_thickness, loaded_lines
+from asperity.flanks.meshing.pattern.area import areas, crossings, node_areas, part_below
+from asperity.flanks.meshing.pattern.marking import pattern
+from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.parameters import Hob, Mount
-from asperity.flanks.pattern import pattern
-from asperity.flanks.pattern_area import areas, crossings, node_areas, part_below
-from asperity.flanks.setting import Pair
-from asperity.flanks.transmission import transmission
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.cutting.conjugate import cut_params
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.store import read_dataset, write_dataset

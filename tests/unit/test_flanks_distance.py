@@ -7,18 +7,18 @@ import pytest
 from scipy.spatial import cKDTree
 
 from asperity.errors import InputError
-from asperity.flanks import curve
-from asperity.flanks.distance import (
+from asperity.flanks.parameters import Hob, Modification
+from asperity.flanks.worm import curve
+from asperity.flanks.worm.distance import (
     distance,
     distance_each,
     distance_only,
     distances,
     distances_with_derivatives,
 )
-from asperity.flanks.foot import on_arc, on_flank
-from asperity.flanks.helicoid import Helicoid
-from asperity.flanks.parameters import Hob, Modification
-from asperity.flanks.types import TYPES
+from asperity.flanks.worm.foot import on_arc, on_flank
+from asperity.flanks.worm.helicoid import Helicoid
+from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry
 
 GEOMETRY = Geometry.of(starts=4, wheel_teeth=60, axial_module=2.15380, diameter_factor=8.4)

@@ -9,15 +9,15 @@ import pytest
 import trimesh
 
 from asperity.errors import ConvergenceError, InputError, MissingExtraError, StorageError
-from asperity.flanks import views
+from asperity.flanks.export import views
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.export.step import read_step, write_step
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.mesh import tooth
+from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.parameters import Hob
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.mesh.surface_files import write_glb, write_stl
 
@@ -243,7 +243,7 @@ def test_a_pattern_that_makes_no_sense_is_refused(wheel, tmp_path, gap, thicknes
 
 def test_importing_the_package_imports_no_extra():
     code = (
-        "import sys, asperity.flanks.views, asperity.flanks.export.step, asperity.mesh.vtu\n"
+        "import sys, asperity.flanks.export.views, asperity.flanks.export.step, asperity.mesh.vtu\n"
         "assert not {'OCP', 'pyvista', 'vtkmodules', 'trimesh'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -8,11 +8,11 @@ import pytest
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import InputError
-from asperity.flanks.distance import distances, distances_with_derivatives
-from asperity.flanks.helicoid import Helicoid
 from asperity.flanks.parameters import Hob, Modification, Mount
-from asperity.flanks.setting import Pair, Setting
-from asperity.flanks.types import TYPES
+from asperity.flanks.worm.distance import distances, distances_with_derivatives
+from asperity.flanks.worm.helicoid import Helicoid
+from asperity.flanks.worm.setting import Pair, Setting
+from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Gearset, Geometry
 
 GEOMETRY = Geometry.of(starts=4, wheel_teeth=60, axial_module=2.15380, diameter_factor=8.4)

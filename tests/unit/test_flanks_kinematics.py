@@ -7,11 +7,11 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.flanks.kinematics import kinematics
+from asperity.flanks.meshing.kinematics import kinematics
+from asperity.flanks.meshing.vibration_share import DIRECTIONS, vibration_share
 from asperity.flanks.parameters import Hob, Mount
-from asperity.flanks.setting import Pair
-from asperity.flanks.vibration_share import DIRECTIONS, vibration_share
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 SPEED = 1440.0 * math.pi / 30.0

@@ -7,8 +7,8 @@ import pytest
 
 from asperity.errors import InputError
 from asperity.flanks.parameters import Disc
-from asperity.flanks.profiles import axial, tabulate
-from asperity.flanks.types import TYPES, profile
+from asperity.flanks.worm.profiles import axial, tabulate
+from asperity.flanks.worm.types import TYPES, profile
 
 NUMBERS = {
     "pitch_radius": 9.046,

@@ -7,10 +7,10 @@ from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob, Mount
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel
-from asperity.flanks.wheel_gaps import gaps
-from asperity.flanks.wheel_interference import interference
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.gaps import gaps
+from asperity.flanks.wheel.interference import interference
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 

@@ -11,8 +11,8 @@ from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel, WheelFlank
+from asperity.flanks.wheel.enveloped import Wheel, WheelFlank
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 OVERSIZE = Hob(oversize=1.12, tilt="2 deg")

@@ -8,8 +8,8 @@ from asperity.casefile import read_case
 from asperity.cli import show
 from asperity.cli.tables import TABLES
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.density import read_density
 from asperity.flanks.export.brep import require_cad
+from asperity.flanks.mesh.density import read_density
 from asperity.flanks.study import prepare_case, study
 from asperity.store import output_folder
 
@@ -49,7 +49,7 @@ def flank(
     else:
         _print(case, found)
     if folder is not None:
-        from asperity.flanks.files import write_study
+        from asperity.flanks.export.files import write_study
 
         show.write_json(found.to_json(), folder / "flank.json")
         written = write_study(found, folder, step=step)

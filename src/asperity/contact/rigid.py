@@ -14,8 +14,8 @@ import numpy.typing as npt
 
 from asperity.compiled import kernel
 from asperity.errors import InputError
-from asperity.flanks import distance as worm
-from asperity.flanks.helicoid import Helicoid
+from asperity.flanks.worm import distance as worm
+from asperity.flanks.worm.helicoid import Helicoid
 
 FloatArray = npt.NDArray[np.float64]
 

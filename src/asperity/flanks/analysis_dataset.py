@@ -4,13 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.flanks.profiles import FloatArray
-from asperity.flanks.vibration_share import DIRECTIONS, PARTS
+from asperity.flanks.meshing.vibration_share import DIRECTIONS, PARTS
+from asperity.flanks.worm.profiles import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from asperity.flanks.analysis import FlankAnalysis
+    from asperity.flanks.meshing.analysis import FlankAnalysis
 
 _MAP = ("row", "column")
 _AXES = ("x", "y", "z")

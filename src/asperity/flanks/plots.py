@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.flanks.profiles import FloatArray
+from asperity.flanks.worm.profiles import FloatArray
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 
 if TYPE_CHECKING:

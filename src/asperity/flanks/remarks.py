@@ -1,6 +1,7 @@
 """What a reader of a study of flanks should know: what was assumed, and what is from memory."""
 
-from asperity.flanks import lubrication, parameters
+from asperity.flanks import parameters
+from asperity.flanks.meshing import lubrication
 from asperity.flanks.parameters import Disc, Hob
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import SOURCES as PROPORTIONS

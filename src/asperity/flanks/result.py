@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.flanks.analysis import Analysis, FlankAnalysis
+from asperity.flanks.meshing.analysis import Analysis, FlankAnalysis
+from asperity.flanks.meshing.vibration_share import PARTS
 from asperity.flanks.plots import (
     FlankMap,
     plot_contact_lines,
@@ -16,9 +17,8 @@ from asperity.flanks.plots import (
     plot_transmission_error,
     plot_vibration,
 )
-from asperity.flanks.profiles import FloatArray
-from asperity.flanks.vibration_share import PARTS
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.profiles import FloatArray
 from asperity.mesh import HexMesh
 
 if TYPE_CHECKING:

@@ -8,14 +8,14 @@ from typing import TypeVar
 
 from asperity.casefile import Case, Table
 from asperity.errors import InputError
-from asperity.flanks.analysis import Analysis, analyse
-from asperity.flanks.lubrication import Load
-from asperity.flanks.mesh import element_size, tooth
+from asperity.flanks.mesh.tooth import element_size, tooth
+from asperity.flanks.meshing.analysis import Analysis, analyse
+from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.flanks.remarks import assumptions, from_memory
 from asperity.flanks.result import MICROMETRES, FlankStudy
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.mesh import HexMesh
 from asperity.rating import Operation, rate_case

@@ -7,7 +7,7 @@ import numpy as np
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
 
 
 def centred_teeth(wheel: Wheel, teeth: int) -> Body:

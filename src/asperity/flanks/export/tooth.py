@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.wheel import Wheel
+from asperity.flanks.wheel.enveloped import Wheel
 
 Floats = NDArray[np.float64]
 

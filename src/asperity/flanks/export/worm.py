@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.helicoid import Helicoid
-from asperity.flanks.setting import Pair
+from asperity.flanks.worm.helicoid import Helicoid
+from asperity.flanks.worm.setting import Pair
 
 Floats = NDArray[np.float64]
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity.flanks.mesh import tooth
-from asperity.flanks.pattern import MARKING, Pattern, pattern
+from asperity.flanks.mesh.tooth import tooth
+from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
 from asperity.thesis.flanks import drawings
 from asperity.thesis.flanks.meshing import Meshing, meshing, pair_of
@@ -84,7 +84,7 @@ def figure_2_9() -> Drawn:
             ),
         }  # fmt: skip
     dataset = labelled(**variables)
-    how = [*_commands(*DESIGNS.values()), "asperity.flanks.lubrication.loaded_lines"]
+    how = [*_commands(*DESIGNS.values()), "asperity.flanks.meshing.lubrication.loaded_lines"]
     return Drawn(drawings.pressures(dataset), dataset, how)
 
 
@@ -197,7 +197,7 @@ def figure_2_13() -> Drawn:
         root_radius=((), plain.root_radius, "mm", "root radius"),
         normal=((), normal, "1", "normal over axial distance between flanks"),
     )  # fmt: skip
-    how = [*_commands(EPS), "asperity.flanks.helicoid.Helicoid.width"]
+    how = [*_commands(EPS), "asperity.flanks.worm.helicoid.Helicoid.width"]
     return Drawn(drawings.modified_profile(dataset), dataset, how)
 
 

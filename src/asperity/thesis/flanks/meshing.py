@@ -9,14 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.casefile import Table
-from asperity.flanks.contact_lines import contact_lines
-from asperity.flanks.distance import distances
-from asperity.flanks.kinematics import Kinematics, kinematics
-from asperity.flanks.lubrication import Load, LoadedLines, loaded_lines
+from asperity.flanks.meshing.contact_lines import contact_lines
+from asperity.flanks.meshing.kinematics import Kinematics, kinematics
+from asperity.flanks.meshing.lubrication import Load, LoadedLines, loaded_lines
+from asperity.flanks.meshing.transmission import Transmission, transmission
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
-from asperity.flanks.setting import Pair
-from asperity.flanks.transmission import Transmission, transmission
-from asperity.flanks.wheel import FlankGrid, Wheel
+from asperity.flanks.wheel.enveloped import FlankGrid, Wheel
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.thesis.rating.gearsets import Gear

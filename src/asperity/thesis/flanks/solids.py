@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from asperity.flanks.distance import distances
 from asperity.flanks.export.together import mounted_worm
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.mesh import COARSE, DENSITIES, element_size, tooth
-from asperity.flanks.setting import Pair
-from asperity.flanks.wheel import FlankGrid, Wheel, WheelFlank
+from asperity.flanks.mesh.tooth import COARSE, DENSITIES, element_size, tooth
+from asperity.flanks.wheel.enveloped import FlankGrid, Wheel, WheelFlank
+from asperity.flanks.worm.distance import distances
+from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
 from asperity.thesis.flanks import drawings_solids as drawings

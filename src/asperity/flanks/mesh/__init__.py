@@ -1,0 +1,1 @@
+"""Hexahedra of the wheel."""

@@ -1,0 +1,1 @@
+"""How worm and wheel touch and move."""

@@ -1,0 +1,138 @@
+r"""Backlash of the mesh, the worm's axial clearance in it, and the threads that give a backlash.
+
+One flank of the worm touches; the other is away from the next flank of the wheel. Their shortest
+distance is the normal backlash. How far the worm can be turned between both, the wheel held, is in
+closed form the sum of what both flanks need, :math:`\Delta\varphi = D_+ + D_-`
+(`asperity.flanks.meshing.transmission`), and since a turn carries the thread along, the worm can
+be shifted by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial
+vibration can have from peak to peak. All are the least over a pitch, and negative where the flanks
+interfere.
+
+Lengths are in mm, angles in rad.
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from asperity.errors import ConvergenceError, InputError
+from asperity.flanks.meshing.transmission import ToothSearch, Transmission
+
+# Further than this from the least no place is looked at below the grid, mm.
+_NEAR = 3e-3
+_STEPS = 20
+_TOLERANCE = 1e-10
+
+
+@dataclasses.dataclass(frozen=True)
+class Play:
+    """The play of a worm between both flanks of the wheel, the least over a pitch.
+
+    Attributes
+    ----------
+    normal : dict of int to float
+        Normal backlash by the flank that bears, mm.
+    axial : float
+        Axial clearance of the worm, from flank to flank, the wheel held, mm.
+    worm_angle, wheel_angle : float
+        Turn of the worm, the wheel held, and of the wheel, the worm held, rad.
+    """
+
+    normal: dict[int, float]
+    axial: float
+    worm_angle: float
+    wheel_angle: float
+
+    @property
+    def amplitude(self) -> float:
+        """Largest amplitude of an axial vibration of the worm about mid-play, mm; at least 0."""
+        return max(0.0, 0.5 * self.axial)
+
+
+def normal_backlash(bearing: Transmission, other: ToothSearch) -> float:
+    """Return the shortest distance on the other flank, least over a pitch, mm.
+
+    Negative: the depth by which the flanks interfere.
+    """
+    samples = bearing.wheel_angle.size
+    beta = other.places(samples)
+    index = np.mod(np.rint(beta / (other.pitch / samples)).astype(np.int64), samples)
+    phase = other.pair.ratio * beta + bearing.search.flank.side * bearing.lead[index]
+    rough = other.gap(beta, phase, np.full(beta.size, -math.inf))[:, 0]
+    near = np.full(beta.size, float(rough.min()) + _NEAR)
+    return float(other.gap(beta, phase, near)[:, 0].min())
+
+
+def play(meshes: dict[int, Transmission]) -> Play:
+    """Return the play of a mesh.
+
+    Parameters
+    ----------
+    meshes : dict of int to Transmission
+        The transmission on both flanks, 1 and -1, over the same places of the wheel.
+    """
+    pair = meshes[1].search.pair
+    turn = float((meshes[1].lead + meshes[-1].lead).min())
+    return Play(
+        normal={side: normal_backlash(meshes[side], meshes[-side].search) for side in (1, -1)},
+        axial=pair.worm.reduced_lead * turn,
+        worm_angle=turn,
+        wheel_angle=turn / pair.ratio,
+    )
+
+
+def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, Transmission]:
+    """Return a mesh whose worm threads have the thickness that leaves a normal backlash.
+
+    Parameters
+    ----------
+    meshes : dict of int to Transmission
+        The transmission on both flanks.
+    backlash : float
+        Least normal backlash with either flank bearing, mm.
+
+    Raises
+    ------
+    InputError
+        The threads would be pointed.
+    ConvergenceError
+        No thickness leaves it.
+    """
+    worm = meshes[1].search.pair.worm
+    widest = worm.half_space + worm.half_pitch - float(worm.curve(2.0)[1])
+    normal = math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+    turn = float((meshes[1].lead + meshes[-1].lead).min())
+    slope = 2.0 * normal
+    tried: list[tuple[float, float]] = []
+    # For ZI this is the answer.
+    half_space = worm.half_space + 0.5 * (backlash / normal - worm.reduced_lead * turn)
+    for _ in range(_STEPS):
+        if half_space >= widest:
+            most = normal * (worm.reduced_lead * turn + 2.0 * (widest - worm.half_space))
+            # What there is beyond is less than this where both flanks do not touch alike.
+            room = math.floor(90.0 * most) / 100.0
+            advice = (
+                f"take one of at most about {room:g} mm"
+                if 0.0 < room < backlash
+                else "none is possible as the worm is mounted and modified: look at mount and "
+                "modification"
+            )
+            raise InputError(
+                f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed: {advice}"
+            )
+        thinned = {side: mesh.with_worm(half_space) for side, mesh in meshes.items()}
+        least = min(normal_backlash(thinned[s], thinned[-s].search) for s in (1, -1))
+        missing = backlash - least
+        if abs(missing) <= _TOLERANCE:
+            return thinned
+        tried.append((half_space, least))
+        if len(tried) > 1 and tried[-1][0] != tried[-2][0]:
+            (w0, j0), (w1, j1) = tried[-2:]
+            # Far from the answer the flanks may miss each other, and the secant be useless.
+            slope = max((j1 - j0) / (w1 - w0), 0.5 * slope)
+        half_space += missing / slope
+    raise ConvergenceError(
+        f"no thickness of the worm's threads leaves a backlash of {backlash:g} mm",
+        reached={"backlash_mm": least},
+    )

@@ -1,0 +1,1 @@
+"""Where worm and wheel come nearest while they turn, compiled."""

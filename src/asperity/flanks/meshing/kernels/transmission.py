@@ -1,0 +1,252 @@
+r"""The place of a wheel's tooth that bears first on the worm, found below any grid.
+
+A worm that turns touches a point of the tooth, held where the wheel has turned by :math:`\beta`,
+when the axial way between both is used up. Since a turn :math:`\varphi` carries the thread by
+:math:`p\varphi`, the angle is a closed form for any flank,
+
+.. math:: s\varphi = s\psi + [w(\rho) - s\zeta]/p ,
+
+with the point's cylindrical coordinates :math:`(\rho, \psi, \zeta)` in the worm's standing axes;
+beyond the worm's tip there is no such angle. The least :math:`s\varphi` over the tooth is where it
+bears. It is looked for column by column along the wheel's axis, in each by radius, with parabolas
+in a bracket: a minimum on the flank's edge is one as well.
+
+The same search takes the least distance to the worm at a given phase instead (``mode``).
+"""
+
+import math
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.flanks.meshing.kernels.kinematics import to_axes
+from asperity.flanks.wheel.cutting.conjugate import RATIO, conjugate
+from asperity.flanks.wheel.cutting.trim import FIELDS, NODES, PSI, RADIUS, REACHED, U, locate
+from asperity.flanks.wheel.cutting.undercut import section
+from asperity.flanks.worm.curve import ARC_RADIUS, ARC_Z, FLANK_END, LEAD, ROUNDING, TIP, width
+from asperity.flanks.worm.distance import distance_only
+
+TURN = 0
+NEAR = 1
+
+CENTRE = 0
+THROAT = 1
+OUTSIDE = 2
+
+_STEPS = 80
+_GOLDEN = 0.381966011250105
+# Of a bracket's width; the value is then off by its square.
+_NARROW = 1e-7
+# Where values differ by rounding only, as along the contact line of an identical hob.
+_EVEN = 1e-15
+# Between points of a grid the flank may come this much nearer than at them, mm.
+_DEEPER = 2e-3
+
+
+@kernel
+def half_space(rho, worm):
+    """Half the axial width of the worm's thread space, the tip's rounding included."""
+    if rho <= worm[FLANK_END]:
+        return width(rho, worm)[0]
+    if rho >= worm[TIP]:
+        return math.inf
+    x = rho - worm[ARC_RADIUS]
+    return worm[ARC_Z] - math.sqrt(max(worm[ROUNDING] ** 2 - x * x, 0.0))
+
+
+@kernel
+def measure(x, y, z, beta, phase, mode, side, worm, mount):
+    """What is minimised at a point: the turn ``s phi`` to contact, or the distance at a phase."""
+    c, s = math.cos(beta), math.sin(beta)
+    a, b, q = to_axes(x * c - y * s, x * s + y * c, z, mount)
+    if mode == NEAR:
+        return distance_only(a, b, q + worm[LEAD] * phase, worm)
+    return side * math.atan2(b, a) + (half_space(math.hypot(a, b), worm) - side * q) / worm[LEAD]
+
+
+@kernel
+def next_place(a, fa, b, fb, c, fc, narrow, slow):
+    """Where to look next between ``a <= b <= c``, of which ``b`` is the lowest.
+
+    The vertex of a parabola, at least ``narrow`` from ``b``; the golden section where there is none
+    and where the bracket was ``slow`` to shrink: parabolas creep along a function that bends
+    sharply at one end.
+    """
+    left, right = b - a, c - b
+    if left > 0.0 and right > 0.0 and not slow:
+        down, up = (fa - fb) / left, (fc - fb) / right
+        t = b + 0.5 * (down * right - up * left) / (down + up)
+        if a < t < c:
+            if abs(t - b) < narrow:
+                return b + narrow if right > left else b - narrow
+            return t
+    return b + _GOLDEN * right if right > left else b - _GOLDEN * left
+
+
+@kernel
+def narrowed(a, fa, b, fb, c, fc, t, ft):
+    """The bracket with one more place ``t``."""
+    if ft <= fb:
+        if t > b:
+            return b, fb, t, ft, c, fc
+        return a, fa, t, ft, b, fb
+    if t > b:
+        return a, fa, b, fb, t, ft
+    return t, ft, b, fb, c, fc
+
+
+@kernel
+def of_node(u, psi, beta, phase, mode, side, hob, cut, worm, mount):
+    """`measure` of the point of the wheel that the hob cuts at ``(u, psi)``."""
+    x, y, z, own, _, _, _ = conjugate(u, psi, side, hob, cut)
+    return measure(x, y, z, beta - own / cut[RATIO], phase, mode, side, worm, mount)
+
+
+@kernel
+def resolution(given):
+    """How much less a measure may be between points of a grid than at them."""
+    return _DEEPER if given[2] == NEAR else _DEEPER / given[6][LEAD]
+
+
+@kernel
+def tip_radius(z, blank):
+    """Radius of the blank at a place on its axis."""
+    throat = blank[CENTRE] - math.sqrt(max(blank[THROAT] ** 2 - z * z, 0.0))
+    return min(throat, blank[OUTSIDE])
+
+
+@kernel
+def least_between(low, k, high, values, z, given, nodes, flank, last):
+    """``(value, radius)`` of the least measure round the node ``k`` of a section."""
+    a, fa = nodes[low, RADIUS], values[low]
+    b, fb = nodes[k, RADIUS], values[k]
+    c, fc = nodes[high, RADIUS], values[high]
+    side, hob, cut = given[3], given[4], given[5]
+    narrow = _NARROW * (c - a)
+    older = old = math.inf
+    for _ in range(_STEPS):
+        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
+            break
+        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+        older, old = old, c - a
+        u, psi = locate(t, flank, last, z, side, hob, cut, nodes)
+        ft = of_node(u, psi, *given)
+        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
+    return fb, b
+
+
+@kernel
+def least_on_column(z, given, blank, nodes, values):
+    """``(value, radius)`` of the least measure on the flank at a place ``z``; inf if there is none.
+
+    ``given`` is what `of_node` takes behind the place. The nodes of the traced section bracket
+    every minimum; ``values`` is room for theirs.
+    """
+    side, hob, cut = given[3], given[4], given[5]
+    stop = tip_radius(z, blank)
+    _, flank, count, status, _ = section(z, stop, side, hob, cut, nodes)
+    if status != REACHED:
+        return math.inf, 0.0
+    last = count - 1
+    u, psi = locate(stop, flank, last, z, side, hob, cut, nodes)
+    nodes[last, U], nodes[last, PSI], nodes[last, RADIUS] = u, psi, stop
+    least = math.inf
+    for k in range(flank, count):
+        values[k] = of_node(nodes[k, U], nodes[k, PSI], *given)
+        least = min(least, values[k])
+    best, radius = math.inf, 0.0
+    if least == math.inf:
+        return best, radius
+    limit = least + resolution(given)
+    for k in range(flank, count):
+        low, high = max(k - 1, flank), min(k + 1, last)
+        # Of two equal ones the first.
+        behind = values[low] > values[k] or low == k
+        if behind and values[high] >= values[k] and values[k] <= limit:
+            value, at = least_between(low, k, high, values, z, given, nodes, flank, last)
+            if value < best:
+                best, radius = value, at
+    return best, radius
+
+
+@kernel
+def least_near(j, columns, found, given, blank, nodes, values):
+    """``(value, radius, z)`` of the least measure round the column ``j``.
+
+    ``found`` has values and radii of the columns.
+    """
+    low, high = max(j - 1, 0), min(j + 1, columns.size - 1)
+    a, b, c = columns[low], columns[j], columns[high]
+    fa, fb, fc = found[0, low], found[0, j], found[0, high]
+    radius = found[1, j]
+    narrow = _NARROW * (c - a)
+    older = old = math.inf
+    for _ in range(_STEPS):
+        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
+            break
+        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+        older, old = old, c - a
+        ft, at = least_on_column(t, given, blank, nodes, values)
+        if ft <= fb:
+            radius = at
+        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
+    return fb, radius, b
+
+
+@kernel
+def least_on_tooth(columns, rough, given, blank):
+    """``(value, radius, z)`` of the least measure on the flank.
+
+    ``rough`` has the least value of each column on a grid. Columns that may hold the least are
+    looked at themselves, and every minimum among them is followed between the columns.
+    """
+    nodes = np.empty((NODES, FIELDS))
+    values = np.empty(NODES)
+    found = np.full((2, columns.size), math.inf)
+    reach = resolution(given)
+    limit = rough.min() + reach
+    for j in range(columns.size):
+        near = rough[max(j - 1, 0) : j + 2].min()
+        if near <= limit:
+            found[0, j], found[1, j] = least_on_column(columns[j], given, blank, nodes, values)
+    best = math.inf
+    radius = z = 0.0
+    # A minimum between columns is less deep below them than one between points.
+    limit = found[0].min() + 0.2 * reach
+    before = math.inf
+    for j in range(columns.size):
+        value = found[0, j]
+        after = found[0, min(j + 1, columns.size - 1)]
+        if value < before - _EVEN and value <= after + _EVEN and value <= limit:
+            value, r, at = least_near(j, columns, found, given, blank, nodes, values)
+            if value < best:
+                best, radius, z = value, r, at
+        before = found[0, j]
+    return best, radius, z
+
+
+@kernel
+def scan(points, beta, phase, mode, side, worm, mount, rough):
+    """Fill ``rough`` with the least measure of each column of a grid, and return the least."""
+    for j in range(points.shape[1]):
+        rough[j] = math.inf
+        for i in range(points.shape[0]):
+            x, y, z = points[i, j, 0], points[i, j, 1], points[i, j, 2]
+            rough[j] = min(rough[j], measure(x, y, z, beta, phase, mode, side, worm, mount))
+    return rough.min()
+
+
+@kernel
+def least_each(points, columns, betas, phases, mode, side, hob, cut, worm, mount, blank, near, out):
+    """Least measures at every place of the wheel: value, radius and z by columns of ``out``.
+
+    Those above ``near`` are left as they are at the points of the grid, and have no radius.
+    """
+    rough = np.empty(columns.size)
+    for k in range(betas.size):
+        out[k, 0] = scan(points, betas[k], phases[k], mode, side, worm, mount, rough)
+        out[k, 1] = 0.0
+        out[k, 2] = columns[rough.argmin()]
+        if out[k, 0] < math.inf and out[k, 0] <= near[k]:
+            given = (betas[k], phases[k], mode, side, hob, cut, worm, mount)
+            out[k, 0], out[k, 1], out[k, 2] = least_on_tooth(columns, rough, given, blank)

@@ -1,0 +1,204 @@
+r"""Velocities and curvatures where a point of the wheel's flank comes nearest to the worm.
+
+Every point of the flank has a phase of the worm at which it is nearest to it; with an identical hob
+it then touches. All points with one phase are the contact line, and across it
+(:math:`a`, in the tangent plane) the surfaces roll over it. The wheel's flank is enveloped by the
+hob, so that its curvature is the hob's less a rank-one part, in closed form
+(`asperity.flanks.meshing.kernels.kinematics`); no surface is differentiated numerically.
+
+Vectors are in the standing frame of the wheel, lengths in mm, velocities in mm/s.
+"""
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.errors import ConvergenceError
+from asperity.flanks.meshing.kernels import kinematics as rows
+from asperity.flanks.wheel.cutting.conjugate import cut_params
+from asperity.flanks.wheel.enveloped import FlankGrid
+from asperity.flanks.worm.profiles import FloatArray
+from asperity.flanks.worm.setting import Pair
+
+_ROUNDING = 1e-9
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Kinematics:
+    r"""What holds at each point of a flank while the worm turns.
+
+    Arrays have the shape of the points given; vectors one more axis of 3.
+
+    Attributes
+    ----------
+    worm_speed : float
+        :math:`\omega_1`, rad/s.
+    phase : ndarray
+        Angle of the worm at which the point is nearest to it.
+    gap : ndarray
+        The distance then, mm.
+    reach : ndarray
+        How far below the end of the worm's flank the nearest place lies, mm; negative where it is
+        on the worm's tip, and the point never touches.
+    position, normal : ndarray
+        The point in space then, mm; unit normal of the worm's surface, out of the worm.
+    sliding : ndarray
+        Velocity of the worm relative to the wheel, mm/s.
+    across, along : ndarray
+        Unit vectors of the tangent plane, across and along the contact line.
+    worm_rolling, wheel_rolling : ndarray
+        Velocity :math:`u_k` of each surface over the contact line, along ``across``, mm/s.
+    worm_curvature, wheel_curvature, relative_curvature : ndarray
+        (..., 2): principal curvatures, 1/mm, the larger one first; positive where convex. The
+        relative ones are those of the sum of both.
+    line_curvature : ndarray
+        Relative curvature across the contact line, 1/mm; its inverse is the radius of the Hertzian
+        line contact.
+    """
+
+    worm_speed: float
+    phase: FloatArray
+    gap: FloatArray
+    reach: FloatArray
+    position: FloatArray
+    normal: FloatArray
+    sliding: FloatArray
+    across: FloatArray
+    along: FloatArray
+    worm_rolling: FloatArray
+    wheel_rolling: FloatArray
+    worm_curvature: FloatArray
+    wheel_curvature: FloatArray
+    relative_curvature: FloatArray
+    line_curvature: FloatArray
+
+    @property
+    def on_flank(self) -> npt.NDArray[np.bool_]:
+        """Whether the nearest place is on the worm's flank, and not on its tip."""
+        return self.reach >= -_ROUNDING
+
+    @property
+    def sliding_speed(self) -> FloatArray:
+        """Size of the sliding velocity, mm/s."""
+        return np.asarray(np.linalg.norm(self.sliding, axis=-1))
+
+    @property
+    def entrainment(self) -> FloatArray:
+        r"""Speed :math:`(u_1 + u_2)/2` that draws oil into the contact line, mm/s, not signed."""
+        return np.abs(0.5 * (self.worm_rolling + self.wheel_rolling))
+
+
+def kinematics(
+    pair: Pair, grid: FlankGrid, side: int, worm_speed: float = 1.0, ahead: float = 0.0
+) -> Kinematics:
+    r"""Return velocities and curvatures of the mesh at points of the wheel's flank.
+
+    Parameters
+    ----------
+    pair : Pair
+        Worm, hob, and how both stand.
+    grid : FlankGrid
+        Points of the flank.
+    side : {1, -1}
+        Which flank.
+    worm_speed : float
+        :math:`\omega_1`, rad/s.
+    ahead : float
+        Transmission error: by how much the wheel is turned further than :math:`\varphi_1 z_1/z_2`.
+
+    Raises
+    ------
+    ConvergenceError
+        A point has no phase at which it is nearest to the worm.
+    """
+    shape = grid.phase.shape
+    points = np.ascontiguousarray(grid.points.reshape(-1, 3))
+    own = np.ascontiguousarray(grid.phase.reshape(-1))
+    cut = cut_params(pair.ratio, pair.cutting)
+    mount = cut_params(pair.ratio, pair.mounting)
+    made = np.empty((own.size, rows.WIDTH))
+    rows.meet_each(points, own, 0.0, cut, pair.hob.distance_params(side), made)
+    met = np.empty_like(made)
+    guess = own - pair.ratio * ahead
+    rows.approach_each(points, guess, ahead, mount, pair.worm.distance_params(side), met)
+    lost = int(np.count_nonzero((met[:, rows.CONVERGED] == 0.0) & (met[:, rows.REACH] > 0.0)))
+    if lost:
+        raise ConvergenceError(
+            f"{lost} of {own.size} points of the flank have no phase at which the worm is nearest; "
+            "the mount is too far from where it should be",
+            reached={"points": float(own.size - lost)},
+        )
+
+    axes = pair.mounting.axes
+    g = met[:, rows.GRADIENT : rows.GRADIENT + 3]
+    w = met[:, rows.VELOCITY : rows.VELOCITY + 3]
+    change = _tangential(met[:, rows.CHANGE : rows.CHANGE + 3], g)
+    steep = np.linalg.norm(change, axis=1)
+    a = change / steep[:, None]
+    b = np.cross(g, a)
+    turn = met[:, rows.PHASE] / pair.ratio + ahead - own / pair.ratio
+    worm = _in_plane(_square(met[:, rows.HESSIAN : rows.HESSIAN + 6]), a, b)
+    wheel = _in_plane(_carried(_enveloped(made), pair.cutting.axes, turn, axes), a, b)
+    wheel_rolls = worm_speed * met[:, rows.SECOND] / steep
+    worm_rolls = wheel_rolls - worm_speed * np.sum(w * a, axis=1)
+    relative = worm - wheel
+
+    def out(values: FloatArray) -> FloatArray:
+        return values.reshape(*shape, *values.shape[1:])
+
+    return Kinematics(
+        worm_speed=worm_speed,
+        phase=out(met[:, rows.PHASE]),
+        gap=out(met[:, rows.DISTANCE]),
+        reach=out(met[:, rows.REACH]),
+        position=out(pair.mounting.to_wheel(met[:, rows.PLACE : rows.PLACE + 3])),
+        normal=out(g @ axes),
+        sliding=out(-worm_speed * (w @ axes)),
+        across=out(a @ axes),
+        along=out(b @ axes),
+        worm_rolling=out(worm_rolls),
+        wheel_rolling=out(wheel_rolls),
+        worm_curvature=out(_principal(worm)),
+        wheel_curvature=out(_principal(-wheel)),
+        relative_curvature=out(_principal(relative)),
+        line_curvature=out(relative[:, 0, 0]),
+    )
+
+
+def _tangential(vectors: FloatArray, normals: FloatArray) -> FloatArray:
+    return np.asarray(vectors - np.sum(vectors * normals, axis=1, keepdims=True) * normals)
+
+
+def _square(six: FloatArray) -> FloatArray:
+    return six[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
+
+
+def _enveloped(made: FloatArray) -> FloatArray:
+    """Second fundamental form that the hob leaves, in its own axes, its tangent plane only."""
+    g = made[:, rows.GRADIENT : rows.GRADIENT + 3]
+    f = made[:, rows.CHANGE : rows.CHANGE + 3]
+    form = _square(made[:, rows.HESSIAN : rows.HESSIAN + 6])
+    form = form - f[:, :, None] * f[:, None, :] / made[:, rows.SECOND, None, None]
+    plane = np.eye(3) - g[:, :, None] * g[:, None, :]
+    return np.asarray(plane @ form @ plane)
+
+
+def _carried(form: FloatArray, start: FloatArray, turn: FloatArray, end: FloatArray) -> FloatArray:
+    """Tensors in the axes ``start``, turned about Z with the wheel, in the axes ``end``."""
+    c, s = np.cos(turn), np.sin(turn)
+    whole = np.zeros((turn.size, 3, 3))
+    whole[:, 0, 0] = whole[:, 1, 1] = c
+    whole[:, 1, 0], whole[:, 0, 1] = s, -s
+    whole[:, 2, 2] = 1.0
+    way = end @ whole @ start.T
+    return np.asarray(way @ form @ np.swapaxes(way, 1, 2))
+
+
+def _in_plane(form: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    basis = np.stack([a, b], axis=1)
+    return np.asarray(basis @ form @ np.swapaxes(basis, 1, 2))
+
+
+def _principal(form: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.eigvalsh(form)[:, ::-1])

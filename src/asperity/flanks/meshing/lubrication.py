@@ -1,0 +1,267 @@
+r"""Load, Hertzian pressure and oil film along the contact lines for a torque of the wheel.
+
+The wheel turns by an angle :math:`\vartheta` under the load. With the lever :math:`h` of the normal
+about the wheel's axis and the gap :math:`g` along the contact lines, a piece of line carries
+
+.. math:: w = c\,(h\,\vartheta - g) \quad \text{where positive}, \qquad T_2 = \int w\,h\,dl,
+
+with one stiffness :math:`c` per length of contact line for tooth and contact. Pressure and film are
+those of a line contact of the local radius :math:`\rho = 1/\kappa`,
+
+.. math::
+    p = \sqrt{\frac{w E^*}{\pi \rho}}, \qquad
+    h_{min} = 1.6\, \alpha^{0.6} (\eta u)^{0.7} E_{red}^{0.03} \rho^{0.43} w^{-0.13},
+
+with :math:`u` the mean velocity of both surfaces across the line; the film is Dowson and
+Higginson's, which ISO/TR 14521's mean over the mesh comes from. Friction does not bear on the load.
+"""
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.errors import InputError
+from asperity.flanks.meshing.contact_lines import ContactLines
+from asperity.flanks.meshing.kinematics import kinematics
+from asperity.flanks.meshing.transmission import Transmission
+from asperity.flanks.worm.profiles import FloatArray
+from asperity.gearset import Gearset
+from asperity.rating import Operation, hertz
+from asperity.sources import Source
+
+SOURCES = {
+    "film": Source("Dowson and Higginson, 1966", "from memory"),
+    "stiffness": Source(
+        "finite elements of gearset 3's tooth against a rigid worm",
+        "one source",
+        "half the contact modulus; Hertz's line contact alone is about as stiff",
+    ),
+}
+"""Where film and stiffness come from."""
+
+_STIFFNESS = 0.5
+"""Of a length of contact line, in contact moduli."""
+_MPA = 1e-6
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Load:
+    r"""What the mesh runs under.
+
+    Attributes
+    ----------
+    wheel_torque : float
+        :math:`T_2`, N m.
+    worm_speed : float
+        :math:`\omega_1`, rad/s.
+    contact_modulus : float
+        :math:`E^* = E_{red}/2`, MPa.
+    line_stiffness : float
+        :math:`c`, N/mm per mm of contact line.
+    dynamic_viscosity : float
+        :math:`\eta`, Pa s.
+    pressure_viscosity : float
+        :math:`\alpha`, m²/N.
+    """
+
+    wheel_torque: float
+    worm_speed: float
+    contact_modulus: float
+    line_stiffness: float
+    dynamic_viscosity: float
+    pressure_viscosity: float
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if not 0.0 < value < np.inf:
+                raise InputError(f"{field.name} is {value:g}; it must be positive and finite")
+
+    @classmethod
+    def of(cls, gearset: Gearset, operation: Operation, oil_temperature: float) -> "Load":
+        """Return the load of a gearset in operation.
+
+        Parameters
+        ----------
+        gearset : Gearset
+            Gives the materials.
+        operation : Operation
+            Gives torque, speed and lubricant.
+        oil_temperature : float
+            K.
+        """
+        worm, wheel = gearset.worm_material, gearset.wheel_material
+        modulus = hertz.contact_modulus(
+            worm.youngs_modulus * _MPA,
+            worm.poisson_ratio,
+            wheel.youngs_modulus * _MPA,
+            wheel.poisson_ratio,
+        )
+        oil = operation.lubricant
+        return cls(
+            wheel_torque=operation.output_torque,
+            worm_speed=operation.worm_speed,
+            contact_modulus=modulus,
+            line_stiffness=_STIFFNESS * modulus,
+            dynamic_viscosity=float(oil.dynamic_viscosity(oil_temperature)),
+            pressure_viscosity=oil.base.pressure_viscosity,
+        )
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LoadedLines:
+    r"""Contact lines under load; arrays hold a number for each piece of line.
+
+    Attributes
+    ----------
+    lines : ContactLines
+        The lines.
+    twist : float
+        :math:`\vartheta`, by which the wheel yields, rad.
+    load : ndarray
+        :math:`w`, N/mm; 0 where the load does not close the gap.
+    pressure : ndarray
+        Hertzian pressure, MPa.
+    film : ndarray
+        Least thickness of the oil film, um; 0 where there is no load.
+    sliding_speed, entrainment : ndarray
+        mm/s.
+    """
+
+    lines: ContactLines
+    twist: float
+    load: FloatArray
+    pressure: FloatArray
+    film: FloatArray
+    sliding_speed: FloatArray
+    entrainment: FloatArray
+
+    @property
+    def carrying(self) -> npt.NDArray[np.bool_]:
+        """Which pieces carry."""
+        return self.load > 0.0
+
+    @property
+    def teeth(self) -> int:
+        """Number of teeth that carry."""
+        return int(np.unique(self.lines.tooth[self.carrying]).size)
+
+    @property
+    def normal_force(self) -> float:
+        """Sum of all normal forces, N."""
+        return float(np.sum(self.load * self.lines.length))
+
+    def mean(self, values: FloatArray) -> float:
+        """Return the mean of values over the pieces by the force they carry."""
+        force = self.load * self.lines.length
+        return float(np.sum(force * values) / np.sum(force))
+
+    def to_json(self) -> dict[str, float | int]:
+        """Scalar results, each key with its unit."""
+        return {
+            "worm_angle_deg": float(np.degrees(self.lines.worm_angle)),
+            "loaded_teeth": self.teeth,
+            "loaded_length_mm": float(self.lines.length[self.carrying].sum()),
+            "loaded_twist_rad": self.twist,
+            "normal_force_N": self.normal_force,
+            "line_load_max_N_per_mm": float(self.load.max()),
+            "hertz_pressure_max_MPa": float(self.pressure.max()),
+            "hertz_pressure_mean_MPa": self.mean(self.pressure),
+            "film_min_um": float(self.film[self.carrying].min()),
+            "film_mean_um": self.mean(self.film),
+            "sliding_speed_mean_mm_per_s": self.mean(self.sliding_speed),
+            "entrainment_mean_mm_per_s": self.mean(self.entrainment),
+        }
+
+
+def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedLines:
+    """Return load, pressure and film along contact lines.
+
+    Parameters
+    ----------
+    mesh : Transmission
+        The mesh on the flank.
+    lines : ContactLines
+        Contact lines on it.
+    load : Load
+        Torque, speed, materials and oil.
+
+    Raises
+    ------
+    InputError
+        No contact line lies on the flank at this angle of the worm.
+    """
+    # The middles of the pieces are brought onto the flank, for curvatures as they are there.
+    flank = mesh.search.flank
+    found = flank.at(np.minimum(lines.radius, flank.tip_radius(lines.z)), lines.z)
+    motion = kinematics(mesh.search.pair, found, flank.side, load.worm_speed, mesh.ahead)
+    length = np.where(motion.on_flank, lines.length, 0.0)
+    if not length.sum() > 0.0:
+        raise InputError(
+            f"worm_angle is {lines.worm_angle:g} rad; there is no contact line: take another"
+        )
+    place, normal = motion.position, motion.normal
+    lever = np.abs(place[:, 0] * normal[:, 1] - place[:, 1] * normal[:, 0])
+    # A piece that the worm's core meets from within has no lever, and carries nothing.
+    length = np.where(lever > 0.0, length, 0.0)
+    if not length.sum() > 0.0:
+        raise InputError(
+            "the worm cuts so deep into the wheel that no contact line has a lever about the "
+            "wheel's axis: look at mount"
+        )
+    torque = load.wheel_torque * 1e3
+    twist = _twist(torque / load.line_stiffness, length, lever, motion.gap)
+    closed = np.maximum(lever * twist - motion.gap, 0.0)
+    w = np.where(length > 0.0, load.line_stiffness * closed, 0.0)
+    # Where worm and wheel fit each other better than a plane a plane, they do as the latter.
+    radius = 1.0 / np.maximum(motion.line_curvature, 1e-9)
+    return LoadedLines(
+        lines=lines,
+        twist=twist,
+        load=w,
+        pressure=np.asarray(hertz.line_contact_stress(w, radius, 1.0, load.contact_modulus)),
+        film=film_thickness(load, w, radius, motion.entrainment),
+        sliding_speed=motion.sliding_speed,
+        entrainment=motion.entrainment,
+    )
+
+
+def film_thickness(
+    load: Load, line_load: FloatArray, radius: FloatArray, entrainment: FloatArray
+) -> FloatArray:
+    """Return the least film thickness of line contacts, um; 0 where there is no load.
+
+    Parameters
+    ----------
+    load : Load
+        Oil and materials.
+    line_load, radius, entrainment : ndarray
+        N/mm, mm, mm/s.
+    """
+    some = line_load > 0.0
+    w = np.where(some, line_load, 1.0) * 1e3
+    metres = (
+        1.6
+        * load.pressure_viscosity**0.6
+        * (load.dynamic_viscosity * entrainment * 1e-3) ** 0.7
+        * (2e6 * load.contact_modulus) ** 0.03
+        * (radius * 1e-3) ** 0.43
+        * w**-0.13
+    )
+    return np.asarray(np.where(some, metres * 1e6, 0.0))
+
+
+def _twist(torque: float, length: FloatArray, lever: FloatArray, gap: FloatArray) -> float:
+    """Angle at which the pieces of line carry a torque over the stiffness: piecewise linear."""
+    some = length > 0.0
+    start = gap[some] / lever[some]
+    order = np.argsort(start)
+    weight = (length[some] * lever[some] ** 2)[order]
+    begin = start[order]
+    total = np.cumsum(weight)
+    moment = np.cumsum(weight * begin)
+    # With the first k pieces in contact.
+    angle = (torque + moment) / total
+    last = np.append(begin[1:], np.inf)
+    return float(angle[np.argmax(angle <= last)])

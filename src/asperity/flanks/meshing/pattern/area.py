@@ -1,0 +1,143 @@
+"""What of a surface given at the points of a grid lies below a level, and where the level runs.
+
+Every cell of the grid is two flat triangles, over which values are linear; areas and centroids are
+then exact.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.flanks.worm.profiles import FloatArray
+
+Index = npt.NDArray[np.int64]
+
+
+class Part(NamedTuple):
+    """A part of a surface.
+
+    Attributes
+    ----------
+    area : float
+        In the square of the points' unit.
+    fraction : float
+        Of the whole surface.
+    centroid : ndarray
+        Mean of the coordinates given over the part; of the lowest point where it has no area.
+    """
+
+    area: float
+    fraction: float
+    centroid: FloatArray
+
+
+def triangles(rows: int, columns: int) -> Index:
+    """Return the corners of the triangles of a grid, (n, 3), as indices into its points."""
+    index = np.arange(rows * columns).reshape(rows, columns)
+    a, b = index[:-1, :-1].ravel(), index[:-1, 1:].ravel()
+    c, d = index[1:, :-1].ravel(), index[1:, 1:].ravel()
+    return np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)])
+
+
+def areas(points: FloatArray) -> FloatArray:
+    """Return the areas of the triangles of a grid of points, (rows, columns, 3)."""
+    corners = points.reshape(-1, 3)[triangles(*points.shape[:2])]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return np.asarray(0.5 * np.linalg.norm(normal, axis=1))
+
+
+def node_areas(points: FloatArray) -> FloatArray:
+    """Return a third of the area of the triangles at each point, (rows, columns)."""
+    shape = points.shape[:2]
+    total = np.zeros(points.shape[0] * points.shape[1])
+    np.add.at(total, triangles(*shape).ravel(), np.repeat(areas(points) / 3.0, 3))
+    return total.reshape(shape)
+
+
+def part_below(
+    points: FloatArray, values: FloatArray, level: float, coordinates: FloatArray
+) -> Part:
+    """Return the part of a surface where values lie below a level.
+
+    Parameters
+    ----------
+    points : ndarray
+        (rows, columns, 3).
+    values : ndarray
+        (rows, columns).
+    level : float
+        The level.
+    coordinates : ndarray
+        (rows, columns, k): what the centroid is the mean of.
+    """
+    corners = triangles(*values.shape)
+    whole = areas(points)
+    flat = values.ravel()
+    place = coordinates.reshape(flat.size, -1)
+    order = np.argsort(flat[corners], axis=1)
+    corners = np.take_along_axis(corners, order, axis=1)
+    low, middle, high = (flat[corners[:, k]] for k in range(3))
+    first, second, third = (place[corners[:, k]] for k in range(3))
+
+    # Below by one corner: a triangle there; by two: all but the triangle at the third.
+    one = (low < level) & (middle >= level)
+    two = (middle < level) & (high >= level)
+    all_three = high < level
+    area = np.where(all_three, whole, 0.0)
+    moment = area[:, None] * (first + second + third) / 3.0
+
+    def cut(corner: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:
+        return (level - corner)[:, None] / np.stack([left - corner, right - corner], axis=1)
+
+    t = cut(low[one], middle[one], high[one])
+    piece = whole[one] * t[:, 0] * t[:, 1]
+    area[one] = piece
+    centre = (
+        first[one]
+        + (t[:, :1] * (second[one] - first[one]) + t[:, 1:] * (third[one] - first[one])) / 3.0
+    )
+    moment[one] = piece[:, None] * centre
+
+    t = cut(high[two], low[two], middle[two])
+    piece = whole[two] * t[:, 0] * t[:, 1]
+    area[two] = whole[two] - piece
+    centre = (
+        third[two]
+        + (t[:, :1] * (first[two] - third[two]) + t[:, 1:] * (second[two] - third[two])) / 3.0
+    )
+    middle_of_all = (first[two] + second[two] + third[two]) / 3.0
+    moment[two] = whole[two, None] * middle_of_all - piece[:, None] * centre
+
+    total = float(area.sum())
+    if total <= 0.0:
+        return Part(0.0, 0.0, place[int(np.argmin(flat))])
+    return Part(total, total / float(whole.sum()), moment.sum(axis=0) / total)
+
+
+def crossings(values: FloatArray, level: float) -> tuple[Index, FloatArray]:
+    """Return the pieces of the line on which values have a level.
+
+    Returns
+    -------
+    corners : ndarray
+        (n, 3): the triangle that each piece crosses, as indices into the points of the grid.
+    weights : ndarray
+        (n, 2, 3): what each corner counts at both ends of the piece.
+    """
+    flat = values.ravel()
+    corners = triangles(*values.shape)
+    corners = np.take_along_axis(corners, np.argsort(flat[corners], axis=1), axis=1)
+    low, middle, high = (flat[corners[:, k]] for k in range(3))
+    met = (low < level) & (high >= level)
+    corners, low, middle, high = corners[met], low[met], middle[met], high[met]
+    weights = np.zeros((corners.shape[0], 2, 3))
+    share = (level - low) / (high - low)
+    weights[:, 0, 0], weights[:, 0, 2] = 1.0 - share, share
+    lower = middle >= level
+    start, stop = np.where(lower, low, middle), np.where(lower, middle, high)
+    share = (level - start) / (stop - start)
+    each = np.arange(share.size)
+    weights[each, 1, np.where(lower, 0, 1)] = 1.0 - share
+    weights[each, 1, np.where(lower, 1, 2)] = share
+    return corners, weights

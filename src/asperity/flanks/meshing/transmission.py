@@ -1,0 +1,293 @@
+r"""Transmission error of the unloaded mesh, with misalignment, refined below the grid.
+
+The wheel stands at :math:`\beta`; the worm's flank :math:`s` touches a tooth once it has turned to
+the least :math:`s\varphi` over the tooth's flank
+(`asperity.flanks.meshing.kernels.transmission`), and the tooth that comes first bears. Teeth differ
+by whole pitches alone, so that one tooth, followed through the mesh, tells of all. With the lead of
+the worm over its nominal place :math:`D = \min s\varphi - s\,i\beta`, the wheel is ahead
+of :math:`\varphi/i` by :math:`-D/i` in the direction in which the flank drives it.
+
+The worm's threads are taken as long as the wheel reaches. Lengths are in mm, angles in rad; the
+frame is that of the right-handed gearset.
+"""
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+
+from asperity.errors import ConvergenceError
+from asperity.flanks.meshing.kernels import transmission as kernels
+from asperity.flanks.wheel.cutting.conjugate import cut_params
+from asperity.flanks.wheel.enveloped import FlankGrid, WheelFlank
+from asperity.flanks.worm.profiles import FloatArray
+from asperity.flanks.worm.setting import Pair
+
+SAMPLES = 32
+"""Places of the wheel in a pitch."""
+
+_ROWS, _COLUMNS = 24, 25
+_STEPS = 25
+# Points of the grid are at most this much further from contact than what lies between them, in mm
+# of axial way; teeth still further away than that need no exact place.
+_NEAR = 2e-2
+_CONSTANT = 1e-13
+_RIGID = 1e-9
+# Of the step between places, to which extremes are found.
+_FINE = 1e-4
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ToothSearch:
+    """The flank of one tooth, and the worm it is to meet.
+
+    Attributes
+    ----------
+    pair : Pair
+        Worm, and how it stands.
+    flank : WheelFlank
+        The flank.
+    """
+
+    pair: Pair
+    flank: WheelFlank
+
+    @functools.cached_property
+    def grid(self) -> FlankGrid:
+        """Points from which every search begins."""
+        return self.flank.grid(_ROWS, _COLUMNS)
+
+    @property
+    def pitch(self) -> float:
+        """Angle between teeth."""
+        return 2.0 * math.pi / self.pair.geometry.wheel_teeth
+
+    def places(self, samples: int) -> FloatArray:
+        """Angles of the wheel, whole parts of a pitch, over which a tooth is in the mesh."""
+        step = self.pitch / samples
+        own = self.grid.phase / self.pair.ratio
+        first = math.floor(float(own.min()) / step) - samples // 2
+        last = math.ceil(float(own.max()) / step) + samples // 2
+        return np.asarray(np.arange(first, last + 1) * step, dtype=np.float64)
+
+    def _least(
+        self, mode: int, beta: FloatArray, phase: FloatArray, near: FloatArray
+    ) -> FloatArray:
+        pair, side = self.pair, self.flank.side
+        blank = self.flank.blank
+        out = np.empty((beta.size, 3))
+        kernels.least_each(
+            np.ascontiguousarray(self.grid.points),
+            np.ascontiguousarray(self.grid.z[0]),
+            beta,
+            phase,
+            mode,
+            float(side),
+            pair.hob.params,
+            cut_params(pair.ratio, pair.cutting),
+            pair.worm.distance_params(side),
+            cut_params(pair.ratio, pair.mounting),
+            np.array([blank.centre_distance, blank.throat_radius, blank.outside_radius]),
+            near,
+            out,
+        )
+        return out
+
+    def lead(self, beta: FloatArray, exact: FloatArray | None = None) -> FloatArray:
+        r"""Return by rows what the tooth needs at angles of the wheel: :math:`D`, radius and z.
+
+        :math:`D` is infinite where the worm does not reach the tooth. ``exact`` tells where the
+        place is to be found below the grid; radius is 0 where it is not.
+        """
+        nominal = self.flank.side * self.pair.ratio * beta
+        near = np.full(beta.size, math.inf) if exact is None else exact + nominal
+        found = self._least(kernels.TURN, beta, np.zeros(beta.size), near)
+        found[:, 0] -= nominal
+        return found
+
+    def gap(self, beta: FloatArray, phase: FloatArray, exact: FloatArray) -> FloatArray:
+        """Return by rows the least distance to the worm, mm, and where, as `lead` does."""
+        return self._least(kernels.NEAR, beta, phase, exact)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Transmission:
+    r"""How the unloaded mesh transmits over a pitch of the wheel, on one flank.
+
+    Attributes
+    ----------
+    search : ToothSearch
+        The flank and the worm.
+    wheel_angle : ndarray
+        :math:`\beta` over one pitch.
+    lead : ndarray
+        :math:`D` there: by how much the worm turns further than :math:`i\beta` until it touches.
+    tooth_angle : ndarray
+        Angles of one tooth from where it enters the mesh to where it leaves it.
+    tooth_lead : ndarray
+        :math:`D` of that tooth alone; infinite where the worm does not reach it.
+    contact : ndarray
+        (n, 2) radius and z of the place that bears, on the tooth that bears, mm.
+    peak_to_peak : float
+        Of the transmission error over a pitch, its extremes refined between the places.
+    """
+
+    search: ToothSearch
+    wheel_angle: FloatArray
+    lead: FloatArray
+    tooth_angle: FloatArray
+    tooth_lead: FloatArray
+    contact: FloatArray
+    peak_to_peak: float
+
+    @property
+    def error(self) -> FloatArray:
+        r"""Transmission error at each place of the pitch, rad.
+
+        By how much the wheel is ahead of :math:`\varphi_1 z_1/z_2` in the direction in which the
+        flank drives it.
+        """
+        return -self.lead / self.search.pair.ratio
+
+    @property
+    def mean(self) -> float:
+        """Mean of `error`, rad."""
+        return float(np.mean(self.error))
+
+    @property
+    def ahead(self) -> float:
+        r"""Mean angle by which the wheel stands further than :math:`\varphi_1 z_1/z_2`, rad."""
+        return self.search.flank.side * self.mean
+
+    @property
+    def worm_angle(self) -> FloatArray:
+        r"""Angle :math:`\varphi_1` of the worm in contact at each place of the pitch."""
+        side = self.search.flank.side
+        return self.search.pair.ratio * self.wheel_angle + side * self.lead
+
+    def contact_ratio(self, gap: float = 0.0) -> float:
+        r"""Mean number of teeth that bear, to about one place in the pitch.
+
+        Parameters
+        ----------
+        gap : float
+            What still counts as bearing, normal to the flanks, mm; 0: rigid teeth.
+        """
+        pair = self.search.pair
+        worm = pair.worm
+        normal = worm.reduced_lead * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+        allowed = max(gap / normal, _RIGID)
+        missing = self.tooth_lead - self.along_tooth() - allowed
+        before, after = missing[:-1], missing[1:]
+        steps = np.where((before <= 0.0) & (after <= 0.0), 1.0, 0.0)
+        # Between two places the line between both, or half the way from where a tooth bears itself.
+        cross = (before <= 0.0) != (after <= 0.0)
+        low, high = np.minimum(before, after)[cross], np.maximum(before, after)[cross]
+        steps[cross] = np.where(low > -2.0 * _RIGID, 0.5, -low / (high - low))
+        return float(steps.sum()) / self.wheel_angle.size
+
+    def with_worm(self, half_space: float) -> "Transmission":
+        """Return the same with worm threads of another thickness; half the space in mm.
+
+        The worm then turns further by the same angle everywhere until it touches.
+        """
+        pair = self.search.pair
+        further = (half_space - pair.worm.half_space) / pair.worm.reduced_lead
+        return dataclasses.replace(
+            self,
+            search=dataclasses.replace(self.search, pair=pair.with_worm(half_space)),
+            lead=self.lead + further,
+            tooth_lead=self.tooth_lead + further,
+        )
+
+    def along_tooth(self) -> FloatArray:
+        """`lead` at the places of ``tooth_angle``."""
+        samples = self.wheel_angle.size
+        step = self.search.pitch / samples
+        index = np.rint(self.tooth_angle / step).astype(np.int64)
+        return np.asarray(self.lead[np.mod(index, samples)])
+
+
+def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Transmission:
+    """Return the transmission of a pair on one flank of its wheel.
+
+    Parameters
+    ----------
+    pair : Pair
+        Worm, and how it stands.
+    flank : WheelFlank
+        The flank of the wheel it runs with.
+    samples : int
+        Places of the wheel in a pitch.
+
+    Raises
+    ------
+    ConvergenceError
+        There are places at which the worm reaches no tooth.
+    """
+    search = ToothSearch(pair, flank)
+    angle = search.places(samples)
+    index = np.mod(np.arange(angle.size) + round(angle[0] / (search.pitch / samples)), samples)
+    rough = search.lead(angle, np.full(angle.size, -math.inf))[:, 0]
+    least = np.full(samples, math.inf)
+    np.minimum.at(least, index, rough)
+    if not np.isfinite(least).all():
+        raise ConvergenceError(
+            "the worm reaches no tooth of the wheel in a part of the pitch: look at "
+            "mount.centre_distance_error and mount.axial_offset",
+            reached={"share_of_pitch": float(np.mean(np.isfinite(least)))},
+        )
+    near = _NEAR / pair.worm.reduced_lead
+    found = search.lead(angle, least[index] + near)
+    lead = np.full(samples, math.inf)
+    contact = np.empty((samples, 2))
+    for k in np.argsort(-found[:, 0]):
+        if found[k, 0] <= lead[index[k]]:
+            lead[index[k]] = found[k, 0]
+            contact[index[k]] = found[k, 1:]
+    beta = np.asarray(np.arange(samples) * (search.pitch / samples), dtype=np.float64)
+    return Transmission(
+        search=search,
+        wheel_angle=beta,
+        lead=lead,
+        tooth_angle=angle,
+        tooth_lead=found[:, 0],
+        contact=contact,
+        peak_to_peak=_range(search, lead) / pair.ratio,
+    )
+
+
+def _range(search: ToothSearch, lead: FloatArray) -> float:
+    """Difference of the extremes of the lead, looked for between the places as well."""
+    low, high = float(lead.min()), float(lead.max())
+    if (high - low) / search.pair.ratio <= _CONSTANT:
+        return high - low
+    step = search.pitch / lead.size
+    places = search.places(lead.size)
+    first = math.floor(float(places[0]) / search.pitch) - 1
+    last = math.ceil(float(places[-1]) / search.pitch) + 1
+    turns = np.asarray(search.pitch * np.arange(first, last + 1), dtype=np.float64)
+    near = _NEAR / search.pair.worm.reduced_lead
+
+    def at(beta: float, sign: float) -> float:
+        rough = search.lead(beta + turns, np.full(turns.size, -math.inf))[:, 0]
+        exact = np.full(turns.size, float(rough.min()) + near)
+        return sign * float(search.lead(beta + turns, exact)[:, 0].min())
+
+    def extreme(sign: float) -> float:
+        values = sign * lead
+        k = int(np.argmin(values))
+        a, b, c = (k - 1) * step, k * step, (k + 1) * step
+        fa, fb, fc = values[k - 1], values[k], values[(k + 1) % lead.size]
+        narrow = _FINE * step
+        older = old = math.inf
+        for _ in range(_STEPS):
+            if c - a <= 2.5 * narrow:
+                break
+            t = kernels.next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+            older, old = old, c - a
+            a, fa, b, fb, c, fc = kernels.narrowed(a, fa, b, fb, c, fc, t, at(t, sign))
+        return float(fb)
+
+    return -extreme(-1.0) - extreme(1.0)

@@ -1,0 +1,1 @@
+"""The enveloped wheel as its hob leaves it."""

@@ -1,0 +1,1 @@
+"""What a hob leaves of a blank, compiled."""
