@@ -3,7 +3,7 @@
 Run it with ``make bench``. Times are those of this process on one core. Marched are blocks of 221
 contact nodes that are shaken along and across the drive from the first increment, and one that is
 pulled until its asperities slide. The other ways: the same mesh with every node, a sparse
-factorisation in each iteration (`asperity.contact.reference`), from rest through the same
+factorisation in each iteration (``tests/apparatus/whole_body.py``), from rest through the same
 increments as the condensed one; and CalculiX where ``ccx`` is installed, quasi-static on the same
 mesh, since its implicit dynamics do not get through this contact.
 """
@@ -12,6 +12,7 @@ import re
 import resource
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -19,15 +20,14 @@ from pathlib import Path
 import numpy as np
 from _common import best, finish, on_one_core
 
+from asperity.block.deck import BlockSetup, calculix_files
+from asperity.block.problem import STANDARD_GRAVITY, BlockProblem
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
-from asperity.contact.deck import BlockSetup, calculix_files
 from asperity.contact.elastic import Pressure, Traction, cache, condense, elastic_body
 from asperity.contact.elastic.solver import installed_solver
-from asperity.contact.reference import WholeSystem
-from asperity.contact.rest import rest_under_load
-from asperity.contact.steps import Walker
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
 
 MESHES = {
     "8x6x6 hex27": ("block.elements=[8,6,6]", "block.element=hex27"),
@@ -111,6 +111,9 @@ def products(figures, mesh):
 
 def uncondensed(figures, mesh):
     """Milliseconds an increment with every node, and condensed in the same increments."""
+    sys.path.append(str(Path(__file__).parents[1] / "tests"))
+    from apparatus.whole_body import WholeSystem
+
     problem = problem_of(mesh, "increment")
     body = elastic_body(problem.mesh, problem.material, element=problem.block.element)
     whole = WholeSystem(body, problem.system, problem.nodal_drive)

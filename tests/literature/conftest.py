@@ -4,11 +4,11 @@ import functools
 
 import numpy as np
 import pytest
+from apparatus.halfspace import half_space
 
 from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.elastic.solver import factorise
-from asperity.contact.halfspace import half_space
-from asperity.contact.surface import contact_surface
+from asperity.contact.interface.surface import contact_surface
 from asperity.mesh import HexMesh, box, merged
 
 # Factors by which shells about the patch grow: in the end the body is a thousand patches large.

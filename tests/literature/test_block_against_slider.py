@@ -9,13 +9,13 @@ the block rocks, with the inertia of its turns on its contact, it accounts for a
 import numpy as np
 import pytest
 
+from asperity.block.march import solve_block
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case, shipped_cases
-from asperity.contact import ledger
-from asperity.contact import motion as mo
-from asperity.contact.block import BlockProblem
-from asperity.contact.block_march import solve_block
-from asperity.contact.rest import rest_under_load
-from asperity.contact.steps import Walker
+from asperity.contact.motion import ledger
+from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
 from asperity.slider.march import march
 from asperity.thesis.contact.blocks import LIGHT, Block, in_series
 from asperity.thesis.rating.gearsets import CASE_TABLES

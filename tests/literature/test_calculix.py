@@ -10,11 +10,11 @@ import subprocess
 import numpy as np
 import pytest
 
+from asperity.block.deck import BlockSetup, calculix_files
+from asperity.block.deck.calculix import overclosure, stick_slope
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.deck import BlockSetup, calculix_files
-from asperity.contact.deck.calculix import overclosure, stick_slope
-from asperity.contact.rest import rest_under_load
+from asperity.contact.motion.rest import rest_under_load
 
 FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
 

@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 
 from asperity.contact.elastic import ElasticMaterial, Force, Pressure, condense, elastic_body
 from asperity.contact.elastic.modes import whole_shapes
-from asperity.contact.surface import contact_surface
+from asperity.contact.interface.surface import contact_surface
 from asperity.mesh import box
 
 STEEL = ElasticMaterial(209e9, 0.3, 7850.0)

@@ -21,15 +21,15 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from apparatus.halfspace import half_plane
 from scipy.spatial.transform import Rotation
 
 from asperity.contact.elastic import ElasticMaterial, Force, condense
-from asperity.contact.halfspace import half_plane
-from asperity.contact.increment import IncrementProblem
-from asperity.contact.normal import NormalLaw
-from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.static import Guide, load_to
-from asperity.contact.surface import contact_surface
+from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.motion.static import Guide, load_to
 from asperity.mesh import box, merged
 
 E, NU = 210e9, 0.3

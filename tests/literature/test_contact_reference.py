@@ -8,27 +8,27 @@ import dataclasses
 
 import numpy as np
 import pytest
+from apparatus.whole_body import WholeSystem
 
+from asperity.block.problem import BlockProblem
+from asperity.block.tables import TABLES
 from asperity.casefile import read_case
-from asperity.contact import motion as mo
-from asperity.contact.block import BlockProblem
 from asperity.contact.elastic import ElasticMaterial, Pressure, condense, elastic_body
-from asperity.contact.friction_point import PointFriction
-from asperity.contact.increment import (
+from asperity.contact.increment.solver import (
     ContactState,
     Drift,
     IncrementProblem,
     SurfaceMotion,
     solve_increment,
 )
-from asperity.contact.normal import NormalLaw
-from asperity.contact.reference import WholeSystem
-from asperity.contact.rest import rest_under_load
-from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.steps import Walker
-from asperity.contact.surface import contact_surface
-from asperity.contact.system import System
-from asperity.contact.tables import TABLES
+from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.system import System
 from asperity.errors import ConvergenceError, InputError
 from asperity.mesh import box
 from asperity.slider.tables import TABLES as SLIDER_TABLES

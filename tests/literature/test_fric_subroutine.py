@@ -12,10 +12,10 @@ import subprocess
 import numpy as np
 import pytest
 
+from asperity.block.deck import fric_subroutine
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.deck import fric_subroutine
-from asperity.contact.friction_point import PointFriction, share_and_tangent
+from asperity.contact.interface.friction_point import PointFriction, share_and_tangent
 from asperity.friction import update
 from asperity.slider.march import march
 from asperity.slider.model import Model

@@ -24,14 +24,14 @@ Coulomb friction sticks by an elastic slip, and Dahl friction by a deflection, w
 
 import numpy as np
 import pytest
+from apparatus.halfspace import half_plane
 
-from asperity.contact.friction_point import COULOMB, DAHL, PointFriction
-from asperity.contact.halfspace import half_plane
-from asperity.contact.increment import IncrementProblem
-from asperity.contact.normal import NormalLaw
-from asperity.contact.rigid import RigidSurface
-from asperity.contact.static import Guide, follow, load_to, on_guide
-from asperity.contact.surface import contact_surface
+from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.interface.friction_point import COULOMB, DAHL, PointFriction
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import RigidSurface
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.motion.static import Guide, follow, load_to, on_guide
 from asperity.friction import VECTOR
 from asperity.mesh import HexMesh, box
 

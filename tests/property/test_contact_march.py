@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact import hht, ledger
-from asperity.contact.block import BlockProblem
-from asperity.contact.increment import ContactState, SurfaceMotion, solve_increment
-from asperity.contact.newton import evaluate
-from asperity.contact.rest import released, rest_under_load
-from asperity.contact.steps import Walker
+from asperity.contact.increment.newton import evaluate
+from asperity.contact.increment.solver import ContactState, SurfaceMotion, solve_increment
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion.rest import released, rest_under_load
+from asperity.contact.motion.steps import Walker
 from asperity.errors import ConvergenceError
 
 MESHES = {"hex8": "[2, 2, 2]", "hex8i": "[2, 2, 2]", "hex27": "[1, 1, 1]"}

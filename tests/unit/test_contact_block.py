@@ -7,16 +7,18 @@ import types
 import numpy as np
 import pytest
 
+from asperity.block import march as block_march
+from asperity.block.check import check
+from asperity.block.march import BlockMarch, solve_block
+from asperity.block.problem import STANDARD_GRAVITY, BlockProblem
+from asperity.block.resume import go_on, keep
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact import block_march, hht, ledger, newton, steps
-from asperity.contact.block import STANDARD_GRAVITY, BlockProblem
-from asperity.contact.block_check import check
-from asperity.contact.block_march import BlockMarch, solve_block
-from asperity.contact.block_resume import go_on, keep
-from asperity.contact.normal import NormalLaw, pressure
-from asperity.contact.rest import rest_under_load
-from asperity.contact.system import System
+from asperity.contact.increment import newton
+from asperity.contact.interface.normal import NormalLaw, pressure
+from asperity.contact.motion import hht, ledger, steps
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.system import System
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider.march import march as slide
 
@@ -382,7 +384,7 @@ def test_what_was_kept_of_another_problem_is_left_alone(tmp_path):
 
 
 def test_the_frames_of_an_animation_deform_as_the_contact_does():
-    from asperity.contact.series import fields
+    from asperity.block.series import fields
 
     block = problem("vibration.direction=45 deg", "block.modes=2")
     march = BlockMarch(block)

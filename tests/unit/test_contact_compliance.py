@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.block import BlockProblem
-from asperity.contact.compliance import base_compliance
+from asperity.contact.motion.compliance import base_compliance
 from asperity.errors import InputError
 
 LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")

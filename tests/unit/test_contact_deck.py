@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.linalg import null_space
 
+from asperity.block.deck import BlockSetup, abaqus_files, calculix_files, fric_subroutine
+from asperity.block.deck.calculix import overclosure
+from asperity.block.deck.setup import numbers
+from asperity.block.problem import held_coordinates
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.block import held_coordinates
-from asperity.contact.deck import BlockSetup, abaqus_files, calculix_files, fric_subroutine
-from asperity.contact.deck.calculix import overclosure
-from asperity.contact.deck.setup import numbers
-from asperity.contact.normal import pressure
+from asperity.contact.interface.normal import pressure
 from asperity.errors import InputError
 
 SMALL = ["block.elements=[3,2,2]"]

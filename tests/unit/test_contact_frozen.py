@@ -5,13 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.block import BlockProblem
-from asperity.contact.increment import ContactState, solve_increment
-from asperity.contact.newton_frozen import inverted
-from asperity.contact.rest import rest_under_load
-from asperity.contact.steps import Walker
+from asperity.contact.increment.modified_newton import inverted
+from asperity.contact.increment.solver import ContactState, solve_increment
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
 
 SMALL = ("block.elements=[4,3,3]", "block.element=hex8", "vibration.start=0 s")
 MARCHES = {

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from asperity.contact.friction_point import (
+from asperity.contact.increment.solver import (
+    ContactState,
+    Drift,
+    IncrementProblem,
+    SurfaceMotion,
+)
+from asperity.contact.interface.assembly import stiffness_forces
+from asperity.contact.interface.friction_point import (
     COULOMB,
     DAHL,
     LUGRE,
@@ -14,17 +21,10 @@ from asperity.contact.friction_point import (
     PointFriction,
     share_and_tangent,
 )
-from asperity.contact.increment import (
-    ContactState,
-    Drift,
-    IncrementProblem,
-    SurfaceMotion,
-)
-from asperity.contact.increment_assembly import stiffness_forces
-from asperity.contact.increment_kernels import POINT, tractions
-from asperity.contact.normal import NormalLaw
-from asperity.contact.rigid import Pose, RigidSurface, distance
-from asperity.contact.surface import contact_surface
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface, distance
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.interface.tractions import POINT, tractions
 from asperity.friction import SPLIT, UNSPLIT, VECTOR
 from asperity.friction.two_phase import phases
 from asperity.mesh import box

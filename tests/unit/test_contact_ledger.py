@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact import ledger
-from asperity.contact.block import BlockProblem
-from asperity.contact.normal import NormalLaw, pressure
-from asperity.contact.rest import rest_under_load
-from asperity.contact.steps import Walker
+from asperity.contact.interface.normal import NormalLaw, pressure
+from asperity.contact.motion import ledger
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
 
 LINEAR = NormalLaw(stiffness=4e13)
 TWO_STAGE = NormalLaw("two-stage", 4e13, 4e12, 1e-7, 3e-7)

@@ -5,8 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from asperity.contact import hht, ledger, motion
-from asperity.contact.normal import NormalLaw, pressure
+from asperity.contact.interface.normal import NormalLaw, pressure
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import mechanism as motion
 from asperity.errors import InputError
 
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from asperity.contact.elastic import ElasticMaterial, condense
-from asperity.contact.increment import IncrementProblem
-from asperity.contact.normal import NormalLaw, aimed_overclosure, pressure
-from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.static import Guide, move_to
-from asperity.contact.surface import contact_surface
+from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.interface.normal import NormalLaw, aimed_overclosure, pressure
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.motion.static import Guide, move_to
 from asperity.errors import InputError
 from asperity.mesh import box
 

@@ -1,8 +1,8 @@
 import pytest
 
+from asperity.block.parameters import Block, Contact
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact.parameters import Block, Contact
 from asperity.errors import InputError
 
 STEEL = {"size": (0.04, 0.03, 0.03), "youngs_modulus": 209e9, "poissons_ratio": 0.3}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from asperity.contact.rigid import RigidSurface, distance
+from asperity.contact.interface.rigid import RigidSurface, distance
 from asperity.errors import InputError
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.helicoid import Helicoid

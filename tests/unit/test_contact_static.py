@@ -7,12 +7,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from asperity.contact.elastic import ElasticMaterial, Pressure, condense
-from asperity.contact.friction_point import COULOMB, PointFriction
-from asperity.contact.increment import IncrementProblem
-from asperity.contact.normal import NormalLaw
-from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.static import Guide, follow, load_to, move_to, on_guide
-from asperity.contact.surface import contact_surface
+from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.interface.friction_point import COULOMB, PointFriction
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.motion.static import Guide, follow, load_to, move_to, on_guide
 from asperity.errors import ConvergenceError, InputError
 from asperity.mesh import box
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asperity.contact.surface import contact_surface
+from asperity.contact.interface.surface import contact_surface
 from asperity.errors import InputError
 from asperity.mesh import box
 

@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
-from asperity.contact import hht, ledger
-from asperity.contact.block import BlockProblem
-from asperity.contact.rest import rest_under_load
-from asperity.contact.steps import Walker
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
 
 STEP = 5e-6
 STIFFNESS = 1e10  # Pa/m

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.contact.block import BlockProblem
 from asperity.thesis.contact import blocks, pressed
 from asperity.thesis.contact import claims as claims_contact
 from asperity.thesis.contact.blocks import LIGHT, Block, Settled, settle_all

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
+from asperity.block.check import check
+from asperity.block.dataset import unfinished_dataset
+from asperity.block.march import BlockMarch
+from asperity.block.problem import BlockProblem
+from asperity.block.result import BlockResult
+from asperity.block.resume import go_on, keep
+from asperity.block.series import write_block_series
 from asperity.casefile import read_case
 from asperity.cli import show
 from asperity.cli.tables import TABLES
-from asperity.contact.block import BlockProblem
-from asperity.contact.block_check import check
-from asperity.contact.block_march import BlockMarch
-from asperity.contact.block_resume import go_on, keep
-from asperity.contact.dataset import unfinished_dataset
-from asperity.contact.result import BlockResult
-from asperity.contact.series import write_block_series
 from asperity.errors import ConvergenceError, StorageError
 from asperity.store import output_folder, write_dataset
 

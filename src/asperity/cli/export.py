@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from asperity.block.check import check_ranges
+from asperity.block.deck import WRITERS, BlockSetup
 from asperity.casefile import read_case
 from asperity.cli import show
 from asperity.cli.tables import TABLES
-from asperity.contact.block_check import check_ranges
-from asperity.contact.deck import WRITERS, BlockSetup
 from asperity.errors import InputError, choices, suggestion
 from asperity.store import output_folder, write_text
 

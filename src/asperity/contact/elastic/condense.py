@@ -15,7 +15,7 @@ from asperity.contact.elastic.loads import Load
 from asperity.contact.elastic.material import ElasticMaterial
 from asperity.contact.elastic.modes import shapes_with_inertia
 from asperity.contact.elastic.solver import COLUMNS_AT_A_TIME, factor_bytes, installed_solver
-from asperity.contact.surface import ContactSurface, contact_surface
+from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.errors import InputError
 from asperity.mesh import HexMesh
 

@@ -18,7 +18,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.elastic.condensed import CondensedBody
-from asperity.contact.surface import ContactSurface
+from asperity.contact.interface.surface import ContactSurface
 
 Floats = NDArray[np.float64]
 

@@ -18,16 +18,16 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from asperity.block.march import solve_block
+from asperity.block.problem import BlockProblem, shaking
+from asperity.block.result import BlockResult
 from asperity.casefile import read_case
-from asperity.contact import hht, ledger
-from asperity.contact import motion as mo
-from asperity.contact.block import BlockProblem, shaking
-from asperity.contact.block_march import solve_block
-from asperity.contact.rest import rest_under_load
-from asperity.contact.result import BlockResult
-from asperity.contact.steps import Walker
-from asperity.contact.surface import contact_surface
-from asperity.contact.system import Shaking, System, SystemState
+from asperity.contact.interface.surface import contact_surface
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.system import Shaking, System, SystemState
 from asperity.mesh import box
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic

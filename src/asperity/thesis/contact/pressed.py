@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
-from asperity.contact.increment import IncrementProblem
-from asperity.contact.normal import NormalLaw
-from asperity.contact.rigid import Pose, RigidSurface
-from asperity.contact.static import Guide, load_to
-from asperity.contact.surface import ContactSurface, contact_surface
+from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import ContactSurface, contact_surface
+from asperity.contact.motion.static import Guide, load_to
 from asperity.mesh import box
 
 FloatArray = npt.NDArray[np.float64]

@@ -6,8 +6,8 @@ import shlex
 from collections.abc import Mapping
 from typing import Any
 
+from asperity.block.tables import TABLES as CONTACT_TABLES
 from asperity.casefile import Case, Table, read_case
-from asperity.contact.tables import TABLES as CONTACT_TABLES
 from asperity.flanks.tables import TABLES as FLANKS_TABLES
 from asperity.gearset import Gearset
 from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case

@@ -1,0 +1,353 @@
+"""An elastic block marched through its steps: gravity, pressure, drive, vibration."""
+
+import math
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from asperity.block.problem import BlockProblem
+from asperity.block.result import BlockResult, Frame
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Snapshot, Walker
+from asperity.contact.motion.system import SystemState
+from asperity.errors import ConvergenceError
+from asperity.slider.march import march_notes
+from asperity.slider.model import FloatArray
+from asperity.slider.result import History
+
+_RECORDS = 4000
+_REPORTS = 1000
+_FRAMES = 48
+_FRAME_CYCLES = 2
+_MOST_SLIP = 0.5
+
+_NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
+
+_Place = tuple[
+    int, Snapshot, int, int, ledger.Energies | None, FloatArray | None, FloatArray | None
+]
+
+# Places in a recorded row.
+_TIME, _FD, _FX, _FY, _SX, _SY, _X, _Y, _VX, _VY = range(10)
+_ROW = 10
+
+
+class BlockMarch:
+    """A block on its way: what it has come to is there whenever the way ends.
+
+    Parameters
+    ----------
+    problem : BlockProblem
+        The block.
+    history : bool
+        Whether to keep motion and forces over time (a few thousand rows at any length) and frames
+        of the last cycles.
+    progress : callable, optional
+        Told, now and then, how many increments are done, and of how many.
+    between : callable, optional
+        Called after every increment, when the march is whole: to keep it, or to end it by raising.
+
+    Attributes
+    ----------
+    done : int
+        Increments solved.
+    """
+
+    def __init__(
+        self,
+        problem: BlockProblem,
+        *,
+        history: bool = True,
+        progress: Callable[[int, int], None] | None = None,
+        between: Callable[[], None] | None = None,
+    ) -> None:
+        self.problem = problem
+        self.done = 0
+        self.rows: list[FloatArray] = []
+        self.frames: list[Frame] = []
+        self.window_energies: ledger.Energies | None = None
+        self.first_half: FloatArray | None = None
+        self.first_pressure: FloatArray | None = None
+        self.seconds = self.march_seconds = 0.0
+        self.timed = 0
+        self._progress, self._between = progress, between
+        table = problem.timetable
+        self._stride = max(1, table.steps // _RECORDS) if history else 0
+        self._told = max(1, table.steps // _REPORTS)
+        self._frame_steps = _frame_steps(problem) if history else frozenset()
+        self._walker: Walker | None = None
+
+    @property
+    def walker(self) -> Walker:
+        """The walking system, at rest under its load before the first increment."""
+        if self._walker is None:
+            system = self.problem.system
+            self._walker = Walker(system, rest_under_load(system, self.problem.loads))
+            self._record(0)
+        return self._walker
+
+    def begin_from(self, state: SystemState) -> None:
+        """Begin from a state instead of at rest under the load."""
+        self._walker = Walker(self.problem.system, state)
+
+    def run(self) -> BlockResult:
+        """March to the end.
+
+        Stopped by an exception, Ctrl-C among them, the march stands at the last whole increment;
+        called again it goes on from there.
+
+        Raises
+        ------
+        ConvergenceError
+            An increment did not converge however small; with time, residual, points in contact
+            and the increments done.
+        """
+        last = time.perf_counter()
+        table, walker = self.problem.timetable, self.walker
+        first = self.done
+        whole = self._place()
+        try:
+            while self.done < table.steps:
+                if self.done == table.window_start and self.window_energies is None:
+                    self._open_window()
+                elif self.done == table.middle and self.first_half is None:
+                    self._close_first_half()
+                begin = time.perf_counter()
+                walker.step_to((self.done + 1) * table.step, table.step)
+                self.done += 1
+                self._record(self.done)
+                now = time.perf_counter()
+                self.seconds += now - last
+                # The first increment of a program may have compiled kernels.
+                if self.done > first + 1:
+                    self.march_seconds += now - begin
+                    self.timed += 1
+                last = now
+                whole = self._place()
+                self._tell()
+        except ConvergenceError as error:
+            self._go_back(whole)
+            raise ConvergenceError(
+                f"{error}; {self.done} of {table.steps} increments are solved",
+                reached={**error.reached, "increments": float(self.done)},
+            ) from error
+        except BaseException:
+            self._go_back(whole)
+            raise
+        result = self._result()
+        if not all(math.isfinite(n) for n in result.to_json().values() if isinstance(n, float)):
+            raise ConvergenceError(_NOT_FINITE)
+        return result
+
+    def _place(self) -> _Place:
+        """Return all that an increment changes, in one piece: no interruption can split it."""
+        return (
+            self.done, self.walker.snapshot(), len(self.rows), len(self.frames),
+            self.window_energies, self.first_half, self.first_pressure,
+        )  # fmt: skip
+
+    def _go_back(self, place: _Place) -> None:
+        self.done, snapshot, rows, frames, energies, half, pressure = place
+        self.walker.restore(snapshot)
+        del self.rows[rows:], self.frames[frames:]
+        self.window_energies, self.first_half, self.first_pressure = energies, half, pressure
+
+    def _tell(self) -> None:
+        if self._progress is not None and self.done % self._told == 0:
+            self._progress(self.done, self.problem.timetable.steps)
+        if self._between is not None:
+            self._between()
+
+    def _open_window(self) -> None:
+        walker = self.walker
+        self.window_energies = walker.state.energies(walker.system)
+        walker.clear()
+
+    def _close_first_half(self) -> None:
+        self.first_half = self.walker.sums.copy()
+        self.first_pressure = self.walker.mean_pressure.copy()
+        self.walker.clear()
+
+    def _record(self, number: int) -> None:
+        table = self.problem.timetable
+        if not self._stride or self._walker is None:
+            return
+        state = self._walker.state
+        in_tail = number > table.steps - table.tail
+        if number % self._stride == 0 or in_tail or number == table.steps:
+            self.rows.append(_row(state))
+        if number in self._frame_steps:
+            self.frames.append(_frame(state))
+
+    @property
+    def history(self) -> History:
+        """Motion and forces up to now."""
+        rows = np.array(self.rows).reshape(-1, _ROW)
+        return History(
+            time=rows[:, _TIME],
+            drive_force=rows[:, _FD],
+            friction=rows[:, [_FX, _FY]],
+            deflection=rows[:, [_SX, _SY]],
+            position=rows[:, [_X, _Y]],
+            velocity=rows[:, [_VX, _VY]],
+        )
+
+    def _result(self) -> BlockResult:
+        problem, walker = self.problem, self.walker
+        model, table = problem.model, problem.timetable
+        first, start = self.first_half, self.window_energies
+        if first is None or start is None or self.first_pressure is None:
+            raise ConvergenceError(f"the march is at {self.done} of {table.steps} increments")
+        second = walker.sums
+        sums = _joined(first, second)
+        end = walker.state.energies(walker.system)
+        span = float(sums[ledger.TIME])
+        force = model.full_friction
+        halves = [float(s[ledger.DRIVE_FORCE] / s[ledger.TIME]) for s in (first, second)]
+        residual = abs(halves[1] - halves[0]) / force
+        breakaway = float(second[ledger.BREAKAWAY])
+        mean = float(sums[ledger.DRIVE_FORCE]) / span
+        return BlockResult(
+            problem=problem,
+            model=model,
+            ratio=mean / force,
+            drive_force=mean,
+            friction_mean=_pair(sums, ledger.FRICTION_X, ledger.FRICTION_Y, 1.0 / span),
+            friction_max=_pair(sums, ledger.MAX_FX, ledger.MAX_FY),
+            friction_min=_pair(sums, ledger.MIN_FX, ledger.MIN_FY),
+            breakaway_time=breakaway if breakaway >= 0.0 else None,
+            ledger=ledger.power_ledger(sums, start, end),
+            residual=residual,
+            steps=table.steps,
+            cycles=table.cycles,
+            seconds=self.seconds,
+            history=self.history if self._stride else None,
+            notes=self._notes(residual, broke=breakaway >= 0.0),
+            normal_force=float(sums[ledger.NORMAL_FORCE]) / span,
+            iterations_mean=float(sums[ledger.ITERATIONS] / sums[ledger.INCREMENTS]),
+            iterations_max=int(sums[ledger.MOST_ITERATIONS]),
+            cuts=walker.cuts,
+            unconverged=walker.unconverged,
+            residual_increment_max=walker.residual_max,
+            march_seconds=self.march_seconds,
+            timed=self.timed,
+            point_pressure=(self.first_pressure + walker.mean_pressure) / span,
+            peak_pressure=float(sums[ledger.MAX_PRESSURE]),
+            frames=tuple(self.frames),
+        )
+
+    def _notes(self, residual: float, *, broke: bool) -> tuple[str, ...]:
+        model, table = self.problem.model, self.problem.timetable
+        notes = list(march_notes(model, table, residual, broke=broke))
+        block = self.problem.block
+        if self.problem.tips:
+            notes.insert(
+                0,
+                "without vibration the block tips over before it slides: mu times its height, "
+                f"{1e3 * model.friction.mu * block.size[2]:.4g} mm, is more than its length, "
+                f"{1e3 * block.size[0]:.4g} mm",
+            )
+        slip = (model.slider.drive_velocity + model.peak_velocity) * table.step
+        most = _MOST_SLIP * self.problem.friction.limit
+        if model.friction.model != "coulomb" and slip > most:
+            notes.append(
+                f"the slip in a step is up to {slip / self.problem.friction.limit:.2g} "
+                "max_deflection, which blurs reversals of the slip; a solve.step of "
+                f"{table.step * most / slip:.2g} s keeps it at {_MOST_SLIP:g}"
+            )
+        system = self.problem.system
+        if system.impact(table.step) and system.resolving_step:
+            notes.append(
+                "the step does not resolve how fast the block bounces on its contact, "
+                f"{system.bounce / (2e3 * math.pi):.3g} kHz: the time integration takes a beta of "
+                f"{system.newmark_beta(table.step):.3g}, for impacts; a solve.step of "
+                f"{system.resolving_step:.2g} s resolves it"
+            )
+        if self.walker.unconverged:
+            notes.append(
+                f"{self.walker.unconverged} increments ended above the tolerance, at a relative "
+                f"residual of up to {self.walker.residual_max:.2g}, for want of digits: a softer "
+                "contact does better"
+            )
+        if self.walker.cuts:
+            notes.append(
+                f"{self.walker.cuts} increments did not converge at once and were taken in halves"
+            )
+        return tuple(notes)
+
+
+def solve_block(
+    problem: BlockProblem,
+    *,
+    history: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+) -> BlockResult:
+    """Solve an elastic block on a vibrating base.
+
+    Parameters
+    ----------
+    problem : BlockProblem
+        The block.
+    history : bool
+        Whether to keep motion and forces over time, and frames of the last cycles.
+    progress : callable, optional
+        Told, now and then, how many increments are done, and of how many.
+
+    Raises
+    ------
+    InputError
+        The step is too coarse for the waveform, or the duration too short.
+    ConvergenceError
+        An increment did not converge however small.
+    """
+    return BlockMarch(problem, history=history, progress=progress).run()
+
+
+def _frame_steps(problem: BlockProblem) -> frozenset[int]:
+    table, model = problem.timetable, problem.model
+    span = table.steps
+    if model.vibrates:
+        span = min(span, round(_FRAME_CYCLES / (model.frequency * table.step)))
+    places = np.linspace(table.steps - span, table.steps, _FRAMES + 1)
+    return frozenset(np.round(places).astype(int).tolist())
+
+
+def _row(state: SystemState) -> FloatArray:
+    row = np.empty(_ROW)
+    row[_TIME] = state.time
+    row[_FD] = state.drive[mo.FORCE]
+    row[_FX : _SY + 1] = state.forces[[ledger.FX, ledger.FY, ledger.SX, ledger.SY]]
+    row[_X : _Y + 1] = state.coordinates[hht.PLACE, :2]
+    row[_VX : _VY + 1] = state.coordinates[hht.VELOCITY, :2]
+    return row
+
+
+def _frame(state: SystemState) -> Frame:
+    return Frame(
+        state.time,
+        state.coordinates[hht.PLACE].copy(),
+        float(state.drive[mo.FORCE]),
+        state.contact.force,
+        state.contact.pressure.copy(),
+        state.contact.traction.copy(),
+    )
+
+
+def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
+    sums = first + second
+    for most in (ledger.MAX_FX, ledger.MAX_FY, ledger.MAX_PRESSURE, ledger.MOST_ITERATIONS):
+        sums[most] = max(first[most], second[most])
+    for least in (ledger.MIN_FX, ledger.MIN_FY):
+        sums[least] = min(first[least], second[least])
+    sums[ledger.BREAKAWAY] = second[ledger.BREAKAWAY]
+    return sums
+
+
+def _pair(sums: FloatArray, x: int, y: int, scale: float = 1.0) -> tuple[float, float]:
+    pair = float(sums[x]) * scale, float(sums[y]) * scale
+    if not all(map(math.isfinite, pair)):
+        raise ConvergenceError(_NOT_FINITE)
+    return pair

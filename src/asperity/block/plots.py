@@ -1,0 +1,66 @@
+"""Pictures of a solved block: the pressure over its face. Forces in time are the slider's."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity.results.figures import panels
+
+if TYPE_CHECKING:
+    from matplotlib.collections import Collection
+    from matplotlib.contour import ContourSet
+    from matplotlib.figure import Figure
+
+    from asperity.block.result import BlockResult
+
+_LEVELS = 24
+
+
+def plot_pressure(result: "BlockResult") -> "Figure":
+    """Draw the mean pressure in the window over the block's face, seen from below.
+
+    Each face of an element is drawn as the triangles between its nodes, the pressure as what the
+    nodes around it have in the mean.
+    """
+    from matplotlib.tri import Triangulation
+
+    surface = result.problem.surface
+    x, y = 1e3 * surface.positions[:, 0], 1e3 * surface.positions[:, 1]
+    pressure = 1e-3 * result.nodal_pressure
+    # The face fills the room beside the bar, whatever its shape, and leaves some for the title.
+    aspect = float(np.ptp(x) / np.ptp(y))
+    width = min(max(5.0, 2.1 + 4.0 * aspect), 9.0)
+    figure, (axes,) = panels(width=width, height=min(max(2.6, 1.2 + (width - 2.1) / aspect), 5.0))
+    triangles = Triangulation(x, y, face_triangles(surface.faces))
+    spread = float(np.ptp(pressure))
+    if spread > 1e-6 * float(np.abs(pressure).max()):
+        drawn: ContourSet | Collection = axes.tricontourf(
+            triangles, pressure, levels=_LEVELS, cmap="cividis"
+        )
+    else:
+        drawn = axes.tripcolor(triangles, pressure, cmap="cividis")
+    bar = figure.colorbar(drawn, ax=axes)
+    bar.set_label("mean pressure (kPa)")
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    axes.set_xlabel("along the drive, x (mm)")
+    axes.set_ylabel("across, y (mm)")
+    mean = 1e-3 * result.mean_pressure
+    peak = 1e-3 * result.peak_pressure
+    figure.suptitle(
+        f"Contact pressure, mean {mean:.3g} kPa;\ngreatest at an integration point {peak:.3g} kPa",
+        fontsize="medium",
+    )
+    return figure
+
+
+def face_triangles(faces: "np.ndarray[tuple[int, int], np.dtype[np.int64]]") -> np.ndarray:
+    """Return the triangles between the nodes of 4- or 9-node faces, shape (k, 3)."""
+    if faces.shape[1] == 4:
+        quads = faces[:, None, :]
+    else:
+        # Corner, middle of an edge, middle of the face, middle of the other edge.
+        parts = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
+        quads = faces[:, parts]
+    quads = quads.reshape(-1, 4)
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

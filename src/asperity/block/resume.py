@@ -1,0 +1,161 @@
+"""A block's march kept on disk as it stands, to go on from there.
+
+Numbers that decide the result are kept to the last bit, and what the solution has learnt on its
+way as well: a march that goes on ends exactly as one that was never interrupted.
+"""
+
+import dataclasses
+import functools
+import hashlib
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity.block.dataset import inputs
+from asperity.block.march import BlockMarch
+from asperity.block.problem import BlockProblem
+from asperity.block.result import Frame
+from asperity.contact.increment.memory import (
+    inverses_as_arrays,
+    restore_inverses,
+    trend_as_arrays,
+    trend_from,
+)
+from asperity.contact.increment.problem import Trend
+from asperity.contact.increment.solver import ContactState, IncrementResult
+from asperity.contact.motion import ledger
+from asperity.contact.motion.system import SystemState
+from asperity.runs.key import code_key
+from asperity.store import write_atomically
+
+_CONTACT = ("distance", "normal", "slip_1", "slip_2")
+_HISTORY = (
+    "displacement", "force", "deflection", "size", "multiplier", "pressure", "traction",
+)  # fmt: skip
+_STATE = ("coordinates", "drive", "forces")
+_FRAME = ("time", "coordinates", "drive_force", "force", "pressure", "traction")
+
+
+def fingerprint(problem: BlockProblem) -> str:
+    """Return a text that is the same for what calculates the same, by these sources."""
+    digest = hashlib.sha256(repr(sorted(inputs(problem).items())).encode())
+    shape = problem.model.shape
+    if shape is not None:
+        digest.update(repr((shape.code, shape.frequency, shape.rise)).encode())
+        digest.update(np.ascontiguousarray(shape.table).tobytes())
+    digest.update(_sources().encode())
+    return digest.hexdigest()
+
+
+@functools.cache
+def _sources() -> str:
+    return code_key("asperity.block.march")
+
+
+def keep(march: BlockMarch, path: Path) -> Path:
+    """Write where a march stands; it must have begun.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be written.
+    """
+    walker = march.walker
+    state, contact = walker.state, walker.state.contact
+    arrays: dict[str, Any] = {
+        "fingerprint": fingerprint(march.problem),
+        "done": march.done,
+        "seconds": [march.seconds, march.march_seconds, march.timed],
+        "rows": np.array(march.rows),
+        "sums": walker.sums,
+        "mean_pressure": walker.mean_pressure,
+        "cuts": [walker.cuts, walker.unconverged],
+        "residual_max": walker.residual_max,
+        "scalars": [state.time, state.load, contact.iterations, contact.residual],
+        **{f"state_{name}": getattr(state, name) for name in _STATE},
+        **{f"contact_{name}": getattr(contact, name) for name in _CONTACT},
+        **{f"history_{name}": getattr(contact.state, name) for name in _HISTORY},
+    }
+    for name in _FRAME:
+        arrays[f"frame_{name}"] = np.array([getattr(frame, name) for frame in march.frames])
+    if march.window_energies is not None:
+        arrays["window_energies"] = dataclasses.astuple(march.window_energies)
+    if march.first_half is not None and march.first_pressure is not None:
+        arrays["first_half"] = march.first_half
+        arrays["first_pressure"] = march.first_pressure
+    system, trend = walker.system, contact.state.trend
+    arrays["lengths"] = system.lengths
+    arrays["trend_length"] = -1
+    for number, length in enumerate(system.lengths):
+        increments = system.stepping(length)[1]
+        arrays |= _named(f"inverses_{number}_", inverses_as_arrays(increments.inverses))
+        if increments.flexibility is trend.flexibility:
+            arrays["trend_length"] = number
+    arrays |= _named("trend_", trend_as_arrays(trend))
+    return write_atomically(path, lambda target: np.savez(target, **arrays))
+
+
+def go_on(march: BlockMarch, path: Path) -> bool:
+    """Put a march that has not begun to where another was interrupted.
+
+    Returns
+    -------
+    bool
+        Whether there was one, of the same problem and made by the same sources.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as kept:
+            if str(kept["fingerprint"]) != fingerprint(march.problem):
+                return False
+            arrays = {name: kept[name] for name in kept.files}
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
+        return False
+    time, load, iterations, residual = arrays["scalars"]
+    system = march.problem.system
+    trend = Trend()
+    for number, length in enumerate(arrays["lengths"]):
+        increments = system.stepping(float(length))[1]
+        restore_inverses(increments, _under(f"inverses_{number}_", arrays))
+        if number == arrays["trend_length"]:
+            trend = trend_from(_under("trend_", arrays), increments.flexibility)
+    history = ContactState(**{name: arrays[f"history_{name}"] for name in _HISTORY}, trend=trend)
+    contact = IncrementResult(
+        state=history,
+        iterations=int(iterations),
+        residual=float(residual),
+        **{name: arrays[f"contact_{name}"] for name in _CONTACT},
+    )
+    state = SystemState(
+        time=float(time),
+        load=float(load),
+        contact=contact,
+        **{name: arrays[f"state_{name}"] for name in _STATE},
+    )
+    march.begin_from(state)
+    cuts, unconverged = map(int, arrays["cuts"])
+    worst = float(arrays["residual_max"])
+    march.walker.restore((state, arrays["sums"], arrays["mean_pressure"], cuts, unconverged, worst))
+    march.done = int(arrays["done"])
+    march.seconds, march.march_seconds, timed = map(float, arrays["seconds"])
+    march.timed = int(timed)
+    march.rows = list(arrays["rows"])
+    march.frames = [
+        Frame(float(t), q, float(pull), *rest_of)
+        for t, q, pull, *rest_of in zip(*(arrays[f"frame_{name}"] for name in _FRAME), strict=True)
+    ]
+    if "window_energies" in arrays:
+        march.window_energies = ledger.Energies(*map(float, arrays["window_energies"]))
+    if "first_half" in arrays:
+        march.first_half, march.first_pressure = arrays["first_half"], arrays["first_pressure"]
+    return True
+
+
+def _named(prefix: str, arrays: Mapping[str, Any]) -> dict[str, Any]:
+    return {prefix + name: array for name, array in arrays.items()}
+
+
+def _under(prefix: str, arrays: Mapping[str, Any]) -> dict[str, Any]:
+    return {name.removeprefix(prefix): a for name, a in arrays.items() if name.startswith(prefix)}

@@ -1,0 +1,85 @@
+"""A block in motion as a series of VTU files: all of it, deformed, with its pressure below."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity.contact.elastic.modes import whole_shapes
+from asperity.errors import InputError
+from asperity.mesh.vtu import Data, write_series
+from asperity.slider.model import FloatArray
+
+if TYPE_CHECKING:
+    from asperity.block.problem import BlockProblem
+    from asperity.block.result import BlockResult, Frame
+
+
+def write_block_series(result: "BlockResult", path: Path) -> Path:
+    """Write a block's frames for ParaView, which plays the ``.pvd`` file.
+
+    At the nodes of the block: ``displacement`` (m), from where it stood unloaded;
+    ``deformation`` (m), that part of it which is not rigid motion, to be magnified; on the bottom
+    ``pressure_Pa`` and ``friction_Pa``, zero elsewhere.
+
+    Parameters
+    ----------
+    result : BlockResult
+        With frames.
+    path : path
+        The ``.pvd`` file; the frames stand beside it.
+
+    Raises
+    ------
+    InputError
+        The result has no frames.
+    StorageError
+        A file cannot be written.
+    """
+    if not result.frames:
+        raise InputError("the result has no frames to write; solve with history=True")
+    return write_series(path, result.problem.mesh, fields(result.problem, result.frames))
+
+
+def fields(problem: "BlockProblem", frames: "tuple[Frame, ...]") -> Iterator[tuple[float, Data]]:
+    """Yield time and nodal fields of each frame.
+
+    What the contact nodes were condensed from is found again from the forces: the deformation
+    under contact, drive and loads that the block as a whole is accelerated by, and its modes.
+    """
+    body, condensed = problem.uncondensed, problem.body
+    mesh, surface = problem.mesh, problem.surface
+    rows = (3 * condensed.nodes[:, None] + np.arange(3)).ravel()
+    loads = problem.nodal_loads
+    drive = problem.nodal_drive
+    shapes = whole_shapes(body, surface, condensed)
+    for frame in frames:
+        forces = loads + frame.drive_force * drive
+        forces[rows] += frame.force
+        deformation = body.response(forces)
+        # Modes move by themselves; their share of the static answer goes.
+        deformation += shapes @ (
+            frame.coordinates[6:] - (shapes.T @ forces) / condensed.mode_stiffness
+        )
+        displacement = deformation + body.rigid @ frame.coordinates[:6]
+        pressure = np.zeros(len(mesh.points))
+        friction = np.zeros((len(mesh.points), 3))
+        points = surface.weights.shape
+        pressure[condensed.nodes] = surface.to_nodes(frame.pressure.reshape(points))
+        normal = -surface.normals * frame.pressure.reshape(*points, 1)
+        tangential = frame.traction.reshape(*points, 3) - normal
+        friction[condensed.nodes] = surface.to_nodes(tangential)
+        yield (
+            frame.time,
+            {
+                "displacement": _vectors(displacement),
+                "deformation": _vectors(deformation),
+                "pressure_Pa": pressure,
+                "friction_Pa": friction,
+            },
+        )
+
+
+def _vectors(freedoms: FloatArray) -> FloatArray:
+    return freedoms.reshape(-1, 3)

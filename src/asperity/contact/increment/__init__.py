@@ -1,0 +1,1 @@
+"""One implicit increment of a body in contact, solved at its contact nodes."""

@@ -1,0 +1,197 @@
+r"""What a frozen tangent leaves out, put back smoothly: friction follows pressure and slip.
+
+With the residual :math:`R` of the nodal forces the frozen iteration corrects :math:`h` by
+:math:`R`. Newton's method would correct it by :math:`(I - C G)^{-1} R`, where :math:`C` is the
+tangent less the frozen stiffness :math:`K`. Two parts of it matter. Tangential forces press the
+body on harder here and less there, :math:`D R` at the nodes with :math:`D = n^T K G`, and friction
+follows pressure in the ratio :math:`\rho` of tangential to normal force at the node. And friction
+follows the slip by the tangent :math:`T` of a point with the mean deflection and slip of all, in
+proportion to the pressure :math:`p`; of the displacement :math:`G R` it takes the smooth part
+:math:`E R`, in fields :math:`\varphi_r` orthonormal over the areas :math:`a` of the nodes. So
+
+.. math:: R' = R + \rho\,D R' + \frac{p}{\bar p}\,a \sum_r \varphi_r T\,(E R')_r ,
+
+solved by repeated insertion, but for the constant field, the largest part, at once. All that is
+taken with single precision, for it changes the number of iterations and not what they lead to.
+"""
+
+import math
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.contact.interface.friction_point import MU, share_and_tangent
+from asperity.contact.interface.tractions import (
+    NORMAL,
+    ONE_SIDED,
+    PRESSURE,
+    SLIP_1,
+    SLIP_2,
+    first_tangent,
+)
+
+# Insertions: with one, a fourth evaluation of the contact in an increment is the rule.
+PASSES = 2
+
+
+@kernel
+def ratios(force, dofs, normals, smooth, out, load):
+    """Write tangential over normal force, and pressure over its mean, at the nodes.
+
+    Parameters
+    ----------
+    force : ndarray, shape (3n,)
+        Nodal forces, N.
+    dofs : ndarray of int, shape (3k,)
+        Unknowns of the nodes.
+    normals : ndarray, shape (k, 3)
+        Their unit normals.
+    smooth : ndarray, shape (r, k)
+        Smooth fields times areas, the first constant.
+    out : ndarray, shape (k, 3)
+        Written: the ratio; 0 at nodes without a normal force.
+    load : ndarray, shape (k,)
+        Written: the pressure over its mean.
+    """
+    total = 0.0
+    area = 0.0
+    for a in range(normals.shape[0]):
+        x = force[dofs[3 * a]]
+        y = force[dofs[3 * a + 1]]
+        z = force[dofs[3 * a + 2]]
+        normal = x * normals[a, 0] + y * normals[a, 1] + z * normals[a, 2]
+        # The ratio is about mu; what is far beyond it is no friction.
+        load[a] = normal / smooth[0, a]
+        total += normal
+        area += smooth[0, a]
+        ratio = 0.0
+        if x * x + y * y + z * z < 4.0 * normal * normal:
+            ratio = 1.0 / normal
+        out[a, 0] = x * ratio - normals[a, 0]
+        out[a, 1] = y * ratio - normals[a, 1]
+        out[a, 2] = z * ratio - normals[a, 2]
+        if ratio == 0.0:
+            out[a] = 0.0
+    for a in range(normals.shape[0]):
+        load[a] *= area / total if total != 0.0 else 0.0
+
+
+@kernel
+def mean_tangent(points, deflection0, size0, weights, friction, motion, out):
+    """Write the tangential stiffness of a point with the mean of all points in contact, 3 x 3.
+
+    Parameters
+    ----------
+    points, deflection0, size0, weights, friction, motion : ndarray
+        As `asperity.contact.interface.tractions.tractions` takes and writes them.
+    out : ndarray, shape (3, 3)
+        Written: derivative of the traction by the slip, Pa/m.
+
+    Returns
+    -------
+    float
+        Area in contact, m^2.
+    """
+    out[:] = 0.0
+    area = 0.0
+    p = 0.0
+    size = 0.0
+    normal = np.zeros(3)
+    slip_1 = np.zeros(3)
+    slip_2 = np.zeros(3)
+    bent = np.zeros(3)
+    for q in range(points.shape[0]):
+        if points[q, PRESSURE] <= 0.0:
+            continue
+        weight = weights[q]
+        area += weight
+        p += weight * points[q, PRESSURE]
+        size += weight * size0[q]
+        for c in range(3):
+            normal[c] += weight * points[q, NORMAL + c]
+            slip_1[c] += weight * points[q, SLIP_1 + c]
+            slip_2[c] += weight * points[q, SLIP_2 + c]
+            bent[c] += weight * deflection0[q, c]
+    length = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+    if friction[MU] == 0.0 or length <= 0.5 * area:
+        return area
+    nx = normal[0] / length
+    ny = normal[1] / length
+    nz = normal[2] / length
+    ex, ey, ez = first_tangent(nx, ny, nz)
+    fx = ny * ez - nz * ey
+    fy = nz * ex - nx * ez
+    fz = nx * ey - ny * ex
+    _, _, _, _, _, t1, _ = share_and_tangent(
+        (bent[0] * ex + bent[1] * ey + bent[2] * ez) / area,
+        (bent[0] * fx + bent[1] * fy + bent[2] * fz) / area,
+        size / area,
+        (slip_1[0] * ex + slip_1[1] * ey + slip_1[2] * ez) / area,
+        (slip_1[0] * fx + slip_1[1] * fy + slip_1[2] * fz) / area,
+        (slip_2[0] * ex + slip_2[1] * ey + slip_2[2] * ez) / area,
+        (slip_2[0] * fx + slip_2[1] * fy + slip_2[2] * fz) / area,
+        motion[ONE_SIDED] > 0.0,
+        friction,
+    )
+    scale = -friction[MU] * p / area
+    e = (ex, ey, ez)
+    f = (fx, fy, fz)
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = scale * (
+                (t1[0] * e[i] + t1[2] * f[i]) * e[j] + (t1[1] * e[i] + t1[3] * f[i]) * f[j]
+            )
+    return area
+
+
+@kernel
+def mean_correction(tangent, spread, out):
+    """Write ``T (I - F T)^-1`` for a mean flexibility ``F``; 0 where that has no inverse."""
+    matrix = np.eye(3) - spread @ tangent
+    out[:] = 0.0
+    if abs(np.linalg.det(matrix)) > 1e-3:
+        out[:] = tangent @ np.linalg.inv(matrix)
+
+
+@kernel
+def couple(
+    rest, shares, pressing, smooth, moving, tangent, correction, load, single, pressed, moved, out
+):
+    """Write the correction of ``h`` for a residual.
+
+    Parameters
+    ----------
+    rest : ndarray, shape (3k,)
+        Residual, N.
+    shares : ndarray, shape (k, 3)
+        Ratios of tangential to normal force.
+    pressing, smooth, moving : ndarray, shapes (k, 3k), (r, k), (3r, 3k)
+        D, and E by smooth fields.
+    tangent, correction : ndarray, shape (3, 3)
+        T and ``T (I - F T)^-1``, Pa/m.
+    load : ndarray, shape (k,)
+        Pressure over its mean.
+    single, pressed, moved : ndarray, shapes (3k,), (k,), (3r,)
+        Room of single precision.
+    out : ndarray, shape (3k,)
+        Written, N.
+    """
+    for c in range(rest.shape[0]):
+        out[c] = rest[c]
+    for _ in range(PASSES):
+        for c in range(rest.shape[0]):
+            single[c] = out[c]
+        np.dot(pressing, single, pressed)
+        for a in range(shares.shape[0]):
+            for c in range(3):
+                out[3 * a + c] = rest[3 * a + c] + shares[a, c] * pressed[a]
+        for c in range(rest.shape[0]):
+            single[c] = out[c]
+        np.dot(moving, single, moved)
+        for r in range(smooth.shape[0]):
+            for c in range(3):
+                push = 0.0
+                for e in range(3):
+                    push += (tangent if r else correction)[c, e] * moved[3 * r + e]
+                for a in range(shares.shape[0]):
+                    out[3 * a + c] += push * load[a] * smooth[r, a]

@@ -1,0 +1,373 @@
+r"""An implicit increment of a body in contact: what is given, what is kept, what comes out.
+
+Whatever time integration stands above it, an increment reads
+
+.. math:: u = u^* + A\,f(u)
+
+with the displacements :math:`u` and contact forces :math:`f` of the contact nodes, the motion
+:math:`u^*` that the body would have without contact, and a constant flexibility :math:`A`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy import sparse
+
+from asperity.contact.increment.modified_newton import Inverses
+from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import ContactSurface
+from asperity.contact.interface.tractions import (
+    BASE_1,
+    BASE_2,
+    BODY_1,
+    BODY_2,
+    MOTION,
+    ONE_SIDED,
+    ROTATION,
+    TRANSLATION,
+)
+from asperity.errors import InputError
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class IncrementProblem:
+    """What stays the same from increment to increment.
+
+    Attributes
+    ----------
+    flexibility : ndarray, shape (3n, 3n)
+        :math:`A`, displacement of the contact nodes by unit forces on them (number 3 node + axis),
+        m/N. It belongs to one time step; in statics it is that of the held body.
+    surface : ContactSurface
+        The body's faces that may touch, with n nodes and q quadrature points in all; values at
+        points are numbered face by face.
+    counter : RigidSurface
+        What the body meets.
+    normal : NormalLaw
+        Pressure against overclosure.
+    friction : PointFriction
+        Friction law.
+    step : float
+        Time step, s; 0 in statics (LuGre needs it).
+    tolerance : float
+        Relative residual at which an increment counts as solved, see `IncrementResult`.
+    penetration : float
+        Hard contact: the overclosure about a node times the penalty, over the largest pressure,
+        at which the multipliers count as found.
+    most_iterations : int
+        Newton iterations of one increment before it is given up.
+    """
+
+    flexibility: FloatArray
+    surface: ContactSurface
+    counter: RigidSurface
+    normal: NormalLaw
+    friction: PointFriction = field(default_factory=PointFriction)
+    step: float = 0.0
+    tolerance: float = 1e-9
+    penetration: float = 1e-6
+    most_iterations: int = 60
+
+    def __post_init__(self) -> None:
+        nodes = len(self.surface.positions)
+        if self.flexibility.shape != (3 * nodes, 3 * nodes):
+            raise InputError(
+                f"the flexibility has the shape {self.flexibility.shape}; the surface has {nodes} "
+                f"nodes, so give ({3 * nodes}, {3 * nodes})"
+            )
+        if not np.isfinite(self.flexibility).all():
+            raise InputError("the flexibility has an entry that is not finite")
+
+    @property
+    def nodes(self) -> int:
+        """Number of contact nodes n."""
+        return len(self.surface.positions)
+
+    @property
+    def points(self) -> int:
+        """Number of quadrature points q."""
+        return self.surface.weights.size
+
+    @cached_property
+    def inverses(self) -> Inverses:
+        """Inverses kept from increment to increment; they change the time taken, not the answer."""
+        return Inverses()
+
+    @cached_property
+    def give(self) -> float:
+        """Stiffness of the body against a traction about one node, Pa/m: the mean over all."""
+        area = self.surface.nodal_area
+        own = np.diagonal(self.flexibility).reshape(-1, 3).mean(axis=1)
+        return float(area.sum() / (area**2 * own).sum())
+
+    @cached_property
+    def corners(self) -> npt.NDArray[np.int64]:
+        """Corner nodes of the faces, ascending: where hard contact has its multipliers."""
+        return np.unique(self.surface.faces[:, :4])
+
+    @cached_property
+    def from_corners(self) -> sparse.csr_array:
+        """Nodal values of a field that is bilinear on each face from its values at the corners."""
+        faces = self.surface.faces
+        # Corners that each node of a face lies between; a node shared by faces counts once.
+        between = [[0], [1], [2], [3], [0, 1], [1, 2], [2, 3], [3, 0], [0, 1, 2, 3]]
+        nodes, first = np.unique(faces, return_index=True)
+        face, place = np.divmod(first, faces.shape[1])
+        rows, columns, values = [], [], []
+        for node, at, local in zip(nodes, face, place, strict=True):
+            for end in between[local]:
+                rows.append(node)
+                columns.append(faces[at, end])
+                values.append(1.0 / len(between[local]))
+        entries = np.array(values), (np.array(rows), np.searchsorted(self.corners, columns))
+        return sparse.csr_array(sparse.coo_array(entries, shape=(self.nodes, len(self.corners))))
+
+    @cached_property
+    def arrays(self) -> tuple[Any, ...]:
+        """Faces, shapes, weights, places and parameter vectors in the order kernels take them."""
+        return (
+            np.ascontiguousarray(self.surface.faces),
+            np.ascontiguousarray(self.surface.shapes),
+            np.ascontiguousarray(self.surface.weights.ravel()),
+            np.ascontiguousarray(self.surface.points.reshape(-1, 3)),
+            self.counter.parameters,
+            self.normal.parameters,
+            self.friction.parameters(self.step),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Trend:
+    """Forces and displacements of the last increments, the latest first.
+
+    Attributes
+    ----------
+    forces, displacements : tuple of ndarray, shape (3n,)
+        Contact forces, N, and displacement of the contact nodes, m.
+    order : int
+        Order of the extrapolation that would have foretold the latest forces best.
+    flexibility : ndarray or None
+        The `A` of those increments.
+    """
+
+    forces: tuple[FloatArray, ...] = ()
+    displacements: tuple[FloatArray, ...] = ()
+    order: int = 0
+    flexibility: FloatArray | None = None
+
+    def followed_by(
+        self, force: FloatArray, displacement: FloatArray, flexibility: FloatArray
+    ) -> Trend:
+        """Return the trend with one more increment; another flexibility begins it anew."""
+        if flexibility is not self.flexibility:
+            return Trend((force,), (displacement,), 0, flexibility)
+        forces = (force, *self.forces[: len(_WEIGHTS)])
+        displacements = (displacement, *self.displacements[: len(_WEIGHTS) - 1])
+        errors = [
+            float(np.linalg.norm(force - _combined(weights, forces[1:])))
+            for weights in _WEIGHTS[: len(forces) - 1]
+        ]
+        return Trend(forces[: len(_WEIGHTS)], displacements, int(np.argmin(errors)), flexibility)
+
+    def foretold(self, flexibility: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+        """Forces and displacement of the coming increment; None without a past."""
+        if flexibility is not self.flexibility:
+            return None
+        weights = _WEIGHTS[min(self.order, len(self.forces) - 1)]
+        return _combined(weights, self.forces), _combined(weights, self.displacements)
+
+
+# Extrapolation from equal steps: constant, linear, quadratic.
+_WEIGHTS = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0))
+
+
+def _combined(weights: tuple[float, ...], vectors: tuple[FloatArray, ...]) -> FloatArray:
+    total = weights[0] * vectors[0]
+    for weight, vector in zip(weights[1:], vectors[1:], strict=False):
+        total += weight * vector
+    return total
+
+
+@dataclass(frozen=True, eq=False)
+class ContactState:
+    """What an increment starts from: the committed history. Never changed by an iteration.
+
+    Attributes
+    ----------
+    displacement : ndarray, shape (3n,)
+        Of the contact nodes, m.
+    force : ndarray, shape (3n,)
+        Contact forces on the body, N.
+    deflection : ndarray, shape (q, 3)
+        Of the asperities, in space, m.
+    size : ndarray, shape (q,)
+        Two-phase scheme: its signed size over the limit.
+    multiplier : ndarray, shape (n,)
+        Hard contact: pressure of the multipliers at the nodes, Pa.
+    pressure : ndarray, shape (q,)
+        At the points, Pa.
+    traction : ndarray, shape (q, 3)
+        On the body at the points, Pa.
+    trend : Trend
+        Forces of the last increments, from which those of the next are foretold. The solution
+        does not depend on it, the number of iterations does.
+    """
+
+    displacement: FloatArray
+    force: FloatArray
+    deflection: FloatArray
+    size: FloatArray
+    multiplier: FloatArray
+    pressure: FloatArray
+    traction: FloatArray
+    trend: Trend
+
+    @property
+    def touching(self) -> npt.NDArray[np.bool_]:
+        """Points in contact, shape (q,)."""
+        touching: npt.NDArray[np.bool_] = self.pressure > 0.0
+        return touching
+
+    @classmethod
+    def rest(cls, problem: IncrementProblem) -> ContactState:
+        """Undeformed, unloaded, asperities straight."""
+        n, q = problem.nodes, problem.points
+        return cls(
+            np.zeros(3 * n),
+            np.zeros(3 * n),
+            np.zeros((q, 3)),
+            np.zeros(q),
+            np.zeros(n),
+            np.zeros(q),
+            np.zeros((q, 3)),
+            Trend(),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Drift:
+    """Displacement of the counter-surface's material over an increment, ``shift + turn @ x``.
+
+    Attributes
+    ----------
+    shift : ndarray, shape (3,)
+        m.
+    turn : ndarray, shape (3, 3)
+        On the position at the increment's end; of a rotation ``I - R_0 R_1^T``.
+    """
+
+    shift: FloatArray = field(default_factory=lambda: np.zeros(3))
+    turn: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
+
+    @classmethod
+    def between(cls, before: Pose, after: Pose) -> Drift:
+        """Whole displacement from one pose to another."""
+        back = before.rotation @ after.rotation.T
+        shift = back @ after.translation - before.translation
+        return cls(shift, np.eye(3) - back)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceMotion:
+    """Where the counter-surface stands at the end of an increment, and what slip it makes.
+
+    The slip of the body on the surface is ``v_j = body_j @ (u - u_committed) - base_j(x)`` in its
+    two parts j = 1, 2, brought into the tangent plane. Usually the body moves in the first part
+    alone, the base's x motion stands in the first and its transferred y motion in the second.
+
+    Attributes
+    ----------
+    pose : Pose
+        At the end.
+    base_1, base_2 : Drift
+        The two parts of the surface's displacement, as the contact sees them (transferred).
+    body_1, body_2 : ndarray, shape (3, 3)
+        What each part sees of the body's own displacement.
+    one_sided : bool
+        Two-phase scheme: the increment ends no later than the vibration starts.
+    """
+
+    pose: Pose = field(default_factory=Pose)
+    base_1: Drift = field(default_factory=Drift)
+    base_2: Drift = field(default_factory=Drift)
+    body_1: FloatArray = field(default_factory=lambda: np.eye(3))
+    body_2: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
+    one_sided: bool = False
+
+    def parameters(self) -> FloatArray:
+        """Numbers as the kernels take them."""
+        m = np.empty(MOTION)
+        m[ROTATION:TRANSLATION] = self.pose.rotation.ravel()
+        m[TRANSLATION:BASE_1] = self.pose.translation
+        m[BASE_1 : BASE_1 + 3] = self.base_1.shift
+        m[BASE_1 + 3 : BASE_2] = self.base_1.turn.ravel()
+        m[BASE_2 : BASE_2 + 3] = self.base_2.shift
+        m[BASE_2 + 3 : BODY_1] = self.base_2.turn.ravel()
+        m[BODY_1:BODY_2] = self.body_1.ravel()
+        m[BODY_2:ONE_SIDED] = self.body_2.ravel()
+        m[ONE_SIDED] = 1.0 if self.one_sided else 0.0
+        return m
+
+
+@dataclass(frozen=True, eq=False)
+class IncrementResult:
+    """A solved increment. Nothing is committed: the caller goes on from `state` if it accepts.
+
+    Attributes
+    ----------
+    state : ContactState
+        Trial state at the end.
+    distance : ndarray, shape (q,)
+        To the surface, m, negative for an overclosure.
+    normal : ndarray, shape (q, 3)
+        Of the surface.
+    slip_1, slip_2 : ndarray, shape (q, 3)
+        The two parts of the slip, in the tangent plane, m.
+    iterations : int
+        Evaluations of the contact.
+    residual : float
+        Norm of the difference between the nodal forces that the body answers to and those of the
+        tractions, over the norm of the forces.
+    """
+
+    state: ContactState
+    distance: FloatArray
+    normal: FloatArray
+    slip_1: FloatArray
+    slip_2: FloatArray
+    iterations: int
+    residual: float
+
+    @property
+    def displacement(self) -> FloatArray:
+        """Of the contact nodes, m, shape (3n,)."""
+        return self.state.displacement
+
+    @property
+    def force(self) -> FloatArray:
+        """Contact forces on the body, N, shape (3n,)."""
+        return self.state.force
+
+    @property
+    def pressure(self) -> FloatArray:
+        """Pa, 0 where open, shape (q,)."""
+        return self.state.pressure
+
+    @property
+    def traction(self) -> FloatArray:
+        """On the body, Pa, shape (q, 3)."""
+        return self.state.traction
+
+    @property
+    def active(self) -> int:
+        """Number of points in contact."""
+        return int(np.count_nonzero(self.pressure > 0.0))

@@ -1,0 +1,391 @@
+r"""Contact tractions at the quadrature points, their sum at the nodes, and their derivative.
+
+On a body with the displacement :math:`u`, at a point :math:`x` with the distance :math:`d`, normal
+:math:`n` and Hessian :math:`H` of the counter-surface,
+
+.. math:: t = p\,n - \mu p\,S, \qquad p = p(-d), \qquad S = T\,\sigma(T^T s_0, T^T v_1, T^T v_2),
+
+:math:`T` being two unit vectors of the tangent plane and :math:`v_j` the two parts of the slip. The
+laws do not depend on which two, so the derivative may carry them along without a turn,
+:math:`dT = -n\,(dn^T T)`, and
+
+.. math:: \frac{\partial t}{\partial u} = -p'(n - \mu S)\,n^T + p H + \mu p\,n\,(S^T H)
+   - \mu p \sum_j T \frac{\partial\sigma}{\partial D_j} T^T
+   \left(\frac{\partial v_j}{\partial u} - (n\cdot v_j) H\right) .
+"""
+
+import math
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.contact.interface.friction_point import MU, aimed_slip, share_and_tangent, share_of
+from asperity.contact.interface.normal import aimed_overclosure, pressure
+from asperity.contact.interface.rigid import distance
+
+# Places in the vector that describes the motion of the counter-surface.
+ROTATION = 0
+TRANSLATION = 9
+BASE_1 = 12  # displacement c + M x of the first part: c, then M by rows
+BASE_2 = 24
+BODY_1 = 36  # matrix on the body's displacement increment
+BODY_2 = 45
+ONE_SIDED = 54
+MOTION = 55
+
+# Places in the record of a point.
+PRESSURE = 0
+DISTANCE = 1
+NORMAL = 2
+TRACTION = 5
+SLIP_1 = 8
+SLIP_2 = 11
+POINT = 14
+
+
+@kernel
+def _apply(m, at, x, y, z):
+    return (
+        m[at] * x + m[at + 1] * y + m[at + 2] * z,
+        m[at + 3] * x + m[at + 4] * y + m[at + 5] * z,
+        m[at + 6] * x + m[at + 7] * y + m[at + 8] * z,
+    )
+
+
+@kernel
+def _place(x, y, z, surface, m):
+    """Distance, normal and Hessian of a surface where it stands."""
+    x -= m[TRANSLATION]
+    y -= m[TRANSLATION + 1]
+    z -= m[TRANSLATION + 2]
+    r = m[:9]
+    d, gx, gy, gz, hxx, hyy, hzz, hxy, hxz, hyz = distance(
+        r[0] * x + r[3] * y + r[6] * z,
+        r[1] * x + r[4] * y + r[7] * z,
+        r[2] * x + r[5] * y + r[8] * z,
+        surface,
+    )
+    nx, ny, nz = _apply(r, 0, gx, gy, gz)
+    if hxx == 0.0 and hyy == 0.0 and hzz == 0.0:
+        return d, nx, ny, nz, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    # H in space: R H R^T.
+    ax, bx, cx = _apply(r, 0, hxx, hxy, hxz)
+    ay, by, cy = _apply(r, 0, hxy, hyy, hyz)
+    az, bz, cz = _apply(r, 0, hxz, hyz, hzz)
+    return (
+        d, nx, ny, nz,
+        ax * r[0] + ay * r[1] + az * r[2],
+        bx * r[3] + by * r[4] + bz * r[5],
+        cx * r[6] + cy * r[7] + cz * r[8],
+        ax * r[3] + ay * r[4] + az * r[5],
+        ax * r[6] + ay * r[7] + az * r[8],
+        bx * r[6] + by * r[7] + bz * r[8],
+    )  # fmt: skip
+
+
+@kernel
+def first_tangent(nx, ny, nz):
+    """Unit vector of the tangent plane along x, the drive; along y where x is the normal."""
+    if abs(nx) < 0.9:
+        size = math.sqrt(1.0 - nx * nx)
+        return size, -nx * ny / size, -nx * nz / size
+    size = math.sqrt(1.0 - ny * ny)
+    return -nx * ny / size, size, -ny * nz / size
+
+
+@kernel
+def tractions(
+    u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
+    surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
+):  # fmt: skip
+    """Evaluate the contact for a displacement of its nodes; see `aimed_tractions`."""
+    touching, _ = aimed_tractions(
+        u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
+        surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
+        np.empty((0, 3)), 0.0,
+    )  # fmt: skip
+    return touching
+
+
+@kernel
+def aimed_tractions(
+    u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
+    surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
+    assumed, give,
+):  # fmt: skip
+    r"""Evaluate the contact for a displacement of its nodes, or near it.
+
+    With a stiffness ``give`` :math:`r > 0` the laws are taken not at the slip and overclosure
+    :math:`D` of the displacement, where a law much stiffer than the body says little, but at the
+    :math:`\hat D` with :math:`t(\hat D) + r \hat D = t_a + r D`, from the tractions :math:`t_a`
+    assumed at the points; what is written is then the tangent there, continued to :math:`D`. Both
+    meet in the solution.
+
+    Parameters
+    ----------
+    u, u0 : ndarray, shape (3n,)
+        Trial and committed displacement, m.
+    deflection0 : ndarray, shape (q, 3)
+        Committed deflection of the asperities, m.
+    size0 : ndarray, shape (q,)
+        Its signed size (two-phase scheme).
+    multiplier : ndarray, shape (n,)
+        Of the hard law, Pa.
+    faces : ndarray of int, shape (k, m)
+        Nodes of each face.
+    shapes : ndarray, shape (r, m)
+        Shape values at the quadrature points of a face; q = k r in all.
+    weights : ndarray, shape (q,)
+        Area of each point, m^2.
+    places : ndarray, shape (q, 3)
+        Undeformed positions, m.
+    surface, law, friction, motion : ndarray
+        Parameter vectors.
+    force : ndarray, shape (3n,)
+        Written: nodal forces on the body, N.
+    deflection, size, points : ndarray, shapes (q, 3), (q,), (q, POINT)
+        Written: trial history and record of each point.
+    stiffness : ndarray, shape (q, 3, 3)
+        Written with ``with_tangent``: derivative of the traction by the displacement, Pa/m.
+    with_tangent : bool
+        Whether to write it.
+    assumed : ndarray, shape (q, 3)
+        Tractions assumed, Pa.
+    give : float
+        r, Pa/m; 0: at the displacement itself.
+
+    Returns
+    -------
+    touching : int
+        Number of points in contact.
+    off : float
+        Integral of the squared difference between the laws' tractions and those assumed, N^2/m^2.
+    """
+    force[:] = 0.0
+    mu = friction[MU]
+    touching = 0
+    off = 0.0
+    aimed = give > 0.0
+    px = 0.0
+    py = 0.0
+    pz = 0.0
+    far = 0.0
+    lx = 0.0
+    ly = 0.0
+    lz = 0.0
+    ex = 0.0
+    ey = 0.0
+    ez = 0.0
+    fx = 0.0
+    fy = 0.0
+    fz = 0.0
+    one_sided = motion[ONE_SIDED] > 0.0
+    width = faces.shape[1]
+    rule = shapes.shape[0]
+    for q in range(faces.shape[0] * rule):
+        face = q // rule
+        at = q - face * rule
+        ux = 0.0
+        uy = 0.0
+        uz = 0.0
+        dx = 0.0
+        dy = 0.0
+        dz = 0.0
+        lam = 0.0
+        for a in range(width):
+            i = faces[face, a]
+            shape = shapes[at, a]
+            j = 3 * i
+            ux += shape * u[j]
+            uy += shape * u[j + 1]
+            uz += shape * u[j + 2]
+            dx += shape * (u[j] - u0[j])
+            dy += shape * (u[j + 1] - u0[j + 1])
+            dz += shape * (u[j + 2] - u0[j + 2])
+            lam += shape * multiplier[i]
+        x = places[q, 0] + ux
+        y = places[q, 1] + uy
+        z = places[q, 2] + uz
+        d, nx, ny, nz, hxx, hyy, hzz, hxy, hxz, hyz = _place(x, y, z, surface, motion)
+        if aimed:
+            px = assumed[q, 0]
+            py = assumed[q, 1]
+            pz = assumed[q, 2]
+            over = aimed_overclosure(px * nx + py * ny + pz * nz - give * d, give, lam, law)
+            far = over + d
+            p, slope = pressure(over, lam, law)
+        else:
+            p, slope = pressure(-d, lam, law)
+        points[q, PRESSURE] = p
+        points[q, DISTANCE] = d
+        points[q, NORMAL] = nx
+        points[q, NORMAL + 1] = ny
+        points[q, NORMAL + 2] = nz
+        bx, by, bz = _apply(motion, BASE_1 + 3, x, y, z)
+        ax, ay, az = _apply(motion, BODY_1, dx, dy, dz)
+        v1x = ax - bx - motion[BASE_1]
+        v1y = ay - by - motion[BASE_1 + 1]
+        v1z = az - bz - motion[BASE_1 + 2]
+        bx, by, bz = _apply(motion, BASE_2 + 3, x, y, z)
+        ax, ay, az = _apply(motion, BODY_2, dx, dy, dz)
+        v2x = ax - bx - motion[BASE_2]
+        v2y = ay - by - motion[BASE_2 + 1]
+        v2z = az - bz - motion[BASE_2 + 2]
+        along_1 = v1x * nx + v1y * ny + v1z * nz
+        along_2 = v2x * nx + v2y * ny + v2z * nz
+        points[q, SLIP_1] = v1x - along_1 * nx
+        points[q, SLIP_1 + 1] = v1y - along_1 * ny
+        points[q, SLIP_1 + 2] = v1z - along_1 * nz
+        points[q, SLIP_2] = v2x - along_2 * nx
+        points[q, SLIP_2 + 1] = v2y - along_2 * ny
+        points[q, SLIP_2 + 2] = v2z - along_2 * nz
+        if p <= 0.0:
+            # An asperity that touches nothing stands straight.
+            for c in range(3):
+                points[q, TRACTION + c] = 0.0
+                deflection[q, c] = 0.0
+            size[q] = 0.0
+            if with_tangent:
+                stiffness[q] = 0.0
+            off += weights[q] * (px * px + py * py + pz * pz)
+            continue
+        touching += 1
+        tx = p * nx
+        ty = p * ny
+        tz = p * nz
+        sx = 0.0
+        sy = 0.0
+        sz = 0.0
+        if mu > 0.0:
+            if nx != lx or ny != ly or nz != lz:
+                # On a plane one frame serves all points; roots and quotients are what costs here.
+                ex, ey, ez = first_tangent(nx, ny, nz)
+                fx = ny * ez - nz * ey
+                fy = nz * ex - nx * ez
+                fz = nx * ey - ny * ex
+                lx = nx
+                ly = ny
+                lz = nz
+            # The committed deflection, turned into the plane of now with its length kept.
+            gx = deflection0[q, 0]
+            gy = deflection0[q, 1]
+            gz = deflection0[q, 2]
+            s1 = gx * ex + gy * ey + gz * ez
+            s2 = gx * fx + gy * fy + gz * fz
+            if gx * nx + gy * ny + gz * nz != 0.0:
+                flat = math.sqrt(s1 * s1 + s2 * s2)
+                if flat > 0.0:
+                    keep = math.sqrt(gx * gx + gy * gy + gz * gz) / flat
+                    s1 *= keep
+                    s2 *= keep
+            a1 = v1x * ex + v1y * ey + v1z * ez
+            a2 = v1x * fx + v1y * fy + v1z * fz
+            b1 = v2x * ex + v2y * ey + v2z * ez
+            b2 = v2x * fx + v2y * fy + v2z * fz
+            m1 = 0.0
+            m2 = 0.0
+            if aimed:
+                m1, m2 = aimed_slip(
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction, mu * p, give,
+                    give * (a1 + b1) - (px * ex + py * ey + pz * ez),
+                    give * (a2 + b2) - (px * fx + py * fy + pz * fz),
+                )  # fmt: skip
+                a1 += m1
+                a2 += m2
+            if with_tangent:
+                s1, s2, new_size, w1, w2, t1, t2 = share_and_tangent(
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction
+                )
+                _tangent(
+                    stiffness[q], mu * p, t1, t2, along_1, along_2,
+                    ex, ey, ez, fx, fy, fz, hxx, hyy, hzz, hxy, hxz, hyz, motion,
+                )  # fmt: skip
+            else:
+                t1 = (0.0, 0.0, 0.0, 0.0)
+                s1, s2, new_size, w1, w2 = share_of(
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction
+                )
+            deflection[q, 0] = s1 * ex + s2 * fx
+            deflection[q, 1] = s1 * ey + s2 * fy
+            deflection[q, 2] = s1 * ez + s2 * fz
+            size[q] = new_size
+            sx = mu * (w1 * ex + w2 * fx)
+            sy = mu * (w1 * ey + w2 * fy)
+            sz = mu * (w1 * ez + w2 * fz)
+            tx -= p * sx
+            ty -= p * sy
+            tz -= p * sz
+            if aimed:
+                off += weights[q] * ((tx - px) ** 2 + (ty - py) ** 2 + (tz - pz) ** 2)
+                c1 = mu * p * (t1[0] * m1 + t1[1] * m2)
+                c2 = mu * p * (t1[2] * m1 + t1[3] * m2)
+                tx += c1 * ex + c2 * fx - slope * far * (nx - sx)
+                ty += c1 * ey + c2 * fy - slope * far * (ny - sy)
+                tz += c1 * ez + c2 * fz - slope * far * (nz - sz)
+        else:
+            if aimed:
+                off += weights[q] * ((tx - px) ** 2 + (ty - py) ** 2 + (tz - pz) ** 2)
+                tx -= slope * far * nx
+                ty -= slope * far * ny
+                tz -= slope * far * nz
+            deflection[q] = 0.0
+            size[q] = 0.0
+            if with_tangent:
+                stiffness[q] = 0.0
+        if with_tangent:
+            k = stiffness[q]
+            # S^T H, the turn of the tangent plane towards the normal.
+            gx = p * (sx * hxx + sy * hxy + sz * hxz) - slope * nx
+            gy = p * (sx * hxy + sy * hyy + sz * hyz) - slope * ny
+            gz = p * (sx * hxz + sy * hyz + sz * hzz) - slope * nz
+            k[0, 0] += nx * gx + p * hxx + slope * sx * nx
+            k[0, 1] += nx * gy + p * hxy + slope * sx * ny
+            k[0, 2] += nx * gz + p * hxz + slope * sx * nz
+            k[1, 0] += ny * gx + p * hxy + slope * sy * nx
+            k[1, 1] += ny * gy + p * hyy + slope * sy * ny
+            k[1, 2] += ny * gz + p * hyz + slope * sy * nz
+            k[2, 0] += nz * gx + p * hxz + slope * sz * nx
+            k[2, 1] += nz * gy + p * hyz + slope * sz * ny
+            k[2, 2] += nz * gz + p * hzz + slope * sz * nz
+        points[q, TRACTION] = tx
+        points[q, TRACTION + 1] = ty
+        points[q, TRACTION + 2] = tz
+        weight = weights[q]
+        for a in range(width):
+            j = 3 * faces[face, a]
+            share = weight * shapes[at, a]
+            force[j] += share * tx
+            force[j + 1] += share * ty
+            force[j + 2] += share * tz
+    return touching, off
+
+
+@kernel
+def _tangent(
+    k, scale, t1, t2, along_1, along_2, ex, ey, ez, fx, fy, fz,
+    hxx, hyy, hzz, hxy, hxz, hyz, m,
+):  # fmt: skip
+    """Write the share's part of a point's tangent."""
+    for c in range(3):
+        if c == 0:
+            gx, gy, gz = hxx, hxy, hxz
+        elif c == 1:
+            gx, gy, gz = hxy, hyy, hyz
+        else:
+            gx, gy, gz = hxz, hyz, hzz
+        # Column c of dv_j/du - (n.v_j) H, in the tangent plane.
+        ax = m[BODY_1 + c] - m[BASE_1 + 3 + c] - along_1 * gx
+        ay = m[BODY_1 + 3 + c] - m[BASE_1 + 6 + c] - along_1 * gy
+        az = m[BODY_1 + 6 + c] - m[BASE_1 + 9 + c] - along_1 * gz
+        bx = m[BODY_2 + c] - m[BASE_2 + 3 + c] - along_2 * gx
+        by = m[BODY_2 + 3 + c] - m[BASE_2 + 6 + c] - along_2 * gy
+        bz = m[BODY_2 + 6 + c] - m[BASE_2 + 9 + c] - along_2 * gz
+        a1 = ax * ex + ay * ey + az * ez
+        a2 = ax * fx + ay * fy + az * fz
+        b1 = bx * ex + by * ey + bz * ez
+        b2 = bx * fx + by * fy + bz * fz
+        w1 = -scale * (t1[0] * a1 + t1[1] * a2 + t2[0] * b1 + t2[1] * b2)
+        w2 = -scale * (t1[2] * a1 + t1[3] * a2 + t2[2] * b1 + t2[3] * b2)
+        k[0, c] = w1 * ex + w2 * fx
+        k[1, c] = w1 * ey + w2 * fy
+        k[2, c] = w1 * ez + w2 * fz

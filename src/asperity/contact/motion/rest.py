@@ -1,0 +1,179 @@
+"""What a motion starts from: a body at rest under its loads, or one let go anywhere."""
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.contact.increment.solver import (
+    ContactState,
+    IncrementResult,
+    SurfaceMotion,
+    solve_increment,
+)
+from asperity.contact.motion import hht
+from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.steps import resultants, take_step
+from asperity.contact.motion.system import System, SystemState
+from asperity.errors import ConvergenceError, InputError
+
+FloatArray = npt.NDArray[np.float64]
+
+_MOST_STATIC = 50
+_AT_REST = 1e-9
+# Steps of loading are so long that the inertia is this share of the stiffness on the contact, or
+# more where a contact is so stiff that digits are lost: each step leaves about as much undone.
+_INERTIA_AT_REST, _MOST_INERTIA = 1e-5, 0.1
+
+
+def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
+    """Bring a body to rest under loads that come one after the other, friction and all.
+
+    Parameters
+    ----------
+    system : System
+        The body; its drive and shaking wait.
+    loads : tuple of Port
+        Loads as they stand after each step, as gravity, then gravity and pressure.
+
+    Returns
+    -------
+    SystemState
+        At time zero, the drive just taut.
+
+    Raises
+    ------
+    ConvergenceError
+        No equilibrium was found: the loads do not press the body on the surface, or it tips over.
+    """
+    mechanism = system.mechanism
+    long, accuracy = _loading(system)
+    waiting = dataclasses.replace(mechanism, drive=None, load=None)
+    first = mo.motion_step(waiting, long, alpha=0.0)
+    problem = system.increments(first.compliance, long)
+    contact = ContactState.rest(problem)
+    coordinates = hht.rest(mechanism.size)
+    drive = np.zeros(mo.DRIVE_STATE)
+    still = SurfaceMotion(pose=system.pose)
+    result = None
+    for number, load in enumerate(loads, start=1):
+        moving = mo.motion_step(dataclasses.replace(waiting, load=load), long, alpha=0.0)
+        for _ in range(_MOST_STATIC):
+            try:
+                result, coordinates, drive, _ = take_step(
+                    moving, problem, still, contact, coordinates, drive, (0.0, 0.0, 1.0)
+                )
+            except ConvergenceError as error:
+                raise ConvergenceError(
+                    f"no equilibrium at rest under load {number} of {len(loads)}: {error}",
+                    reached={"load": float(number), **error.reached},
+                ) from error
+            contact = result.state
+            # What the inertia still bears; each step starts anew without a velocity.
+            left = float(np.abs(coordinates[hht.FORCE]).max())
+            coordinates[1:] = 0.0
+            if left <= accuracy * float(np.abs(load.generalised).max()):
+                break
+        else:
+            active = result.active if result else 0
+            raise ConvergenceError(
+                f"the body does not come to rest under load {number} of {len(loads)} in "
+                f"{_MOST_STATIC} steps, {active} of {system.weights.size} points in contact; press "
+                "it on its base, keep it from tipping over, or take a softer contact",
+                reached={"load": float(number), "active": float(active)},
+            )
+    if result is None:
+        raise InputError("no load presses the body on its base; give gravity or a pressure")
+    whole = dataclasses.replace(system, mechanism=dataclasses.replace(mechanism, load=loads[-1]))
+    return _at_start(whole, result, coordinates)
+
+
+def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemState:
+    """Let a body go from a place with a velocity: above its base, tilted, thrown at it.
+
+    It is deformed by its loads, and by the contact where there is one, as if it had been held
+    there; the asperities stand as this little deformation bends them. The drive is just taut.
+
+    Parameters
+    ----------
+    system : System
+        The body, its loads on.
+    place, velocity : ndarray, shape (m,)
+        Generalised coordinates, rigid motion first: shift, m, and turn, rad; and their velocities.
+        Of held coordinates they are nil.
+
+    Returns
+    -------
+    SystemState
+        At time zero.
+
+    Raises
+    ------
+    InputError
+        Not a finite place and velocity for each coordinate.
+    ConvergenceError
+        No equilibrium of the contact at this place.
+    """
+    mechanism = system.mechanism
+    start = np.array([place, velocity], dtype=float)
+    if start.shape != (2, mechanism.size) or not np.isfinite(start).all():
+        raise InputError(
+            f"place and velocity have the shape {start.shape[1:]}; give ({mechanism.size},), finite"
+        )
+    start[:, mechanism.held] = 0.0
+    load = mechanism.load
+    free = mechanism.shapes @ start[0]
+    forces = mechanism.stiffness @ start[0]
+    if load is not None:
+        free, forces = free + load.response, forces - load.generalised
+    problem = system.increments(mechanism.flexibility, _loading(system)[0])
+    untouched = dataclasses.replace(ContactState.rest(problem), displacement=free)
+    result = solve_increment(problem, free, SurfaceMotion(pose=system.pose), untouched)
+    coordinates = hht.rest(mechanism.size)
+    coordinates[: hht.VELOCITY + 1] = start
+    forces -= mechanism.shapes.T @ result.force
+    moving = ~mechanism.held
+    coordinates[hht.FORCE] = forces
+    coordinates[hht.REACTION, ~moving] = forces[~moving]
+    coordinates[hht.ACCELERATION, moving] = np.linalg.solve(
+        mechanism.mass[np.ix_(moving, moving)], -forces[moving]
+    )
+    return _at_start(system, result, coordinates)
+
+
+def _loading(system: System) -> tuple[float, float]:
+    """Length of a step of loading, s, and the share of a load that rest may leave to the inertia.
+
+    In a step without contact the body would fall by its give over the share of the inertia: so far
+    it is known to the digits of the arithmetic, and the overclosure is what the contact leaves of
+    it.
+    """
+    surface, mechanism = system.surface, system.mechanism
+    # What contact and body give under a pressure spread evenly over the contact, m/N.
+    spread = (-surface.nodal_normals * surface.nodal_area[:, None] / surface.area).ravel()
+    modal = mechanism.shapes.T @ spread
+    give = float(spread @ (mechanism.flexibility @ spread))
+    give += float(modal @ np.linalg.pinv(mechanism.stiffness) @ modal)
+    normal = system.normal
+    overclosure = 1.0 / (normal.stiffness * surface.area)
+    soft = normal.initial if normal.name == "two-stage" else normal.stiffness
+    give += 1.0 / (soft * surface.area)
+    digits = 4.0 * float(np.finfo(float).eps) * give / overclosure
+    inertia = min(max(_INERTIA_AT_REST, digits / _AT_REST), _MOST_INERTIA)
+    long = float(np.sqrt(mechanism.mass[0, 0] * give / inertia))
+    return long, max(_AT_REST, digits / inertia)
+
+
+def _at_start(system: System, result: IncrementResult, coordinates: FloatArray) -> SystemState:
+    mechanism = system.mechanism
+    drive = np.zeros(mo.DRIVE_STATE)
+    if mechanism.drive is not None:
+        port = mechanism.drive.port
+        drive[mo.STRAIN] = port.response @ result.force
+        drive[mo.WAY] = port.generalised @ coordinates[hht.PLACE] + drive[mo.STRAIN]
+        drive[mo.REACH] = drive[mo.WAY]
+    else:
+        coordinates[hht.VELOCITY, 0] = system.drive_velocity if mechanism.held[0] else 0.0
+        drive[mo.REACH] = drive[mo.WAY] = coordinates[hht.PLACE, 0]
+    forces = resultants(system, result, coordinates, 1.0)
+    return SystemState(0.0, coordinates, drive, result, forces, 1.0)

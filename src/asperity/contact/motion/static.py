@@ -1,0 +1,377 @@
+"""Quasi-static contact: a counter-surface moved to a place, or pushed until it bears a load.
+
+The body is held (`CondensedBody` of a tied body, or any flexibility of held nodes). The
+counter-surface has one freedom at a time, a shift or a turn; a tooth of a gear is loaded in this
+way by the worm. A path of several parts, such as pressing and then rubbing to and fro, goes from
+state to state: `on_guide` takes a state from one freedom to the next, `follow` through a list of
+places.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.transform import Rotation
+
+from asperity.contact.increment.solver import (
+    ContactState,
+    Drift,
+    IncrementProblem,
+    IncrementResult,
+    SurfaceMotion,
+    solve_increment,
+)
+from asperity.contact.interface.rigid import Pose
+from asperity.errors import ConvergenceError, InputError
+
+FloatArray = npt.NDArray[np.float64]
+
+_MOST_CUTS = 12
+_MOST_SEARCHES = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Guide:
+    """One freedom of a counter-surface: a shift along ``axis`` or a turn about it.
+
+    Attributes
+    ----------
+    axis : ndarray, shape (3,)
+        Direction; its length does not count.
+    pose : Pose
+        Where the surface stands at place 0.
+    centre : ndarray, shape (3,), or None
+        A point of the axis of a turn, m; None for a shift.
+    """
+
+    axis: FloatArray
+    pose: Pose = field(default_factory=Pose)
+    centre: FloatArray | None = None
+
+    def __post_init__(self) -> None:
+        length = float(np.linalg.norm(self.axis))
+        if not (math.isfinite(length) and length > 0.0):
+            raise InputError(f"the axis is {self.axis}; give a direction")
+        object.__setattr__(self, "axis", np.asarray(self.axis, dtype=float) / length)
+
+    def at(self, place: float) -> Pose:
+        """Pose at a place, m or rad."""
+        if self.centre is None:
+            return dataclasses.replace(
+                self.pose, translation=self.pose.translation + place * self.axis
+            )
+        turn = Rotation.from_rotvec(place * self.axis).as_matrix()
+        return Pose(
+            turn @ self.pose.rotation,
+            self.centre + turn @ (self.pose.translation - self.centre),
+        )
+
+    def load(self, problem: IncrementProblem, result: IncrementResult) -> float:
+        """Force along the axis, or moment about it, that holds the surface there, N or N m.
+
+        It is what the body's contact forces say: positive where the surface pushes the body the
+        way of the axis.
+        """
+        forces = result.force.reshape(-1, 3)
+        if self.centre is None:
+            return float(forces.sum(axis=0) @ self.axis)
+        at = problem.surface.positions + result.displacement.reshape(-1, 3) - self.centre
+        return float(np.cross(at, forces).sum(axis=0) @ self.axis)
+
+
+@dataclass(frozen=True, eq=False)
+class StaticState:
+    """A body in static contact.
+
+    Attributes
+    ----------
+    place : float
+        Of the counter-surface on its guide, m or rad.
+    load : float
+        That holds it there, N or N m.
+    contact : IncrementResult
+        The last increment.
+    increments : int
+        Increments taken since the state before.
+    friction_work : float
+        Done against friction since the state before, J: of the mean tractions of each increment on
+        its slip. Over a closed cycle it is dissipated; on the way the asperities hold a part of it.
+    """
+
+    place: float
+    load: float
+    contact: IncrementResult
+    increments: int
+    friction_work: float = 0.0
+
+
+def on_guide(
+    problem: IncrementProblem, guide: Guide, state: StaticState, place: float = 0.0
+) -> StaticState:
+    """Count the place of a state on another guide, to go on along it.
+
+    Parameters
+    ----------
+    problem : IncrementProblem
+        Of the way to come; friction may differ from that of the way before.
+    guide : Guide
+        The next one; at ``place`` the counter-surface has to stand where it stands.
+    state : StaticState
+        Where the way before ended.
+    place : float
+        m or rad.
+
+    Returns
+    -------
+    StaticState
+        The same contact with its load along the next guide.
+    """
+    return StaticState(place, guide.load(problem, state.contact), state.contact, 0)
+
+
+def follow(
+    problem: IncrementProblem,
+    guide: Guide,
+    places: Sequence[float],
+    *,
+    start: StaticState | float = 0.0,
+    increments: int = 1,
+) -> tuple[StaticState, ...]:
+    """Move the counter-surface from place to place.
+
+    Parameters
+    ----------
+    problem, guide, start
+        As `move_to`.
+    places : sequence of float
+        Where to, m or rad, one after the other.
+    increments : int
+        Equal parts of the way to each.
+
+    Returns
+    -------
+    tuple of StaticState
+        One for each place.
+
+    Raises
+    ------
+    ConvergenceError
+        As `move_to`.
+    """
+    states: list[StaticState] = []
+    for place in places:
+        start = move_to(problem, guide, place, start=start, increments=increments)
+        states.append(start)
+    return tuple(states)
+
+
+def _friction_work(
+    problem: IncrementProblem, before: ContactState, result: IncrementResult
+) -> float:
+    slip = result.slip_1 + result.slip_2
+    # The slip lies in the tangent plane, so that the pressure has no share in the work.
+    mean = 0.5 * (before.traction + result.traction)
+    weights = problem.surface.weights.ravel()
+    return -float(np.einsum("q,qi,qi->", weights, mean, slip))
+
+
+def move_to(
+    problem: IncrementProblem,
+    guide: Guide,
+    place: float,
+    *,
+    start: StaticState | float = 0.0,
+    increments: int = 1,
+    free: FloatArray | None = None,
+) -> StaticState:
+    """Move the counter-surface to a place.
+
+    Parameters
+    ----------
+    problem : IncrementProblem
+        Body, surface and laws; `flexibility` that of the held body.
+    guide : Guide
+        How the surface moves.
+    place : float
+        Where to, m or rad.
+    start : StaticState or float
+        From where; a number: a place at which the body is untouched and undeformed.
+    increments : int
+        Equal parts of the way. Friction depends on the path, and its steps on their size.
+    free : ndarray, shape (3n,), optional
+        Displacement of the nodes by other loads, at the end; they grow in proportion to the way
+        from those of the start.
+
+    Returns
+    -------
+    StaticState
+
+    Raises
+    ------
+    ConvergenceError
+        No equilibrium even with increments cut to 1/4096.
+    """
+    if increments < 1:
+        raise InputError(f"increments is {increments}; it must be at least 1")
+    state, at, load_free = _begin(problem, start)
+    last_free = np.zeros(3 * problem.nodes) if free is None else free
+    begin, done, count, work = at, 0.0, 0, 0.0
+    share = 1.0 / increments
+    result = None
+    while done < 1.0:
+        ahead = min(done + share, 1.0)
+        # The last part must not be left over by rounding.
+        if 1.0 - ahead < 1e-9 * share:
+            ahead = 1.0
+        to = begin + ahead * (place - begin)
+        loads = load_free + ahead * (last_free - load_free)
+        try:
+            result = solve_increment(problem, loads, _motion(guide, at, to), state)
+        except ConvergenceError as error:
+            share *= 0.5
+            if share * increments < 0.5**_MOST_CUTS:
+                raise ConvergenceError(
+                    f"static contact stops at {at:.6g} on the way to {place:.6g}: {error}",
+                    reached={"place": at, **error.reached},
+                ) from error
+            continue
+        work += _friction_work(problem, state, result)
+        state, at, done, count = result.state, to, ahead, count + 1
+    assert result is not None
+    return StaticState(at, guide.load(problem, result), result, count, work)
+
+
+def load_to(
+    problem: IncrementProblem,
+    guide: Guide,
+    load: float,
+    *,
+    start: StaticState | float = 0.0,
+    increments: int = 1,
+    step: float | None = None,
+    free: FloatArray | None = None,
+    tolerance: float = 1e-9,
+) -> StaticState:
+    """Push the counter-surface until it bears a load.
+
+    Parameters
+    ----------
+    problem, guide, start, increments, free
+        As `move_to`; ``free`` is there from the first increment on.
+    load : float
+        Force along the guide's axis or moment about it, on the body, N or N m. It has to grow
+        with the place.
+    step : float, optional
+        First guess of how far to go, m or rad; needed from an untouched start.
+    tolerance : float
+        Relative to the load; no tighter than the increments are solved.
+
+    Returns
+    -------
+    StaticState
+
+    Raises
+    ------
+    ConvergenceError
+        The load is not reached: the surface misses the body or slides off.
+    """
+    if increments < 1:
+        raise InputError(f"increments is {increments}; it must be at least 1")
+    now = start
+    first = start.load if isinstance(start, StaticState) else 0.0
+    work = 0.0
+    for part in range(1, increments + 1):
+        target = first + part / increments * (load - first)
+        now, way = _one_load(problem, guide, target, now, step, free, tolerance, abs(load))
+        step = way or step
+        work += now.friction_work
+    assert isinstance(now, StaticState)
+    return dataclasses.replace(now, increments=increments, friction_work=work)
+
+
+def _one_load(
+    problem: IncrementProblem,
+    guide: Guide,
+    target: float,
+    start: StaticState | float,
+    step: float | None,
+    free: FloatArray | None,
+    tolerance: float,
+    scale: float,
+) -> tuple[StaticState, float]:
+    """One increment to a load: bracketed regula falsi (Illinois) on the place."""
+    state, at, _ = _begin(problem, start)
+    loads = np.zeros(3 * problem.nodes) if free is None else free
+
+    def tried(way: float) -> StaticState:
+        result = solve_increment(problem, loads, _motion(guide, at, at + way), state)
+        work = _friction_work(problem, state, result)
+        return StaticState(at + way, guide.load(problem, result), result, 1, work)
+
+    def found(state: StaticState) -> bool:
+        # The forces of an increment are known no better than its residual.
+        known = max(tolerance, problem.tolerance, state.contact.residual)
+        return abs(state.load - target) <= known * scale
+
+    here = tried(0.0)
+    miss = here.load - target
+    if found(here):
+        return here, 0.0
+    if not step:
+        raise InputError("step is missing; give a first guess of how far the surface goes")
+    # A larger place bears more: find a place beyond the load, then one between.
+    low, low_miss = 0.0, miss
+    high, high_miss = 0.0, miss
+    way = math.copysign(abs(step), -miss)
+    for _ in range(_MOST_SEARCHES):
+        high_state = tried(way)
+        high, high_miss = way, high_state.load - target
+        if high_miss * miss <= 0.0:
+            break
+        low, low_miss = high, high_miss
+        way *= 2.0
+    else:
+        raise ConvergenceError(
+            f"a load of {target:.6g} is not reached at {at + way:.6g}: the surface misses the body",
+            reached={"place": at + way, "load": high_miss + target},
+        )
+    best = high_state
+    side = 0
+    for _ in range(_MOST_SEARCHES):
+        if found(best):
+            return best, best.place - at
+        way = (low * high_miss - high * low_miss) / (high_miss - low_miss)
+        best = tried(way)
+        miss = best.load - target
+        if miss * high_miss > 0.0:
+            high, high_miss = way, miss
+            low_miss *= 0.5 if side == 1 else 1.0
+            side = 1
+        else:
+            low, low_miss = way, miss
+            high_miss *= 0.5 if side == -1 else 1.0
+            side = -1
+    raise ConvergenceError(
+        f"a load of {target:.6g} is not found: {best.load:.6g} at {best.place:.6g}",
+        reached={"place": best.place, "load": best.load},
+    )
+
+
+def _begin(
+    problem: IncrementProblem, start: StaticState | float
+) -> tuple[ContactState, float, FloatArray]:
+    if isinstance(start, StaticState):
+        state = start.contact.state
+        way = state.displacement - problem.flexibility @ state.force
+        return state, start.place, way
+    return ContactState.rest(problem), float(start), np.zeros(3 * problem.nodes)
+
+
+def _motion(guide: Guide, before: float, after: float) -> SurfaceMotion:
+    end = guide.at(after)
+    return SurfaceMotion(end, Drift.between(guide.at(before), end))

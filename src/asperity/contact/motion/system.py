@@ -1,0 +1,229 @@
+"""A condensed body on a rigid surface: what stays the same, and all that a step starts from."""
+
+import dataclasses
+import functools
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.contact.increment.solver import (
+    Drift,
+    IncrementProblem,
+    IncrementResult,
+    SurfaceMotion,
+)
+from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.surface import ContactSurface
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import mechanism as mo
+from asperity.vibration import Shape, fill_increments
+
+FloatArray = npt.NDArray[np.float64]
+
+# A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
+# touching, up to this angle of its oscillation in a step; at 3 it leaves 17 % faster.
+_RESOLVED = 2.0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Shaking:
+    """Vibration of a plane base or of the body as a contact sees it.
+
+    Attributes
+    ----------
+    shape : Shape
+        Waveform.
+    way : tuple of 3 floats
+        Displacement amplitude along x, y, and z (up, against the pressure), m.
+    start : float
+        When it begins, s.
+    transfer : float
+        Share of lateral motion that reaches the contact: of the base, or of the body.
+    on_body : bool
+        Whether the body is shaken: its prescribed motion is added to its own.
+    """
+
+    shape: Shape
+    way: tuple[float, float, float]
+    start: float = 0.0
+    transfer: float = 1.0
+    on_body: bool = False
+
+    def increment(self, begin: float, end: float) -> float:
+        """Increment of the unit displacement between two times."""
+        frequency = self.shape.frequency
+        room = np.empty(1)
+        fill_increments(
+            *self.shape.kernel_arguments(), (begin - self.start) * frequency,
+            (end - begin) * frequency, room,
+        )  # fmt: skip
+        return float(room[0])
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class System:
+    """A condensed body, what holds and loads it, and what it slides on.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The body.
+    surface : ContactSurface
+        Its faces that may touch.
+    counter, pose : RigidSurface, Pose
+        What it meets, and where that stands.
+    normal : NormalLaw
+        Pressure against overclosure.
+    friction : PointFriction
+        Friction law.
+    shaking : Shaking or None
+        Vibration.
+    drive_velocity : float
+        Of the drive's far end, or of a held first coordinate, m/s.
+    full_friction : float
+        Drive force that counts as breakaway, N.
+    alpha : float
+        Parameter of the time integration.
+    """
+
+    mechanism: mo.Mechanism
+    surface: ContactSurface
+    counter: RigidSurface
+    normal: NormalLaw
+    friction: PointFriction
+    pose: Pose = dataclasses.field(default_factory=Pose)
+    shaking: Shaking | None = None
+    drive_velocity: float = 0.0
+    full_friction: float = np.inf
+    alpha: float = hht.ALPHA
+
+    @functools.cached_property
+    def weights(self) -> FloatArray:
+        """Area of each point of the surface, m^2."""
+        return np.ascontiguousarray(self.surface.weights.ravel())
+
+    @functools.cached_property
+    def _moving(self) -> dict[float, tuple[mo.MotionStep, IncrementProblem]]:
+        return {}
+
+    def stepping(self, step: float) -> tuple[mo.MotionStep, IncrementProblem]:
+        """What a length of the step makes of body and contact; made once for each."""
+        if step not in self._moving:
+            moving = mo.motion_step(
+                self.mechanism, step, alpha=self.alpha, impact=self.impact(step)
+            )
+            self._moving[step] = moving, self.increments(moving.compliance, step)
+        return self._moving[step]
+
+    @functools.cached_property
+    def bounce(self) -> float:
+        """Highest angular frequency of the body on its contact, rad/s.
+
+        Of motion normal to the surface, all of it in contact, the body's own give in series; what
+        the body would do without contact is no part of it.
+        """
+        mechanism, surface = self.mechanism, self.surface
+        normals = surface.nodal_normals
+        moving = ~mechanism.held
+        shapes = np.einsum("na,nam->nm", normals, mechanism.shapes.reshape(*normals.shape, -1))
+        blocks = mechanism.flexibility.reshape(*normals.shape, *normals.shape)
+        give = np.einsum("na,nabc,bc->nb", normals, blocks, normals)
+        give += np.diag(1.0 / (self.normal.stiffness * surface.nodal_area))
+        stiffness = shapes.T @ np.linalg.solve(give, shapes)
+        inner = np.ix_(moving, moving)
+        squares = np.linalg.eigvals(np.linalg.solve(mechanism.mass[inner], stiffness[inner])).real
+        return float(np.sqrt(max(squares.max(initial=0.0), 0.0)))
+
+    def impact(self, step: float) -> bool:
+        """Whether a step does not resolve the contact: a hard one, or too stiff a one."""
+        return self.normal.name == "hard" or self.bounce * step > _RESOLVED
+
+    @property
+    def resolving_step(self) -> float:
+        """Longest step that resolves the contact, s; 0 for a hard one, which none resolves."""
+        if self.normal.name == "hard":
+            return 0.0
+        return _RESOLVED / self.bounce if self.bounce > 0.0 else np.inf
+
+    def newmark_beta(self, step: float) -> float:
+        """Return the parameter the time integration takes for a length of the step."""
+        return hht.coefficients(self.alpha, impact=self.impact(step))[0]
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Lengths of the steps taken so far, s."""
+        return tuple(self._moving)
+
+    def increments(self, compliance: FloatArray, step: float) -> IncrementProblem:
+        """Return what the increments of a contact with this flexibility have in common."""
+        return IncrementProblem(
+            compliance, self.surface, self.counter, self.normal, self.friction, step
+        )
+
+    def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, FloatArray]:
+        """Motion of the base over a step, and its displacement: x, y as far as seen, whole y, z.
+
+        A body that is shaken is one at rest on a base that moves the other way, but for the share
+        of its own lateral motion that the contact sees.
+        """
+        shaking = self.shaking
+        if shaking is None:
+            return SurfaceMotion(pose=self.pose), np.zeros(4)
+        way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.way)
+        x, y, z = shaking.increment(begin, end) * way
+        pose = self.pose
+        if way[2] != 0.0:
+            height = shaking.increment(shaking.start, end) * way[2]
+            pose = Pose(pose.rotation, pose.translation + np.array([0.0, 0.0, height]))
+        through = shaking.transfer * y
+        one_sided = end <= shaking.start * (1.0 + 1e-12)
+        return SurfaceMotion(
+            pose,
+            Drift(np.array([x, 0.0, 0.0])),
+            Drift(np.array([0.0, through, 0.0])),
+            np.diag([1.0, 0.0, 1.0]) if shaking.on_body else np.eye(3),
+            np.diag([0.0, shaking.transfer, 0.0]) if shaking.on_body else np.zeros((3, 3)),
+            one_sided,
+        ), np.array([x, through, y, z])
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SystemState:
+    """All that a step starts from.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    coordinates : ndarray, shape (6, m)
+        Rows as in `asperity.contact.motion.hht`.
+    drive : ndarray, shape (6,)
+        Places as in `asperity.contact.motion.mechanism`.
+    contact : IncrementResult
+        Of the last increment.
+    forces : ndarray, shape (6,)
+        Resultants, see `asperity.contact.motion.ledger`.
+    load : float
+        Share of the loads.
+    """
+
+    time: float
+    coordinates: FloatArray
+    drive: FloatArray
+    contact: IncrementResult
+    forces: FloatArray
+    load: float
+
+    def energies(self, system: System) -> ledger.Energies:
+        """Energies of body and contact."""
+        contact = self.contact
+        over, asperities = ledger.surface_energies(
+            contact.pressure, contact.distance, contact.state.deflection, system.weights,
+            system.normal.parameters, system.friction.mu, system.friction.limit,
+        )  # fmt: skip
+        kinetic, elastic, spring = ledger.body_energies(
+            system.mechanism, self.coordinates, self.drive, contact.force, self.load
+        )
+        return ledger.Energies(kinetic, elastic, spring, float(over), float(asperities))
