@@ -7,12 +7,12 @@ Works are trapezoidal: the mean of a force at both ends of a step times the way 
 
 holds to the accuracy of the increments: kinetic, elastic and spring energy are quadratic forms
 whose changes trapezoidal works hit exactly, and what the time integration takes is known by itself
-(`asperity.contact.motion.hht.complete`), not as what is missing. So is what the trapezoidal work
-of the pressure differs from its work along the way where it is not linear over a step; both are
+(`asperity.contact.motion.hht.complete`), not as what is missing. So is what the trapezoidal work of
+the pressure differs from its work along the way where it is not linear over a step; both are
 counted as numerical. Friction is the work of the tractions on the slip of the points of the
-surface, deformation included, less the work that goes into the asperities. What goes into asperities and
-overclosure is summed over the steps; the energies in :math:`\Delta E` are those of the states at
-both ends, so that one that is wrong leaves the balance open.
+surface, deformation included, less the work that goes into the asperities. What goes into
+asperities and overclosure is summed over the steps; the energies in :math:`\Delta E` are those of
+the states at both ends, so that one that is wrong leaves the balance open.
 """
 
 import dataclasses
