@@ -12,7 +12,6 @@ import hashlib
 import os
 import pickle
 import re
-import secrets
 import shutil
 import time
 from collections.abc import Callable, Iterator
@@ -25,6 +24,7 @@ import numpy as np
 from numba.core import caching
 
 from asperity.closure import closure, digest_of
+from asperity.folders import cache_folder
 
 _KEPT_DAYS = 30
 _DIGEST_BYTES = 32
@@ -45,25 +45,6 @@ def kernel_key(module: str, file: Path) -> str:
 def machine() -> tuple[str, ...]:
     """Return versions of Numba and NumPy and the processor's name, on which last bits depend."""
     return numba.__version__, np.__version__, llvmlite.binding.get_host_cpu_name()
-
-
-def cache_folder(name: str) -> Path | None:
-    """Return a writable folder for things that can be made again, or None where there is none.
-
-    It stands in ``asperity/<name>`` under the folder the environment variable ``ASPERITY_CACHE``
-    names, else under ``XDG_CACHE_HOME``, else under ``~/.cache``.
-    """
-    base = os.environ.get("ASPERITY_CACHE") or os.environ.get("XDG_CACHE_HOME")
-    try:
-        folder = (Path(base) if base else Path.home() / ".cache") / "asperity" / name
-        folder.mkdir(parents=True, exist_ok=True)
-        # Permission bits do not tell about read-only file systems, so write and see.
-        probe = folder / f".probe-{secrets.token_hex(6)}"
-        probe.touch()
-        probe.unlink()
-    except (OSError, RuntimeError, ValueError):
-        return None
-    return folder.absolute()
 
 
 def _kernel_folder(key: str) -> Path | None:

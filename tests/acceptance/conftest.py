@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from asperity.compiled import cache_folder
+from asperity.folders import cache_folder
 
 
 @pytest.fixture(scope="session")

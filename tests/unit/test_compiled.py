@@ -10,7 +10,8 @@ import numba
 import numpy as np
 import pytest
 
-from asperity.compiled import cache_folder, kernel, kernel_key
+from asperity.compiled import kernel, kernel_key
+from asperity.folders import cache_folder
 
 PROGRAM = """
 import json, sys

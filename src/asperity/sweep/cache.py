@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Self
 
-from asperity.compiled import cache_folder
+from asperity.folders import cache_folder
 
 Row = dict[str, float | str | None]
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity import compiled, store
+from asperity import folders, store
 from asperity.closure import source_key
 from asperity.contact.elastic.condensed import CondensedBody
 from asperity.errors import StorageError
@@ -39,7 +39,7 @@ def key(*parts: NDArray[np.generic] | str) -> str:
 
 def folder() -> Path | None:
     """Return the folder condensed bodies are kept in, None where none can be written to."""
-    return compiled.cache_folder("condensed")
+    return folders.cache_folder("condensed")
 
 
 def save(place: Path, name: str, body: CondensedBody) -> None:

@@ -1,0 +1,43 @@
+"""Ctrl-C heard between two steps of a work, so that it stands whole when it is kept."""
+
+import contextlib
+import signal
+import threading
+from collections.abc import Iterator
+
+
+class Interrupted(KeyboardInterrupt):
+    """A work was interrupted and says in its text what is kept of it."""
+
+
+class Ears:
+    """Notes Ctrl-C instead of stopping in the middle of something; a second one stops at once.
+
+    Attributes
+    ----------
+    heard : bool
+        Whether it was pressed.
+    """
+
+    def __init__(self) -> None:
+        self.heard = False
+
+    def _hear(self, _number: int, _frame: object) -> None:
+        if self.heard:
+            raise KeyboardInterrupt
+        self.heard = True
+
+    @contextlib.contextmanager
+    def listening(self) -> Iterator[None]:
+        """Hear Ctrl-C until the end of the block."""
+        # Where it is not to be heard, as in the background, that is to remain so; and signals
+        # reach the main thread alone.
+        main = threading.current_thread() is threading.main_thread()
+        if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+            yield
+            return
+        before = signal.signal(signal.SIGINT, self._hear)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, before)

@@ -1,0 +1,113 @@
+"""What goes on around a long work: how far it is, where it stands, whether it is to stop."""
+
+import contextlib
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from asperity.errors import StorageError
+from asperity.runs.interrupt import Ears, Interrupted
+from asperity.runs.keeper import Keeper
+from asperity.runs.tree import Tree
+
+Progress = Callable[[int, int], None]
+Notify = Callable[[str], None]
+
+
+def _silent(*_: object) -> None:
+    pass
+
+
+class Run:
+    """How a work is run; as it stands, in silence and without a trace.
+
+    A solver that takes long calls :meth:`resume` before its first step, works inside
+    :meth:`going_on`, and calls :meth:`checkpoint` between two steps, with its state as a tree of
+    arrays.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Told how much is done, and of how much.
+    notify : callable, optional
+        Takes one line about what happens on the way.
+    folder : path, optional
+        Where files of the answer go; the state is kept there.
+    stem : str
+        What those files are called.
+
+    Attributes
+    ----------
+    detailed : bool
+        Whether histories are wanted, because files are.
+    """
+
+    def __init__(
+        self,
+        *,
+        progress: Progress = _silent,
+        notify: Notify = _silent,
+        folder: Path | None = None,
+        stem: str = "run",
+    ) -> None:
+        self.progress = progress
+        self.notify = notify
+        self.folder = folder
+        self.detailed = folder is not None
+        self._path = None if folder is None else folder / f"{stem}.interrupted.npz"
+        self._keeper: Keeper | None = None
+        self._ears = Ears()
+
+    def resume(self, key: str) -> Tree | None:
+        """Return the state in which this very work was left, None where it begins anew."""
+        if self._path is None:
+            return None
+        self._keeper = Keeper(self._path, key, self.notify)
+        return self._keeper.restore()
+
+    @contextlib.contextmanager
+    def going_on(self) -> Iterator[None]:
+        """Hear Ctrl-C at the next checkpoint instead of anywhere; a second one stops at once."""
+        with self._ears.listening():
+            yield
+
+    def checkpoint(
+        self,
+        done: int,
+        total: int,
+        state: Callable[[], Mapping[str, Any]] | None = None,
+        what: str = "steps",
+    ) -> None:
+        """Tell how far a work is, keep it if it is time to, and end it if it is to stop.
+
+        Parameters
+        ----------
+        done, total : int
+            How much is done, and of how much.
+        state : callable, optional
+            Gives the state to go on from.
+        what : str
+            What is counted.
+
+        Raises
+        ------
+        Interrupted
+            Ctrl-C was pressed; what is kept is said.
+        """
+        self.progress(done, total)
+        keeper = self._keeper if state is not None else None
+        if self._ears.heard:
+            line = f"interrupted after {done} of {total} {what}"
+            if keeper is not None and state is not None and done:
+                with contextlib.suppress(StorageError):
+                    keeper.keep(state())
+                if keeper.kept:
+                    line += f"; the same command goes on from {keeper.path}"
+            raise Interrupted(line)
+        if keeper is not None and state is not None:
+            keeper.now_and_then(state)
+
+    def finished(self) -> None:
+        """Remove what was kept, when the files of the answer are written."""
+        if self._path is not None:
+            self._path.unlink(missing_ok=True)
