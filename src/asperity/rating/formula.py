@@ -2,37 +2,20 @@
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
-from typing import Any, Literal, NamedTuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
+from asperity.formulas import Invalid, Masked
 
-FloatArray = npt.NDArray[np.float64]
-Invalid = Literal["raise", "mask"]
+__all__ = ["Argument", "FloatArray", "Invalid", "Masked", "angle", "evaluate", "positive"]
 
 NOT_A_RESULT = 1
 """Reason code of an element whose arguments are each allowed, but not together."""
-
-
-class Masked(NamedTuple):
-    """What a formula returns for an array with ``on_invalid="mask"``.
-
-    Attributes
-    ----------
-    values : ndarray of float
-        The results; NaN where there is none.
-    reason : ndarray of int
-        0 where there is a result, else the code of the reason.
-    legend : mapping of int to str
-        The codes as sentences.
-    """
-
-    values: FloatArray
-    reason: npt.NDArray[np.int8]
-    legend: Mapping[int, str]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -161,7 +144,7 @@ def evaluate(
         shapes = ", ".join(f"{a.name} {v.shape}" for a, v in zip(arguments, arrays, strict=True))
         raise InputError(f"the shapes {shapes} do not go together; make them equal") from None
     masking = on_invalid == "mask" and shape != ()
-    reason = np.zeros(shape if masking else (), dtype=np.int8)
+    reason = np.zeros(shape if masking else (), dtype=np.int16)
     for code, (argument, array) in enumerate(zip(arguments, arrays, strict=True), NOT_A_RESULT + 1):
         outside = argument.outside(array)
         if not outside.any():
@@ -170,7 +153,7 @@ def evaluate(
             unit = f" {argument.unit}" if argument.unit else ""
             given = f"{array[outside].flat[0]:.6g}{unit}"
             raise argument.error(f"{argument.name} is {given}; {argument.allowed()}")
-        reason = np.where((reason == 0) & outside, code, reason).astype(np.int8)
+        reason = np.where((reason == 0) & outside, code, reason).astype(np.int16)
     valid = reason == 0
     if not valid.all():
         arrays = [np.broadcast_to(array, shape)[valid] for array in arrays]

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.errors import InputError, choices
-from asperity.rating.agma6034.mesh import PRESSURE_ANGLES_DEG, tabulated_pressure_angle
+from asperity.rating.agma6034.symbols import PRESSURE_ANGLES
 from asperity.rating.agma6034.units import FORCE, LENGTH, POWER, STRESS, VELOCITY, Units
 from asperity.rating.formula import Argument, FloatArray, Invalid, angle, evaluate, positive
 
@@ -199,7 +199,21 @@ def lewis_form_factor(pressure_angle: npt.ArrayLike, *, on_invalid: Invalid = "r
 
 
 def _form_factor(phi: FloatArray) -> FloatArray:
-    return np.interp(phi, np.deg2rad(PRESSURE_ANGLES_DEG), _LEWIS_FORM_FACTORS)
+    return np.interp(phi, PRESSURE_ANGLES, _LEWIS_FORM_FACTORS)
+
+
+def tabulated_pressure_angle(pressure_angle: npt.ArrayLike) -> Argument:
+    """Return a pressure angle that must lie among `PRESSURE_ANGLES`."""
+    first, last = PRESSURE_ANGLES[0], PRESSURE_ANGLES[-1]
+    # A whole degree turned into radians and back may end a rounding outside.
+    return Argument(
+        "pressure_angle",
+        pressure_angle,
+        "rad",
+        float(np.nextafter(first, 0.0)),
+        float(np.nextafter(last, 1.0)),
+        because="AGMA 6034-B92 has values for 14.5 to 30 degrees",
+    )
 
 
 def bending_stress(

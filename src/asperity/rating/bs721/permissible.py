@@ -42,7 +42,7 @@ class Limit:
 
     wheel: Any
     worm: Any
-    reason: npt.NDArray[np.int8] | None
+    reason: npt.NDArray[np.int16] | None
     legend: Mapping[int, str]
     note: str
 

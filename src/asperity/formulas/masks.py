@@ -1,0 +1,169 @@
+"""Numbers and arrays that may hold nonsense: checked, and masked with the reason of each."""
+
+import contextlib
+import contextvars
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray, Real
+from asperity.errors import InputError
+from asperity.formulas.symbols import Symbol
+
+Invalid = Literal["raise", "mask"]
+Reasons = npt.NDArray[np.int16]
+
+
+class Masked(NamedTuple):
+    """What a formula returns for arrays with ``on_invalid="mask"``.
+
+    Attributes
+    ----------
+    values : ndarray of float
+        The results; NaN where there is none.
+    reason : ndarray of int
+        0 where there is a result, else the code of the reason.
+    legend : mapping of int to str
+        The codes as sentences.
+    """
+
+    values: FloatArray
+    reason: Reasons
+    legend: Mapping[int, str]
+
+
+class Mask:
+    """Why elements of arrays have no answer: the first reason of each.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Of the arrays; ``()`` for numbers.
+
+    Attributes
+    ----------
+    reason : ndarray of int
+        0 where there is an answer, else a code.
+    legend : dict of int to str
+        The codes as sentences.
+    """
+
+    def __init__(self, shape: tuple[int, ...] = ()) -> None:
+        self.reason: Reasons = np.zeros(shape, dtype=np.int16)
+        self.legend: dict[int, str] = {}
+
+    def refuse(self, where: npt.ArrayLike, sentence: str) -> None:
+        """Give a reason where there is none yet; what holds for all is always remembered."""
+        new = np.broadcast_to(np.asarray(where), self.reason.shape) & (self.reason == 0)
+        if np.ndim(where) and not new.any():
+            return
+        code = next((c for c, known in self.legend.items() if known == sentence), None)
+        if code is None:
+            code = len(self.legend) + 1
+            self.legend[code] = sentence
+        self.reason[new] = code
+
+
+_MASK: contextvars.ContextVar[Mask | None] = contextvars.ContextVar("mask", default=None)
+
+
+def current_mask() -> Mask | None:
+    """Return what keeps the reasons within `masking`; None where nothing is masked."""
+    return _MASK.get()
+
+
+@contextlib.contextmanager
+def masking(mask: Mask | tuple[int, ...] = ()) -> Iterator[Mask]:
+    """Let formulas go on without an answer, NaN in its place, and keep the reasons.
+
+    NaN goes through them without another reason.
+
+    Parameters
+    ----------
+    mask : Mask or tuple of int
+        What keeps the reasons, or the shape of a new one.
+
+    Examples
+    --------
+    >>> torque = Symbol("T", "N m")
+    >>> with masking((2,)) as mask:
+    ...     check("torque", np.array([1.0, np.nan]), torque)
+    array([ 1., nan])
+    >>> mask.reason.tolist(), mask.legend
+    ([0, 1], {1: 'torque is not allowed; it must be finite'})
+    """
+    kept = mask if isinstance(mask, Mask) else Mask(mask)
+    token = _MASK.set(kept)
+    try:
+        yield kept
+    finally:
+        _MASK.reset(token)
+
+
+def check(name: str, value: Real, symbol: Symbol) -> Real:
+    """Return a number or array of which all is allowed; NaN within `masking` where it is not.
+
+    Raises
+    ------
+    InputError
+        Something is not allowed.
+    """
+    lowest, highest = symbol.bounds.ends
+    number = not isinstance(value, np.ndarray)
+    if number:
+        if lowest <= value <= highest:
+            return value
+    elif value.size == 0 or (value.min() >= lowest and value.max() <= highest):
+        return value
+    # Comparisons with NaN are false, so that NaN is not allowed either.
+    outside = True if number else ~((value >= lowest) & (value <= highest))
+    mask = _MASK.get()
+    if mask is None or number:
+        first = value if number else value[outside].flat[0]
+        unit = f" {symbol.unit}" if symbol.unit else ""
+        sentence = f"{name} is {first:.6g}{unit}; {symbol.allowed}"
+        if mask is None:
+            raise symbol.error(sentence)
+        if not (math.isnan(value) and mask.legend):
+            mask.refuse(True, sentence)
+        return np.float64(np.nan)
+    mask.refuse(outside, f"{name} is not allowed; {symbol.allowed}")
+    return np.where(outside, np.nan, value)
+
+
+def real(name: str, value: Any) -> Any:
+    """Return a number as a float, and anything else of numbers as an array of floats.
+
+    Raises
+    ------
+    InputError
+        It is neither.
+    """
+    try:
+        if isinstance(value, float) or type(value) is int:
+            return float(value)
+        array = np.asarray(value)
+    except (OverflowError, ValueError):
+        array = np.empty(0, dtype=object)
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{name} is {str(value)[:60]!r}; it must be a number")
+    return array.astype(np.float64, copy=False) if array.ndim else float(array)
+
+
+def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
+    """Return the shape to which arrays broadcast, by their names.
+
+    Raises
+    ------
+    InputError
+        They do not go together.
+    """
+    shapes = {name: np.shape(array) for name, array in arrays.items()}
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        raise InputError(f"the shapes {listed} do not go together; make them equal") from None
