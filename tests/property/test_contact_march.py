@@ -233,12 +233,15 @@ def leaving_speed(height, *, impact):
     place, velocity = np.empty(1), np.empty(1)
     for _ in range(60):
         hht.predict(
-            state, np.zeros(1), method.carry, method.compliance, method.scalars, place, velocity
-        )
+            state, np.zeros(1), method.carry, method.compliance, method.damping, method.scalars,
+            place, velocity,
+        )  # fmt: skip
         force = np.maximum(-place / method.compliance[0], 0.0)
         trial = np.empty_like(state)
         place += method.compliance[0] * force
-        hht.complete(state, trial, place, force, mass, none, method.held, method.scalars)
+        hht.complete(
+            state, trial, place, force, mass, none, method.damping, method.held, method.scalars
+        )
         state = trial
     return float(state[hht.VELOCITY, 0])
 

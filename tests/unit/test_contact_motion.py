@@ -11,24 +11,29 @@ from asperity.contact.motion import mechanism as motion
 from asperity.errors import InputError
 
 
-def swing(steps, *, alpha, period=1.0, spring=None):
-    """March one mass on a spring for a period from a displacement of one; return state and loss."""
+def swing(steps, *, alpha, period=1.0, spring=None, damping=0.0):
+    """March one mass on a spring for a period from a displacement of one.
+
+    Return its state, what the method and the damping took, the work of the spring, and the change
+    of the energy.
+    """
     omega = 2.0 * np.pi / period
     step = period / steps
     mass = np.array([[2.0]])
     linear = np.array([[2.0 * omega**2]]) if spring is None else np.zeros((1, 1))
-    operator = hht.step_operator(mass, linear, step, alpha=alpha)
+    operator = hht.step_operator(mass, linear, step, damping=np.array([damping]), alpha=alpha)
     state = hht.rest(1)
     state[hht.PLACE] = 1.0
     state[hht.FORCE] = linear[0] if spring is None else -spring(1.0)
     state[hht.ACCELERATION] = -state[hht.FORCE] / 2.0
     trial, place, velocity = hht.rest(1), np.empty(1), np.empty(1)
     known, force = np.zeros(1), np.zeros(1)
-    lost = work = 0.0
+    lost, work = np.zeros(2), 0.0
     for _ in range(steps):
         hht.predict(
-            state, known, operator.carry, operator.compliance, operator.scalars, place, velocity
-        )
+            state, known, operator.carry, operator.compliance, operator.damping, operator.scalars,
+            place, velocity,
+        )  # fmt: skip
         last = force.copy()
         if spring is not None:
             last[0] = spring(state[hht.PLACE, 0])
@@ -36,9 +41,11 @@ def swing(steps, *, alpha, period=1.0, spring=None):
             for _ in range(100):
                 place[0] = free + operator.compliance[0, 0] * spring(place[0])
             force[0] = spring(place[0])
-        lost += hht.complete(
-            state, trial, place, force, mass, linear, operator.held, operator.scalars
-        )
+        taken = hht.complete(
+            state, trial, place, force, mass, linear, operator.damping, operator.held,
+            operator.scalars,
+        )  # fmt: skip
+        lost += np.array(taken)
         work += 0.5 * (last + force) @ (trial[hht.PLACE] - state[hht.PLACE])
         state, trial = trial, state
     kinetic = 1.0 * state[hht.VELOCITY, 0] ** 2
@@ -55,19 +62,40 @@ def test_the_method_is_of_second_order():
 
 def test_without_alpha_a_linear_swing_keeps_its_energy():
     state, lost, _, stored = swing(30, alpha=0.0)
-    assert lost == pytest.approx(0.0, abs=1e-12)
+    assert lost == pytest.approx([0.0, 0.0], abs=1e-12)
     assert stored == pytest.approx(0.0, abs=1e-10 * state[hht.ACCELERATION, 0] ** 2)
 
 
 @pytest.mark.parametrize("alpha", [-0.05, -1.0 / 3.0])
 def test_the_energy_the_method_takes_is_what_is_missing(alpha):
-    _, lost, _, stored = swing(30, alpha=alpha)
+    _, (lost, damped), _, stored = swing(30, alpha=alpha)
     assert lost > 0.0
     assert lost == pytest.approx(-stored, rel=1e-9)
+    assert damped == 0.0
+
+
+@pytest.mark.parametrize("alpha", [0.0, -0.05])
+def test_a_damped_swing_loses_to_its_damping_what_the_method_does_not_take(alpha):
+    _, (lost, damped), _, stored = swing(30, alpha=alpha, damping=0.3)
+    assert damped > 100.0 * abs(lost)
+    assert lost + damped == pytest.approx(-stored, rel=1e-9)
+
+
+def test_a_damped_swing_dies_away_as_its_closed_form_to_second_order():
+    # x = exp(-z w t) [cos(w_d t) + z w/w_d sin(w_d t)], w_d = w sqrt(1 - z^2), after one period.
+    ratio, omega = 0.1, 2.0 * np.pi
+    damped = omega * np.sqrt(1.0 - ratio**2)
+    exact = np.exp(-ratio * omega) * (np.cos(damped) + ratio * omega / damped * np.sin(damped))
+    errors = [
+        abs(swing(n, alpha=-0.05, damping=2.0 * ratio * 2.0 * omega)[0][hht.PLACE, 0] - exact)
+        for n in (80, 160)
+    ]
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
+    assert errors[1] < 2e-3
 
 
 def test_the_energy_the_method_takes_is_exact_for_any_force():
-    _, lost, work, stored = swing(25, alpha=-0.1, spring=lambda x: -40.0 * x * abs(x))
+    _, (lost, _), work, stored = swing(25, alpha=-0.1, spring=lambda x: -40.0 * x * abs(x))
     assert lost > 0.0
     assert work - lost == pytest.approx(stored, rel=1e-9)
 
@@ -79,13 +107,16 @@ def test_a_held_coordinate_goes_on_whatever_pushes_it():
     state[hht.VELOCITY, 0] = 4.0
     place, velocity, force = np.empty(2), np.empty(2), np.array([7.0, 0.0])
     hht.predict(
-        state, np.zeros(2), operator.carry, operator.compliance, operator.scalars, place, velocity
-    )
+        state, np.zeros(2), operator.carry, operator.compliance, operator.damping,
+        operator.scalars, place, velocity,
+    )  # fmt: skip
     place += operator.compliance @ force
-    lost = hht.complete(state, trial, place, force, mass, none, operator.held, operator.scalars)
+    lost = hht.complete(
+        state, trial, place, force, mass, none, operator.damping, operator.held, operator.scalars
+    )
     assert (place[0], trial[hht.VELOCITY, 0], place[1]) == pytest.approx((0.4, 4.0, 0.0))
     assert trial[hht.REACTION, 0] == -7.0
-    assert lost == 0.0
+    assert lost == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("alpha", [0.1, -0.5])
@@ -113,6 +144,7 @@ def random_mechanism(seed=0, *, damping=30.0, modes=1):
         held=np.zeros(size, bool),
         drive=drive,
         load=load,
+        damping=np.array([0.0] * 3 + [20.0] * modes),
     )
 
 
@@ -124,15 +156,15 @@ def one_step(mechanism, step, springs, state, drive_state, far, speed):
     free = np.empty(len(springs))
     pull = motion.approach(
         state, drive_state, far, speed, 1.0, operator.carry, operator.compliance,
-        operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
+        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
         moving.load_force, moving.load_response, place, velocity, room, free,
     )  # fmt: skip
     u = np.linalg.solve(np.eye(len(springs)) + moving.compliance * springs, free)
     trial, drive_trial = np.empty_like(state), np.empty_like(drive_state)
     lost = motion.settle(
         state, trial, drive_state, drive_trial, far, speed, 1.0, pull, -springs * u, place,
-        velocity, room, operator.mass, operator.stiffness, operator.held, operator.compliance,
-        operator.scalars, moving.shapes, moving.drop, moving.drive, moving.drive_shape,
+        velocity, room, operator.mass, operator.stiffness, operator.damping, operator.held,
+        operator.compliance, operator.scalars, moving.shapes, moving.drop, moving.drive, moving.drive_shape,
         moving.drive_response, moving.load_force,
     )  # fmt: skip
     return u, trial, drive_trial, lost
@@ -160,7 +192,7 @@ def test_a_step_solves_motion_deformation_drive_and_contact_at_once():
     shown = mechanism.shapes @ q + mechanism.flexibility @ force
     shown += drive.port.response * pull + load.response
     assert u == pytest.approx(shown, rel=1e-9)
-    resistance = mechanism.stiffness @ q - mechanism.shapes.T @ force
+    resistance = mechanism.stiffness @ q + mechanism.damping * v - mechanism.shapes.T @ force
     resistance -= drive.port.generalised * pull + load.generalised
     left = mechanism.mass @ a + (1.0 + hht.ALPHA) * resistance - hht.ALPHA * state[hht.FORCE]
     assert left == pytest.approx(np.zeros(size), abs=1e-9 * np.abs(resistance).max())
@@ -195,7 +227,7 @@ def test_the_energy_of_motion_deformation_and_spring_balances_the_works():
             supplied += mechanism.load.generalised @ (trial[0] - state[0])
             supplied += mechanism.load.response @ (force - force0)
             pull = 0.5 * (drive_state + drive_trial)[motion.PULL]
-            supplied -= lost + pull * (stretch[1] - stretch[0])
+            supplied -= sum(lost) + pull * (stretch[1] - stretch[0])
         state, drive_state, u0, force0 = trial, drive_trial, u, force
         if n == 0:
             energy0 = sum(ledger.body_energies(mechanism, state, drive_state, force, 1.0))

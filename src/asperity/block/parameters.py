@@ -70,6 +70,9 @@ class Block(Table):
     modes : int
         Fixed-interface modes that carry the inertia of the deformation (Craig-Bampton); 0 for
         none: the block deforms as in statics and moves as a rigid body.
+    damping_ratio : float
+        Damping of the modes over the critical one, 0 to below 1, the same for each; the motion as
+        a rigid body is not damped. 0.002: some steel without joints.
     """
 
     table: ClassVar[str] = "block"
@@ -82,6 +85,9 @@ class Block(Table):
     elements: tuple[_Count, _Count, _Count] = (8, 6, 6)
     element: Literal["hex27", "hex8", "hex8i"] = "hex27"
     modes: Annotated[int, Field(strict=True, ge=0, le=1000)] = 0
+    damping_ratio: Annotated[float, Quantity("", what="a ratio", example="0.002", ge=0, lt=1)] = (
+        0.002
+    )
 
     @field_validator("size", "elements", mode="before")
     @classmethod

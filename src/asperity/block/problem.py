@@ -218,6 +218,7 @@ class BlockProblem:
                 drive=(slider.drive_stiffness, slider.drive_damping),
                 load=self.loads[1],
                 held=held_coordinates(self.body, rigid=slider.rigid, guided=not slider.free),
+                damping_ratio=self.block.damping_ratio,
             ),
             surface=self.surface,
             counter=RigidSurface.plane(),
@@ -245,13 +246,19 @@ def mechanism(
     drive: tuple[float | None, float],
     load: mo.Port,
     held: npt.NDArray[np.bool_],
+    damping_ratio: float = 0.0,
 ) -> mo.Mechanism:
-    """Return a free condensed body with its drive's stiffness and damping, load and guides."""
+    """Return a free condensed body with its drive's stiffness and damping, load and guides.
+
+    ``damping_ratio`` is that of the modes, over the critical damping of each.
+    """
     modes = len(body.mode_frequency)
     size = 6 + modes
     mass, stiffness = np.eye(size), np.zeros((size, size))
     mass[:6, :6] = body.mass
     stiffness[6:, 6:] = np.diag(body.mode_stiffness)
+    resistance = np.zeros(size)
+    resistance[6:] = 2.0 * damping_ratio * np.sqrt(body.mode_mass * body.mode_stiffness)
     pull, damping = drive
     port = _combined(body, {_DRIVE: 1.0})
     return mo.Mechanism(
@@ -262,6 +269,7 @@ def mechanism(
         held=held,
         drive=None if pull is None else mo.Drive(port, pull, damping),
         load=load,
+        damping=resistance,
     )
 
 

@@ -2,12 +2,13 @@ r"""Implicit time steps of a few generalised coordinates: the method of Hilber, 
 
 The equations of motion, with the forces :math:`Q` that are not of the body's own,
 
-.. math:: M a_1 + (1+\alpha)\,(K q_1 - Q_1) - \alpha\,(K q_0 - Q_0) = 0 ,
+.. math:: M a_1 + (1+\alpha)\,(D v_1 + K q_1 - Q_1) - \alpha\,(D v_0 + K q_0 - Q_0) = 0 ,
 
 and Newmark's formulas with :math:`\beta = (1-\alpha)^2/4`, :math:`\gamma = 1/2 - \alpha` give, for
 a given length of the step, the coordinates at its end as a constant linear function of the forces:
 
-.. math:: q_1 = q^* + S\,Q_1 , \qquad S = (1+\alpha)\,[M/(\beta h^2) + (1+\alpha) K]^{-1} .
+.. math:: q_1 = q^* + S\,Q_1 , \qquad
+    S = (1+\alpha)\,[M/(\beta h^2) + (1+\alpha) (\gamma D/(\beta h) + K)]^{-1} .
 
 That is all a contact problem needs to know of the motion. :math:`-1/3 \le \alpha \le 0`; the method
 is of second order and damps what a step cannot resolve (Hilber, Hughes & Taylor 1977).
@@ -35,8 +36,8 @@ ALPHA = -0.05
 PLACE = 0
 VELOCITY = 1
 ACCELERATION = 2
-FORCE = 3  # K q - Q: what acts on the coordinates, with the sign of a resistance
-IMBALANCE = 4  # -(K q - Q) - M a, which the method leaves at the end of a step
+FORCE = 3  # D v + K q - Q: what acts on the coordinates, with the sign of a resistance
+IMBALANCE = 4  # -(D v + K q - Q) - M a, which the method leaves at the end of a step
 REACTION = 5  # what holds a held coordinate
 ROWS = 6
 
@@ -76,6 +77,8 @@ class StepOperator:
     ----------
     mass, stiffness : ndarray, shape (m, m)
         :math:`M` and :math:`K` of the coordinates.
+    damping : ndarray, shape (m,)
+        Diagonal of :math:`D`, N s/m.
     compliance : ndarray, shape (m, m)
         :math:`S`: coordinate at the end of the step per force there. Rows and columns of held
         coordinates are zero.
@@ -90,6 +93,7 @@ class StepOperator:
 
     mass: FloatArray
     stiffness: FloatArray
+    damping: FloatArray
     compliance: FloatArray
     carry: FloatArray
     held: npt.NDArray[np.bool_]
@@ -101,6 +105,7 @@ def step_operator(
     stiffness: FloatArray,
     step: float,
     *,
+    damping: FloatArray | None = None,
     alpha: float = ALPHA,
     impact: bool = False,
     held: npt.NDArray[np.bool_] | None = None,
@@ -113,6 +118,8 @@ def step_operator(
         Symmetric; the mass positive definite.
     step : float
         Length of the step, s.
+    damping : ndarray, shape (m,), optional
+        What resists the velocity of each coordinate by itself, N s/m; left out, nothing.
     alpha : float
         The method's parameter, -1/3 to 0; 0: Newmark's average acceleration, without damping.
     impact : bool
@@ -133,18 +140,20 @@ def step_operator(
     held = np.zeros(size, bool) if held is None else np.array(held, bool)
     free = ~held
     inner = np.ix_(free, free)
+    damping = np.zeros(size) if damping is None else np.array(damping, float)
     inertia = mass[inner] / (beta * step**2)
+    inertia += np.diag((1.0 + alpha) * gamma / (beta * step) * damping[free])
     left = inertia + (1.0 + alpha) * stiffness[inner]
     compliance = np.zeros((size, size))
     compliance[inner] = (1.0 + alpha) * np.linalg.inv(left)
     carry = np.eye(size)
     carry[inner] = np.linalg.solve(left, inertia)
     scalars = np.array([step, beta, gamma, alpha])
-    return StepOperator(mass.copy(), stiffness.copy(), compliance, carry, held, scalars)
+    return StepOperator(mass.copy(), stiffness.copy(), damping, compliance, carry, held, scalars)
 
 
 @kernel
-def predict(state, known, carry, compliance, scalars, place, velocity):
+def predict(state, known, carry, compliance, damping, scalars, place, velocity):
     """Place the coordinates would reach under the known forces alone, and its velocity.
 
     Parameters
@@ -153,7 +162,7 @@ def predict(state, known, carry, compliance, scalars, place, velocity):
         Committed state.
     known : ndarray, shape (m,)
         Generalised forces at the end of the step that are known beforehand.
-    carry, compliance, scalars : ndarray
+    carry, compliance, damping, scalars : ndarray
         Of the `StepOperator`.
     place, velocity : ndarray, shape (m,)
         Filled: :math:`q^*`, and the velocity that goes with it.
@@ -164,6 +173,8 @@ def predict(state, known, carry, compliance, scalars, place, velocity):
     share = scalars[WEIGHT] / (1.0 + scalars[WEIGHT])
     size = state.shape[1]
     for i in range(size):
+        velocity[i] = state[VELOCITY, i] + step * (1.0 - gamma) * state[ACCELERATION, i]
+    for i in range(size):
         total = 0.0
         for j in range(size):
             ahead = (
@@ -172,7 +183,9 @@ def predict(state, known, carry, compliance, scalars, place, velocity):
                 + step * step * (0.5 - beta) * state[ACCELERATION, j]
             )
             total += carry[i, j] * ahead
-            total += compliance[i, j] * (known[j] + share * state[FORCE, j])
+            total += compliance[i, j] * (
+                known[j] + share * state[FORCE, j] - damping[j] * velocity[j]
+            )
         place[i] = total
     for i in range(size):
         ahead = (
@@ -180,16 +193,12 @@ def predict(state, known, carry, compliance, scalars, place, velocity):
             + step * state[VELOCITY, i]
             + step * step * (0.5 - beta) * state[ACCELERATION, i]
         )
-        velocity[i] = (
-            state[VELOCITY, i]
-            + step * (1.0 - gamma) * state[ACCELERATION, i]
-            + gamma / (beta * step) * (place[i] - ahead)
-        )
+        velocity[i] += gamma / (beta * step) * (place[i] - ahead)
 
 
 @kernel
-def complete(state, trial, place, forces, mass, stiffness, held, scalars):
-    r"""Write the state at the end of a step and return the energy the method itself takes.
+def complete(state, trial, place, forces, mass, stiffness, damping, held, scalars):
+    r"""Write the state at the end of a step; return the energy the method and the damping take.
 
     Parameters
     ----------
@@ -201,13 +210,13 @@ def complete(state, trial, place, forces, mass, stiffness, held, scalars):
         Coordinates at the end.
     forces : ndarray, shape (m,)
         All generalised forces :math:`Q_1` at the end.
-    mass, stiffness, held, scalars : ndarray
+    mass, stiffness, damping, held, scalars : ndarray
         Of the `StepOperator`.
 
     Returns
     -------
-    float
-        Energy dissipated numerically in the step, J. With :math:`N = Kq - Q`, the imbalance
+    lost : float
+        Energy dissipated numerically in the step, J. With :math:`N = Dv + Kq - Q`, the imbalance
         :math:`e_0 = -N_0 - M a_0` the step began with and
         :math:`\bar a = (1-\gamma) a_0 + \gamma a_1`,
 
@@ -216,6 +225,8 @@ def complete(state, trial, place, forces, mass, stiffness, held, scalars):
 
         which is what trapezoidal works of all forces exceed the change of energy by. It vanishes
         with :math:`\alpha`.
+    damped : float
+        Trapezoidal work of the damping, J.
     """
     step = scalars[STEP]
     beta = scalars[BETA]
@@ -234,8 +245,13 @@ def complete(state, trial, place, forces, mass, stiffness, held, scalars):
             (1.0 - gamma) * state[ACCELERATION, i] + gamma * trial[ACCELERATION, i]
         )
     lost = 0.0
+    damped = 0.0
     for i in range(size):
-        resistance = -forces[i]
+        resistance = damping[i] * trial[VELOCITY, i] - forces[i]
+        damped += (
+            0.5 * damping[i] * (state[VELOCITY, i] + trial[VELOCITY, i])
+            * (place[i] - state[PLACE, i])
+        )  # fmt: skip
         inertia = 0.0
         turn = 0.0
         mean = 0.0
@@ -259,7 +275,7 @@ def complete(state, trial, place, forces, mass, stiffness, held, scalars):
         lost += (place[i] - state[PLACE, i]) * bracket
         change = trial[ACCELERATION, i] - state[ACCELERATION, i]
         lost += step * step * (beta - 0.5 * gamma) * change * mean
-    return lost
+    return lost, damped
 
 
 def rest(size: int) -> FloatArray:

@@ -70,7 +70,8 @@ TRANSFER = 9  # share of the body's lateral motion the contact sees
 FULL_FRICTION = 10  # N
 BASE_Z = 11  # rise of the base, m
 BRISTLE = 12  # mu over the deflection at full friction, 1/m
-IMPOSED = 13
+DAMPED = 13  # by the damping of the coordinates, J
+IMPOSED = 14
 
 # Places in the vector of forces at the end of a step.
 FX = 0  # friction against the slip, N
@@ -156,7 +157,7 @@ def account(
     ----------
     sums : ndarray, shape (25,)
         Changed.
-    imposed : ndarray, shape (13,)
+    imposed : ndarray, shape (14,)
         What the step imposed.
     before, after : ndarray, shape (6,)
         Forces at both ends, see `resultants`.
@@ -198,6 +199,7 @@ def account(
     sums[VIBRATION_WORK] += fn * imposed[BASE_Z] - fx * imposed[BASE_X] - fy * imposed[BASE_Y]
     sums[UNTRANSFERRED] -= fy * (imposed[WHOLE_Y] - imposed[BASE_Y])
     sums[METHOD_LOSS] += imposed[LOST]
+    sums[DAMPING_WORK] += imposed[DAMPED]
     unseen = 1.0 - imposed[TRANSFER]
     if unseen > 0.0:
         for i in range(1, u_after.size, 3):

@@ -101,6 +101,8 @@ class Mechanism:
         Of the coordinates.
     held : ndarray of bool, shape (m,)
         Coordinates that are guided or driven at a constant velocity.
+    damping : ndarray, shape (m,), or None
+        What resists the velocity of each coordinate by itself, N s/m; None: nothing.
     drive : Drive or None
         None: nothing pulls but a held coordinate.
     load : Port or None
@@ -114,6 +116,7 @@ class Mechanism:
     held: npt.NDArray[np.bool_]
     drive: Drive | None = None
     load: Port | None = None
+    damping: FloatArray | None = None
 
     @property
     def size(self) -> int:
@@ -182,6 +185,7 @@ def motion_step(
         mechanism.mass,
         mechanism.stiffness,
         step,
+        damping=mechanism.damping,
         alpha=alpha,
         impact=impact,
         held=mechanism.held,
@@ -231,7 +235,7 @@ def motion_step(
 
 @kernel
 def approach(
-    state, drive_state, far, speed, load, carry, compliance, scalars, shapes, lift, drive,
+    state, drive_state, far, speed, load, carry, compliance, damping, scalars, shapes, lift, drive,
     drive_shape, load_force, load_response, place, velocity, known, free,
 ):  # fmt: skip
     """Place the contact nodes would go in a step without contact forces.
@@ -246,8 +250,8 @@ def approach(
         Place, m, and velocity, m/s, of the drive's far end at the end of the step.
     load : float
         Share of the loads at the end of the step.
-    carry, compliance, scalars, shapes, lift, drive, drive_shape, load_force, load_response : \
-    ndarray
+    carry, compliance, damping, scalars, shapes, lift, drive, drive_shape, load_force, \
+    load_response : ndarray
         Of the `MotionStep` and its operator.
     place, velocity, known : ndarray, shape (m,)
         Filled: coordinates and velocities without contact and drive forces; room.
@@ -262,7 +266,7 @@ def approach(
     size = state.shape[1]
     for i in range(size):
         known[i] = load * load_force[i]
-    hht.predict(state, known, carry, compliance, scalars, place, velocity)
+    hht.predict(state, known, carry, compliance, damping, scalars, place, velocity)
     force = 0.0
     if drive[SPRING] > 0.0:
         way = 0.0
@@ -286,8 +290,8 @@ def approach(
 @kernel
 def settle(
     state, trial, drive_state, drive_trial, far, speed, load, free_force, forces, place, velocity,
-    resultant, mass, stiffness, held, compliance, scalars, shapes, drop, drive, drive_shape,
-    drive_response, load_force,
+    resultant, mass, stiffness, damping, held, compliance, scalars, shapes, drop, drive,
+    drive_shape, drive_response, load_force,
 ):  # fmt: skip
     """Write the state at the end of a step, the contact forces being known.
 
@@ -307,14 +311,14 @@ def settle(
         As filled by `approach`; changed.
     resultant : ndarray, shape (m,)
         Filled: contact forces on each coordinate.
-    mass, stiffness, held, compliance, scalars, shapes, drop, drive, drive_shape, \
+    mass, stiffness, damping, held, compliance, scalars, shapes, drop, drive, drive_shape, \
     drive_response, load_force : ndarray
         Of the `MotionStep` and its operator.
 
     Returns
     -------
-    float
-        Energy dissipated by the method, J.
+    tuple of 2 floats
+        Energy dissipated by the method, and by the coordinates' damping, J.
     """
     size = state.shape[1]
     count = forces.size
@@ -341,7 +345,7 @@ def settle(
         way += drive_shape[i] * place[i]
         pace += drive_shape[i] * velocity[i]
         velocity[i] = resultant[i] + drive_force * drive_shape[i] + load * load_force[i]
-    lost = hht.complete(state, trial, place, velocity, mass, stiffness, held, scalars)
+    taken = hht.complete(state, trial, place, velocity, mass, stiffness, damping, held, scalars)
     strain += drive[SELF] * drive_force
     drive_trial[REACH] = far
     drive_trial[SPEED] = speed
@@ -351,4 +355,4 @@ def settle(
     drive_trial[PULL] = drive[DASHPOT] * (
         speed - pace - (strain - drive_state[STRAIN]) / scalars[hht.STEP]
     )
-    return lost
+    return taken

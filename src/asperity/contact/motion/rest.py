@@ -48,7 +48,7 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
     """
     mechanism = system.mechanism
     long, accuracy = _loading(system)
-    waiting = dataclasses.replace(mechanism, drive=None, load=None)
+    waiting = dataclasses.replace(mechanism, drive=None, load=None, damping=None)
     first = mo.motion_step(waiting, long, alpha=0.0)
     problem = system.increments(first.compliance, long)
     contact = ContactState.rest(problem)
@@ -124,6 +124,8 @@ def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemS
     load = mechanism.load
     free = mechanism.shapes @ start[0]
     forces = mechanism.stiffness @ start[0]
+    if mechanism.damping is not None:
+        forces += mechanism.damping * start[1]
     if load is not None:
         free, forces = free + load.response, forces - load.generalised
     problem = system.increments(mechanism.flexibility, _loading(system)[0])

@@ -34,7 +34,7 @@ def take_step(
     coordinates: FloatArray,
     drive: FloatArray,
     imposed: tuple[float, float, float],
-) -> tuple[IncrementResult, FloatArray, FloatArray, float]:
+) -> tuple[IncrementResult, FloatArray, FloatArray, tuple[float, float]]:
     """Solve a step of motion and contact together.
 
     Parameters
@@ -57,8 +57,8 @@ def take_step(
         The contact at its end.
     coordinates, drive : ndarray
         Theirs.
-    lost : float
-        Energy the method took, J.
+    taken : tuple of 2 floats
+        Energy the method and the damping of the coordinates took, J.
 
     Raises
     ------
@@ -72,18 +72,18 @@ def take_step(
     far, speed, load = imposed
     free_force = mo.approach(
         coordinates, drive, far, speed, load, operator.carry, operator.compliance,
-        operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
+        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
         moving.load_force, moving.load_response, place, velocity, room, free,
     )  # fmt: skip
     result = solve_increment(problem, free, surface_motion, contact)
     after, drive_after = np.empty_like(coordinates), np.empty_like(drive)
-    lost = mo.settle(
+    taken = mo.settle(
         coordinates, after, drive, drive_after, far, speed, load, free_force, result.force,
-        place, velocity, room, operator.mass, operator.stiffness, operator.held,
+        place, velocity, room, operator.mass, operator.stiffness, operator.damping, operator.held,
         operator.compliance, operator.scalars, moving.shapes, moving.drop, moving.drive,
         moving.drive_shape, moving.drive_response, moving.load_force,
     )  # fmt: skip
-    return result, after, drive_after, float(lost)
+    return result, after, drive_after, taken
 
 
 def resultants(
@@ -189,7 +189,7 @@ class Walker:
         moving, problem = system.stepping(step)
         surface_motion, base = system.surface_motion(state.time, end)
         far = state.drive[mo.REACH] + system.drive_velocity * step
-        result, coordinates, drive, lost = take_step(
+        result, coordinates, drive, (lost, damped) = take_step(
             moving, problem, surface_motion, state.contact.state, state.coordinates,
             state.drive, (far, system.drive_velocity, state.load),
         )  # fmt: skip
@@ -202,7 +202,7 @@ class Walker:
         imposed = np.array([
             step, end, base[0], base[1], base[2], state.load, state.load, lost,
             float(result.iterations), seen, system.full_friction, base[3],
-            system.friction.mu / system.friction.limit,
+            system.friction.mu / system.friction.limit, damped,
         ])  # fmt: skip
         before = state.contact
         # Copies, so that whoever stops in the middle of a step finds the state before it whole.
