@@ -156,16 +156,16 @@ def one_step(mechanism, step, springs, state, drive_state, far, speed):
     free = np.empty(len(springs))
     pull = motion.approach(
         state, drive_state, far, speed, 1.0, operator.carry, operator.compliance,
-        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
-        moving.load_force, moving.load_response, place, velocity, room, free,
+        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive,
+        moving.drive_shape, moving.load_force, moving.load_response, place, velocity, room, free,
     )  # fmt: skip
     u = np.linalg.solve(np.eye(len(springs)) + moving.compliance * springs, free)
     trial, drive_trial = np.empty_like(state), np.empty_like(drive_state)
     lost = motion.settle(
         state, trial, drive_state, drive_trial, far, speed, 1.0, pull, -springs * u, place,
         velocity, room, operator.mass, operator.stiffness, operator.damping, operator.held,
-        operator.compliance, operator.scalars, moving.shapes, moving.drop, moving.drive, moving.drive_shape,
-        moving.drive_response, moving.load_force,
+        operator.compliance, operator.scalars, moving.shapes, moving.drop, moving.drive,
+        moving.drive_shape, moving.drive_response, moving.load_force,
     )  # fmt: skip
     return u, trial, drive_trial, lost
 

@@ -86,9 +86,8 @@ FORCES = 6
 @kernel
 def clear(sums):
     """Empty the sums but for the breakaway, which is a fact of the whole run."""
-    for i in range(SUMS):
-        if i != BREAKAWAY:
-            sums[i] = 0.0
+    sums[:BREAKAWAY] = 0.0
+    sums[BREAKAWAY + 1 :] = 0.0
     sums[MAX_FX] = -1e300
     sums[MIN_FX] = 1e300
     sums[MAX_FY] = -1e300
@@ -119,8 +118,8 @@ def resultants(pressure, traction, normal, deflection, weights, out):
 def overclosure_work(begin, end, law):
     """Work per area of a pressure law without memory from one overclosure to another, J/m^2.
 
-    By Simpson's rule between the overclosures where the law's pressure has kinks, which is exact:
-    it is at most quadratic there. The hard law stores nothing, see `potential`.
+    By Simpson's rule between the kinks of the law's pressure, which is exact: it is at most
+    quadratic there. The hard law stores nothing, see `potential`.
     """
     if law[0] == HARD:
         return 0.0

@@ -72,8 +72,8 @@ def take_step(
     far, speed, load = imposed
     free_force = mo.approach(
         coordinates, drive, far, speed, load, operator.carry, operator.compliance,
-        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive, moving.drive_shape,
-        moving.load_force, moving.load_response, place, velocity, room, free,
+        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive,
+        moving.drive_shape, moving.load_force, moving.load_response, place, velocity, room, free,
     )  # fmt: skip
     result = solve_increment(problem, free, surface_motion, contact)
     after, drive_after = np.empty_like(coordinates), np.empty_like(drive)
