@@ -11,6 +11,7 @@ from asperity.casefile import read_case
 from asperity.cli.tables import TABLES
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.analysis import analyse
+from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.contact_lines import contact_lines
 from asperity.flanks.meshing.ease_off import ease_off
 from asperity.flanks.meshing.kernels import transmission as kernels
@@ -213,6 +214,25 @@ def test_backlash_that_would_leave_no_thread_is_refused():
         InputError, match=r"mount.backlash is 3 mm; .* pointed: .* at most about 0\.\d+ mm"
     ):
         analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8)
+
+
+@pytest.mark.parametrize("wanted", [0.28, 0.6])
+def test_room_between_the_wheels_tips_and_the_worms_core_does_not_bound_the_backlash(wanted):
+    # The worm stands off the middle: one edge of the face is 0.26 mm from the core.
+    pair = Pair.of(GEARSET, TILTED, Mount(axial_offset=0.25e-3, backlash=wanted * 1e-3))
+    free = analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8).play
+    assert min(free.normal.values()) == pytest.approx(wanted, abs=1e-9)
+    axial = wanted / math.cos(pair.geometry.base_lead_angle)
+    assert free.axial == pytest.approx(axial, abs=1e-9)
+
+
+def test_tips_of_the_wheel_that_reach_into_the_worms_core_are_told():
+    low = Pair.of(GEARSET, TILTED, Mount(centre_distance_error=-0.3e-3))
+    found = [core_clearance(pair, Wheel(pair).blank) for pair in (Pair.of(GEARSET, TILTED), low)]
+    # The wheel's throat lies round the worm.
+    room = low.geometry.wheel_throat_radius - low.worm.root_radius
+    assert found[0] == pytest.approx(room, abs=1e-6)
+    assert found[0] - found[1] == pytest.approx(0.3, abs=1e-6)
 
 
 def test_worm_out_of_reach_is_said(tilted):

@@ -10,6 +10,7 @@ from asperity.casefile import Case, Table
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import element_size, tooth
 from asperity.flanks.meshing.analysis import Analysis, analyse
+from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.flanks.remarks import assumptions, from_memory
@@ -152,7 +153,7 @@ def _study(prepared: Prepared) -> FlankStudy:
         element_size=prepared.element_size,
         assumed=assumed,
         from_memory=from_memory(prepared.gearset, assumed, loaded=load is not None),
-        notes=(*_notes(found), *notes),
+        notes=(*_notes(found, prepared.wheel), *notes),
         seconds=prepared.seconds + time.perf_counter() - began,
     )
 
@@ -168,13 +169,19 @@ def _named(source: str) -> Iterator[None]:
         raise
 
 
-def _notes(found: Analysis) -> list[str]:
+def _notes(found: Analysis, wheel: Wheel) -> list[str]:
     notes = []
     least = min(found.play.normal.values())
     if least < -_TOUCH:
         notes.append(
             f"the threads of nominal thickness would cut {-MICROMETRES * least:.3g} um into the "
             "wheel: give mount.backlash, and they are made thinner"
+        )
+    room = core_clearance(found.pair, wheel.blank)
+    if room < -_TOUCH:
+        notes.append(
+            f"the wheel's tips would reach {-MICROMETRES * room:.3g} um into the worm's core: look "
+            "at mount.centre_distance_error"
         )
     flanks = found.flanks.values()
     if any(flank.undercut for flank in flanks):

@@ -6,7 +6,7 @@ closed form the sum of what both flanks need, :math:`\Delta\varphi = D_+ + D_-`
 (`asperity.flanks.meshing.transmission`), and since a turn carries the thread along, the worm can
 be shifted by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial
 vibration can have from peak to peak. All are the least over a pitch, and negative where the flanks
-interfere.
+interfere. The wheel's tips may stand nearer to the worm's core than that: `core_clearance`.
 
 Lengths are in mm, angles in rad.
 """
@@ -18,11 +18,15 @@ import numpy as np
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.transmission import ToothSearch, Transmission
+from asperity.flanks.wheel.blank import Blank
+from asperity.flanks.worm.setting import Pair
 
 # Further than this from the least no place is looked at below the grid, mm.
 _NEAR = 3e-3
 _STEPS = 20
 _TOLERANCE = 1e-10
+# Places across the face, and over an angle to both sides of the line of centres, rad.
+_CLOSE, _SWEPT = 201, 0.2
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,7 +55,7 @@ class Play:
 
 
 def normal_backlash(bearing: Transmission, other: ToothSearch) -> float:
-    """Return the shortest distance on the other flank, least over a pitch, mm.
+    """Return the shortest distance to the other flank of the thread, least over a pitch, mm.
 
     Negative: the depth by which the flanks interfere.
     """
@@ -80,6 +84,15 @@ def play(meshes: dict[int, Transmission]) -> Play:
         worm_angle=turn,
         wheel_angle=turn / pair.ratio,
     )
+
+
+def core_clearance(pair: Pair, blank: Blank) -> float:
+    """Return the least distance of the wheel's tips to the worm's core as it is mounted, mm."""
+    z, turn = blank.columns(_CLOSE), np.linspace(-_SWEPT, _SWEPT, _CLOSE)[:, None]
+    radius = blank.tip_radius(z)
+    tips = np.stack(np.broadcast_arrays(radius * np.sin(turn), radius * np.cos(turn), z), axis=-1)
+    place = pair.mounting.to_helicoid(tips)
+    return float(np.hypot(place[..., 0], place[..., 1]).min()) - pair.worm.root_radius
 
 
 def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, Transmission]:

@@ -72,7 +72,7 @@ class ToothSearch:
         return np.asarray(np.arange(first, last + 1) * step, dtype=np.float64)
 
     def _least(
-        self, mode: int, beta: FloatArray, phase: FloatArray, near: FloatArray
+        self, mode: int, worm: FloatArray, beta: FloatArray, phase: FloatArray, near: FloatArray
     ) -> FloatArray:
         pair, side = self.pair, self.flank.side
         blank = self.flank.blank
@@ -86,7 +86,7 @@ class ToothSearch:
             float(side),
             pair.hob.params,
             cut_params(pair.ratio, pair.cutting),
-            pair.worm.distance_params(side),
+            worm,
             cut_params(pair.ratio, pair.mounting),
             np.array([blank.centre_distance, blank.throat_radius, blank.outside_radius]),
             near,
@@ -102,13 +102,15 @@ class ToothSearch:
         """
         nominal = self.flank.side * self.pair.ratio * beta
         near = np.full(beta.size, math.inf) if exact is None else exact + nominal
-        found = self._least(kernels.TURN, beta, np.zeros(beta.size), near)
+        worm = self.pair.worm.distance_params(self.flank.side)
+        found = self._least(kernels.TURN, worm, beta, np.zeros(beta.size), near)
         found[:, 0] -= nominal
         return found
 
     def gap(self, beta: FloatArray, phase: FloatArray, exact: FloatArray) -> FloatArray:
-        """Return by rows the least distance to the worm, mm, and where, as `lead` does."""
-        return self._least(kernels.NEAR, beta, phase, exact)
+        """Return by rows the least distance to the worm's thread, mm, and where, as `lead` does."""
+        worm = self.pair.worm.distance_params(self.flank.side, core=False)
+        return self._least(kernels.NEAR, worm, beta, phase, exact)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

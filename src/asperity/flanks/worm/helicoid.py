@@ -23,6 +23,8 @@ from asperity.gearset.geometry import Flank, Geometry
 _MILLIMETRES = 1e3
 _LEAST_LAND = 0.01
 _LEAST_SPACE = 0.02
+# Of the root's radius: far enough below it to be no neighbour of the wheel.
+_DEEP = 0.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -323,10 +325,20 @@ class Helicoid:
         w, w1, w2 = out.reshape(3, *rho.shape)
         return w, w1, w2
 
-    def distance_params(self, side: int = 0) -> FloatArray:
-        """Return the numbers of `~asperity.flanks.worm.distance`; side 0 takes the nearest."""
+    def distance_params(self, side: int = 0, *, core: bool = True) -> FloatArray:
+        """Return the numbers of `~asperity.flanks.worm.distance`.
+
+        Parameters
+        ----------
+        side : {0, 1, -1}
+            The flank of the thread space that counts; 0: the nearest.
+        core : bool
+            Whether the core counts too; else the flanks go on below the root.
+        """
         numbers = self.params.copy()
         numbers[curve.SIDE] = side
+        if not core:
+            numbers[curve.ROOT] *= _DEEP
         return numbers
 
 
