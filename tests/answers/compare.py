@@ -1,0 +1,172 @@
+"""Whether what a command answers is what it answered when it was recorded."""
+
+import fnmatch
+import math
+
+TOLERANCE = 1e-12
+"""Relative, of every number not named below."""
+
+LEFT_OUT = {
+    "seconds": "time it took",
+    "condense_seconds": "time it took",
+    "ms_per_increment": "time it took",
+    "cached": "what an earlier run left",
+    "condensed_from_cache": "what an earlier run left",
+    "reused": "what an earlier run left",
+    "file": "a folder of the test",
+    "files": "a folder of the test",
+    "index": "a folder of the test",
+    "path": "a folder of the test",
+    "picture": "a folder of the test",
+    "dataset": "a folder of the test",
+    "solver": "which libraries are installed",
+    "notes": "words for people, which may become clearer",
+    "note": "words for people, which may become clearer",
+    "error": "words for people, which may become clearer",
+    "how": "commands that give a figure, which may be said in another way",
+}
+"""Keys of JSON that are not compared, and why."""
+
+# Where numbers are differences of such as cancel, what counts is the size of those.
+_OF_FORMULAS = {"cases", "rate", "sensitivity", "methods", "optimise"}
+_NATURAL = {"": 1.0, "1": 1.0, "rad": 1.0}
+_UNITS = (
+    ("_N_per_mm", "N/mm"),
+    ("_m_per_N", "m/N"),
+    ("_Pa_per_m", "Pa/m"),
+    ("_mm_per_s", "mm/s"),
+    ("_MPa", "MPa"),
+    ("_rad", "rad"),
+    ("_deg", "deg"),
+    ("_mm", "mm"),
+    ("_um", "um"),
+    ("_Nm", "N m"),
+    ("_N", "N"),
+    ("_W", "W"),
+    ("_s", "s"),
+)
+
+
+def differences(line, recorded, seen, changes=()):
+    """Say where two answers of a command line differ.
+
+    Parameters
+    ----------
+    line : str
+        The command line.
+    recorded, seen : dict
+        What :func:`observe.observe` saw, then and now.
+    changes : iterable of (lines, places, reason)
+        What was changed on purpose: patterns of command lines and places that are not compared.
+
+    Returns
+    -------
+    list of str
+        Place, what was recorded, what is seen.
+    """
+    skipped = [place for lines, place, _ in changes if fnmatch.fnmatch(line, lines)]
+    command = line.split()[0]
+    found = []
+
+    def differ(place, before, now):
+        if not any(fnmatch.fnmatch(place, pattern) for pattern in skipped):
+            found.append(f"{place}: {before!r} was recorded, now {now!r}")
+
+    if recorded["code"] != seen["code"]:
+        differ("code", recorded["code"], seen["code"])
+    scales = {} if command in _OF_FORMULAS else _scales(recorded["json"])
+    _compare_json("json", recorded["json"], seen["json"], scales, differ)
+    # Whether there are views of solids depends on what this machine can draw.
+    then, now = ({n for n in each["files"] if "view-" not in n} for each in (recorded, seen))
+    for name in sorted(then ^ now):
+        differ(name, name in then, name in now)
+    for name in sorted(then & now):
+        _compare_file(name, recorded["files"][name], seen["files"][name], differ)
+    return found
+
+
+def _compare_json(place, before, now, scales, differ, unit=""):
+    if isinstance(before, dict) and isinstance(now, dict):
+        for key in sorted({*before, *now} - {*LEFT_OUT}):
+            here = f"{place}.{key}"
+            if key not in before or key not in now:
+                differ(here, before.get(key, "no such key"), now.get(key, "no such key"))
+            else:
+                _compare_json(here, before[key], now[key], scales, differ, _unit(key) or unit)
+    elif isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
+        for n, pair in enumerate(zip(before, now, strict=True)):
+            _compare_json(f"{place}[{n}]", *pair, scales, differ, unit)
+    elif _is_number(before) and _is_number(now):
+        if not _same(before, now, scales.get(unit, 0.0)):
+            differ(place, before, now)
+    elif before != now or type(before) is not type(now):
+        differ(place, before, now)
+
+
+def _compare_file(name, before, now, differ):
+    units = {n: v.get("units") for n, v in before.items()}
+    scales = dict(_NATURAL)
+    for n, variable in before.items():
+        scales[units[n]] = max(scales.get(units[n], 0.0), _largest(variable["value"]))
+    for n in sorted({*before, *now}):
+        place = f"{name}:{n}"
+        if n not in before or n not in now:
+            differ(place, n in before, n in now)
+            continue
+        for about in ("units", "dims"):
+            if before[n].get(about) != now[n].get(about):
+                differ(f"{place}.{about}", before[n].get(about), now[n].get(about))
+        scale = scales[units[n]] if units[n] is not None else _largest(before[n]["value"])
+        then, today = before[n]["value"], now[n]["value"]
+        if not _same_digest(then, today, scale):
+            differ(place, then, today)
+
+
+def _same_digest(before, now, scale):
+    if not isinstance(before, dict) or before.keys() != now.keys():
+        return before == now
+    for key, then in before.items():
+        each = (then, now[key]) if isinstance(then, list) else ([then], [now[key]])
+        for a, b in zip(*each, strict=False):
+            same = _same(a, b, scale) if _is_number(a) and _is_number(b) else a == b
+            if not same:
+                return False
+        if len(each[0]) != len(each[1]):
+            return False
+    return True
+
+
+def _largest(value):
+    if not isinstance(value, dict) or "samples" not in value:
+        return 0.0
+    return max([value.get("largest", 0.0), *(abs(n) for n in value["samples"] if n is not None)])
+
+
+def _scales(answer):
+    """The largest number of each unit in an answer."""
+    scales = dict(_NATURAL)
+
+    def look(value, unit):
+        if isinstance(value, dict):
+            for key, inner in value.items():
+                look(inner, _unit(key) or unit)
+        elif isinstance(value, list):
+            for inner in value:
+                look(inner, unit)
+        elif _is_number(value) and unit:
+            scales[unit] = max(scales.get(unit, 0.0), abs(value))
+
+    look(answer, "")
+    return scales
+
+
+def _unit(key):
+    return next((unit for ending, unit in _UNITS if key.endswith(ending)), "")
+
+
+def _is_number(value):
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _same(a, b, scale):
+    return a == b or math.isclose(a, b, rel_tol=TOLERANCE, abs_tol=TOLERANCE * scale)
