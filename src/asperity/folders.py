@@ -14,7 +14,8 @@ def cache_folder(name: str) -> Path | None:
     base = os.environ.get("ASPERITY_CACHE") or os.environ.get("XDG_CACHE_HOME")
     try:
         folder = (Path(base) if base else Path.home() / ".cache") / "asperity" / name
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
         # Permission bits do not tell about read-only file systems, so write and see.
         probe = folder / f".probe-{secrets.token_hex(6)}"
         probe.touch()

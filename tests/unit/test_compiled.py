@@ -1,6 +1,8 @@
 import json
 import os
+import pickle
 import shutil
+import stat
 import subprocess
 import sys
 import time
@@ -12,6 +14,7 @@ import pytest
 
 from asperity.compiled import kernel, kernel_key
 from asperity.folders import cache_folder
+from asperity.friction.tangent import update
 
 PROGRAM = """
 import json, sys
@@ -45,7 +48,7 @@ def package(tmp_path):
 def run(package, tmp_path):
     """Call ``outer(2)`` in a fresh process; returns value, cache hits and cache folder."""
 
-    def call(cache=tmp_path / "cache", package=package):
+    def call(cache=tmp_path / "cache", package=package, errors=False):
         done = subprocess.run(
             [sys.executable, "-W", "error", "-c", PROGRAM, str(package)],
             env={**os.environ, "ASPERITY_CACHE": str(cache)},
@@ -54,6 +57,8 @@ def run(package, tmp_path):
             check=False,
         )
         assert done.returncode == 0, done.stderr
+        if errors:
+            return [*json.loads(done.stdout), done.stderr]
         assert done.stderr == ""
         return json.loads(done.stdout)
 
@@ -135,6 +140,49 @@ def test_a_kernel_keeps_its_options_docstring_and_numbas_settings():
     assert np.isinf(inverse(0.0))
 
 
+def test_declaring_a_kernel_loads_no_compiler_and_calling_one_does():
+    code = (
+        "import sys\nimport asperity.friction.dahl, asperity.slider.kernels\n"
+        "assert not {'numba', 'llvmlite'} & set(sys.modules)\n"
+        "from asperity.compiled import machine\nmachine()\nassert 'numba' in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_kernel_that_is_sent_elsewhere_is_found_there_by_its_name():
+    sent = pickle.loads(pickle.dumps(update))
+    assert sent is update
+
+
+def test_machine_code_that_others_could_have_written_is_not_run(run, tmp_path):
+    cache = tmp_path / "cache"
+    _, _, folder = run()
+    kernels = cache / "asperity" / "kernels"
+    for place in (cache / "asperity", kernels, Path(folder)):
+        assert stat.S_IMODE(place.stat().st_mode) == 0o700
+    for place in (kernels, Path(folder)):
+        place.chmod(0o777)
+        value, hits, used, told = run(errors=True)
+        assert (value, hits, used) == (30.0, 0, None)
+        assert told.startswith(f"{place} can be written to by others; kernels are compiled anew")
+        assert len(told.splitlines()) == 1
+        place.chmod(0o700)
+    assert run()[1] == 1
+
+
+def test_machine_code_of_another_user_is_not_run(monkeypatch, tmp_path, caplog):
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    monkeypatch.setattr(os, "geteuid", lambda: os.getuid() + 1)
+
+    @kernel
+    def double(x):
+        return 2.0 * x
+
+    assert double(3.0) == 6.0
+    assert double.stats.cache_path is None
+    assert "belongs to another user" in caplog.text
+
+
 def test_a_function_without_a_file_is_compiled_uncached():
     space = {}
     exec("def double(x):\n    return 2 * x", space)
@@ -198,6 +246,7 @@ def test_folders_of_old_sources_go_after_a_month(monkeypatch, tmp_path):
     def double(x):
         return 2.0 * x
 
+    assert double(1.0) == 2.0
     assert {folder.name for folder in kernels.iterdir()} == {
         recent.name,
         other.name,

@@ -4,10 +4,10 @@ import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
 
-import numba
 import numpy as np
 
 from asperity.closure import source_key
+from asperity.compiled import machine
 from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.slider.batch import fits_lanes, solve_many
 from asperity.slider.lanes import LANES
@@ -95,7 +95,8 @@ def versions() -> dict[str, str]:
     # The processor is not among them, though it is in the key a result is kept under: which
     # instructions it has moves the last bits of a result, and a cluster may well be of several
     # kinds.
-    return {"asperity": source_key(__name__), "numba": numba.__version__, "numpy": np.__version__}
+    numba, numpy, _ = machine()
+    return {"asperity": source_key(__name__), "numba": numba, "numpy": numpy}
 
 
 def solve_remote(models: Sequence[Model], asked: Mapping[str, str]) -> list[Row]:

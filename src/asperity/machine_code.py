@@ -1,0 +1,163 @@
+"""Machine code kept on disk: Numba's cache, in folders of ours, digested and for nobody else.
+
+Its files are pickles, which run what they hold: they are read from a folder only that belongs to
+the user and that nobody else may write to.
+"""
+
+import contextlib
+import functools
+import hashlib
+import logging
+import os
+import pickle
+import re
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numba
+from numba.core import caching
+
+from asperity.folders import cache_folder
+
+_KEPT_DAYS = 30
+_DIGEST_BYTES = 32
+
+_log = logging.getLogger(__name__)
+
+
+def keep(dispatcher: Any, key: str) -> None:
+    """Let a compiled function find its machine code on disk, and leave it there.
+
+    Parameters
+    ----------
+    dispatcher : numba.core.dispatcher.Dispatcher
+        The function, not compiled yet.
+    key : str
+        Name of the folder, made from what the machine code follows from.
+    """
+    folder = _kernel_folder(key)
+    if folder is not None:
+        # RuntimeError: a function that has no file, which Numba finds nothing to name by.
+        with _numba_cache_in(folder), contextlib.suppress(RuntimeError):
+            dispatcher._cache = _ForgivingCache(dispatcher.py_func)
+
+
+def _kernel_folder(key: str) -> Path | None:
+    environment = os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME")
+    kernels = _kernels(*environment)
+    if kernels is None:
+        return None
+    folder = kernels / key
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        os.utime(folder)
+        return folder if _is_ours_alone(folder) else None
+    except OSError:
+        return None
+
+
+@functools.cache
+def _kernels(base: str | None, xdg: str | None) -> Path | None:
+    # The arguments are what the answer depends on; they make it once per process and setting.
+    folder = cache_folder("kernels")
+    if folder is None or not _is_ours_alone(folder):
+        return None
+    with contextlib.suppress(OSError):
+        _remove_old(folder)
+    return folder
+
+
+def _is_ours_alone(folder: Path) -> bool:
+    """Whether nobody else can have put a file there; says so where somebody can."""
+    if os.name != "posix":
+        return True
+    status = folder.stat()
+    if status.st_uid != os.geteuid():
+        trouble = "belongs to another user"
+    elif status.st_mode & 0o022:
+        trouble = "can be written to by others"
+    else:
+        return True
+    _log.warning(
+        "%s %s; kernels are compiled anew instead of read from it: remove it", folder, trouble
+    )
+    return False
+
+
+def _remove_old(kernels: Path) -> None:
+    oldest = time.time() - _KEPT_DAYS * 86400
+    for folder in kernels.iterdir():
+        is_ours = re.fullmatch(r"[0-9a-f]{16}", folder.name)
+        if is_ours and folder.stat().st_mtime < oldest:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+class _DigestedFile(caching.IndexDataCacheFile):
+    """Machine code with a digest behind it, since a damaged file may load and answer wrongly."""
+
+    def _dump(self, obj: object) -> bytes:
+        data: bytes = super()._dump(obj)
+        return data + hashlib.sha256(data).digest()
+
+    def _load_data(self, name: str) -> Any:
+        stored = Path(self._data_path(name)).read_bytes()
+        data, digest = stored[:-_DIGEST_BYTES], stored[-_DIGEST_BYTES:]
+        if hashlib.sha256(data).digest() != digest:
+            raise pickle.UnpicklingError(f"{name} is damaged")
+        return pickle.loads(data)
+
+
+class _ContentLocator(caching.UserProvidedCacheLocator):
+    """Names a kernel's files by what it follows from, wherever its source stands on the disk."""
+
+    def __init__(self, py_func: Callable[..., Any], py_file: str) -> None:
+        super().__init__(py_func, py_file)
+        self._cache_path = numba.config.CACHE_DIR
+
+    def get_source_stamp(self) -> tuple[int, int]:
+        return (0, 0)  # the folder's name tells of every change
+
+
+class _FolderImpl(caching.CompileResultCacheImpl):
+    # Otherwise Numba may fall back to writing next to the sources.
+    _locator_classes = (_ContentLocator,)
+
+
+class _ForgivingCache(caching.FunctionCache):
+    """A cache whose trouble costs a compilation and never an exception."""
+
+    _impl_class = _FolderImpl
+
+    def __init__(self, py_func: Callable[..., Any]) -> None:
+        super().__init__(py_func)
+        self._cache_file = _DigestedFile(
+            cache_path=self._cache_path,
+            filename_base=self._impl.filename_base,
+            source_stamp=self._impl.locator.get_source_stamp(),
+        )
+
+    def load_overload(self, sig: object, target_context: object) -> Any:
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:
+            # What a damaged file raises depends on the byte: unpickling can raise anything.
+            with contextlib.suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, sig: object, data: object) -> None:
+        with contextlib.suppress(OSError, EOFError, pickle.PickleError):
+            super().save_overload(sig, data)
+
+
+@contextlib.contextmanager
+def _numba_cache_in(folder: Path) -> Iterator[None]:
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)
+    try:
+        yield
+    finally:
+        numba.config.CACHE_DIR = before
