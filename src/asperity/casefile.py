@@ -1,31 +1,28 @@
 """Case files: TOML tables with units as text, read and validated into frozen tables in SI."""
 
+import contextlib
 import dataclasses
 import hashlib
 import json
 import numbers
 import os
 import re
-import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, get_args, overload
 
 import pydantic
 from pydantic_core import ErrorDetails
 
-from asperity.errors import InputError, choices, nearest, suggestion
+from asperity import store
+from asperity.errors import InputError, choices, is_plain, nearest, plain, shown, suggestion
 from asperity.units import Quantity, quantity_of, split_unit
 
 Raw = dict[str, dict[str, Any]]
 
 _TEXT_ONLY = {"text_only": True}
 _KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
-
-
-def _shown(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+_MOST_BITS = 1024  # of a whole number, as large as floats are
 
 
 class Table(pydantic.BaseModel):
@@ -61,6 +58,15 @@ class Table(pydantic.BaseModel):
             return super().model_validate(obj, **options)
         except pydantic.ValidationError as error:
             raise InputError(cls._one_line(error)) from None
+
+    @pydantic.model_validator(mode="before")
+    @classmethod
+    def _harmless(cls, data: Any) -> Any:
+        if isinstance(data, Mapping):
+            for key, value in data.items():
+                if trouble := _trouble(value):
+                    raise ValueError(f"{cls.table}.{key} is {shown(value)}; {trouble}")
+        return data
 
     @pydantic.model_validator(mode="after")
     def _one_form(self) -> Self:
@@ -106,7 +112,20 @@ class Table(pydantic.BaseModel):
             reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
         place = detail["loc"][1] if len(detail["loc"]) > 1 else None
         where = f", number {place + 1} of the list" if isinstance(place, int) else ""
-        return f"{key} is {_shown(given)}{where}; {reason}"
+        return f"{key} is {shown(given)}{where}; {reason}"
+
+
+def _trouble(value: object) -> str:
+    """Return what no value of any key may be; nothing for one that may."""
+    if isinstance(value, str):
+        return "" if is_plain(value) else "it must be one line without control characters"
+    if isinstance(value, int):
+        return "" if value.bit_length() < _MOST_BITS else "it is too large"
+    if isinstance(value, Mapping):
+        return next(filter(None, map(_trouble, (*value, *value.values()))), "")
+    if isinstance(value, list | tuple):
+        return next(filter(None, map(_trouble, value)), "")
+    return ""
 
 
 T = TypeVar("T", bound=Table)
@@ -156,14 +175,23 @@ class Case:
             raise InputError(f"{self.source}: the table [{name}] is missing; add it")
         return self.tables[name]
 
+    def origin(self, key: str) -> str:
+        """Return what gave the value of a ``table.key``: a setting, or else the file."""
+        setting = self.settings.get(key)
+        return self.source if setting is None else f"--set {setting}"
+
     def replace(self, settings: Iterable[str]) -> "Case":
         """Return the case with ``table.key=value`` settings applied, all validated afterwards."""
         raw = {name: dict(entries) for name, entries in self.raw.items()}
         given = dict(self.settings)
         for setting in settings:
             given[_apply(raw, setting, self.known)] = " ".join(setting.split())
-        tables = _validate(raw, self.known, self.source, given)
-        return dataclasses.replace(self, tables=tables, raw=raw, settings=given)
+        case = dataclasses.replace(self, tables={}, raw=raw, settings=given)
+        with told(case):
+            for name, entries in raw.items():
+                model = _known_table(name, self.known)
+                case.tables[name] = model.model_validate(entries, context=_TEXT_ONLY)
+        return case
 
     def replace_values(self, values: Mapping[str, object]) -> "Case":
         """Return the case with values of ``table.key`` replaced, quantities as numbers in SI.
@@ -175,7 +203,8 @@ class Case:
         raw = dict(self.raw)
         for path, value in values.items():
             name, _, key = path.partition(".")
-            model = _known_table(name, self.known, self.source)
+            with told(self):
+                model = _known_table(name, self.known)
             if name not in changed:
                 old = self.tables.get(name)
                 changed[name] = {k: getattr(old, k) for k in old.model_fields_set} if old else {}
@@ -190,10 +219,8 @@ class Case:
                     entries[key] = entry
         tables = dict(self.tables)
         for name, entries in changed.items():
-            try:
+            with told(self):
                 tables[name] = self.known[name].model_validate(entries)
-            except InputError as error:
-                raise InputError(f"{self.source}: {error}") from None
         return dataclasses.replace(self, tables=tables, raw=raw)
 
     def canonical(self) -> str:
@@ -205,9 +232,23 @@ class Case:
         for name, table in self.tables.items():
             for key, value in table:
                 if isinstance(value, Path) and (self.folder / value).is_file():
-                    content = (self.folder / value).read_bytes()
+                    content = store.read_bytes(self.folder / value)
                     dumped[name][key] = f"sha256:{hashlib.sha256(content).hexdigest()}"
         return json.dumps(dumped, sort_keys=True, allow_nan=False)
+
+
+@contextlib.contextmanager
+def told(case: Case) -> Iterator[None]:
+    """Let what is refused of a case name the file or the setting that gave it."""
+    try:
+        yield
+    except InputError as error:
+        text = str(error)
+        if not text.startswith((f"{case.source}: ", "--")):
+            key = _KEY.match(text)
+            origin = case.origin(key.group()) if key else case.source
+            error.args = (f"{origin}: {text}", *error.args[1:])
+        raise
 
 
 def shipped_cases() -> dict[str, Path]:
@@ -221,7 +262,7 @@ def shipped_cases() -> dict[str, Path]:
 
 def describe(path: str | os.PathLike[str]) -> str:
     """Return the comment in the first line of a case file."""
-    first, _, _ = _read_text(str(path), Path(path)).partition("\n")
+    first, _, _ = store.read_text(path).partition("\n")
     return first.removeprefix("#").strip() if first.startswith("#") else ""
 
 
@@ -248,40 +289,18 @@ def read_case(
     InputError
         One line that names the file or setting, the key, the value and what is allowed.
     """
-    source = str(name_or_path)
-    path = Path(source)
+    path = Path(name_or_path)
+    source = plain(str(name_or_path))
     shipped = shipped_cases()
     if source in shipped and not path.is_file():
         path = shipped[source]
-    raw = _parse(source, _read_text(source, path))
-    case = Case(source, path.parent.absolute(), {}, raw, tables)
-    return case.replace(settings)
-
-
-def _read_text(source: str, path: Path) -> str:
     try:
-        return path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError:
-        known = nearest(Path(source).name.removesuffix(".toml"), shipped_cases())
+        raw = store.read_toml(path, source)
+    except InputError as error:
+        if not isinstance(error.__cause__, FileNotFoundError):
+            raise
+        known = nearest(plain(path.name).removesuffix(".toml"), shipped)
         raise InputError(f"{source} is neither a file nor a case that ships{known}") from None
-    except IsADirectoryError:
-        raise InputError(f"{source or _shown(source)} is a folder; give a case file") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{source}: byte {error.start} is not UTF-8; save it as UTF-8") from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(f"{_shown(source)} cannot be read: {reason.lower()}") from None
-
-
-def _parse(source: str, text: str) -> Raw:
-    try:
-        raw = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        last = f"(at line {len(text.splitlines())}, the last one)"
-        reason = str(error).replace("(at end of document)", last)
-        raise InputError(f"{source}: not valid TOML: {reason}") from None
-    except RecursionError:
-        raise InputError(f"{source}: not a case file: its values are nested too deeply") from None
     for name, entries in raw.items():
         if isinstance(entries, list):
             raise InputError(f"{source}: [{name}] is given as a list; write it once, as [{name}]")
@@ -289,28 +308,13 @@ def _parse(source: str, text: str) -> Raw:
             raise InputError(
                 f"{source}: {name} stands outside a table; put it below a heading such as [slider]"
             )
-    return raw
+    case = Case(source, path.parent.absolute(), {}, raw, tables)
+    return case.replace(settings)
 
 
-def _validate(
-    raw: Raw, known: Mapping[str, type[Table]], source: str, settings: Mapping[str, str]
-) -> dict[str, Table]:
-    tables = {}
-    for name, entries in raw.items():
-        model = _known_table(name, known, source)
-        try:
-            tables[name] = model.model_validate(entries, context=_TEXT_ONLY)
-        except InputError as error:
-            key = _KEY.match(str(error))
-            setting = settings.get(key.group()) if key else None
-            origin = source if setting is None else f"--set {setting}"
-            raise InputError(f"{origin}: {error}") from None
-    return tables
-
-
-def _known_table(name: str, known: Mapping[str, type[Table]], origin: str) -> type[Table]:
+def _known_table(name: str, known: Mapping[str, type[Table]]) -> type[Table]:
     if name not in known:
-        raise InputError(f"{origin}: [{name}] is not a table of a case file{nearest(name, known)}")
+        raise InputError(f"[{name}] is not a table of a case file{nearest(name, known)}")
     return known[name]
 
 
@@ -332,7 +336,10 @@ def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     if not equals or not parts:
         raise InputError(f"--set {setting}: it must be table.key=value, as in friction.mu=0.1")
     name, key = parts.groups()
-    model = _known_table(name, known, f"--set {setting}")
+    try:
+        model = _known_table(name, known)
+    except InputError as error:
+        raise InputError(f"--set {setting}: {error}") from None
     entries = raw.setdefault(name, {})
     value = _with_unit(model, key, _toml_value(text.strip()), entries.get(key), setting)
     if isinstance(value, str) and names_file(model, key):
@@ -345,10 +352,10 @@ def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
 
 def _toml_value(text: str) -> Any:
     try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (tomllib.TOMLDecodeError, RecursionError):
+        parsed = store.parse_toml(f"value = {text}")
+    except ValueError:
         return text
-    return parsed["value"] if len(parsed) == 1 else text
+    return text if len(parsed) > 1 or _trouble(parsed) else parsed["value"]
 
 
 def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str) -> Any:

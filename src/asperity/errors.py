@@ -1,6 +1,7 @@
-"""The exceptions of the package, and the suggestion that ends their messages."""
+"""The exceptions of the package, and how a message says what was given and what is allowed."""
 
 import difflib
+import unicodedata
 from collections.abc import Iterable, Mapping
 from typing import ClassVar
 
@@ -48,6 +49,52 @@ class MissingExtraError(AsperityError, ImportError):
     """An optional dependency is needed and not installed."""
 
     exit_code = 2
+
+
+# Formats that turn the direction of writing, so that a text reads as another than it is.
+_TURNING = frozenset("\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+_CONTROLS = frozenset(("Cc", "Cs", "Zl", "Zp"))
+
+
+def is_plain(text: str) -> bool:
+    """Whether a text is one line of characters that do nothing where it is shown."""
+    return text.isprintable() or not any(map(_acts, text))
+
+
+def plain(text: str, *, keep: str = "") -> str:
+    """Return a text with what would act where it is shown written as its escape.
+
+    A terminal obeys ESC, a line of an input deck ends at a line feed, and half a surrogate, as a
+    file name that is not UTF-8 holds, cannot be written at all.
+
+    Parameters
+    ----------
+    text : str
+        Any text, such as the name of a file.
+    keep : str
+        Characters to leave as they are.
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        character.encode("unicode_escape").decode()
+        if _acts(character) and character not in keep
+        else character
+        for character in text
+    )
+
+
+def shown(value: object) -> str:
+    """Return a value as a message quotes it, cut where it is long."""
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of more digits than Python writes
+        text = "a whole number of very many digits"
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _acts(character: str) -> bool:
+    return unicodedata.category(character) in _CONTROLS or character in _TURNING
 
 
 def choices(known: Iterable[str]) -> str:

@@ -7,7 +7,7 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, is_plain, shown, suggestion
 
 Confidence = Literal["verified", "one source", "from memory"]
 
@@ -42,9 +42,12 @@ class Source:
     def __post_init__(self) -> None:
         if not self.name:
             raise InputError("the source has no name; name the document a number comes from")
+        for key, text in (("name", self.name), ("note", self.note)):
+            if not (isinstance(text, str) and is_plain(text)):
+                raise InputError(f"{key} is {shown(text)}; it must be one line of text")
         if self.confidence not in CONFIDENCES:
             raise InputError(
-                f"confidence is {self.confidence!r}; it must be one of {choices(CONFIDENCES)}"
+                f"confidence is {shown(self.confidence)}; it must be one of {choices(CONFIDENCES)}"
                 f"{suggestion(str(self.confidence), CONFIDENCES)}"
             )
 

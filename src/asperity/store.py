@@ -1,21 +1,127 @@
-"""Files written whole or not at all, and labelled results in netCDF."""
+"""Files read with a bound and written whole or not at all, and labelled results in netCDF."""
 
 import contextlib
+import functools
+import hashlib
 import os
+import platform
+import re
 import secrets
+import stat
 import tempfile
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from asperity.errors import StorageError
+from asperity.errors import InputError, StorageError, plain
 
 if TYPE_CHECKING:
     import xarray
 
 
+_MOST_BYTES = 16_000_000
+_MOST_TOML_BYTES = 1_000_000
+
+# The reader of TOML takes memory by the square of the parts of a dotted key.
+_KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*{_KEY_PART}(?:[ \t]*\.[ \t]*{_KEY_PART}){{16}}", re.M)
+
+_TEMPORARY = re.compile(r"\..*\.asperity-([0-9a-f]{8})-([0-9]+)-[0-9a-f]{12}(?:\.[^.]*)?")
+
+
 def _reason(error: OSError) -> str:
-    return (error.strerror or str(error).splitlines()[0] or type(error).__name__).lower()
+    if isinstance(error, StorageError):
+        return str(error)
+    return plain((error.strerror or str(error) or type(error).__name__).lower())
+
+
+def read_bytes(path: str | os.PathLike[str], most: int = _MOST_BYTES) -> bytes:
+    """Return the content of a file that somebody gave.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    most : int
+        How many bytes it may have.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, is no regular file (a device or a pipe may never end), or is too large.
+    """
+    path = Path(path)
+    kind = path.stat().st_mode
+    if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
+        raise StorageError("it is a device or a pipe; save what it holds to a file")
+    with path.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise StorageError(f"it is larger than {most / 1e6:g} MB")
+    return content
+
+
+def read_text(
+    path: str | os.PathLike[str], name: str | None = None, most: int = _MOST_BYTES
+) -> str:
+    """Return the text of a file that somebody gave, in UTF-8 with or without its mark.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    name : str, optional
+        What messages call it, if not by its path.
+    most : int
+        How many bytes it may have.
+
+    Raises
+    ------
+    InputError
+        One line; its cause is the OSError of :func:`read_bytes` or the ValueError of decoding.
+    """
+    name = plain(str(path)) if name is None else name
+    cause: Exception
+    try:
+        return read_bytes(path, most).decode("utf-8-sig")
+    except OSError as error:
+        cause, reason = error, _reason(error)
+        if isinstance(error, IsADirectoryError):
+            reason = "it is a folder; give a file"
+    except UnicodeDecodeError as error:
+        cause, reason = error, f"byte {error.start} is not UTF-8; save it as UTF-8"
+    except ValueError as error:  # a zero byte in the name
+        cause, reason = error, str(error)
+    name = name if len(name) < 200 else f"{name[:197]}..."
+    raise InputError(f"{name or repr(name)} cannot be read: {reason}") from cause
+
+
+def read_toml(path: str | os.PathLike[str], name: str | None = None) -> dict[str, Any]:
+    """Return the content of a TOML file; arguments and errors as :func:`read_text`."""
+    text = read_text(path, name, _MOST_TOML_BYTES)
+    try:
+        return parse_toml(text)
+    except ValueError as error:
+        last = f"(at line {len(text.splitlines())}, the last one)"
+        reason = str(error).replace("(at end of document)", last)
+        name = plain(str(path)) if name is None else name
+        raise InputError(f"{name}: not valid TOML: {plain(reason)}") from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Return the content of a text in TOML, read in little memory; raises ValueError."""
+    if found := _LONG_KEY.search(text):
+        line = text.count("\n", 0, found.end()) + 1
+        raise ValueError(f"a key of more than 16 parts (at line {line})")
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError("its values are nested too deeply") from None
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError:
+        raise ValueError("a whole number of more digits than can be read") from None
 
 
 def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], object]) -> Path:
@@ -40,7 +146,8 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
     """
     path = Path(path)
     # The suffix stays, because drawing libraries choose the format by it.
-    temporary = path.with_name(f".{path.stem[:80]}-{secrets.token_hex(6)}{path.suffix}")
+    owner = f"asperity-{_here()}-{os.getpid()}-{secrets.token_hex(6)}"
+    temporary = path.with_name(f".{path.stem[:80]}.{owner}{path.suffix}")
     try:
         write(temporary)
         with temporary.open("rb+") as file:
@@ -56,6 +163,40 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
             temporary.unlink()
     _flush_folder(path.parent)
     return path
+
+
+@functools.cache
+def _here() -> str:
+    """Return what tells apart the machines, and on one the containers, that count processes."""
+    try:
+        space = os.readlink("/proc/self/ns/pid")
+    except OSError:
+        space = ""
+    return hashlib.sha256(f"{platform.node()}\0{space}".encode()).hexdigest()[:8]
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove temporary files of this package whose process was killed while it wrote them.
+
+    A file of a process that lives, of another machine or of another program stays.
+    """
+    for path in folder.glob(".*.asperity-*"):
+        name = _TEMPORARY.fullmatch(path.name)
+        if name and name[1] == _here() and not _lives(int(name[2])):
+            with contextlib.suppress(OSError):
+                path.unlink()
+
+
+def _lives(process: int) -> bool:
+    if os.name != "posix":
+        return True  # there, asking ends the process
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        pass
+    return True
 
 
 def _flush_folder(folder: Path) -> None:
@@ -130,6 +271,8 @@ def read_dataset(path: str | os.PathLike[str]) -> "xarray.Dataset":
 def output_folder(path: str | os.PathLike[str]) -> Path:
     """Return a folder that exists and can be written to, created where needed.
 
+    What killed runs left half written in it is removed.
+
     Raises
     ------
     StorageError
@@ -140,6 +283,7 @@ def output_folder(path: str | os.PathLike[str]) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
+        remove_leftovers(folder)
     except OSError as error:
         raise StorageError(
             f"{path} cannot be used as output folder: {_reason(error)}; choose another"

@@ -14,7 +14,7 @@ import typing
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from asperity.errors import InputError
+from asperity.errors import InputError, shown
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, GetCoreSchemaHandler, ValidationInfo
@@ -118,12 +118,12 @@ def _convert(number: str, given: str, unit: str) -> float:
 def _from_text(text: str, unit: str, bare: str | None) -> float:
     parts = split_unit(text)
     if parts is None:
-        raise InputError(f"{text!r} is not a number{' with a unit' if unit else ''}")
+        raise InputError(f"{shown(text)} is not a number{' with a unit' if unit else ''}")
     number, given = parts
     if given or not unit:
         return _convert(number, given, unit) if given else float(number)
     if bare is None or bare == "refuse":
-        raise InputError(f"{text!r} has no unit; give one that converts to {unit}")
+        raise InputError(f"{shown(text)} has no unit; give one that converts to {unit}")
     return _convert(number, bare, unit)
 
 
@@ -154,20 +154,20 @@ def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
     3.141592653589793
     """
     if isinstance(value, bool) or not isinstance(value, str | numbers.Real):
-        raise InputError(f"{value!r} is not a number{' with a unit' if unit else ''}")
+        raise InputError(f"{shown(value)} is not a number{' with a unit' if unit else ''}")
     if isinstance(value, str):
         result = _from_text(value, unit, bare)
     else:
         try:
             result = float(value)
         except OverflowError:
-            raise InputError(f"{str(value)[:20]}... is too large") from None
+            raise InputError(f"{shown(value)} is too large") from None
         if unit and bare == "refuse":
-            raise InputError(f"{value!r} has no unit; give one that converts to {unit}")
+            raise InputError(f"{shown(value)} has no unit; give one that converts to {unit}")
         if unit and bare is not None and math.isfinite(result):
             result = _from_text(repr(result), unit, bare)
     if not math.isfinite(result):
-        raise InputError(f"{value!r} is not finite")
+        raise InputError(f"{shown(value)} is not finite")
     # Without the sign of a negative zero, equal cases have equal text and so equal cache entries.
     return result + 0.0
 

@@ -18,6 +18,7 @@ sampled    periodic cubic spline through     the spline's
 
 import csv
 import functools
+import io
 import math
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
@@ -26,9 +27,10 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import model_validator
 
+from asperity import store
 from asperity.casefile import Table
 from asperity.compiled import kernel
-from asperity.errors import InputError
+from asperity.errors import InputError, shown
 from asperity.units import Quantity
 
 SINE = 0
@@ -315,13 +317,11 @@ def _steps_to_follow(velocity: FloatArray) -> float:
 
 def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
     name = f"vibration.samples: {path}"
+    lines = io.StringIO(store.read_text(path, name), newline="")
     try:
-        # Spreadsheets put a byte order mark in front of the first number.
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise InputError(f"{name} cannot be read: {reason}") from None
+        rows = [row for row in csv.reader(lines) if row and not row[0].startswith("#")]
+    except csv.Error as error:
+        raise InputError(f"{name} cannot be read: {error}") from None
     pairs: list[tuple[float, float]] = []
     for number, row in enumerate(rows, start=1):
         try:
@@ -330,11 +330,11 @@ def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
             if number == 1 and len(row) >= 2 and not any(map(_is_number, row[:2])):
                 continue
             raise InputError(
-                f"{name}: row {number} is {','.join(row)!r}; it must hold two numbers: time in s, "
-                "displacement in m"
+                f"{name}: row {number} is {shown(','.join(row))}; it must hold two numbers: time "
+                "in s, displacement in m"
             ) from None
         if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
-            raise InputError(f"{name}: row {number} is {','.join(row)!r}; fill the gap")
+            raise InputError(f"{name}: row {number} is {shown(','.join(row))}; fill the gap")
         pairs.append(pair)
     if len(pairs) < 8:
         raise InputError(f"{name} holds {len(pairs)} samples; a period needs at least 8")

@@ -159,7 +159,7 @@ HEAD = 'source = "own"\nconfidence = "one source"\n'
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("x = [", "own.toml is not TOML"),
+        ("x = [", "own.toml: not valid TOML"),
         (
             "[friktion]\n" + HEAD,
             r"\[friktion\] is not a table of BS 721 \(did you mean 'friction'\?\)",

@@ -1,5 +1,6 @@
 import json
 import math
+import os
 import pickle
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -7,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 import pydantic
 import pytest
 
-from asperity.casefile import Table, describe, read_case, shipped_cases
+from asperity.casefile import Table, describe, read_case, shipped_cases, told
 from asperity.errors import InputError
 from asperity.units import Quantity
 
@@ -159,12 +160,25 @@ def test_a_missing_table_is_named_with_its_file(case_file):
         (b"[body]\nspeed", "at line 2"),
         (b"[body]\n# \xff", "byte 9 is not UTF-8; save it as UTF-8"),
         (b"[body]\nspeed = " + b"[" * 10000, "values are nested too deeply"),
+        (b"[body]\ncycles = " + b"9" * 4301, "a whole number of more digits than can be read"),
+        (
+            b"[body]\nmass = 0x" + b"f" * 4301,
+            "of very many digits; it is too large",
+        ),
+        (b"[body]\n" + b"a." * 30000 + b"b = 1", "a key of more than 16 parts (at line 2)"),
+        (b"[" + b"a." * 30000 + b"b]", "a key of more than 16 parts (at line 1)"),
+        (b"x = {y=1, " + b"'a'.\"b\" ." * 9 + b"b = 1}", "a key of more than 16 parts"),
+        (b"#" * 1_000_001, "cannot be read: it is larger than 1 MB"),
+        (b'[body]\nlaw = "a\\u0000b"', "it must be one line without control characters"),
+        (b'[body]\nlaw = "a\\u001b[2J"', "it must be one line without control characters"),
+        (b'[body]\nlaw = "a\\nb"', "it must be one line without control characters"),
+        (b'[body]\nlaw = [{x = ["a\\u202eb"]}]', "it must be one line without control characters"),
     ],
 )
 def test_a_bad_file_is_refused_in_one_line_that_names_it(case_file, content, message):
     case_file.write_bytes(content)
     refused = refusal(read_case, case_file, TABLES)
-    assert refused.startswith("wear.toml: ")
+    assert refused.startswith("wear.toml")
     assert message in refused
 
 
@@ -173,8 +187,8 @@ def test_a_bad_file_is_refused_in_one_line_that_names_it(case_file, content, mes
     [
         ("nothing.toml", "nothing.toml is neither a file nor a case that ships"),
         ("tabel-4.3", "did you mean 'table-4.3'?"),
-        (".", ". is a folder; give a case file"),
-        ("", "'' is a folder; give a case file"),
+        (".", ". cannot be read: it is a folder; give a file"),
+        ("", "'' cannot be read: it is a folder; give a file"),
         ("wear.toml/x", "cannot be read: not a directory"),
         ("a" * 300, "cannot be read: file name too long"),
         ("\0", "cannot be read"),
@@ -182,6 +196,49 @@ def test_a_bad_file_is_refused_in_one_line_that_names_it(case_file, content, mes
 )
 def test_what_is_no_file_is_refused_in_one_line(case_file, name, message):
     assert message in refusal(read_case, name, TABLES)
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="there is no endless device")
+def test_what_never_ends_is_not_read(case_file):
+    case_file.unlink()
+    os.mkfifo(case_file)
+    for name in ("/dev/zero", "wear.toml"):
+        assert refusal(read_case, name, TABLES) == (
+            f"{name} cannot be read: it is a device or a pipe; save what it holds to a file"
+        )
+
+
+def test_a_file_name_is_shown_so_that_nothing_obeys_it(case_file):
+    odd = os.fsdecode(b"a\n*INCLUDE \x1b[2J\xff.toml")
+    case_file.rename(odd)
+    assert read_case(odd, TABLES).source == r"a\n*INCLUDE \x1b[2J\udcff.toml"
+    assert r"b\n.toml is neither" in refusal(read_case, "b\n.toml", TABLES)
+
+
+def test_settings_that_no_value_may_be_are_refused(case_file):
+    huge = "9" * 4301
+    for setting in (
+        "body.law=a\0b",
+        "body.law=\x1b",
+        f"body.cycles={huge}",
+        f"body.speed=0x{huge}",
+    ):
+        refusal(read_case, case_file, TABLES, [setting])
+
+
+def test_what_a_model_refuses_names_the_file_or_the_setting(case_file):
+    case = read_case(case_file, TABLES, ["body.speed=2 mm/s"])
+
+    def model(text):
+        with told(case), told(case):
+            raise InputError(text)
+
+    assert refusal(model, "body.speed is too high") == (
+        "--set body.speed=2 mm/s: body.speed is too high"
+    )
+    assert refusal(model, "body.law is wrong") == "wear.toml: body.law is wrong"
+    assert refusal(model, "the body tips over") == "wear.toml: the body tips over"
+    assert refusal(case.require, "x") == "wear.toml: the table [x] is missing; add it"
 
 
 @pytest.mark.parametrize(

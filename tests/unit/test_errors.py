@@ -8,7 +8,10 @@ from asperity.errors import (
     InputError,
     MissingExtraError,
     StorageError,
+    is_plain,
     nearest,
+    plain,
+    shown,
     suggestion,
 )
 
@@ -44,3 +47,25 @@ def test_a_near_word_is_suggested_and_otherwise_all_are_listed():
     assert nearest("xyz", known) == " (allowed: 'split', 'unsplit', 'vector')"
     assert nearest("xyz", []) == ""
     assert suggestion("xyz", known) == ""
+
+
+def test_a_plain_text_is_the_same_and_any_other_can_do_nothing():
+    for text in ("CuSn12-C-GZ", "\u03bc = 0.1 \u00b0C", "\u65e5\u672c", "non\u00a0breaking", ""):
+        assert is_plain(text)
+        assert plain(text) == text
+    for text, escaped in {
+        "a\x1b[2J": r"a\x1b[2J",
+        "a\r\nb\0": r"a\r\nb\x00",
+        "\u202egpj": r"\u202egpj",
+        "\x85\u2028": r"\x85\u2028",
+        "\udcff": r"\udcff",
+    }.items():
+        assert not is_plain(text)
+        assert plain(text) == escaped
+    assert plain("a\nb\x1b", keep="\n") == "a\nb\\x1b"
+
+
+def test_a_value_is_shown_short_whatever_it_is():
+    assert shown("x") == "'x'"
+    assert len(shown("x" * 10**6)) == 60
+    assert shown(1 << 100000) == "a whole number of very many digits"

@@ -112,12 +112,15 @@ def test_a_changed_file_is_read_again(own_file):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[wheel", "is not a data file"),
+        ("[wheel", "own.toml: not valid TOML"),
         ("[wheels.x]", r"own.toml: \[wheels\] is not a table .*did you mean 'wheel'"),
         ("wheel = 3", r"\[wheel\] must hold tables with names"),
         ("[wheel]\nyoungs_modulus = 3", r"\[wheel\] must hold tables with names"),
         ('[wheel.x]\nfrom = "maker"', r'\[wheel."x"\]: from is \'maker\'; it must be a table'),
         ('[wheel.x]\nfrom = { "*" = "maker" }', r"from.\* is 'maker'"),
+        ('[wheel.x]\nfrom = { "*" = ["maker"] }', r"from.\* is \['maker'\]"),
+        ('[source.x]\nname = "a\\u001b"\nconfidence = "verified"', "must be one line of text"),
+        ("[source.x]\nname = 5\nconfidence = 'verified'", "must be one line of text"),
         ("[source.x]\nnam = 'a'", r"\[source.x\] must have name, confidence"),
         ("[source.x]\nname = 'a'\nconfidence = 'sure'", r"\[source.x\]: confidence is 'sure'"),
         ("[wheel.x]\nfamily = 'tin bronze'", r'own.toml: \[wheel."x"\]: .*youngs_modulus is miss'),

@@ -171,3 +171,33 @@ def test_an_output_folder_that_is_a_file_or_below_one_is_refused(tmp_path):
     (tmp_path / "file").touch()
     for path in (tmp_path / "file", tmp_path / "file" / "out"):
         assert refusal(output_folder, path).startswith(f"{path} cannot be used as output folder: ")
+
+
+def test_the_next_run_removes_what_a_killed_one_left_and_nothing_else(tmp_path):
+    code = """
+import os, sys
+from pathlib import Path
+from asperity.store import write_atomically
+def half(path):
+    path.write_text("half")
+    os.kill(os.getpid(), 9)
+write_atomically(Path(sys.argv[1]) / "sweep.png", half)
+"""
+    subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=False)
+    (left,) = tmp_path.iterdir()
+    assert left.name.startswith(".sweep.asperity-")
+    assert left.suffix == ".png"
+    here, process = left.name.split("-")[1:3]
+    others = [
+        left.with_name(name)
+        for name in (
+            left.name.replace(here, "0" * 8),
+            left.name.replace(f"-{process}-", f"-{os.getpid()}-"),
+            ".sweep-0123456789ab.png",
+            f".mine.asperity-{here}-{process}.png",
+        )
+    ]
+    for other in others:
+        other.touch()
+    output_folder(tmp_path)
+    assert set(tmp_path.iterdir()) == set(others)

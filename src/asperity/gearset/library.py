@@ -21,13 +21,13 @@ separator of ``PATH``), or given as ``files``. The last file that has a name win
 
 import functools
 import os
-import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
+from asperity import store
 from asperity.casefile import Table
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, nearest, shown
 from asperity.sources import Source
 
 VARIABLE = "ASPERITY_MATERIALS"
@@ -150,10 +150,7 @@ def _library(stamps: _Stamps) -> _Library:
 
 def _read(path: Path) -> dict[tuple[str, str], _Entry]:
     file = path.name
-    try:
-        raw = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError(f"{path} is not a data file: {' '.join(str(error).split())}") from None
+    raw = store.read_toml(path)
     sources = _sources(file, raw.pop("source", {}))
     entries: dict[tuple[str, str], _Entry] = {}
     for section, things in raw.items():
@@ -193,8 +190,9 @@ def _assign(
     if not isinstance(given, dict):
         raise InputError(f"{where}: from is {given!r}; it must be a table of keys and sources")
     for key, source in given.items():
-        if source not in sources:
-            raise InputError(f"{where}: from.{key} is {source!r}{nearest(str(source), sources)}")
+        if not isinstance(source, str) or source not in sources:
+            near = nearest(source, sources) if isinstance(source, str) else ""
+            raise InputError(f"{where}: from.{key} is {shown(source)}{near}")
     rest = sources[given["*"]] if "*" in given else GIVEN
     return {
         key: sources[given[key]] if key in given else rest

@@ -7,11 +7,11 @@ be read from it: it is trusted no more than the least of those.
 import functools
 import math
 import re
-import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from asperity import store
 from asperity.gearset.library import GIVEN
 from asperity.rating.result import Entry
 from asperity.sources import Source, weakest
@@ -72,7 +72,7 @@ def starts_from(section: str) -> tuple[str, ...]:
 
 @functools.cache
 def _read() -> dict[str, Any]:
-    return tomllib.loads(_FILE.read_text("utf-8"))
+    return store.read_toml(_FILE)
 
 
 def words(equation: str) -> tuple[str, ...]:

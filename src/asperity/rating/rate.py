@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asperity.casefile import Case
+from asperity.casefile import Case, told
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
@@ -174,11 +174,8 @@ def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     """Rate the worm gearset of a case file; as `rate`."""
     options = case.require(RatingOptions) if RatingOptions.table in case else None
     gearset, operation = case.require(Gearset), case.require(Operation)
-    try:
+    with told(case):
         return rate(gearset, operation, options, standards, folder=case.folder)
-    except InputError as error:
-        error.args = (f"{case.source}: {error}", *error.args[1:])
-        raise
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> bs721.Tables:

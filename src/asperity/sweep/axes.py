@@ -3,12 +3,12 @@
 import dataclasses
 import math
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from pathlib import Path
 from typing import NoReturn
 
+from asperity import store
 from asperity.casefile import Case, Table, bare_unit, names_file, read_case, same_thing
 from asperity.errors import InputError, choices, nearest
 from asperity.slider.tables import TABLES as SWEPT
@@ -224,8 +224,8 @@ def _words(written: _Written) -> Axis:
     values = []
     for part in written.parts:
         try:
-            value = tomllib.loads(f"value = {part}")["value"]
-        except tomllib.TOMLDecodeError:
+            value = store.parse_toml(f"value = {part}")["value"]
+        except ValueError:
             value = part
         if isinstance(value, bool) or not isinstance(value, str | int | float):
             written.refuse(f"{written.path} is {part}; it must be words or numbers")

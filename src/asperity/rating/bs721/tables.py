@@ -4,7 +4,6 @@ import dataclasses
 import functools
 import math
 import os
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from asperity import store
 from asperity.errors import InputError, nearest
 from asperity.rating.formula import Argument, FloatArray
 from asperity.sources import Source, weakest
@@ -229,10 +229,7 @@ def _read(path: Path | None, stamp: int) -> Tables:
 
 
 def _parse(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError(f"{path.name} is not TOML: {' '.join(str(error).split())}") from None
+    return store.read_toml(path, path.name)
 
 
 def _build(name: str, table: Any) -> Any:

@@ -2,12 +2,12 @@
 
 import dataclasses
 import functools
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, get_args
 
+from asperity import store
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.materials import BaseOilName, Family
 from asperity.sources import Source
@@ -76,8 +76,7 @@ class WearConstants:
 
 @functools.cache
 def _tables() -> dict[str, Any]:
-    path = Path(__file__).parents[1] / "data" / "iso14521.toml"
-    return tomllib.loads(path.read_text("utf-8"))
+    return store.read_toml(Path(__file__).parents[1] / "data" / "iso14521.toml")
 
 
 def _row(table: str, family: str, lubrication: str, base_oil: str) -> dict[str, Any]:

@@ -2,15 +2,15 @@
 
 import functools
 import os
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, SkipValidation
 
+from asperity import store
 from asperity.casefile import Table
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, shown, suggestion
 from asperity.gearset.materials import BaseOilName
 from asperity.sources import Source
 from asperity.units import Quantity
@@ -77,12 +77,7 @@ def _shipped() -> tuple[Method, ...]:
 
 
 def _read(path: Path) -> tuple[Method, ...]:
-    try:
-        raw = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError(
-            f"{path} is not a file of methods: {' '.join(str(error).split())}"
-        ) from None
+    raw = store.read_toml(path)
     sources = {}
     for key, values in raw.get("source", {}).items():
         try:
@@ -97,9 +92,9 @@ def _read(path: Path) -> tuple[Method, ...]:
 def _method(file: str, key: str, values: Any, sources: Mapping[str, Source]) -> Method:
     given = dict(values)
     name = given.pop("from", None)
-    if name not in sources:
+    if not isinstance(name, str) or name not in sources:
         raise InputError(
-            f"{file}: [method.{key}]: from is {name!r}; it must be one of {choices(sources)}"
+            f"{file}: [method.{key}]: from is {shown(name)}; it must be one of {choices(sources)}"
             f"{suggestion(str(name), sources)}"
         )
     try:
