@@ -52,7 +52,7 @@ axes.legend(frameon=False)
 front = problem.surface.points[..., 0].ravel() > 0.0
 pressure = block.point_pressure
 print(pressure[front].mean() / pressure[~front].mean())
-block.plot_pressure()
+block.plot("block_pressure")
 
 loads = problem.surface.weights.ravel() * pressure
 assert np.isclose(loads.sum(), 55.0, rtol=1e-4)

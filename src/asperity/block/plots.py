@@ -7,16 +7,16 @@ import numpy as np
 from asperity.results.figures import panels
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.collections import Collection
     from matplotlib.contour import ContourSet
     from matplotlib.figure import Figure
 
-    from asperity.block.result import BlockResult
 
 _LEVELS = 24
 
 
-def plot_pressure(result: "BlockResult") -> "Figure":
+def plot_pressure(dataset: "xr.Dataset") -> "Figure":
     """Draw the mean pressure in the window over the block's face, seen from below.
 
     Each face of an element is drawn as the triangles between its nodes, the pressure as what the
@@ -24,14 +24,13 @@ def plot_pressure(result: "BlockResult") -> "Figure":
     """
     from matplotlib.tri import Triangulation
 
-    surface = result.problem.surface
-    x, y = 1e3 * surface.positions[:, 0], 1e3 * surface.positions[:, 1]
-    pressure = 1e-3 * result.nodal_pressure
+    x, y = 1e3 * dataset["node_x"].values, 1e3 * dataset["node_y"].values
+    pressure = 1e-3 * dataset["pressure"].values
     # The face fills the room beside the bar, whatever its shape, and leaves some for the title.
     aspect = float(np.ptp(x) / np.ptp(y))
     width = min(max(5.0, 2.1 + 4.0 * aspect), 9.0)
     figure, (axes,) = panels(width=width, height=min(max(2.6, 1.2 + (width - 2.1) / aspect), 5.0))
-    triangles = Triangulation(x, y, face_triangles(surface.faces))
+    triangles = Triangulation(x, y, face_triangles(dataset["faces"].values))
     spread = float(np.ptp(pressure))
     if spread > 1e-6 * float(np.abs(pressure).max()):
         drawn: ContourSet | Collection = axes.tricontourf(
@@ -45,8 +44,9 @@ def plot_pressure(result: "BlockResult") -> "Figure":
     axes.grid(visible=False)
     axes.set_xlabel("along the drive, x (mm)")
     axes.set_ylabel("across, y (mm)")
-    mean = 1e-3 * result.mean_pressure
-    peak = 1e-3 * result.peak_pressure
+    length, width, _ = dataset.attrs["block.size"]
+    mean = 1e-3 * float(dataset["normal_force"]) / (length * width)
+    peak = 1e-3 * float(dataset["peak_pressure"])
     figure.suptitle(
         f"Contact pressure, mean {mean:.3g} kPa;\ngreatest at an integration point {peak:.3g} kPa",
         fontsize="medium",

@@ -14,10 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity.block.dataset import inputs
 from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
-from asperity.block.result import Frame
+from asperity.block.result import Frame, inputs
 from asperity.contact.increment.memory import (
     inverses_as_arrays,
     restore_inverses,

@@ -1,16 +1,15 @@
 """The power ledger of a time integration, and what becomes of one that does not close."""
 
-import dataclasses
 from collections.abc import Mapping
 
 from asperity.errors import ConvergenceError
+from asperity.results.quantity import Quantities, quantity
 
 NOTED = 1e-3
 REFUSED = 1e-2
 
 
-@dataclasses.dataclass(frozen=True)
-class PowerLedger:
+class PowerLedger(Quantities):
     """Mean powers over the window, W: drive + vibration = friction + damping + stored.
 
     Attributes
@@ -30,12 +29,14 @@ class PowerLedger:
         reach the contact. It does no work in this model and stands outside the balance.
     """
 
-    drive: float
-    vibration: float
-    friction: float
-    damping: float
-    stored: float
-    untransferred: float
+    drive: float = quantity("P_d", "W", "power of the drive")
+    vibration: float = quantity("P_v", "W", "power of the vibration")
+    friction: float = quantity("P_f", "W", "power lost to friction")
+    damping: float = quantity("P_h", "W", "power lost to damping")
+    stored: float = quantity("P_s", "W", "rate of change of stored energy")
+    untransferred: float = quantity(
+        "P_u", "W", "power friction would take from the untransferred vibration"
+    )
 
     @property
     def residual(self) -> float:

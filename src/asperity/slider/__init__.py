@@ -1,8 +1,7 @@
 """A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms.
 
 >>> from asperity.friction import Friction
->>> from asperity.results.ledger import PowerLedger
-from asperity.slider import Model, Slider, solve
+>>> from asperity.slider import Model, Slider, solve
 >>> from asperity.vibration import Vibration
 >>> body = Slider(drive_velocity="0.5 mm/s", normal_force="55 N")
 >>> contact = Friction(mu=0.1, max_deflection="68.75 nm")
@@ -11,6 +10,7 @@ from asperity.slider import Model, Slider, solve
 0.159
 """
 
+from asperity.results.ledger import PowerLedger
 from asperity.slider.batch import solve_many
 from asperity.slider.homogenised import HomogenisedLaw, homogenise
 from asperity.slider.march import Stopped

@@ -282,7 +282,7 @@ def _result(
         substeps=model.substeps,
         notes=(_what_it_is(model, law), *law.notes),
     )
-    numbers = [value for value in answer.to_json().values() if isinstance(value, float)]
+    numbers = [entry.value for entry in answer.entries() if isinstance(entry.value, float)]
     if not np.all(np.isfinite(numbers)):
         raise ConvergenceError(
             "the march with the cycle-mean law left the finite numbers; solve.method 'march' shows "

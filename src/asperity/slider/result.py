@@ -1,36 +1,39 @@
-"""What a solved sliding body is: forces, motion, the power ledger; as JSON and as a dataset."""
+"""What a solved sliding body is: forces, motion, the power ledger."""
 
-import dataclasses
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 
+from asperity.casefile import Table
+from asperity.results import Quantities, Result, labelled, part, quantity
+from asperity.results.dataset import Labels
 from asperity.results.ledger import PowerLedger
 from asperity.slider.model import FloatArray, Model
 
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.figure import Figure
+_OVER_TIME, _VECTORS = ("time",), ("time", "axis")
+_ROUNDING = 1e-12
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class History:
+class History(Quantities):
     """Motion and forces over time; rows need not be equally spaced.
 
     ``position`` and ``velocity`` are the body's own, (n, 2); a vibration prescribed to the body
     comes on top. Velocities are those of the half step that follows.
     """
 
-    time: FloatArray
-    drive_force: FloatArray
-    friction: FloatArray
-    deflection: FloatArray
-    position: FloatArray
-    velocity: FloatArray
+    time: FloatArray = quantity("t", "s", "time", dims=_OVER_TIME, coordinate=True)
+    drive_force: FloatArray = quantity("F_d", "N", "drive force", dims=_OVER_TIME)
+    friction: FloatArray = quantity("F", "N", "friction force on the body", dims=_VECTORS)
+    deflection: FloatArray = quantity("s", "m", "deflection of the asperities", dims=_VECTORS)
+    position: FloatArray = quantity("x", "m", "position of the body", dims=_VECTORS)
+    velocity: FloatArray = quantity(
+        "v", "m/s", "velocity of the body, half a step later", dims=_VECTORS
+    )
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class SlideResult:
+class SlideResult(Result):
     r"""The answer for one sliding body.
 
     Attributes
@@ -65,76 +68,139 @@ class SlideResult:
         What a reader of the numbers should know.
     """
 
+    title: ClassVar[str] = "Sliding body"
+    stem: ClassVar[str] = "slide"
+    drawings: ClassVar[Mapping[str, str]] = {"slide": "asperity.slider.plots:plot_slide"}
+    labels: ClassVar[Labels] = {"axis": (("x", "y"), "direction: x along the drive, y across")}
+
     model: Model
-    ratio: float
-    drive_force: float
-    friction_mean: tuple[float, float]
-    friction_max: tuple[float, float]
-    friction_min: tuple[float, float]
-    breakaway_time: float | None
-    ledger: PowerLedger | None
-    residual: float
-    steps: int
-    cycles: int
-    seconds: float
-    substeps: int = 1
-    history: History | None = None
-    notes: tuple[str, ...] = ()
+    drive_force: float = quantity("F_dv", "N", "mean drive force", variable="mean_drive_force")
 
     @property
+    @labelled("F_ds", "N", "drive force without vibration, mu F_N")
     def static_drive_force(self) -> float:
         r"""Drive force without vibration, :math:`\mu F_N`, N."""
         return self.model.full_friction
 
-    def to_json(self) -> dict[str, Any]:
-        """Scalar results, each key with its unit."""
-        model = self.model
-        answer: dict[str, Any] = {
-            "ratio": self.ratio,
-            "drive_force_N": self.drive_force,
-            "static_drive_force_N": self.static_drive_force,
-            "breakaway_time_s": self.breakaway_time,
-            "friction_x_mean_N": self.friction_mean[0],
-            "friction_x_max_N": self.friction_max[0],
-            "friction_x_min_N": self.friction_min[0],
-            "friction_y_mean_N": self.friction_mean[1],
-            "friction_y_max_N": max(abs(self.friction_max[1]), abs(self.friction_min[1])),
-            "velocity_ratio": model.peak_velocity / model.slider.drive_velocity,
-        }
-        if self.ledger is not None:
-            answer |= {
-                "power_drive_W": self.ledger.drive,
-                "power_vibration_W": self.ledger.vibration,
-                "power_friction_W": self.ledger.friction,
-                "power_damping_W": self.ledger.damping,
-                "power_stored_W": self.ledger.stored,
-                "power_untransferred_W": self.ledger.untransferred,
-            }
-        answer |= {
-            "power_residual": self.ledger.residual if self.ledger is not None else None,
-            "residual": self.residual,
-            "method": model.solve.method,
-            "law": model.friction.law,
-            "scheme": model.solve.scheme,
-            "steps": self.steps,
-            "substeps": self.substeps,
-            "cycles": self.cycles,
-            "seconds": self.seconds,
-            "notes": list(self.notes),
-        }
-        return answer
+    ratio: float = quantity("F_dv/F_ds", "", "mean drive force over mu F_N")
+    breakaway_time: float | None = quantity("t_b", "s", "time of breakaway")
+    friction_mean: tuple[float, float] = quantity(
+        "F", "N", "mean friction force on the body", variable="mean_friction", dims=("axis",)
+    )
+    friction_max: tuple[float, float] = quantity(
+        "F_max", "N", "max friction force on the body", variable="max_friction", dims=("axis",)
+    )
+    friction_min: tuple[float, float] = quantity(
+        "F_min", "N", "min friction force on the body", variable="min_friction", dims=("axis",)
+    )
 
-    def to_dataset(self) -> "xr.Dataset":
-        """Scalars and, where there is one, the history as a labelled dataset in SI."""
-        from asperity.slider.dataset import to_dataset
+    @property
+    @labelled("F_x", "N", "mean friction along the drive", only="json")
+    def friction_x_mean(self) -> float:
+        """Mean friction along the drive, N."""
+        return self.friction_mean[0]
 
-        return to_dataset(self)
+    @property
+    @labelled("F_x,max", "N", "greatest friction along the drive", only="json")
+    def friction_x_max(self) -> float:
+        """Greatest friction along the drive, N."""
+        return self.friction_max[0]
 
-    def plot(self) -> "Figure":
-        """Drive force over time and friction over the last cycles."""
-        from asperity.slider.plots import plot_result
+    @property
+    @labelled("F_x,min", "N", "least friction along the drive", only="json")
+    def friction_x_min(self) -> float:
+        """Least friction along the drive, N."""
+        return self.friction_min[0]
 
-        return plot_result(self)
+    @property
+    @labelled("F_y", "N", "mean friction across", only="json", shown=False)
+    def friction_y_mean(self) -> float:
+        """Mean friction across the drive, N."""
+        return self.friction_mean[1]
+
+    @property
+    @labelled("|F_y|,max", "N", "greatest size of friction across", only="json")
+    def friction_y_max(self) -> float:
+        """Greatest size of friction across the drive, N."""
+        return max(abs(self.friction_max[1]), abs(self.friction_min[1]))
+
+    @property
+    @labelled(
+        "k", "", "peak velocity of the vibration over that of the drive",
+        only="json", shown=False, swept=False,
+    )  # fmt: skip
+    def velocity_ratio(self) -> float:
+        """Peak velocity of the vibration over that of the drive."""
+        return self.model.peak_velocity / self.model.slider.drive_velocity
+
+    ledger: PowerLedger | None = part(PowerLedger, "power_")
+
+    @property
+    @labelled("", "", "error of the power balance")
+    def power_residual(self) -> float | None:
+        """What is missing from the power balance, over the power of the drive."""
+        return None if self.ledger is None else self.ledger.residual
+
+    residual: float = quantity("", "", "residual of the method")
+
+    @property
+    @labelled("", "", "method", only="json", shown=False)
+    def method(self) -> str:
+        """How it was solved."""
+        return self.model.solve.method
+
+    @property
+    @labelled("", "", "friction law in the plane", only="json", shown=False)
+    def law(self) -> str:
+        """Friction law in the plane."""
+        return self.model.friction.law
+
+    @property
+    @labelled("", "", "scheme of the march", only="json", shown=False)
+    def scheme(self) -> str:
+        """Scheme of the march."""
+        return self.model.solve.scheme
+
+    steps: int = quantity("", "", "time steps", shown=False)
+    cycles: int = quantity("", "", "whole cycles of the vibration", shown=False)
+    substeps: int = quantity("", "", "parts of each step", only="json", shown=False, default=1)
+    seconds: float = quantity(
+        "", "s", "time it took", key="seconds", only="json", shown=False, swept=False
+    )
+    history: History | None = part(History, default=None)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """The values of the model's tables in SI, by ``table.key``."""
+        return inputs(self.model)
+
+    def resolution(self, name: str) -> float:
+        """Return the size below which a power or force is rounding."""
+        if not name.startswith(("power_", "friction_", "drive_")) or name == "power_residual":
+            return 0.0
+        force = self.model.full_friction
+        unit = self.model.slider.drive_velocity if name.startswith("power_") else 1.0
+        return _ROUNDING * force * unit
+
+    def heading(self) -> str:
+        """Return how it was solved."""
+        return f"{self.method}, {self.scheme}, law {self.law}, {self.steps} steps"
+
+
+def inputs(model: Model) -> dict[str, Any]:
+    """Return the values of a model's tables as plain numbers in SI and texts, by ``table.key``."""
+    return table_inputs(model.slider, model.friction, model.vibration, model.solve)
+
+
+def table_inputs(*tables: Table | None) -> dict[str, Any]:
+    """Return the values of tables as plain numbers in SI and texts, by ``table.key``."""
+    return {
+        f"{table.table}.{key}": str(value) if isinstance(value, Path) else value
+        for table in tables
+        if table is not None
+        for key, value in table
+        if value is not None
+    }
 
 
 def mean_pair(x: float, y: float, force: float) -> tuple[float, float]:

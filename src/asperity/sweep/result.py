@@ -89,7 +89,7 @@ class SweepResult:
             variable.name: (
                 self.dims,
                 self.arrays[variable.name],
-                {"units": variable.units, "long_name": variable.long_name},
+                {"units": variable.label.unit or "1", "long_name": variable.label.meaning},
             )
             for variable in VARIABLES
         }

@@ -9,7 +9,7 @@ import numpy as np
 
 from asperity.casefile import Case
 from asperity.errors import InputError
-from asperity.slider.dataset import inputs
+from asperity.slider.result import inputs
 from asperity.sweep.axes import Axis, parse_axes
 from asperity.sweep.cache import Cache, Row
 from asperity.sweep.grid import Grid, Point

@@ -1,6 +1,5 @@
 """What is solved at a time, here or on a worker, and what is kept of each point."""
 
-import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
 
@@ -19,54 +18,7 @@ FAILED = "failed"
 REFUSED = "refused"
 
 
-@dataclasses.dataclass(frozen=True)
-class Variable:
-    """A scalar of a result that a sweep keeps.
-
-    Attributes
-    ----------
-    name : str
-        In the dataset.
-    key : str
-        In :meth:`asperity.slider.result.SlideResult.to_json`.
-    units, long_name : str
-        As written in the dataset.
-    """
-
-    name: str
-    key: str
-    units: str
-    long_name: str
-
-
-VARIABLES = (
-    Variable("ratio", "ratio", "1", "mean drive force over mu F_N"),
-    Variable("drive_force", "drive_force_N", "N", "mean drive force"),
-    Variable(
-        "static_drive_force", "static_drive_force_N", "N", "drive force without vibration, mu F_N"
-    ),
-    Variable(
-        "breakaway_time", "breakaway_time_s", "s", "time of breakaway; NaN where there is none"
-    ),
-    Variable("friction_x_mean", "friction_x_mean_N", "N", "mean friction along the drive"),
-    Variable("friction_x_max", "friction_x_max_N", "N", "greatest friction along the drive"),
-    Variable("friction_x_min", "friction_x_min_N", "N", "least friction along the drive"),
-    Variable("friction_y_mean", "friction_y_mean_N", "N", "mean friction across the drive"),
-    Variable("friction_y_max", "friction_y_max_N", "N", "greatest size of friction across"),
-    Variable("power_drive", "power_drive_W", "W", "power of the drive"),
-    Variable("power_vibration", "power_vibration_W", "W", "power of the vibration"),
-    Variable("power_friction", "power_friction_W", "W", "power lost to friction"),
-    Variable("power_damping", "power_damping_W", "W", "power lost in the drive's damper"),
-    Variable("power_stored", "power_stored_W", "W", "rate of change of stored energy"),
-    Variable(
-        "power_untransferred", "power_untransferred_W", "W",
-        "power friction would take from the untransferred vibration",
-    ),
-    Variable(
-        "power_residual", "power_residual", "1", "missing power over that of the drive"
-    ),
-    Variable("residual", "residual", "1", "residual of the method"),
-)  # fmt: skip
+VARIABLES = SlideResult.numbers()
 
 
 def task_size(model: Model) -> int:

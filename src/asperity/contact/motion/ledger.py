@@ -25,6 +25,7 @@ from asperity.contact.interface.normal import HARD, TWO_STAGE, pressure
 from asperity.contact.motion import hht
 from asperity.contact.motion import mechanism as mo
 from asperity.results.ledger import PowerLedger
+from asperity.results.quantity import quantity
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -350,7 +351,6 @@ def body_energies(
     return float(kinetic), float(elastic), float(spring)
 
 
-@dataclasses.dataclass(frozen=True)
 class ContactLedger(PowerLedger):
     """Mean powers over the window, W, with what an implicit motion under loads adds.
 
@@ -367,9 +367,12 @@ class ContactLedger(PowerLedger):
         does not see; only where the body is vibrated with eta_y below 1.
     """
 
-    loads: float = 0.0
-    numerical: float = 0.0
-    transfer: float = 0.0
+    loads: float = quantity("P_g", "W", "power of gravity and pressure", default=0.0)
+    numerical: float = quantity("P_n", "W", "power dissipated by the time integration", default=0.0)
+    transfer: float = quantity(
+        "P_t", "W", "power friction takes from lateral motion the contact does not see",
+        default=0.0,
+    )  # fmt: skip
 
     @property
     def residual(self) -> float:
