@@ -23,7 +23,7 @@ from _common import best, finish, on_one_core
 from asperity.block.deck import BlockSetup, calculix_files
 from asperity.block.problem import STANDARD_GRAVITY, BlockProblem
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.elastic import Pressure, Traction, cache, condense, elastic_body
 from asperity.contact.elastic.solver import installed_solver
 from asperity.contact.motion.rest import rest_under_load
@@ -61,7 +61,7 @@ LEAST = {f"largest_{name}": value for name, value in RATIO.items()}
 def problem_of(mesh, march):
     case, modes, settings = MARCHES[march]
     settings = (*settings, *MESHES[mesh], f"block.modes={modes}")
-    return BlockProblem.from_case(read_case(case, TABLES, settings))
+    return BlockProblem.from_case(read_case(case, case_tables(), settings))
 
 
 def condensing(figures, mesh):
@@ -153,7 +153,7 @@ def uncondensed(figures, mesh):
 
 def calculix(figures, mesh):
     """Milliseconds an increment of CalculiX, pressed down and pulled."""
-    case = read_case("block-longitudinal", TABLES, (*SHAKEN, *MESHES[mesh]))
+    case = read_case("block-longitudinal", case_tables(), (*SHAKEN, *MESHES[mesh]))
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "block.inp").write_text(
             calculix_files(BlockSetup.from_case(case))["block.inp"]

@@ -13,7 +13,7 @@ import pytest
 from asperity.block.deck import BlockSetup, calculix_files
 from asperity.block.deck.calculix import overclosure, stick_slope
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.motion.rest import rest_under_load
 
 FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
@@ -23,7 +23,7 @@ class Run:
     """What CalculiX says of a case."""
 
     def __init__(self, folder, *settings, steps=2):
-        self.setup = BlockSetup.from_case(read_case("block-longitudinal", TABLES, settings))
+        self.setup = BlockSetup.from_case(read_case("block-longitudinal", case_tables(), settings))
         parts = re.split(r"(?<=\*END STEP)\n", calculix_files(self.setup)["block.inp"])
         (folder / "block.inp").write_text("\n".join([*parts[:steps], ""]))
         done = subprocess.run(

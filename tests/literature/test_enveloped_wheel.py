@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.flanks.parameters import Hob
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.distance import distances
@@ -29,7 +29,7 @@ SIDES = pytest.mark.parametrize("side", [1, -1])
 
 
 def _wheel(hob=IDENTICAL, flank="ZI"):
-    case = read_case("gearset-3b", TABLES, (f"gearset.flank={flank}",))
+    case = read_case("gearset-3b", case_tables(), (f"gearset.flank={flank}",))
     return Wheel.cut(Pair.of(case.require(Gearset), hob))
 
 
@@ -139,7 +139,7 @@ def test_mid_plane_section_of_an_archimedean_wheel_is_an_involute():
 @pytest.mark.parametrize("teeth", [17, 20, 25, 30, 31, 32, 33, 34, 40])
 def test_undercut_in_the_mid_plane_starts_where_it_does_for_a_rack(teeth):
     # A rack whose straight flank goes h below the pitch line undercuts when h > r sin(alpha)^2.
-    given = read_case("gearset-3b", TABLES, ()).require(Gearset)
+    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     gearset = Gearset(
         starts=1,
         wheel_teeth=teeth,
@@ -162,7 +162,7 @@ def test_undercut_in_the_mid_plane_starts_where_it_does_for_a_rack(teeth):
 
 @pytest.mark.parametrize("teeth", [17, 20])
 def test_wheels_of_few_teeth_and_14_5_degrees_are_flagged(teeth):
-    given = read_case("gearset-3b", TABLES, ()).require(Gearset)
+    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     gearset = Gearset(
         starts=1,
         wheel_teeth=teeth,

@@ -14,7 +14,7 @@ import pytest
 
 from asperity.block.deck import fric_subroutine
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.interface.friction_point import PointFriction, share_and_tangent
 from asperity.friction import update
 from asperity.slider.march import march
@@ -120,7 +120,7 @@ class Compiled:
 @pytest.fixture(scope="module")
 def build(tmp_path_factory):
     def make(*settings, **options):
-        model = Model.from_case(read_case("block-transverse", TABLES, settings))
+        model = Model.from_case(read_case("block-transverse", case_tables(), settings))
         return model, Compiled(model, tmp_path_factory.mktemp("fric"), **options)
 
     return make
@@ -402,7 +402,7 @@ def test_disp_moves_the_base_as_the_case_says(build, wave):
 @pytest.mark.parametrize("law", ["split", "vector"])
 def test_a_body_solved_with_the_subroutine_slides_as_the_package_says(build, law):
     settings = [f"friction.law={law}", "vibration.direction=60 deg", "vibration.start=0.5 ms"]
-    case = read_case("block-transverse", TABLES, [*settings, "solve.duration=6.5 ms"])
+    case = read_case("block-transverse", case_tables(), [*settings, "solve.duration=6.5 ms"])
     # Driven along x, free across.
     case = case.replace_values({"slider.drive_stiffness": None, "slider.drive_damping": None})
     model = Model.from_case(case)

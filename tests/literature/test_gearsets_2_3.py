@@ -14,17 +14,17 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case, variants
 
 
 def rated(name, *settings):
-    return rate_case(read_case(name, TABLES, settings))
+    return rate_case(read_case(name, case_tables(), settings))
 
 
 def tables(name):
-    case = read_case(name, TABLES)
+    case = read_case(name, case_tables())
     return tuple(case.require(table) for table in (Gearset, Operation, RatingOptions))
 
 

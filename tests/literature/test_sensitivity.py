@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions
 from asperity.rating.studies import compare, optimise, sensitivity
@@ -20,7 +20,7 @@ LOWERS = ("gear_ratio", "diameter_factor", "axial_module", "worm_roughness")
 
 
 def gearset(name, *settings):
-    case = read_case(name, TABLES, settings)
+    case = read_case(name, case_tables(), settings)
     return case.require(Gearset), case.require(Operation), case.require(RatingOptions)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.flanks.meshing.analysis import analyse
 from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.meshing.kinematics import kinematics
@@ -40,12 +40,12 @@ TILTED = Hob(oversize=1.12, tilt=math.radians(2.0))
 OUT_OF_PLACE = Mount(
     centre_distance_error=0.05e-3, axial_offset=-0.05e-3, shaft_angle_error=math.radians(0.1)
 )
-CASE = read_case("gearset-3b", TABLES, ())
+CASE = read_case("gearset-3b", case_tables(), ())
 
 
 def pair_of(hob, mount=None, **changed):
     settings = [f"gearset.{key}={value}" for key, value in changed.items()]
-    gearset = read_case("gearset-3b", TABLES, settings).require(Gearset)
+    gearset = read_case("gearset-3b", case_tables(), settings).require(Gearset)
     return Pair.of(gearset, hob, mount)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.mesh import tooth as mesh
 from asperity.flanks.parameters import Hob
@@ -18,7 +18,7 @@ REASONS = ("undercut", "pointed", "hob too short", "does not reach")
 
 
 def _gearset(**changed):
-    given = read_case("gearset-3b", TABLES, ()).require(Gearset)
+    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     return Gearset(
         worm_material=given.worm_material, wheel_material=given.wheel_material, **changed
     )
@@ -26,13 +26,13 @@ def _gearset(**changed):
 
 @pytest.fixture(scope="module")
 def wheel():
-    case = read_case("gearset-3b", TABLES, ())
+    case = read_case("gearset-3b", case_tables(), ())
     return Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
 
 
 @pytest.fixture(scope="module")
 def left():
-    case = read_case("gearset-3b", TABLES, ("gearset.hand=left",))
+    case = read_case("gearset-3b", case_tables(), ("gearset.hand=left",))
     return Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
 
 
@@ -200,7 +200,7 @@ def test_what_cannot_be_meshed_is_refused_in_a_line(wheel, changed, message):
     [("500 mm", "has room for at most 5"), ("0.01 mm", "turned inside out")],
 )
 def test_a_rim_that_cannot_be_meshed_is_refused(thickness, message):
-    case = read_case("gearset-3b", TABLES, (f"gearset.rim_thickness={thickness}",))
+    case = read_case("gearset-3b", case_tables(), (f"gearset.rim_thickness={thickness}",))
     wheel = Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
     with pytest.raises(InputError, match=message):
         mesh.tooth(wheel, "coarse")

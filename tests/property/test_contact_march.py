@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.increment.newton import evaluate
 from asperity.contact.increment.solver import ContactState, SurfaceMotion, solve_increment
 from asperity.contact.motion import hht, ledger
@@ -42,7 +42,9 @@ def block(*changes, element="hex8"):
         f"block.elements={MESHES[element]}", f"block.element={element}", "vibration.start=0 s",
         f"solve.step={SECONDS} s", "solve.duration=2 ms",
     )  # fmt: skip
-    return BlockProblem.from_case(read_case("block-longitudinal", TABLES, [*common, *changes]))
+    return BlockProblem.from_case(
+        read_case("block-longitudinal", case_tables(), [*common, *changes])
+    )
 
 
 def thrown(system, lift, tilt, velocity, spin):

@@ -13,7 +13,7 @@ from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import STANDARD_GRAVITY, BlockProblem
 from asperity.block.resume import go_on, keep
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.increment import newton
 from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import hht, ledger, steps
@@ -28,7 +28,7 @@ STIFF = ("slider.drive_stiffness=1e7 N/m", "slider.drive_damping=2000 N s/m")
 
 
 def problem(*settings, case="block-longitudinal"):
-    return BlockProblem.from_case(read_case(case, TABLES, [*SMALL, *SHAKEN, *settings]))
+    return BlockProblem.from_case(read_case(case, case_tables(), [*SMALL, *SHAKEN, *settings]))
 
 
 def at_rest(block):
@@ -211,7 +211,7 @@ def test_the_time_integration_takes_little_and_less_with_a_finer_step():
 
 
 def test_a_rigid_drive_moves_the_block_at_its_velocity():
-    raw = read_case("block-longitudinal", TABLES, [*SMALL, *SHAKEN])
+    raw = read_case("block-longitudinal", case_tables(), [*SMALL, *SHAKEN])
     block = BlockProblem.from_case(
         raw.replace_values({"slider.drive_stiffness": None, "slider.drive_damping": None})
     )
@@ -506,7 +506,7 @@ def test_a_block_too_high_for_its_length_is_said_to_tip_over_before_it_slides():
 
 
 def test_a_block_without_a_mass_is_refused():
-    raw = read_case("block-longitudinal", TABLES, SMALL)
+    raw = read_case("block-longitudinal", case_tables(), SMALL)
     none = dict.fromkeys(("slider.mass", "slider.drive_stiffness", "slider.drive_damping"))
     with pytest.raises(InputError, match=r"slider.mass is missing; it makes the density"):
         BlockProblem.from_case(raw.replace_values({**none, "slider.lateral": None}))

@@ -7,7 +7,7 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.motion.compliance import base_compliance
 from asperity.errors import InputError
 
@@ -15,7 +15,9 @@ LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
 
 
 def problem(*settings):
-    return BlockProblem.from_case(read_case("block-longitudinal", TABLES, [*LIGHT, *settings]))
+    return BlockProblem.from_case(
+        read_case("block-longitudinal", case_tables(), [*LIGHT, *settings])
+    )
 
 
 def test_a_rigid_block_on_springs_rocks_about_its_base():

@@ -9,7 +9,7 @@ from asperity.block.deck.calculix import overclosure
 from asperity.block.deck.setup import numbers
 from asperity.block.problem import held_coordinates
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.interface.normal import pressure
 from asperity.errors import InputError
 
@@ -30,7 +30,7 @@ CASES = {
 
 
 def setup_of(*settings, case="block-transverse"):
-    return BlockSetup.from_case(read_case(case, TABLES, [*SMALL, *settings]))
+    return BlockSetup.from_case(read_case(case, case_tables(), [*SMALL, *settings]))
 
 
 class Deck:
@@ -233,7 +233,7 @@ HELD = {
 def held_setup(name, *more):
     """A block with a guide, a rigid drive, or both, and which coordinates the package holds."""
     settings, rigid = HELD[name]
-    case = read_case("block-transverse", TABLES, [*SMALL, *settings, *more])
+    case = read_case("block-transverse", case_tables(), [*SMALL, *settings, *more])
     if rigid:
         case = case.replace_values({"slider.drive_stiffness": None, "slider.drive_damping": None})
     setup = BlockSetup.from_case(case)
@@ -398,8 +398,8 @@ def test_a_block_heavier_than_its_normal_force_is_refused(settings, why):
 
 def test_a_case_without_a_block_or_a_mass_is_refused():
     with pytest.raises(InputError, match=r"the table \[block\] is missing"):
-        BlockSetup.from_case(read_case("table-4.3", TABLES))
-    bare = read_case("block-transverse", TABLES).replace_values(
+        BlockSetup.from_case(read_case("table-4.3", case_tables()))
+    bare = read_case("block-transverse", case_tables()).replace_values(
         {"slider.drive_stiffness": None, "slider.drive_damping": None, "slider.mass": None,
          "slider.lateral": None}
     )  # fmt: skip

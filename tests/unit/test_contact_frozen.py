@@ -7,7 +7,7 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.increment.modified_newton import inverted
 from asperity.contact.increment.solver import ContactState, solve_increment
 from asperity.contact.motion.rest import rest_under_load
@@ -24,7 +24,7 @@ MARCHES = {
 
 def walking(name):
     case, *settings = MARCHES[name]
-    problem = BlockProblem.from_case(read_case(case, TABLES, [*SMALL, *settings]))
+    problem = BlockProblem.from_case(read_case(case, case_tables(), [*SMALL, *settings]))
     return Walker(problem.system, rest_under_load(problem.system, problem.loads))
 
 

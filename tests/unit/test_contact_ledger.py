@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import ledger
 from asperity.contact.motion.rest import rest_under_load
@@ -90,7 +90,7 @@ def marched(steps, cycles=4.25, rise=0.0, settings=()):
         "block.elements=[2, 2, 2]", "block.element=hex8", "vibration.start=0 s",
         "vibration.frequency=3000 Hz", f"solve.step={step} s", *settings,
     ]  # fmt: skip
-    problem = BlockProblem.from_case(read_case("block-longitudinal", TABLES, case))
+    problem = BlockProblem.from_case(read_case("block-longitudinal", case_tables(), case))
     system, start = problem.system, problem.system.shaking
     shaking = dataclasses.replace(start, way=(start.way[0], start.way[1], rise))
     system = dataclasses.replace(system, shaking=shaking)

@@ -2,7 +2,7 @@ import pytest
 
 from asperity.block.parameters import Block, Contact
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 
 STEEL = {"size": (0.04, 0.03, 0.03), "youngs_modulus": 209e9, "poissons_ratio": 0.3}
@@ -77,7 +77,7 @@ def test_auto_refuses_a_body_without_stiffness_or_height(modulus, height):
 )
 def test_what_is_wrong_is_said_in_one_line(setting, why):
     with pytest.raises(InputError) as caught:
-        read_case("block-longitudinal", TABLES, [setting])
+        read_case("block-longitudinal", case_tables(), [setting])
     line = str(caught.value)
     assert why in line
     assert "\n" not in line
@@ -98,14 +98,14 @@ def test_what_is_wrong_is_said_in_one_line(setting, why):
 )
 def test_stages_are_for_two_and_in_their_order(settings, why):
     with pytest.raises(InputError) as caught:
-        read_case("block-longitudinal", TABLES, settings)
+        read_case("block-longitudinal", case_tables(), settings)
     assert why in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(("name", "table"), [("longitudinal", "4.3"), ("transverse", "4.4")])
 def test_the_blocks_that_ship_are_the_sliding_bodies_with_a_block(name, table):
-    block, body = (read_case(case, TABLES) for case in (f"block-{name}", f"table-{table}"))
+    block, body = (read_case(case, case_tables()) for case in (f"block-{name}", f"table-{table}"))
     assert set(block.tables) - set(body.tables) == {"block", "contact"}
     for key, value in body.tables.items():
         assert block[key] == value

@@ -7,7 +7,7 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Walker
@@ -24,7 +24,7 @@ def shaken(amplitude, *changes):
         f"vibration.frequency={FREQUENCY} Hz", f"solve.step={STEP} s", "slider.lateral=guided",
         f"contact.stiffness={STIFFNESS} Pa/m", *changes,
     )  # fmt: skip
-    problem = BlockProblem.from_case(read_case("block-longitudinal", TABLES, settings))
+    problem = BlockProblem.from_case(read_case("block-longitudinal", case_tables(), settings))
     system = problem.system
     shaking = dataclasses.replace(system.shaking, way=(0.0, 0.0, amplitude))
     system = dataclasses.replace(system, shaking=shaking, drive_velocity=0.0)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.analysis import analyse
 from asperity.flanks.meshing.backlash import core_clearance
@@ -29,7 +29,7 @@ from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.store import read_dataset, write_dataset
 
-CASE = read_case("gearset-3b", TABLES, ())
+CASE = read_case("gearset-3b", case_tables(), ())
 GEARSET = CASE.require(Gearset)
 TILTED = CASE.require(Hob)
 OUT_OF_PLACE = Mount(
@@ -162,7 +162,7 @@ def test_contact_ratio_counts_teeth_that_bear(tilted):
 
 
 def test_rigid_teeth_of_other_flanks_bear_one_by_one():
-    gearset = read_case("gearset-3b", TABLES, ("gearset.flank=ZA",)).require(Gearset)
+    gearset = read_case("gearset-3b", case_tables(), ("gearset.flank=ZA",)).require(Gearset)
     pair = Pair.of(gearset, TILTED)
     assert transmission(pair, Wheel.cut(pair).flank(1)).contact_ratio() == pytest.approx(1.0)
 
@@ -264,7 +264,7 @@ def test_answers_have_the_keys_of_the_command_and_survive_a_file(tilted, tmp_pat
 
 
 def test_flanks_without_a_base_cylinder_say_so():
-    gearset = read_case("gearset-3b", TABLES, ("gearset.flank=ZN",)).require(Gearset)
+    gearset = read_case("gearset-3b", case_tables(), ("gearset.flank=ZN",)).require(Gearset)
     pair = Pair.of(gearset, TILTED)
     answer = analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8).to_json()
     assert answer["base_radius_mm"] is None

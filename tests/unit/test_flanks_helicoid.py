@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob, Modification, Mount
 from asperity.flanks.worm.distance import distances, distances_with_derivatives
@@ -267,7 +267,7 @@ def test_the_conjugate_pair_has_an_identical_hob_in_nominal_position():
 
 @pytest.mark.parametrize("name", ["gearset-2", "gearset-3", "gearset-3b"])
 def test_every_shipped_gearset_has_a_worm_and_a_hob(name):
-    case = read_case(name, TABLES)
+    case = read_case(name, case_tables())
     hob = case.require(Hob) if "hob" in case else None
     pair = Pair.of(case.require(Gearset), hob)
     rho = np.linspace(pair.worm.root_radius + 0.3, pair.worm.flank_end, 5)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.vibration_share import DIRECTIONS, vibration_share
 from asperity.flanks.parameters import Hob, Mount
@@ -23,7 +23,7 @@ OUT_OF_PLACE = Mount(
 
 def made(hob=None, mount=None, case="gearset-3b", side=1, **changed):
     settings = [f"gearset.{key}={value}" for key, value in changed.items()]
-    pair = Pair.of(read_case(case, TABLES, settings).require(Gearset), hob, mount)
+    pair = Pair.of(read_case(case, case_tables(), settings).require(Gearset), hob, mount)
     flank = Wheel.cut(pair).flank(side)
     grid = flank.grid(15, 17)
     return pair, flank, grid, kinematics(pair, grid, side, SPEED)

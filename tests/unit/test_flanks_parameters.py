@@ -5,7 +5,7 @@ import math
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.parameters import SOURCES, Disc, Hob, Modification, Mount, size_in_mm
 
@@ -90,19 +90,21 @@ def test_a_misspelt_key_is_named_with_the_right_one():
 def test_what_is_assumed_for_a_key_says_where_it_comes_from():
     for path, source in SOURCES.items():
         table, key = path.split(".")
-        assert key in TABLES[table].model_fields
+        assert key in case_tables()[table].model_fields
         assert source.confidence == "from memory"
 
 
 @pytest.mark.parametrize("name", ["gearset-3", "gearset-3b"])
 def test_the_shipped_gearset_3_has_the_hob_of_the_thesis(name):
-    hob = read_case(name, TABLES).require(Hob)
+    hob = read_case(name, case_tables()).require(Hob)
     assert hob.oversize == 1.12
     assert math.degrees(hob.tilt) == pytest.approx(2.0)
 
 
 def test_settings_replace_single_values():
-    case = read_case("gearset-3b", TABLES, ["hob.tilt=0", "hob.tip_radius=0.3", "hob.oversize=1"])
+    case = read_case(
+        "gearset-3b", case_tables(), ["hob.tilt=0", "hob.tip_radius=0.3", "hob.oversize=1"]
+    )
     assert case.require(Hob) == Hob(tip_radius=0.3)
     faster = case.replace_values({"hob.tilt": math.radians(1.0)})
     assert faster.require(Hob).tip_radius == case.require(Hob).tip_radius

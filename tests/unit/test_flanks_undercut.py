@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob, Mount
 from asperity.flanks.wheel.enveloped import Wheel
@@ -15,7 +15,7 @@ from asperity.gearset import Gearset
 
 
 def _gearset(**changed):
-    given = read_case("gearset-3b", TABLES, ()).require(Gearset)
+    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     return Gearset(
         axial_module="2 mm",
         worm_material=given.worm_material,
@@ -111,7 +111,7 @@ def test_wheel_that_its_hob_cuts_again_is_refused():
 
 
 def test_worm_like_its_hob_touches_the_flank_and_clears_the_root():
-    case = read_case("gearset-3b", TABLES, ())
+    case = read_case("gearset-3b", case_tables(), ())
     wheel = Wheel.cut(Pair.of(case.require(Gearset), Hob()))
     found = interference(wheel)
     assert abs(found.flank_gap.min()) < 1e-12
@@ -121,7 +121,7 @@ def test_worm_like_its_hob_touches_the_flank_and_clears_the_root():
 
 
 def test_worm_that_stands_too_near_interferes_with_the_root():
-    case = read_case("gearset-3b", TABLES, ())
+    case = read_case("gearset-3b", case_tables(), ())
     too_near = Mount(centre_distance_error="-0.45 mm")
     wheel = Wheel.cut(Pair.of(case.require(Gearset), Hob(), too_near))
     found = interference(wheel)

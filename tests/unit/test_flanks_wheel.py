@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob
 from asperity.flanks.wheel.enveloped import Wheel, WheelFlank
@@ -20,7 +20,7 @@ CAUSES = ("undercut", "pointed", "hob too short", "does not reach")
 
 
 def _gearset(**changed):
-    given = read_case("gearset-3b", TABLES, ()).require(Gearset)
+    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     return Gearset(
         axial_module="2 mm",
         worm_material=given.worm_material,
@@ -30,7 +30,7 @@ def _gearset(**changed):
 
 
 def _pair(hand="right", hob=OVERSIZE):
-    case = read_case("gearset-3b", TABLES, (f"gearset.hand={hand}",))
+    case = read_case("gearset-3b", case_tables(), (f"gearset.hand={hand}",))
     return Pair.of(case.require(Gearset), hob)
 
 

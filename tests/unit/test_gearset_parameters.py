@@ -6,7 +6,7 @@ from math import cos
 import pytest
 
 from asperity.casefile import describe, read_case, shipped_cases
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.gearset.lubricants import lubricant
@@ -180,7 +180,7 @@ def test_a_material_of_your_own_is_a_table():
 def test_the_thesis_gearsets_ship_with_its_sliding_velocities(
     name, sliding_velocity, profile_shift, torque
 ):
-    case = read_case(name, TABLES)
+    case = read_case(name, case_tables())
     held, run = case.require(Gearset), case.require(Operation)
     g = held.require_consistent().geometry
     radius = g.worm_pitch_diameter / 2e3
@@ -192,7 +192,7 @@ def test_the_thesis_gearsets_ship_with_its_sliding_velocities(
 
 
 def test_a_setting_replaces_a_diameter_factor_by_a_diameter_and_keeps_units():
-    case = read_case("gearset-3", TABLES, ["gearset.worm_pitch_diameter=18 mm"])
+    case = read_case("gearset-3", case_tables(), ["gearset.worm_pitch_diameter=18 mm"])
     assert case.require(Gearset).diameter_factor is None
     case = case.replace(["gearset.axial_module=2.2", "gearset.wheel_material=EN-GJL-250"])
     assert case.require(Gearset).axial_module == 2.2e-3
@@ -200,7 +200,7 @@ def test_a_setting_replaces_a_diameter_factor_by_a_diameter_and_keeps_units():
 
 
 def test_a_case_with_a_gearset_travels_and_follows_its_values():
-    case = read_case("gearset-3", TABLES)
+    case = read_case("gearset-3", case_tables())
     assert pickle.loads(pickle.dumps(case)) == case
     moved = case.replace_values({"gearset.centre_distance": 0.0745, "gearset.starts": 2})
     assert moved.require(Gearset).geometry.centre_distance == 74.5

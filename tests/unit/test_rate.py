@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import (
@@ -51,7 +51,7 @@ RUN = {"worm_speed": "1500 rpm", "output_torque": "300 N m", "lubricant": "ISO V
 
 
 def case(name, *settings):
-    return read_case(name, TABLES, settings)
+    return read_case(name, case_tables(), settings)
 
 
 def minimal(gearset=(), run=(), options=()):
@@ -532,7 +532,7 @@ class TestVariants:
 
 
 def test_a_number_that_could_not_be_had_is_null_under_its_promised_key():
-    case = read_case("gearset-3", TABLES, ["operation.output_torque=1e9 N m"])
+    case = read_case("gearset-3", case_tables(), ["operation.output_torque=1e9 N m"])
     answer = rate_case(case, ("iso14521",)).to_json()["iso14521"]
     assert answer["safety_wear"] is None
     assert answer["eta_z1_2"] == pytest.approx(0.7326, abs=1e-4)

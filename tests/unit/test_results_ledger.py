@@ -43,4 +43,5 @@ def test_a_drive_that_does_nothing_is_measured_by_a_thousandth_of_frictions_work
 
 
 def test_where_nothing_happens_nothing_is_missing():
-    assert PowerLedger(0.0, 0.0, 0.0, 0.0, 0.0, 0.0).residual == 0.0
+    nothing = {field.name: 0.0 for field in dataclasses.fields(PowerLedger)}
+    assert PowerLedger(**nothing).residual == 0.0

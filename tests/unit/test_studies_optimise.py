@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case
@@ -22,7 +22,7 @@ def subject(case):
 
 
 def gearset(name="gearset-2", *settings):
-    return subject(read_case(name, TABLES, settings))
+    return subject(read_case(name, case_tables(), settings))
 
 
 @pytest.fixture(scope="module", params=["gearset-2", "gearset-3"])
@@ -94,7 +94,7 @@ def test_the_same_call_gives_the_same_design(name, best):
 
 
 def test_the_settings_turn_the_case_into_the_design(name, best):
-    again = rate_case(read_case(name, TABLES, best.settings))
+    again = rate_case(read_case(name, case_tables(), best.settings))
     for key in ("eta_z1_2", "h_star"):
         assert again.iso14521[key] == pytest.approx(best.after.iso14521[key], rel=1e-9)
     assert again.bs721["M_s_Nm"] == pytest.approx(best.after.bs721["M_s_Nm"], rel=1e-9)
@@ -102,7 +102,7 @@ def test_the_settings_turn_the_case_into_the_design(name, best):
 
 def test_the_settings_also_work_where_the_case_gives_other_numbers(tmp_path):
     file = tmp_path / "own.toml"
-    text = (read_case("gearset-2", TABLES).folder / "gearset-2.toml").read_text("utf-8")
+    text = (read_case("gearset-2", case_tables()).folder / "gearset-2.toml").read_text("utf-8")
     for old, new in (
         ('centre_distance = "60.17 mm"', "profile_shift = 0.0"),
         ("diameter_factor = 10.8", 'worm_pitch_diameter = "18.36 mm"'),
@@ -110,8 +110,8 @@ def test_the_settings_also_work_where_the_case_gives_other_numbers(tmp_path):
         assert old in text
         text = text.replace(old, new)
     file.write_text(text, "utf-8")
-    best = optimise(*subject(read_case(file, TABLES)))
-    again = rate_case(read_case(file, TABLES, best.settings))
+    best = optimise(*subject(read_case(file, case_tables())))
+    again = rate_case(read_case(file, case_tables(), best.settings))
     assert again.iso14521["eta_z1_2"] == pytest.approx(best.after.iso14521["eta_z1_2"], rel=1e-9)
 
 
@@ -280,7 +280,7 @@ def test_a_climb_without_an_allowed_point_has_no_top():
 
 
 def test_a_fixed_tooth_friction_leaves_nothing_to_optimise():
-    case = read_case("gearset-2", TABLES, ["rating.friction=0.05"])
+    case = read_case("gearset-2", case_tables(), ["rating.friction=0.05"])
     tables = case.require(Gearset), case.require(Operation), case.require(RatingOptions)
     with pytest.raises(InputError, match=r"^rating.friction is 0.05, .* leave it out"):
         optimise(*tables)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
@@ -17,7 +17,7 @@ from asperity.store import read_dataset, write_dataset
 
 
 def gearset(name="gearset-2", *settings):
-    case = read_case(name, TABLES, settings)
+    case = read_case(name, case_tables(), settings)
     return case.require(Gearset), case.require(Operation), case.require(RatingOptions)
 
 

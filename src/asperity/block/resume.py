@@ -5,11 +5,7 @@ way as well: a march that goes on ends exactly as one that was never interrupted
 """
 
 import dataclasses
-import functools
-import hashlib
-import zipfile
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,8 +23,8 @@ from asperity.contact.increment.problem import Trend
 from asperity.contact.increment.solver import ContactState, IncrementResult
 from asperity.contact.motion import ledger
 from asperity.contact.motion.system import SystemState
-from asperity.runs.key import code_key
-from asperity.store import write_atomically
+from asperity.runs.key import code_key, key
+from asperity.runs.tree import Tree
 
 _CONTACT = ("distance", "normal", "slip_1", "slip_2")
 _HISTORY = (
@@ -38,34 +34,20 @@ _STATE = ("coordinates", "drive", "forces")
 _FRAME = ("time", "coordinates", "drive_force", "force", "pressure", "traction")
 
 
-def fingerprint(problem: BlockProblem) -> str:
+def key_of(problem: BlockProblem) -> str:
     """Return a text that is the same for what calculates the same, by these sources."""
-    digest = hashlib.sha256(repr(sorted(inputs(problem).items())).encode())
     shape = problem.model.shape
+    wave = ("", np.empty(0))
     if shape is not None:
-        digest.update(repr((shape.code, shape.frequency, shape.rise)).encode())
-        digest.update(np.ascontiguousarray(shape.table).tobytes())
-    digest.update(_sources().encode())
-    return digest.hexdigest()
+        wave = repr((shape.code, shape.frequency, shape.rise)), shape.table
+    return key(code_key("asperity.block.march"), repr(sorted(inputs(problem).items())), *wave)
 
 
-@functools.cache
-def _sources() -> str:
-    return code_key("asperity.block.march")
-
-
-def keep(march: BlockMarch, path: Path) -> Path:
-    """Write where a march stands; it must have begun.
-
-    Raises
-    ------
-    StorageError
-        The file cannot be written.
-    """
+def state(march: BlockMarch) -> Tree:
+    """Return where a march stands as a tree of arrays; it must have begun."""
     walker = march.walker
     state, contact = walker.state, walker.state.contact
     arrays: dict[str, Any] = {
-        "fingerprint": fingerprint(march.problem),
         "done": march.done,
         "seconds": [march.seconds, march.march_seconds, march.timed],
         "rows": np.array(march.rows),
@@ -94,24 +76,11 @@ def keep(march: BlockMarch, path: Path) -> Path:
         if increments.flexibility is trend.flexibility:
             arrays["trend_length"] = number
     arrays |= _named("trend_", trend_as_arrays(trend))
-    return write_atomically(path, lambda target: np.savez(target, **arrays))
+    return arrays
 
 
-def go_on(march: BlockMarch, path: Path) -> bool:
-    """Put a march that has not begun to where another was interrupted.
-
-    Returns
-    -------
-    bool
-        Whether there was one, of the same problem and made by the same sources.
-    """
-    try:
-        with np.load(path, allow_pickle=False) as kept:
-            if str(kept["fingerprint"]) != fingerprint(march.problem):
-                return False
-            arrays = {name: kept[name] for name in kept.files}
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
-        return False
+def restore(march: BlockMarch, arrays: Mapping[str, Any]) -> None:
+    """Put a march that has not begun to where another of the same problem stood."""
     time, load, iterations, residual = arrays["scalars"]
     system = march.problem.system
     trend = Trend()
@@ -149,7 +118,6 @@ def go_on(march: BlockMarch, path: Path) -> bool:
         march.window_energies = ledger.Energies(*map(float, arrays["window_energies"]))
     if "first_half" in arrays:
         march.first_half, march.first_pressure = arrays["first_half"], arrays["first_pressure"]
-    return True
 
 
 def _named(prefix: str, arrays: Mapping[str, Any]) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from asperity.block.check import check_ranges
 from asperity.block.deck import WRITERS, BlockSetup
 from asperity.casefile import read_case
 from asperity.cli import show
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError, choices, suggestion
 from asperity.store import output_folder, write_text
 
@@ -22,7 +22,7 @@ def export(
         raise InputError(
             f"--to {program}: it must be one of {choices(WRITERS)}{suggestion(program, WRITERS)}"
         )
-    setup = BlockSetup.from_case(read_case(case, TABLES, settings))
+    setup = BlockSetup.from_case(read_case(case, case_tables(), settings))
     check_ranges(setup.problem)
     nodes = setup.problem.nodes
     if nodes > _MOST_NODES:

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from asperity.casefile import read_case
 from asperity.cli import show
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.export.brep import require_cad
 from asperity.flanks.mesh.density import read_density
 from asperity.flanks.study import prepare_case, study
+from asperity.results.files import write_json
 from asperity.store import output_folder
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def flank(
     except InputError as error:
         raise InputError(f"--{error}") from None
     # What can be refused is refused before the folder is made, and the folder before the work.
-    prepared = prepare_case(read_case(case, TABLES, settings), size)
+    prepared = prepare_case(read_case(case, case_tables(), settings), size)
     folder = output_folder(out) if out is not None else None
     try:
         found = study(prepared)
@@ -51,7 +52,7 @@ def flank(
     if folder is not None:
         from asperity.flanks.export.files import write_study
 
-        show.write_json(found.to_json(), folder / "flank.json")
+        write_json(found.to_json(), folder / "flank.json")
         written = write_study(found, folder, step=step)
         for line in written.notes:
             show.note(line)

@@ -3,13 +3,15 @@
 Everything heavy is imported inside the commands, so that the help is there at once.
 """
 
+import inspect
 import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
 from asperity.cli.outcome import USAGE_ERROR, reported, silence_standard_output, usage
+from asperity.commands import COMMANDS, Command, Option
 
 app = typer.Typer(
     add_completion=False,
@@ -62,131 +64,47 @@ def asperity(
         print_text(text)
 
 
-@app.command()
-@reported
-def slide(
-    case: CaseArgument,
-    settings: SetOption = None,
-    as_json: JsonOption = False,
-    out: OutOption = None,
-) -> None:
-    """Pull a body over a vibrating base: drive force, friction, power.
+def _command(command: Command) -> None:
+    """Give the application a command of the registry."""
 
-    With --out also slide.nc, slide.png and slide.json.
-    """
-    from asperity.casefile import read_case
-    from asperity.cli import show
-    from asperity.cli.tables import TABLES
-    from asperity.errors import ConvergenceError
-    from asperity.slider.march import Timetable
-    from asperity.slider.methods import solve
-    from asperity.slider.model import Model
-    from asperity.store import output_folder
+    @reported
+    def run(
+        case: str, settings: list[str] | None, as_json: bool, out: Path | None, **options: Any
+    ) -> None:
+        from asperity.cli.execute import execute
 
-    model = Model.from_case(read_case(case, TABLES, settings or ()))
-    # A case that is refused leaves no folder behind, and a folder that is refused costs no time.
-    if model.solve.method == "march":
-        Timetable(model)
-    else:
-        _ = model.substeps
-    folder = output_folder(out) if out is not None else None
-    try:
-        result = solve(model, history=folder is not None)
-    except ConvergenceError as error:
-        if as_json:
-            show.print_json({"error": str(error), "reached": error.reached})
-        raise
-    answer = result.to_json()
-    # Shown before it is written: what was solved is not lost to a disk that is full.
-    if as_json:
-        show.print_json(answer)
-    else:
-        show.print_slide(case, answer)
-    if folder is not None:
-        from asperity.store import write_dataset
+        execute(command, case, settings or (), as_json=as_json, out=out, **options)
 
-        write_dataset(result.to_dataset(), folder / "slide.nc")
-        show.write_picture(result.plot(), folder / "slide.png")
-        show.write_json(answer, folder / "slide.json")
-        show.note(f"written to {folder}: slide.nc, slide.png, slide.json")
+    parameters = {
+        "case": (CaseArgument, inspect.Parameter.empty),
+        **{option.name: _typed(option) for option in command.options},
+        "settings": (SetOption, None),
+        "as_json": (JsonOption, False),
+        "out": (OutOption, None),
+    }
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    run.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+        [
+            inspect.Parameter(name, keyword, annotation=kind, default=default)
+            for name, (kind, default) in parameters.items()
+        ]
+    )
+    run.__doc__ = f"{command.summary}\n\n{command.files}"
+    # Typer looks at the function behind a decorator.
+    del run.__wrapped__  # type: ignore[attr-defined]
+    app.command(name=command.name)(run)
 
 
-@app.command()
-@reported
-def block(
-    case: CaseArgument,
-    settings: SetOption = None,
-    as_json: JsonOption = False,
-    out: OutOption = None,
-) -> None:
-    """Pull an elastic block over a vibrating base: the same by finite elements.
-
-    With --out also block.nc, block.png, block_pressure.png, block.json and block.pvd, an
-    animation for ParaView.
-    """
-    from asperity.cli.block import block as run
-
-    run(case, settings or (), as_json=as_json, out=out)
+def _typed(option: Option) -> tuple[Any, Any]:
+    kind: Any = list[str] if option.many else str if option.metavar else bool
+    metavar = option.metavar or None
+    said = typer.Option(f"--{option.name}", metavar=metavar, help=option.help)
+    default = inspect.Parameter.empty if option.default is None else option.default
+    return Annotated[kind, said], default
 
 
-@app.command()
-@reported
-def sweep(
-    case: CaseArgument,
-    over: Annotated[
-        list[str],
-        typer.Option(
-            "--over",
-            metavar="TABLE.KEY=VALUES",
-            help="An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
-        ),
-    ],
-    settings: SetOption = None,
-    as_json: JsonOption = False,
-    out: OutOption = None,
-    cluster: Annotated[
-        str | None,
-        typer.Option(
-            "--cluster",
-            metavar="ADDRESS",
-            help="A Dask scheduler to send the work to, instead of this machine's cores.",
-        ),
-    ] = None,
-) -> None:
-    """Solve a case over a grid of values; what is done is kept, and found by the next run.
-
-    With --out also sweep.nc, sweep.json and, for one or two axes, sweep.png.
-    """
-    from asperity.cli import show
-    from asperity.cli.tables import TABLES
-    from asperity.errors import ConvergenceError
-    from asperity.store import output_folder
-    from asperity.sweep import read_grid, run
-
-    first, axes = read_grid(case, TABLES, settings or [], over)
-    folder = output_folder(out) if out is not None else None
-    with show.progress_bar() as progress:
-        result = run(first, axes, cluster=cluster, progress=progress, notify=show.note)
-    if folder is not None:
-        from asperity.sweep.plots import MOST_AXES
-
-        result.write(folder / "sweep.nc")
-        drawn = len(axes) <= MOST_AXES
-        if drawn:
-            show.write_picture(result.plot(), folder / "sweep.png")
-        show.write_json(result.to_json(), folder / "sweep.json")
-        names = "sweep.nc, sweep.png, sweep.json" if drawn else "sweep.nc, sweep.json"
-        show.note(f"written to {folder}: {names}")
-    if as_json:
-        show.print_json(result.to_json())
-    else:
-        show.print_sweep(result)
-    if result.failed:
-        point, why = next(iter(result.failures.items()))
-        raise ConvergenceError(
-            f"{result.failed} of {result.points} points did not converge, the first at {point}: "
-            f"{why}"
-        )
+for _listed in COMMANDS:
+    _command(_listed)
 
 
 @app.command()
@@ -350,14 +268,15 @@ def cases(as_json: JsonOption = False) -> None:
     """List the cases that ship; their names work wherever a file does."""
     from asperity.casefile import describe, shipped_cases
     from asperity.cli import show
+    from asperity.results.table import Column, Table
 
-    shipped = [
-        {"name": name, "description": describe(path)} for name, path in shipped_cases().items()
-    ]
+    shipped = {name: describe(path) for name, path in shipped_cases().items()}
     if as_json:
-        show.print_json({"cases": shipped})
+        listed = [{"name": name, "description": said} for name, said in shipped.items()]
+        show.print_json({"cases": listed})
     else:
-        show.print_cases(shipped)
+        columns = Column("case"), Column("what it is", weight=1)
+        show.print_tables([Table(columns, tuple(shipped.items()))])
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:

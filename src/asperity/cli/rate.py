@@ -5,9 +5,10 @@ from pathlib import Path
 
 from asperity.casefile import read_case
 from asperity.cli import show
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import InputError, choices, suggestion
 from asperity.rating import STANDARDS, Rated, rate_case
+from asperity.results.files import write_json
 from asperity.store import output_folder, write_text
 
 ALL = "all"
@@ -25,9 +26,9 @@ def rate(
         )
     folder = output_folder(out) if out is not None else None
     wanted = STANDARDS if standard == ALL else (standard,)
-    rated = rate_case(read_case(case, TABLES, settings), wanted)
+    rated = rate_case(read_case(case, case_tables(), settings), wanted)
     if folder is not None:
-        show.write_json(rated.to_json(), folder / "rate.json")
+        write_json(rated.to_json(), folder / "rate.json")
         write_text(folder / "rate.html", rated.to_html())
         write_text(folder / "rate.csv", rated.to_frame().to_csv(lineterminator="\n"))
         show.note(f"written to {folder}: rate.json, rate.html, rate.csv")

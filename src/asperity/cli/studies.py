@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from asperity.casefile import Case, read_case
 from asperity.cli import show
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.errors import ConvergenceError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions
 from asperity.rating.studies import compare_case, optimise, sensitivity, trade_off
+from asperity.results.files import write_json, write_picture
 from asperity.store import output_folder, write_dataset
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 def run_sensitivity(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None) -> None:
     """Raise one input after the other, print the efficiencies and write them to files."""
     folder = _folder(out)
-    read = read_case(case, TABLES, settings)
+    read = read_case(case, case_tables(), settings)
     study = sensitivity(*_gearset(read))
     answer = study.to_json()
     if folder is not None:
@@ -33,7 +34,7 @@ def run_methods(case: str, settings: Sequence[str], *, as_json: bool, out: Path 
     """Compare ways to less friction, print what they are worth and write it to files."""
     folder = _folder(out)
     try:
-        study = compare_case(read_case(case, TABLES, settings))
+        study = compare_case(read_case(case, case_tables(), settings))
     except ConvergenceError as error:
         if as_json:
             show.print_json({"error": str(error), "reached": error.reached})
@@ -47,7 +48,7 @@ def run_methods(case: str, settings: Sequence[str], *, as_json: bool, out: Path 
 def run_optimise(case: str, settings: Sequence[str], *, as_json: bool, out: Path | None) -> None:
     """Find the most efficient design and what torque costs, print both and write them to files."""
     folder = _folder(out)
-    read = read_case(case, TABLES, settings)
+    read = read_case(case, case_tables(), settings)
     subject = _gearset(read)
     best = optimise(*subject, folder=read.folder)
     curve = trade_off(*subject, folder=read.folder)
@@ -70,8 +71,8 @@ def _write(
     folder: Path, name: str, answer: Mapping[str, Any], dataset: "xr.Dataset", figure: "Figure"
 ) -> None:
     write_dataset(dataset, folder / f"{name}.nc")
-    show.write_picture(figure, folder / f"{name}.png")
-    show.write_json(answer, folder / f"{name}.json")
+    write_picture(figure, folder / f"{name}.png")
+    write_json(answer, folder / f"{name}.json")
     show.note(f"written to {folder}: {name}.nc, {name}.png, {name}.json")
 
 

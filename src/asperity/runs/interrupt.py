@@ -7,7 +7,17 @@ from collections.abc import Iterator
 
 
 class Interrupted(KeyboardInterrupt):
-    """A work was interrupted and says in its text what is kept of it."""
+    """A work was interrupted and says in its text what is kept of it.
+
+    Attributes
+    ----------
+    kept : int
+        How many steps or points the next run finds done.
+    """
+
+    def __init__(self, line: str, kept: int = 0) -> None:
+        super().__init__(line)
+        self.kept = kept
 
 
 class Ears:

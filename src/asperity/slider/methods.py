@@ -3,8 +3,10 @@
 import numpy as np
 import numpy.typing as npt
 
+from asperity.casefile import Case
+from asperity.runs import Run
 from asperity.slider.homogenised import solve_homogenised
-from asperity.slider.march import march
+from asperity.slider.march import Timetable, march
 from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
@@ -36,3 +38,24 @@ def solve(
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
     return march(model, history=history, stop=stop)
+
+
+def prepare(case: Case) -> Model:
+    """Return the model of a case.
+
+    Raises
+    ------
+    InputError
+        It cannot be solved.
+    """
+    model = Model.from_case(case)
+    if model.solve.method == "march":
+        Timetable(model)
+    else:
+        _ = model.substeps
+    return model
+
+
+def answer(model: Model, run: Run) -> SlideResult:
+    """Solve a sliding body as `solve`, with its history where files are written."""
+    return solve(model, history=run.detailed)

@@ -2,6 +2,6 @@
 
 from asperity.sweep.axes import Axis, parse_axes, read_grid
 from asperity.sweep.result import SweepResult
-from asperity.sweep.run import Interrupted, run
+from asperity.sweep.run import run
 
-__all__ = ["Axis", "Interrupted", "SweepResult", "parse_axes", "read_grid", "run"]
+__all__ = ["Axis", "SweepResult", "parse_axes", "read_grid", "run"]

@@ -137,6 +137,18 @@ def read_grid(
     return case, _within_bounds([_axis(axis, case) for axis in written])
 
 
+def read_first(
+    name_or_path: str,
+    tables: Mapping[str, type[Table]],
+    settings: Sequence[str],
+    *,
+    over: Sequence[str],
+    **_: object,
+) -> Case:
+    """Return the first point of a grid, as `read_grid`."""
+    return read_grid(name_or_path, tables, settings, over)[0]
+
+
 def parse_axes(over: Sequence[str], case: Case) -> list[Axis]:
     """Parse the axes of a grid over a case that is complete without them.
 

@@ -1,29 +1,31 @@
 """The answer of a sweep: arrays over the grid, as JSON, dataset, file and picture."""
 
-import dataclasses
 import math
-import os
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from asperity.errors import ConvergenceError
+from asperity.results import Result, quantity
+from asperity.results.table import Table
 from asperity.slider.model import FloatArray
 from asperity.sweep.axes import Axis
+from asperity.sweep.shown import grid_table
 from asperity.sweep.tasks import VARIABLES
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
 SOLVED = 0
 NOT_CONVERGED = 1
 _MOST_REASONS = 100
+MOST_AXES = 2
 
 
-@dataclasses.dataclass
-class SweepResult:
+class SweepResult(Result):
     """What a sweep found.
 
     Attributes
@@ -38,25 +40,34 @@ class SweepResult:
         0 solved, 1 not converged.
     failures : dict of str to str
         The first points that did not converge, and why.
-    inputs : dict of str to float or str
+    shared : mapping of str to float or str
         What all points share, by ``table.key`` in SI.
     cached : int
         Points that were known from before.
     seconds : float
         Time the sweep took.
     file : pathlib.Path or None
-        Where it has been written.
+        Where it is written.
     """
+
+    title: ClassVar[str] = "Sliding body over a grid"
+    stem: ClassVar[str] = "sweep"
+    drawings: ClassVar[Mapping[str, str]] = {"sweep": "asperity.sweep.plots:plot_sweep"}
 
     source: str
     axes: tuple[Axis, ...]
     arrays: dict[str, FloatArray]
     status: npt.NDArray[np.int8]
     failures: dict[str, str]
-    inputs: dict[str, float | str]
-    cached: int
-    seconds: float
+    shared: Mapping[str, Any]
+    cached: int = quantity("", "", "points known from before", shown=False)
+    seconds: float = quantity("", "s", "time it took", key="seconds", shown=False)
     file: Path | None = None
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What all points share, by ``table.key`` in SI."""
+        return self.shared
 
     @property
     def points(self) -> int:
@@ -78,7 +89,16 @@ class SweepResult:
         )
 
     @property
-    def dataset(self) -> "xr.Dataset":
+    def failure(self) -> ConvergenceError | None:
+        """What keeps it from being whole: points that did not converge."""
+        if not self.failed:
+            return None
+        point, why = next(iter(self.failures.items()))
+        return ConvergenceError(
+            f"{self.failed} of {self.points} points did not converge, the first at {point}: {why}"
+        )
+
+    def to_dataset(self) -> "xr.Dataset":
         """The variables over the grid, each with ``units`` and ``long_name``.
 
         Coordinates are in the units the axes were written in, everything else in SI.
@@ -109,11 +129,11 @@ class SweepResult:
             for dim, axis in zip(self.dims, self.axes, strict=True)
         }
         attributes = {
-            "title": "Sliding body over a grid",
+            "title": self.title,
             "case": self.source,
             "failures": "; ".join(f"{point}: {why}" for point, why in self.failures.items()),
         }
-        return xr.Dataset(variables, coordinates, attributes | self.inputs)
+        return xr.Dataset(variables, coordinates, attributes | dict(self.shared))
 
     def to_json(self) -> dict[str, Any]:
         """The ratio over the grid, None where there is none, and what was done for it."""
@@ -131,18 +151,19 @@ class SweepResult:
             "file": None if self.file is None else str(self.file),
         }
 
-    def write(self, path: str | os.PathLike[str]) -> Path:
-        """Write the dataset as netCDF, atomically."""
-        from asperity.store import write_dataset
+    def heading(self) -> str:
+        """Return the case and what is shown of it."""
+        return "mean drive force over mu F_N"
 
-        self.file = write_dataset(self.dataset, path)
-        return self.file
+    def tables(self) -> tuple[Table, ...]:
+        """Return the ratio over the grid: a matrix where it fits, a list where not."""
+        known = f", {self.cached} known from before" if self.cached else ""
+        remark = f"{self.points} points{known}, {self.seconds:.3g} s"
+        return (grid_table(self.axes, self.arrays["ratio"], (remark,)),)
 
-    def plot(self) -> "Figure":
-        """Draw the ratio over one or two axes."""
-        from asperity.sweep.plots import plot_sweep
-
-        return plot_sweep(self)
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write JSON, netCDF and, of one or two axes, a picture."""
+        return super().write(folder, pictures=pictures and len(self.axes) <= MOST_AXES)
 
 
 class Answers:

@@ -1,6 +1,7 @@
 """Solving every point of a grid: validated first, cached one by one, resumable."""
 
 import concurrent.futures as cf
+import dataclasses
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -9,6 +10,7 @@ import numpy as np
 
 from asperity.casefile import Case
 from asperity.errors import InputError
+from asperity.runs import Interrupted, Run
 from asperity.slider.result import inputs
 from asperity.sweep.axes import Axis, parse_axes
 from asperity.sweep.cache import Cache, Row
@@ -22,23 +24,6 @@ _LOOK_SECONDS = 5.0
 
 Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
-
-
-class Interrupted(KeyboardInterrupt):
-    """A sweep was interrupted; what was done is in the cache.
-
-    Attributes
-    ----------
-    kept, points : int
-        How many of how many points the next run finds there.
-    """
-
-    def __init__(self, kept: int, points: int) -> None:
-        super().__init__(
-            f"interrupted: {kept} of {points} points are kept; the same command goes on from there"
-        )
-        self.kept = kept
-        self.points = points
 
 
 def run(
@@ -74,8 +59,8 @@ def run(
     ------
     InputError
         One line that names the point and what is wrong with it.
-    Interrupted
-        Ctrl-C was pressed.
+    asperity.runs.Interrupted
+        Ctrl-C was pressed; what was done is in the cache.
     """
     began = time.perf_counter()
     grid = Grid(case, [*_parsed(axes, case)])
@@ -88,7 +73,12 @@ def run(
             sweep.solve(cluster, notify)
     except KeyboardInterrupt:
         is_kept = kept is not None and kept.usable
-        raise Interrupted(sweep.done if is_kept else 0, grid.size) from None
+        count = sweep.done if is_kept else 0
+        raise Interrupted(
+            f"interrupted: {count} of {grid.size} points are kept; the same command goes on from "
+            "there",
+            count,
+        ) from None
     finally:
         if kept is not None:
             kept.close()
@@ -101,10 +91,47 @@ def run(
         arrays={name: array.reshape(grid.shape) for name, array in answers.arrays.items()},
         status=answers.status.reshape(grid.shape),
         failures={grid.describe(index): why for index, why in sorted(answers.reasons.items())},
-        inputs={path: value for path, value in inputs(first).items() if path not in varied},
+        shared={path: value for path, value in inputs(first).items() if path not in varied},
         cached=grid.size - len(sweep.missing),
         seconds=time.perf_counter() - began,
     )
+
+
+@dataclasses.dataclass(frozen=True)
+class Problem:
+    """A grid to be solved.
+
+    Attributes
+    ----------
+    case : Case
+        What the axes vary.
+    axes : tuple of Axis
+        The grid.
+    cluster : str
+        Address of a Dask scheduler; empty: the cores of this machine.
+    """
+
+    case: Case
+    axes: tuple[Axis, ...]
+    cluster: str = ""
+
+
+def prepare(case: Case, *, over: Sequence[str], cluster: str = "") -> Problem:
+    """Return the problem of a grid over a case; raises InputError for axes that cannot be."""
+    return Problem(case, tuple(parse_axes(over, case)), cluster)
+
+
+def answer(problem: Problem, doing: Run) -> SweepResult:
+    """Solve a grid as `run`."""
+    found = run(
+        problem.case,
+        problem.axes,
+        cluster=problem.cluster or None,
+        progress=doing.progress,
+        notify=doing.notify,
+    )
+    file = None if doing.folder is None else doing.folder / "sweep.nc"
+    return dataclasses.replace(found, file=file)
 
 
 class _Sweep:

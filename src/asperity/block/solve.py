@@ -1,0 +1,64 @@
+"""A block's case answered: refused early, kept on its way, gone on with."""
+
+from asperity.block.check import check
+from asperity.block.march import BlockMarch
+from asperity.block.problem import BlockProblem
+from asperity.block.result import BlockResult, UnfinishedBlock
+from asperity.block.resume import key_of, restore, state
+from asperity.casefile import Case
+from asperity.errors import ConvergenceError
+from asperity.runs import Run
+
+
+def prepare(case: Case) -> BlockProblem:
+    """Return the problem of a case.
+
+    Raises
+    ------
+    InputError
+        It cannot be solved.
+    """
+    problem = BlockProblem.from_case(case)
+    check(problem)
+    return problem
+
+
+def answer(problem: BlockProblem, run: Run) -> BlockResult:
+    """Solve an elastic block, going on from where the same work was interrupted.
+
+    Raises
+    ------
+    ConvergenceError
+        An increment did not converge however small; the motion up to there is written.
+    Interrupted
+        Ctrl-C; what is kept is said.
+    """
+
+    def between() -> None:
+        run.checkpoint(march.done, problem.timetable.steps, lambda: state(march), "increments")
+
+    march = BlockMarch(problem, history=run.detailed, between=between)
+    kept = run.resume(key_of(problem)) if run.detailed else None
+    if kept is not None:
+        restore(march, kept)
+        run.notify(f"goes on after {march.done} increments")
+    try:
+        # Everything before the first increment, that Ctrl-C ends at once.
+        _ = march.walker
+        with run.going_on():
+            return march.run()
+    except (ConvergenceError, KeyboardInterrupt) as error:
+        _write_unfinished(march, run, str(error))
+        raise
+
+
+def _write_unfinished(march: BlockMarch, run: Run, why: str) -> None:
+    if run.folder is None or not march.rows:
+        return
+    unfinished = UnfinishedBlock(problem=march.problem, history=march.history, ended=why)
+    unfinished.save(run.folder / "block.nc")
+    # What a run before this one left would be taken for part of it.
+    for pattern in ("block.json", "block*.png", "block.pvd", "block_[0-9]*.vtu"):
+        for path in run.folder.glob(pattern):
+            path.unlink(missing_ok=True)
+    run.notify(f"written to {run.folder}: block.nc, up to {march.history.time[-1]:.6g} s")

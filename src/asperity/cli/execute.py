@@ -1,0 +1,72 @@
+"""One order for every command: read, prepare, folder, solve, show, write.
+
+A case that is refused leaves no folder behind, and a folder that is refused costs no time. What
+was solved is neither lost to a disk that is full, for it has been shown, nor to a reader who has
+seen enough, for it is written all the same.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from asperity.casefile import read_case, told
+from asperity.cli import show
+from asperity.commands import Command, case_tables
+from asperity.errors import ConvergenceError, StorageError
+from asperity.results.quantity import plain
+from asperity.runs import Run
+from asperity.store import output_folder
+
+if TYPE_CHECKING:
+    from asperity.results import Result
+
+
+def execute(
+    command: Command,
+    case: str,
+    settings: Sequence[str],
+    *,
+    as_json: bool,
+    out: Path | None,
+    **options: Any,
+) -> None:
+    """Do what a command does with a case, print the answer and write its files."""
+    read = command.reader
+    if read is None:
+        found = read_case(case, case_tables(), settings)
+    else:
+        found = read(case, case_tables(), settings, **options)
+    with told(found):
+        problem = command.prepared(found, **options)
+    folder = output_folder(out) if out is not None else None
+    with show.progress_bar(command.counts) as progress:
+        run = Run(progress=progress, notify=show.note, folder=folder, stem=command.name)
+        try:
+            with told(found):
+                result = command.solved(problem, run)
+        except ConvergenceError as error:
+            if as_json:
+                show.print_json({"error": str(error), "reached": plain(error.reached)})
+            raise
+    shown = _show(case, result, as_json=as_json)
+    if folder is not None:
+        names = result.write(folder)
+        run.finished()
+        show.note(f"written to {folder}: {', '.join(names)}")
+    if shown is not None:
+        raise shown
+    if result.failure is not None:
+        raise result.failure
+
+
+def _show(case: str, result: "Result", *, as_json: bool) -> BrokenPipeError | StorageError | None:
+    """Print an answer; returns what is to be raised once it is written."""
+    try:
+        if as_json:
+            show.print_json(result.to_json())
+        else:
+            show.print_text(f"{case}: {result.heading()}\n")
+            show.print_tables(result.tables())
+    except (BrokenPipeError, StorageError) as error:
+        return error
+    return None

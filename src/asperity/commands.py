@@ -1,0 +1,153 @@
+"""What asperity can do: each command's name, what it reads, how it refuses and how it solves.
+
+The command line and the axes of sweeps are made from this list. A room offers two functions:
+``prepare(case, **options)`` returns a problem, or refuses it at no cost; ``solve(problem, run)``
+returns a :class:`asperity.results.Result`.
+"""
+
+import dataclasses
+import functools
+import importlib
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from asperity.casefile import Case, Table
+    from asperity.results import Result
+    from asperity.runs import Run
+
+_TABLES = (
+    "asperity.slider.tables",
+    "asperity.rating.tables",
+    "asperity.block.tables",
+    "asperity.flanks.tables",
+)
+
+
+@functools.cache
+def case_tables() -> "Mapping[str, type[Table]]":
+    """Return every table a case file may have, whichever command reads it, by name."""
+    found: dict[str, type[Table]] = {}
+    for module in _TABLES:
+        found |= importlib.import_module(module).TABLES
+    return found
+
+
+@dataclasses.dataclass(frozen=True)
+class Option:
+    """What a command takes beside a case.
+
+    Attributes
+    ----------
+    name : str
+        ``--name`` on the command line, and the keyword of ``prepare``.
+    help : str
+        In a line.
+    metavar : str
+        What stands for its value; empty for a switch.
+    default : str, bool or None
+        Where it is left out; None: it must be given.
+    many : bool
+        Whether it may be given several times.
+    """
+
+    name: str
+    help: str
+    metavar: str = ""
+    default: str | bool | None = ""
+    many: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Command:
+    """Something asperity can do with a case.
+
+    Attributes
+    ----------
+    name : str
+        On the command line; the files of its answer are called so.
+    summary, files : str
+        What it does, and what ``--out`` leaves, in a sentence each.
+    prepare, solve : str
+        ``"module:function"``, imported where used.
+    options : tuple of Option
+        What it takes beside a case.
+    counts : str
+        What its progress counts; empty where it takes no time.
+    read : str
+        Reads the case where that takes more than a name and settings.
+    """
+
+    name: str
+    summary: str
+    files: str
+    prepare: str
+    solve: str
+    options: tuple[Option, ...] = ()
+    counts: str = ""
+    read: str = ""
+
+    def prepared(self, case: "Case", **options: Any) -> Any:
+        """Return the problem of a case, refused if it cannot be solved."""
+        return _load(self.prepare)(case, **options)
+
+    def solved(self, problem: Any, run: "Run") -> "Result":
+        """Return the answer to a problem."""
+        answer: Result = _load(self.solve)(problem, run)
+        return answer
+
+    @property
+    def reader(self) -> Callable[..., "Case"] | None:
+        """What reads its case, None for a name and settings."""
+        return _load(self.read) if self.read else None
+
+
+def _load(place: str) -> Callable[..., Any]:
+    module, _, name = place.partition(":")
+    function: Callable[..., Any] = getattr(importlib.import_module(module), name)
+    return function
+
+
+COMMANDS = (
+    Command(
+        "slide",
+        "Pull a body over a vibrating base: drive force, friction, power.",
+        "With --out also slide.nc, slide.png and slide.json.",
+        prepare="asperity.slider.methods:prepare",
+        solve="asperity.slider.methods:answer",
+        counts="steps",
+    ),
+    Command(
+        "block",
+        "Pull an elastic block over a vibrating base: the same by finite elements.",
+        "With --out also block.nc, block.png, block_pressure.png, block.json and block.pvd, an "
+        "animation for ParaView.",
+        prepare="asperity.block.solve:prepare",
+        solve="asperity.block.solve:answer",
+        counts="increments",
+    ),
+    Command(
+        "sweep",
+        "Solve a case over a grid of values; what is done is kept, and found by the next run.",
+        "With --out also sweep.nc, sweep.json and, for one or two axes, sweep.png.",
+        prepare="asperity.sweep.run:prepare",
+        solve="asperity.sweep.run:answer",
+        read="asperity.sweep.axes:read_first",
+        counts="points",
+        options=(
+            Option(
+                "over",
+                "An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
+                "TABLE.KEY=VALUES",
+                default=None,
+                many=True,
+            ),
+            Option(
+                "cluster",
+                "A Dask scheduler to send the work to, instead of this machine's cores.",
+                "ADDRESS",
+            ),
+        ),
+    ),
+)
+"""In the order of the help."""
