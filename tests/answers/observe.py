@@ -83,7 +83,7 @@ def observe(line, folder):
 
 def _new_cache(folder):
     """A cache with nothing but this machine's compiled kernels."""
-    from asperity.compiled import cache_folder
+    from asperity.folders import cache_folder
 
     cache = folder / "cache" / "asperity"
     cache.mkdir(parents=True)

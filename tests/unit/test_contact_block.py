@@ -11,7 +11,7 @@ from asperity.block import march as block_march
 from asperity.block.check import check
 from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import STANDARD_GRAVITY, BlockProblem
-from asperity.block.resume import go_on, keep
+from asperity.block.resume import key_of, restore, state
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.increment import newton
@@ -20,6 +20,7 @@ from asperity.contact.motion import hht, ledger, steps
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.system import System
 from asperity.errors import ConvergenceError, InputError
+from asperity.runs.tree import read_tree, write_tree
 from asperity.slider.march import march as slide
 
 SMALL = ("block.elements=[2, 2, 2]", "block.element=hex8")
@@ -143,7 +144,7 @@ def test_increments_that_end_above_their_tolerance_are_counted_also_over_an_inte
     assert whole.to_dataset().attrs["unconverged"] == 160
     stopped(problem(kept), 70, tmp_path / "kept.npz")
     second = BlockMarch(problem(kept), history=False)
-    assert go_on(second, tmp_path / "kept.npz")
+    restore(second, read_tree(tmp_path / "kept.npz"))
     assert second.walker.unconverged == 70
     result = second.run()
     assert (result.unconverged, result.residual_increment_max) == (
@@ -190,7 +191,7 @@ def test_the_time_of_an_increment_is_its_own_also_after_an_interruption(monkeypa
     assert writing.run().to_json()["ms_per_increment"] == 1000.0
     stopped(problem(), 20, tmp_path / "kept.npz")
     second = BlockMarch(problem())
-    assert go_on(second, tmp_path / "kept.npz")
+    restore(second, read_tree(tmp_path / "kept.npz"))
     result = second.run()
     assert result.timed == result.increments - 2
     assert result.to_json()["ms_per_increment"] == 1000.0
@@ -304,7 +305,7 @@ TIMES = {"ms_per_increment", "seconds", "condense_seconds", "condensed_from_cach
 def stopped(block, after, path):
     def stop():
         if march.done == after:
-            keep(march, path)
+            write_tree(path, state(march))
             raise KeyboardInterrupt
 
     march = BlockMarch(block, between=stop)
@@ -320,7 +321,7 @@ def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path)
     whole = solve_block(problem(*RESUMED[name]))
     stopped(problem(*RESUMED[name]), stop, tmp_path / "kept.npz")
     second = BlockMarch(problem(*RESUMED[name]))
-    assert go_on(second, tmp_path / "kept.npz")
+    restore(second, read_tree(tmp_path / "kept.npz"))
     assert second.done == stop
     result = second.run()
     answers = [
@@ -373,14 +374,10 @@ def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_
     assert result.history.drive_force == pytest.approx(whole.history.drive_force, rel=1e-6)
 
 
-def test_what_was_kept_of_another_problem_is_left_alone(tmp_path):
-    march = BlockMarch(problem())
-    assert march.walker.state.time == 0.0
-    path = keep(march, tmp_path / "kept.npz")
-    assert not go_on(BlockMarch(problem("friction.mu=0.2")), path)
-    path.write_bytes(b"not what it was")
-    assert not go_on(BlockMarch(problem()), path)
-    assert not go_on(BlockMarch(problem()), tmp_path / "nothing.npz")
+def test_a_march_is_kept_under_the_key_of_its_problem():
+    assert key_of(problem()) == key_of(problem())
+    assert key_of(problem()) != key_of(problem("friction.mu=0.2"))
+    assert key_of(problem()) != key_of(problem("vibration.waveform=triangle"))
 
 
 def test_the_frames_of_an_animation_deform_as_the_contact_does():
