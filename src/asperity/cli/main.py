@@ -10,7 +10,15 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from asperity.cli.outcome import USAGE_ERROR, reported, silence_standard_output, usage
+from asperity.cli.outcome import (
+    USAGE_ERROR,
+    hold_streams,
+    reported,
+    silence_standard_output,
+    tell,
+    unwritten,
+    usage,
+)
 from asperity.commands import COMMANDS, Command, Option
 
 app = typer.Typer(
@@ -281,16 +289,21 @@ def cases(as_json: JsonOption = False) -> None:
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
+    hold_streams()
     try:
         code: int | None = typer.main.get_command(app).main(
             arguments, prog_name="asperity", standalone_mode=False
         )
     except USAGE_ERROR as error:
-        print(usage(error), file=sys.stderr)
+        tell(usage(error))
         code = 2
     except OSError as error:
         # Of what is left, the help that cannot be printed.
-        print(error, file=sys.stderr)
-        silence_standard_output()
+        tell(unwritten(error))
         code = 2
+    try:
+        sys.stdout.flush()
+    except OSError:
+        # What refused it has been told; Python would complain at its own last flush.
+        silence_standard_output()
     sys.exit(code or 0)

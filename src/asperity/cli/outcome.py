@@ -1,6 +1,8 @@
 """How a command ends: its exit code, and one line about what went wrong."""
 
+import errno
 import functools
+import io
 import os
 import sys
 from collections.abc import Callable
@@ -8,7 +10,7 @@ from typing import ParamSpec
 
 import typer
 
-from asperity.errors import AsperityError, ConvergenceError
+from asperity.errors import AsperityError, ConvergenceError, plain
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
@@ -56,8 +58,43 @@ def _line(error: AsperityError) -> str:
 
 def _end(line: str, code: int) -> None:
     if line:
-        print(" ".join(line.split()), file=sys.stderr)
+        tell(line)
     raise typer.Exit(code)
+
+
+def tell(line: str) -> None:
+    """Print a line to standard error, with nothing in it that a terminal would obey."""
+    print(plain(" ".join(line.split())), file=sys.stderr, flush=True)
+
+
+def hold_streams() -> None:
+    """Give streams that were closed a place of their own, and let every text be written.
+
+    Otherwise the next file that is opened would take the place of a closed stream, and what is
+    meant for standard error would go to standard output.
+    """
+    if sys.stderr is None:
+        sys.stderr = _stand_in(2, os.O_WRONLY)
+    if sys.stdout is None:
+        # It refuses what is written to it, as the one that was closed would.
+        sys.stdout = _stand_in(1, os.O_RDONLY)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _stand_in(number: int, mode: int) -> io.TextIOWrapper:
+    nowhere = os.open(os.devnull, mode)
+    if nowhere != number:
+        os.dup2(nowhere, number)
+        os.close(nowhere)
+    return open(number, "w", encoding="utf-8", closefd=False)
+
+
+def unwritten(error: OSError) -> str:
+    """Return what is to be said of a standard output that cannot be written to."""
+    why = "it is closed" if error.errno == errno.EBADF else (error.strerror or str(error)).lower()
+    return f"standard output cannot be written: {why}"
 
 
 def silence_standard_output() -> None:

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from asperity.cli.outcome import tell, unwritten
 from asperity.errors import StorageError
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 def note(line: str) -> None:
     """Print a line to standard error."""
-    print(line, file=sys.stderr, flush=True)
+    tell(line)
 
 
 def print_text(text: str) -> None:
@@ -24,7 +25,7 @@ def print_text(text: str) -> None:
     except BrokenPipeError:
         raise
     except OSError as error:
-        raise StorageError(f"standard output cannot be written: {error.strerror}") from error
+        raise StorageError(unwritten(error)) from error
 
 
 def print_json(answer: Mapping[str, Any]) -> None:

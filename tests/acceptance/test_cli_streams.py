@@ -1,0 +1,72 @@
+"""Standard output and error that are full, closed or read no further; names a terminal obeys."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams are closed by a shell")
+
+
+@pytest.fixture
+def shell(environment, tmp_path):
+    """Run a command of the shell in which ``asperity`` is the command line."""
+
+    def run(command):
+        ended = subprocess.run(
+            ["sh", "-c", f'asperity() {{ "{sys.executable}" -m asperity "$@"; }}\n{command}'],
+            env=environment,
+            cwd=tmp_path,
+            capture_output=True,
+            timeout=180,
+            check=False,
+        )
+        return ended.returncode, ended.stdout.decode(), ended.stderr.decode()
+
+    return run
+
+
+@pytest.mark.parametrize("command", ["cases --json", "cases", "--help", "rate gearset-3"])
+@pytest.mark.parametrize(
+    ("where", "why"),
+    [(">&-", "it is closed"), pytest.param("> /dev/full", "no space left on device")],
+)
+def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command, where, why):
+    if "/dev/full" in where and not Path("/dev/full").exists():
+        pytest.skip("there is no device that is always full")
+    assert shell(f"asperity {command} {where}") == (
+        2,
+        "",
+        f"standard output cannot be written: {why}\n",
+    )
+
+
+def test_without_standard_error_notes_do_not_spoil_the_answer(shell):
+    code, output, errors = shell("asperity rate gearset-3 --json --out out 2>&-")
+    assert (code, errors) == (0, "")
+    assert json.loads(output)["name"] == "gearset 3"
+
+
+def test_a_name_is_shown_so_that_a_terminal_does_not_obey_it(shell):
+    code, output, errors = shell("asperity slide \"$(printf 'a\\033[2J\\377')\"")
+    assert (code, output) == (2, "")
+    assert errors.startswith(r"a\x1b[2J\udcff is neither a file nor a case that ships")
+    code, _, errors = shell("asperity \"$(printf -- '--a\\033[2J')\"")
+    assert code == 2
+    assert "\x1b" not in errors
+
+
+def test_a_case_whose_name_is_not_utf_8_is_solved(shell, tmp_path):
+    name = os.fsdecode(b"caf\xe9.toml")
+    (tmp_path / name).write_text(
+        '[slider]\ndrive_velocity = "1 mm/s"\nnormal_force = "10 N"\n'
+        '[friction]\nmodel = "coulomb"\nmu = 0.2\n'
+        '[vibration]\nfrequency = "1 kHz"\nvelocity_ratio = 2\n'
+        '[solve]\nmethod = "homogenised"\n'
+    )
+    code, output, errors = shell("asperity slide caf*.toml")
+    assert (code, errors) == (0, "")
+    assert output.startswith(r"caf\udce9.toml: homogenised")
