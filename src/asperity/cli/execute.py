@@ -48,7 +48,7 @@ def execute(
             if as_json:
                 show.print_json({"error": str(error), "reached": plain(error.reached)})
             raise
-    shown = _show(case, result, as_json=as_json)
+    shown = _show(found.source, result, as_json=as_json)
     if folder is not None:
         names = result.write(folder)
         run.finished()
@@ -59,13 +59,13 @@ def execute(
         raise result.failure
 
 
-def _show(case: str, result: "Result", *, as_json: bool) -> BrokenPipeError | StorageError | None:
+def _show(source: str, result: "Result", *, as_json: bool) -> BrokenPipeError | StorageError | None:
     """Print an answer; returns what is to be raised once it is written."""
     try:
         if as_json:
             show.print_json(result.to_json())
         else:
-            show.print_text(f"{case}: {result.heading()}\n")
+            show.print_text(f"{source}: {result.heading()}\n")
             show.print_tables(result.tables())
     except (BrokenPipeError, StorageError) as error:
         return error
