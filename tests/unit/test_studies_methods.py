@@ -11,12 +11,12 @@ from asperity.errors import InputError
 from asperity.friction.parameters import Friction
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
-from asperity.rating.studies import compare, compare_case, reported_methods
-from asperity.rating.studies.shaken import shake
 from asperity.rating.tables import TABLES as RATING
 from asperity.slider.closed_forms import directed_ratio, vibration_power
 from asperity.slider.tables import TABLES as SLIDER
 from asperity.store import read_dataset, write_dataset
+from asperity.studies import compare, compare_case, reported_methods
+from asperity.studies.shaken import shake
 from asperity.vibration import Vibration
 
 OWN = """

@@ -11,10 +11,10 @@ from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case
-from asperity.rating.studies import Bounds, optimise, trade_off
-from asperity.rating.studies.climb import climb, spread
-from asperity.rating.studies.design import VARIABLES, Space
 from asperity.store import read_dataset, write_dataset
+from asperity.studies import Bounds, optimise, trade_off
+from asperity.studies.climb import climb, spread
+from asperity.studies.design import VARIABLES, Space
 
 
 def subject(case):

@@ -10,9 +10,9 @@ from asperity.commands import case_tables
 from asperity.errors import ConvergenceError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions
-from asperity.rating.studies import compare_case, optimise, sensitivity, trade_off
 from asperity.results.files import write_json, write_picture
 from asperity.store import output_folder, write_dataset
+from asperity.studies import compare_case, optimise, sensitivity, trade_off
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -6,8 +6,8 @@ from typing import Any
 
 from asperity.rating import STANDARDS, Rated
 from asperity.rating.shaft import torsional_stiffness
-from asperity.rating.studies.design import Bounds
-from asperity.rating.studies.optimise import Optimum, optimise
+from asperity.studies.design import Bounds
+from asperity.studies.optimise import Optimum, optimise
 from asperity.thesis.ledger import Claim, Finding
 from asperity.thesis.rating.gearsets import (
     GEARSET_2,
@@ -179,7 +179,7 @@ def _optimum() -> Finding:
         {f"{name.replace(' ', '_')}_gain_points": gain for name, gain in gains.items()}
         | {"gearset_2_gain_module_kept_points": 100.0 * kept.gain, "gearset_2_eta_z": after},
         [gear.command("optimise") for gear in GEARSETS.values()]
-        + ["the same with asperity.rating.studies.design.Bounds(module_change=(0.0, 0.0))"],
+        + ["the same with asperity.studies.design.Bounds(module_change=(0.0, 0.0))"],
     )
 
 

@@ -12,13 +12,13 @@ from asperity.flanks.tables import TABLES as FLANKS_TABLES
 from asperity.gearset import Gearset
 from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case
 from asperity.rating.result import Rating
-from asperity.rating.studies.comparison import Comparison
-from asperity.rating.studies.methods import compare_case
-from asperity.rating.studies.optimise import Optimum, optimise
-from asperity.rating.studies.reported import Method, reported_methods
-from asperity.rating.studies.sensitivity import Sensitivity, sensitivity
 from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.slider.tables import TABLES as SLIDER_TABLES
+from asperity.studies.comparison import Comparison
+from asperity.studies.methods import compare_case
+from asperity.studies.optimise import Optimum, optimise
+from asperity.studies.reported import Method, reported_methods
+from asperity.studies.sensitivity import Sensitivity, sensitivity
 
 CASE_TABLES: Mapping[str, type[Table]] = {
     **SLIDER_TABLES,

@@ -20,8 +20,8 @@ from asperity.rating.formula import FloatArray
 from asperity.rating.inputs import inputs as given_inputs
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
-from asperity.rating.studies.quantities import Quantity, quantity
 from asperity.rating.variants import Variants, variants
+from asperity.studies.quantities import Quantity, quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -151,19 +151,19 @@ class Sensitivity:
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the efficiency over input and rise, and the summary, labelled."""
-        from asperity.rating.studies.datasets import sensitivity_dataset
+        from asperity.studies.datasets import sensitivity_dataset
 
         return sensitivity_dataset(self)
 
     def to_rich(self) -> "Group":
         """Return the efficiencies and the summary as tables for the terminal."""
-        from asperity.rating.studies.reports import sensitivity_report
+        from asperity.studies.reports import sensitivity_report
 
         return sensitivity_report(self)
 
     def plot(self) -> "Figure":
         """Draw the efficiency over the rise of each input."""
-        from asperity.rating.studies.plots import plot_sensitivity
+        from asperity.studies.plots import plot_sensitivity
 
         return plot_sensitivity(self)
 

@@ -4,16 +4,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.rating.studies.optimise import design_numbers
+from asperity.studies.optimise import design_numbers
 
 if TYPE_CHECKING:
     from rich.console import Group
     from rich.table import Table
 
-    from asperity.rating.studies.comparison import Comparison
-    from asperity.rating.studies.optimise import Optimum
-    from asperity.rating.studies.sensitivity import Sensitivity
-    from asperity.rating.studies.tradeoff import TradeOff
+    from asperity.studies.comparison import Comparison
+    from asperity.studies.optimise import Optimum
+    from asperity.studies.sensitivity import Sensitivity
+    from asperity.studies.tradeoff import TradeOff
 
 
 def table(title: str, *headings: str, left: int = 1) -> "Table":

@@ -21,13 +21,13 @@ from asperity.rating.iso14521.friction import base_friction
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
 from asperity.rating.result import Rating
-from asperity.rating.studies import shaken
-from asperity.rating.studies.comparison import Compared, Comparison
-from asperity.rating.studies.reported import Method, reported_methods
-from asperity.rating.studies.shaken import Shaken
 from asperity.rating.variants import variants
 from asperity.slider.parameters import Slider
 from asperity.sources import Source
+from asperity.studies import shaken
+from asperity.studies.comparison import Compared, Comparison
+from asperity.studies.reported import Method, reported_methods
+from asperity.studies.shaken import Shaken
 from asperity.vibration import Vibration
 
 AS_IS = "as_is"
@@ -62,7 +62,7 @@ def compare(
     gearset, operation, options
         As in `asperity.rating.rate`. A reduction acts on the friction that the gearset has so.
     methods : sequence of Method, optional
-        What is reported; `asperity.rating.studies.reported_methods` if left out.
+        What is reported; `asperity.studies.reported_methods` if left out.
     vibration : Vibration, optional
         What is imposed on the contact, along and across the sliding, and in its own direction
         where that is neither; a velocity ratio is taken to the sliding velocity. Left out:

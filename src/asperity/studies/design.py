@@ -17,9 +17,9 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
-from asperity.rating.studies.climb import spread
 from asperity.rating.variants import variants
 from asperity.sources import Source
+from asperity.studies.climb import spread
 
 VARIABLES = ("pressure_angle", "diameter_factor", "axial_module", "worm_roughness")
 """What is free: alpha_n, q1, m_x1, Ra1."""

@@ -20,8 +20,8 @@ from asperity.gearset.parameters import Gearset
 from asperity.gearset.sizing import MODULES, MOST_STARTS, MOST_TEETH, least_teeth, possible_starts
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.studies.design import NEEDED, Bounds
 from asperity.rating.variants import Variants, variants
+from asperity.studies.design import NEEDED, Bounds
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -118,7 +118,7 @@ class Catalogue:
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the proposals over ratio and centre distance, labelled."""
-        from asperity.rating.studies.datasets import catalogue_dataset
+        from asperity.studies.datasets import catalogue_dataset
 
         return catalogue_dataset(self)
 

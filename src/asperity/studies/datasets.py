@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.rating.studies.design import VARIABLES
-from asperity.rating.studies.quantities import quantity
+from asperity.studies.design import VARIABLES
+from asperity.studies.quantities import quantity
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from asperity.rating.studies.catalogue import Catalogue
-    from asperity.rating.studies.comparison import Compared, Comparison
-    from asperity.rating.studies.sensitivity import Sensitivity
-    from asperity.rating.studies.shaken import Shaken
-    from asperity.rating.studies.tradeoff import TradeOff
+    from asperity.studies.catalogue import Catalogue
+    from asperity.studies.comparison import Compared, Comparison
+    from asperity.studies.sensitivity import Sensitivity
+    from asperity.studies.shaken import Shaken
+    from asperity.studies.tradeoff import TradeOff
 
 _CATALOGUE = {
     "starts": ("1", "threads of the worm"),

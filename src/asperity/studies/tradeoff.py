@@ -15,16 +15,16 @@ from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.studies.climb import Top, climb, spread
-from asperity.rating.studies.design import VARIABLES, Bounds, Space
-from asperity.rating.studies.quantities import quantity
+from asperity.studies.climb import Top, climb, spread
+from asperity.studies.design import VARIABLES, Bounds, Space
+from asperity.studies.quantities import quantity
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
     from rich.table import Table
 
-    from asperity.rating.studies.optimise import Optimum
+    from asperity.studies.optimise import Optimum
 
 POINTS = 11
 """Required torques on the curve."""
@@ -75,19 +75,19 @@ class TradeOff:
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the curve over the permissible torque, labelled."""
-        from asperity.rating.studies.datasets import trade_off_dataset
+        from asperity.studies.datasets import trade_off_dataset
 
         return trade_off_dataset(self)
 
     def to_rich(self) -> "Table":
         """Return the designs as a table for the terminal."""
-        from asperity.rating.studies.reports import trade_off_report
+        from asperity.studies.reports import trade_off_report
 
         return trade_off_report(self)
 
     def plot(self, optimum: "Optimum | None" = None) -> "Figure":
         """Draw the curve, with the gearset as it is and perhaps an optimum."""
-        from asperity.rating.studies.plots import plot_trade_off
+        from asperity.studies.plots import plot_trade_off
 
         return plot_trade_off(self, optimum)
 
@@ -106,7 +106,7 @@ def trade_off(
     Parameters
     ----------
     gearset, operation, options, bounds, folder
-        As in `asperity.rating.studies.optimise.optimise`.
+        As in `asperity.studies.optimise.optimise`.
     points : int
         Required torques on the curve, at least 2.
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from asperity.errors import InputError, nearest
-from asperity.rating.studies.shaken import Shaken
 from asperity.sources import Source
+from asperity.studies.shaken import Shaken
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -143,18 +143,18 @@ class Comparison:
 
     def to_dataset(self) -> "xr.Dataset":
         """Return friction and efficiency over the methods, labelled."""
-        from asperity.rating.studies.datasets import comparison_dataset
+        from asperity.studies.datasets import comparison_dataset
 
         return comparison_dataset(self)
 
     def to_rich(self) -> "Group":
         """Return a table of the methods with the notes, for the terminal."""
-        from asperity.rating.studies.reports import comparison_report
+        from asperity.studies.reports import comparison_report
 
         return comparison_report(self)
 
     def plot(self) -> "Figure":
         """Draw the efficiency with each method."""
-        from asperity.rating.studies.plots import plot_comparison
+        from asperity.studies.plots import plot_comparison
 
         return plot_comparison(self)

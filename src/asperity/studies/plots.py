@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.rating.studies.optimise import design_numbers
 from asperity.results.figures import (
     BLACK,
     BLUE,
@@ -16,14 +15,15 @@ from asperity.results.figures import (
     legend,
     panels,
 )
+from asperity.studies.optimise import design_numbers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from asperity.rating.studies.comparison import Comparison
-    from asperity.rating.studies.optimise import Optimum
-    from asperity.rating.studies.sensitivity import Sensitivity
-    from asperity.rating.studies.tradeoff import TradeOff
+    from asperity.studies.comparison import Comparison
+    from asperity.studies.optimise import Optimum
+    from asperity.studies.sensitivity import Sensitivity
+    from asperity.studies.tradeoff import TradeOff
 
 _COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")

@@ -17,9 +17,9 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate
-from asperity.rating.studies.climb import climb, spread
-from asperity.rating.studies.design import ASSUMED, VARIABLES, Bounds, Space
-from asperity.rating.studies.quantities import quantity
+from asperity.studies.climb import climb, spread
+from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
+from asperity.studies.quantities import quantity
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -128,7 +128,7 @@ class Optimum:
 
     def to_rich(self) -> "Group":
         """Return both designs side by side and the constraints, for the terminal."""
-        from asperity.rating.studies.reports import optimum_report
+        from asperity.studies.reports import optimum_report
 
         return optimum_report(self)
 
