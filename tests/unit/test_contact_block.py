@@ -10,6 +10,7 @@ import pytest
 from asperity.block import march as block_march
 from asperity.block.check import check
 from asperity.block.march import BlockMarch, solve_block
+from asperity.block.problem import BlockProblem
 from asperity.block.resume import key_of, restore, state
 from asperity.casefile import read_case
 from asperity.commands import case_tables
