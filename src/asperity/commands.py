@@ -149,5 +149,36 @@ COMMANDS = (
             ),
         ),
     ),
+    Command(
+        "rate",
+        "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
+        "With --out also rate.json, rate.nc, rate.html and rate.csv.",
+        prepare="asperity.rating.rate:prepare",
+        solve="asperity.rating.rate:answer",
+        options=(Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),),
+    ),
+    Command(
+        "sensitivity",
+        "Raise each input of a worm gearset alone, to 40 %, and follow its efficiency.",
+        "With --out also sensitivity.nc, sensitivity.png and sensitivity.json.",
+        prepare="asperity.studies.sensitivity:prepare",
+        solve="asperity.studies.sensitivity:answer",
+    ),
+    Command(
+        "methods",
+        "Compare oils, additives, coatings and vibration by a worm gearset's efficiency.",
+        "The vibration is that of the case's [vibration], with the law of [friction]. With --out "
+        "also methods.nc, methods.png and methods.json.",
+        prepare="asperity.studies.methods:prepare",
+        solve="asperity.studies.methods:answer",
+    ),
+    Command(
+        "optimise",
+        "Find a worm gearset's most efficient design that keeps its load capacity.",
+        "Pressure angle, diameter factor, module and roughness are free. Also what a higher "
+        "permissible torque costs. With --out also optimise.nc, optimise.png and optimise.json.",
+        prepare="asperity.studies.optimise:prepare",
+        solve="asperity.studies.optimise:answer",
+    ),
 )
 """In the order of the help."""

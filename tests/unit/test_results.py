@@ -134,8 +134,8 @@ def test_a_picture_has_axes_with_units(pull, timed):
 
 
 def test_a_sweep_keeps_what_is_declared_as_a_number():
-    assert [entry.name for entry in Pull.numbers()] == ["ratio", "force"]
-    assert [entry.key for entry in Timed.numbers()] == [
+    assert [entry.name for entry in Pull.scalars()] == ["ratio", "force"]
+    assert [entry.key for entry in Timed.scalars()] == [
         "breakaway_s",
         "power_drive_W",
         "power_loss_W",

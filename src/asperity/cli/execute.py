@@ -5,7 +5,8 @@ was solved is neither lost to a disk that is full, for it has been shown, nor to
 seen enough, for it is written all the same.
 """
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,8 +39,7 @@ def execute(
         found = read(case, case_tables(), settings, **options)
     with told(found):
         problem = command.prepared(found, **options)
-    folder = output_folder(out) if out is not None else None
-    with show.progress_bar(command.counts) as progress:
+    with _folder(out) as folder, show.progress_bar(command.counts) as progress:
         run = Run(progress=progress, notify=show.note, folder=folder, stem=command.name)
         try:
             with told(found):
@@ -57,6 +57,23 @@ def execute(
         raise shown
     if result.failure is not None:
         raise result.failure
+
+
+@contextlib.contextmanager
+def _folder(out: Path | None) -> Iterator[Path | None]:
+    """Make the folder of the answer; leave none behind that nothing was written to."""
+    if out is None:
+        yield None
+        return
+    made = [folder for folder in (out, *out.parents) if not folder.exists()]
+    folder = output_folder(out)
+    try:
+        yield folder
+    except BaseException:
+        with contextlib.suppress(OSError):
+            for empty in made:
+                empty.rmdir()
+        raise
 
 
 def _show(source: str, result: "Result", *, as_json: bool) -> BrokenPipeError | StorageError | None:

@@ -1,15 +1,14 @@
 """Rate a worm gearset by up to three standards."""
 
-import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar
 
 from asperity.casefile import Case, told
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
-from asperity.rating import bs721, by_iso14521, report
+from asperity.rating import bs721, by_iso14521
 from asperity.rating.by_agma6034 import rate_agma6034
 from asperity.rating.by_bs721 import rate_bs721
 from asperity.rating.calculation import directly
@@ -20,9 +19,11 @@ from asperity.rating.iso14521 import FilmParameterError
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
-
-if TYPE_CHECKING:
-    from rich.console import Group
+from asperity.results import Result
+from asperity.results.quantity import Entry, Label
+from asperity.results.table import Column, Table
+from asperity.runs import Run
+from asperity.store import write_text
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
 
@@ -42,9 +43,10 @@ PROMISED = {
 }  # fmt: skip
 """The standards, by the name they have in results."""
 
+ALL = "all"
 
-@dataclasses.dataclass(frozen=True)
-class Rated:
+
+class Rated(Result):
     """A worm gearset rated by one or more standards.
 
     Attributes
@@ -63,13 +65,15 @@ class Rated:
         What was assumed for the keys of a case file that were left out, by ``table.key``.
     """
 
+    title: ClassVar[str] = "Worm gearset, rated"
+    stem: ClassVar[str] = "rate"
+
     gearset: Gearset
     geometry: Geometry
     iso14521: Rating | None
     bs721: Rating | None
     agma6034: Rating | None
     self_locking: SelfLocking
-    notes: tuple[str, ...]
     assumed: Mapping[str, str]
 
     @property
@@ -98,17 +102,58 @@ class Rated:
             "notes": list(self.notes),
         }
 
-    def to_rich(self) -> "Group":
-        """Return the tables of all ratings for the terminal."""
-        return report.to_rich(self)
+    def entries(self) -> Iterator[Entry]:
+        """Yield every number of every rating, by ``standard.key``."""
+        for standard, rating in self.found.items():
+            for number in rating:
+                label = Label(
+                    number.symbol,
+                    number.unit,
+                    number.meaning,
+                    key=f"{standard}.{number.key}",
+                    variable=f"{standard}_{number.key}",
+                )
+                yield Entry(f"{standard}.{number.symbol or number.key}", label, number.value)
+
+    def heading(self) -> str:
+        """Return the gearset's name."""
+        return self.gearset.name or "worm gearset"
+
+    def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
+        """Return a table a standard, the self-locking and the notes."""
+        tables = [rating.table(sources=sources) for rating in self.ratings]
+        rows = self.self_locking.to_rows()
+        if rows:
+            degrees = self.self_locking.to_json()["lead_angle_deg"]
+            columns = tuple(Column(name) for name in rows[0])
+            title = f"Self-locking at a lead angle of {degrees:.4g} deg"
+            tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
+        if self.notes:
+            tables.append(Table((), (), remarks=self.notes))
+        return tuple(tables)
 
     def to_html(self) -> str:
         """Return a page of its own with the tables of all ratings."""
-        return report.to_html(self)
+        from asperity.results.page import page
+
+        return page(f"{self.heading()}, rated", self.tables(sources=True))
 
     def to_frame(self) -> Any:
         """Return a pandas data frame of all ratings, indexed by standard and key."""
-        return report.to_frame(self)
+        import pandas  # type: ignore[import-untyped]
+
+        frames = {name: rating.to_frame() for name, rating in self.found.items()}
+        # Attributes are compared when frames are joined, and lists in them have no equality.
+        for frame in frames.values():
+            frame.attrs = {}
+        return pandas.concat(frames, names=["standard", "key"]) if frames else pandas.DataFrame()
+
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write JSON, netCDF, a page and a table for spreadsheets."""
+        names = super().write(folder, pictures=False)
+        write_text(folder / "rate.html", self.to_html())
+        write_text(folder / "rate.csv", self.to_frame().to_csv(lineterminator="\n"))
+        return [*names, "rate.html", "rate.csv"]
 
 
 def rate(
@@ -176,6 +221,24 @@ def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     gearset, operation = case.require(Gearset), case.require(Operation)
     with told(case):
         return rate(gearset, operation, options, standards, folder=case.folder)
+
+
+def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
+    """Return what the command rates; raises InputError for a standard that is not known."""
+    allowed = (*STANDARDS, ALL)
+    if standard not in allowed:
+        raise InputError(
+            f"--standard {standard}: it must be one of {choices(allowed)}"
+            f"{suggestion(standard, allowed)}"
+        )
+    for table in (Gearset, Operation):
+        case.require(table)
+    return case, STANDARDS if standard == ALL else (standard,)
+
+
+def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
+    """Rate the gearset of a case."""
+    return rate_case(*problem)
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> bs721.Tables:

@@ -1,16 +1,14 @@
 """What a rating is: every factor with its symbol, unit, equation and source; tables of them."""
 
 import dataclasses
-import html
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from asperity.errors import InputError, nearest
+from asperity.gearset.library import GIVEN
+from asperity.results.table import Column, Table
 from asperity.sources import Source
-
-if TYPE_CHECKING:
-    from rich.console import Group
 
 Value = float | int | bool | str
 
@@ -76,6 +74,18 @@ class Entry:
         if isinstance(self.value, bool):
             return "yes" if self.value else "no"
         return f"{self.value:.5g}" if isinstance(self.value, float) else str(self.value)
+
+    @property
+    def shown_equation(self) -> str:
+        """The equation; nothing for what was given."""
+        return "" if self.equation == "input" else self.equation
+
+    @property
+    def trust(self) -> str:
+        """Whether it was given or assumed, or how far its source is to be trusted."""
+        if self.assumed:
+            return "assumed"
+        return "given" if self.source is GIVEN else self.source.confidence
 
     def row(self) -> dict[str, str]:
         """Return the texts of the columns `COLUMNS`."""
@@ -185,49 +195,32 @@ class Rating:
             "notes": list(self.notes),
         }
 
-    def to_rows(self) -> list[dict[str, str]]:
-        """Return a row of texts for every entry, by the names in `COLUMNS`."""
-        return [entry.row() for entry in self.entries]
+    def table(self, *, sources: bool = False) -> Table:
+        """Return the entries as a table with the remarks below it.
 
-    def to_rich(self) -> "Group":
-        """Return a table for the terminal, with the remarks below it."""
-        from rich.console import Group
-        from rich.table import Table
-        from rich.text import Text
-
-        table = Table(title=self.standard, title_justify="left", box=None, pad_edge=False)
-        for name in ("symbol", "value", "unit", "meaning", "equation", "source"):
-            table.add_column(
-                name,
-                justify="right" if name == "value" else "left",
-                no_wrap=name in ("symbol", "value", "unit"),
-                overflow="fold",
-            )
-        for entry in self.entries:
-            row = entry.row()
-            mark = "*" if entry.assumed else ""
-            # As text, because brackets in a formula would be taken for markup.
-            cells = (row["symbol"], row["value"] + mark, row["unit"], row["meaning"])
-            table.add_row(*map(Text, (*cells, row["equation"], str(entry.source))))
-        remarks = list(self.remarks())
-        return Group(table, *(Text(f"- {remark}") for remark in remarks))
-
-    def to_html(self) -> str:
-        """Return a table in HTML, with the remarks below it as a list."""
-        head = "".join(f"<th>{name}</th>" for name in COLUMNS)
-        body = "\n".join(
-            "<tr>" + "".join(f"<td>{html.escape(row[name])}</td>" for name in COLUMNS) + "</tr>"
-            for row in self.to_rows()
-        )
-        remarks = "".join(f"<li>{html.escape(remark)}</li>\n" for remark in self.remarks())
-        return (
-            f'<table class="rating">\n<caption>{html.escape(self.standard)}</caption>\n'
-            f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n"
-            + (f"<ul>\n{remarks}</ul>\n" if remarks else "")
-        )
+        Parameters
+        ----------
+        sources : bool
+            Whether each number's source and its note are columns; else one tells how far to trust
+            it, which a terminal has room for.
+        """
+        if sources:
+            columns = tuple(Column(name, right=name == "value") for name in COLUMNS)
+            rows = [tuple(entry.row().values()) for entry in self.entries]
+        else:
+            folded = {"meaning": 3, "equation": 4}
+            names = "symbol", "value", "unit", "meaning", "equation", "trust"
+            columns = tuple(Column(n, right=n == "value", weight=folded.get(n, 0)) for n in names)
+            rows = [
+                (e.symbol or e.key, e.text, e.unit, e.meaning, e.shown_equation, e.trust)
+                for e in self.entries
+            ]
+        return Table(columns, tuple(rows), self.standard, self.remarks())
 
     def _repr_html_(self) -> str:
-        return self.to_html()
+        from asperity.results.page import fragment
+
+        return fragment([self.table(sources=True)])
 
     def to_frame(self) -> Any:
         """Return a pandas data frame indexed by key, values as numbers, remarks as attributes."""

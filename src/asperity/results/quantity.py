@@ -171,7 +171,7 @@ class Quantities:
         yield from _entries(cls, None, "")
 
     @classmethod
-    def numbers(cls) -> tuple[Entry, ...]:
+    def scalars(cls) -> tuple[Entry, ...]:
         """Return the scalars a sweep keeps: those declared as float."""
         return tuple(entry for entry in _floats(cls, "") if entry.label.swept)
 

@@ -3,16 +3,16 @@
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.errors import InputError, nearest
+from asperity.results import Result, quantity
+from asperity.results.table import Table
 from asperity.sources import Source
 from asperity.studies.shaken import Shaken
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
-    from rich.console import Group
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,8 +95,7 @@ class Compared:
         return answer
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Result):
     """Ways to less friction in one gearset.
 
     Attributes
@@ -115,12 +114,15 @@ class Comparison:
         What a reader of the numbers should know.
     """
 
+    title: ClassVar[str] = "Ways to less friction"
+    stem: ClassVar[str] = "methods"
+    drawings: ClassVar[Mapping[str, str]] = {"methods": "asperity.studies.plots:plot_comparison"}
+
     name: str
-    sliding_velocity: float
-    output_power: float
+    sliding_velocity: float = quantity("v_g", "m/s", "sliding velocity", key="sliding_velocity_m_s")
+    output_power: float = quantity("P_2", "W", "power at the wheel")
     rows: tuple[Compared, ...]
     assumed: Mapping[str, str]
-    notes: tuple[str, ...]
 
     def __getitem__(self, key: str) -> Compared:
         """Return a row by its key."""
@@ -147,14 +149,12 @@ class Comparison:
 
         return comparison_dataset(self)
 
-    def to_rich(self) -> "Group":
-        """Return a table of the methods with the notes, for the terminal."""
-        from asperity.studies.reports import comparison_report
+    def heading(self) -> str:
+        """Return the gearset's name."""
+        return self.name or "worm gearset"
 
-        return comparison_report(self)
+    def tables(self) -> tuple[Table, ...]:
+        """Return friction and efficiency with each method, with the sources and notes below."""
+        from asperity.studies.reports import comparison_tables
 
-    def plot(self) -> "Figure":
-        """Draw the efficiency with each method."""
-        from asperity.studies.plots import plot_comparison
-
-        return plot_comparison(self)
+        return comparison_tables(self)

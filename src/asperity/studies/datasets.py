@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.studies.design import VARIABLES
-from asperity.studies.quantities import quantity
+from asperity.studies.quantities import varied_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -104,7 +104,7 @@ def trade_off_dataset(curve: "TradeOff") -> "xr.Dataset":
         M_s=(over, curve.numbers["M_s_Nm"], "N m", "torque permitted by strength"),
         **{
             what.name: (over, curve.numbers[what.key], what.unit or "1", what.meaning)
-            for what in map(quantity, (*VARIABLES, "profile_shift"))
+            for what in map(varied_quantity, (*VARIABLES, "profile_shift"))
         },
     )
     given = {f"given.{key}": value for key, value in curve.given.items()}

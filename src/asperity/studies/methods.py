@@ -22,23 +22,18 @@ from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
 from asperity.rating.result import Rating
 from asperity.rating.variants import variants
+from asperity.runs import Run
 from asperity.slider.parameters import Slider
 from asperity.sources import Source
 from asperity.studies import shaken
 from asperity.studies.comparison import Compared, Comparison
-from asperity.studies.reported import Method, reported_methods
+from asperity.studies.gears import Gears
+from asperity.studies.reported import OWN, Method, reported_methods
 from asperity.studies.shaken import Shaken
 from asperity.vibration import Vibration
 
 AS_IS = "as_is"
 """Key of the gearset as it is."""
-
-OWN = Source(
-    "sliding body of asperity",
-    "one source",
-    "dry friction; its use for a lubricated tooth contact is assumed",
-)
-"""Where the friction under an imposed vibration comes from."""
 
 _STANDARD = "iso14521"
 _QUARTER = 1e-9
@@ -120,6 +115,17 @@ def compare_case(case: Case, methods: Sequence[Method] | None = None) -> Compari
         normal_force=case.require(Slider).normal_force if Slider.table in case else None,
         folder=case.folder,
     )
+
+
+def prepare(case: Case) -> Case:
+    """Return a case that has a gearset; raises InputError where a table is missing."""
+    Gears.of(case)
+    return case
+
+
+def answer(case: Case, _: Run) -> Comparison:
+    """Compare ways to less friction in the gearset of a case."""
+    return compare_case(case)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -7,22 +7,29 @@ for wear and strength.
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+from asperity.runs import Run
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
-from asperity.studies.quantities import quantity
+from asperity.studies.gears import Gears
+from asperity.studies.quantities import varied_quantity
+from asperity.studies.tradeoff import TradeOff, trade_off
 
 if TYPE_CHECKING:
-    from rich.console import Group
+    import xarray as xr
 
 STARTS = 8
 """Starts beside the gearset as it is."""
@@ -60,8 +67,7 @@ class Limit(NamedTuple):
     active: bool
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Optimum:
+class Optimum(Result):
     """The most efficient design within the limits.
 
     Attributes
@@ -74,17 +80,21 @@ class Optimum:
         Every constraint, and whether it holds the design back.
     starts, agreed : int
         How many starts there were, and how many came to this design's efficiency.
-    notes : tuple of str
-        What a reader of the numbers should know.
+    curve : TradeOff or None
+        What a higher permissible torque costs.
     """
+
+    title: ClassVar[str] = "Most efficient design"
+    stem: ClassVar[str] = "optimise"
+    drawings: ClassVar[Mapping[str, str]] = {"optimise": "asperity.studies.plots:plot_trade_off"}
 
     gearset: Gearset
     before: Rated
     after: Rated
     limits: tuple[Limit, ...]
-    starts: int
-    agreed: int
-    notes: tuple[str, ...]
+    starts: int = quantity("", "", "starts")
+    agreed: int = quantity("", "", "starts that agree")
+    curve: TradeOff | None = None
 
     @property
     def gain(self) -> float:
@@ -101,8 +111,8 @@ class Optimum:
         """What turns the case into the design, for ``--set``."""
         design = self.gearset
         settings = [
-            f"gearset.{name}={quantity(name).from_si(getattr(design, name)):.12g} "
-            f"{quantity(name).unit}".rstrip()
+            f"gearset.{name}={varied_quantity(name).from_si(getattr(design, name)):.12g} "
+            f"{varied_quantity(name).unit}".rstrip()
             for name in VARIABLES
         ]
         g = design.geometry
@@ -114,7 +124,7 @@ class Optimum:
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""
-        return {
+        answer: dict[str, Any] = {
             "name": self.before.gearset.name,
             "given": design_numbers(self.before),
             "optimum": design_numbers(self.after),
@@ -125,12 +135,27 @@ class Optimum:
             "settings": list(self.settings),
             "notes": list(self.notes),
         }
+        return answer if self.curve is None else {**answer, "trade_off": self.curve.to_json()}
 
-    def to_rich(self) -> "Group":
-        """Return both designs side by side and the constraints, for the terminal."""
-        from asperity.studies.reports import optimum_report
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the designs over the permissible torque, and the optimum as attributes."""
+        curve = self.curve
+        dataset = super().to_dataset() if curve is None else curve.to_dataset()
+        after = design_numbers(self.after)
+        for standard, key in (("bs721", "M_permissible_Nm"), ("iso14521", "eta_z1_2")):
+            if after[standard]:
+                dataset.attrs[f"optimum.{key}"] = after[standard][key]
+        return dataset
 
-        return optimum_report(self)
+    def heading(self) -> str:
+        """Return the gearset's name."""
+        return self.before.gearset.name or "worm gearset"
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return both designs side by side, what holds the design back, and the curve."""
+        from asperity.studies.reports import optimum_tables
+
+        return optimum_tables(self, design_numbers(self.before), design_numbers(self.after))
 
 
 def optimise(
@@ -200,11 +225,23 @@ def optimise(
     )
 
 
+def prepare(case: Case) -> Gears:
+    """Return the gearset of a case and how it runs."""
+    return Gears.of(case)
+
+
+def answer(gears: Gears, _: Run) -> Optimum:
+    """Return the best design of a case's gearset, with the trade-off."""
+    best = optimise(gears.gearset, gears.operation, gears.options, folder=gears.folder)
+    curve = trade_off(gears.gearset, gears.operation, gears.options, folder=gears.folder)
+    return dataclasses.replace(best, curve=curve)
+
+
 def design_numbers(rated: Rated) -> dict[str, Any]:
     """Return a design: what is free, what follows, and what it is worth by each standard."""
     g = rated.geometry
     return {
-        **{quantity(name).key: value for name, value in _free(rated).items()},
+        **{varied_quantity(name).key: value for name, value in _free(rated).items()},
         "lead_angle_deg": math.degrees(g.lead_angle),
         **{
             standard: (
@@ -221,10 +258,10 @@ def _free(rated: Rated) -> dict[str, float]:
     """Return what is free, and the profile shift that follows, in the units of results."""
     g = rated.geometry
     return {
-        "pressure_angle": quantity("pressure_angle").shown(g.pressure_angle),
+        "pressure_angle": varied_quantity("pressure_angle").shown(g.pressure_angle),
         "diameter_factor": g.diameter_factor,
         "axial_module": g.axial_module,
-        "worm_roughness": quantity("worm_roughness").shown(rated.gearset.worm_roughness),
+        "worm_roughness": varied_quantity("worm_roughness").shown(rated.gearset.worm_roughness),
         "profile_shift": g.profile_shift,
     }
 
@@ -242,12 +279,12 @@ def _limits(space: Space, before: Rated, after: Rated) -> tuple[Limit, ...]:
     h_star = _number(after, "h_star")
     limits.append(Limit("h_star", "h*", ">", 0.0, h_star, h_star < _ACTIVE))
     spans = {
-        name: (quantity(name).shown(low), quantity(name).shown(high))
+        name: (varied_quantity(name).shown(low), varied_quantity(name).shown(high))
         for name, low, high in zip(VARIABLES, space.lower, space.upper, strict=True)
     } | {"profile_shift": space.profile_shift}
     values = _free(after)
     for name, (low, high) in spans.items():
-        what, value = quantity(name), values[name]
+        what, value = varied_quantity(name), values[name]
         near = _ACTIVE * (high - low)
         for relation, bound, gap in ((">=", low, value - low), ("<=", high, high - value)):
             limits.append(Limit(what.key, what.symbol, relation, bound, value, gap <= near))

@@ -53,7 +53,7 @@ class Quantity(NamedTuple):
 
 
 @functools.cache
-def quantity(name: str) -> Quantity:
+def varied_quantity(name: str) -> Quantity:
     """Return a quantity by its name; raises InputError where there is none."""
     known = {fact.of: fact for fact in facts("given")}
     if name not in known:

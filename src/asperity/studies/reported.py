@@ -15,6 +15,13 @@ from asperity.gearset.materials import BaseOilName
 from asperity.sources import Source
 from asperity.units import Quantity
 
+OWN = Source(
+    "sliding body of asperity",
+    "one source",
+    "dry friction; its use for a lubricated tooth contact is assumed",
+)
+"""Where the friction under an imposed vibration comes from."""
+
 Kind = Literal["oil", "additive", "coating", "vibration"]
 
 _SHIPPED = Path(__file__).parent / "data" / "methods.toml"

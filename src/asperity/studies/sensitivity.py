@@ -8,11 +8,12 @@ for the rest.
 import dataclasses
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from asperity.casefile import Case
 from asperity.errors import InputError, nearest
 from asperity.gearset.parameters import Gearset
 from asperity.rating.calculation import Reasons
@@ -21,12 +22,14 @@ from asperity.rating.inputs import inputs as given_inputs
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
 from asperity.rating.variants import Variants, variants
-from asperity.studies.quantities import Quantity, quantity
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+from asperity.runs import Run
+from asperity.studies.gears import Gears
+from asperity.studies.quantities import Quantity, varied_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
-    from rich.console import Group
 
 INPUTS = (
     "pressure_angle",
@@ -111,8 +114,7 @@ class Influence:
         return self.legend[int(codes[0])] if codes.size else ""
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Sensitivity:
+class Sensitivity(Result):
     """The efficiency of a worm gearset over each of its inputs.
 
     Attributes
@@ -127,8 +129,14 @@ class Sensitivity:
         One for each input.
     """
 
+    title: ClassVar[str] = "Sensitivity of the efficiency"
+    stem: ClassVar[str] = "sensitivity"
+    drawings: ClassVar[Mapping[str, str]] = {
+        "sensitivity": "asperity.studies.plots:plot_sensitivity"
+    }
+
     name: str
-    efficiency: float
+    efficiency: float = quantity("eta_z1-2", "", "efficiency of the teeth")
     rises: FloatArray
     influences: tuple[Influence, ...]
 
@@ -155,17 +163,15 @@ class Sensitivity:
 
         return sensitivity_dataset(self)
 
-    def to_rich(self) -> "Group":
-        """Return the efficiencies and the summary as tables for the terminal."""
-        from asperity.studies.reports import sensitivity_report
+    def heading(self) -> str:
+        """Return the gearset's name."""
+        return self.name or "worm gearset"
 
-        return sensitivity_report(self)
+    def tables(self) -> tuple[Table, ...]:
+        """Return the efficiencies over the rises, and a summary of the influences."""
+        from asperity.studies.reports import sensitivity_tables
 
-    def plot(self) -> "Figure":
-        """Draw the efficiency over the rise of each input."""
-        from asperity.studies.plots import plot_sensitivity
-
-        return plot_sensitivity(self)
+        return sensitivity_tables(self)
 
 
 def sensitivity(
@@ -204,7 +210,7 @@ def sensitivity(
     given = given_inputs(gearset, operation, options)
 
     def at(name: str, shares: npt.ArrayLike) -> Variants:
-        what = quantity(name)
+        what = varied_quantity(name)
         values = what.to_si(what.of(given) * (1.0 + np.asarray(shares, dtype=np.float64)))
         return variants(gearset, operation, options, (_STANDARD,), capacity=False, **{name: values})
 
@@ -214,8 +220,8 @@ def sensitivity(
         below, above = at(name, [-_NEARBY, _NEARBY])[_EFFICIENCY]
         influences.append(
             Influence(
-                quantity=quantity(name),
-                values=quantity(name).of(given) * (1.0 + steps),
+                quantity=varied_quantity(name),
+                values=varied_quantity(name).of(given) * (1.0 + steps),
                 efficiency=found[_EFFICIENCY],
                 reason=found.reason(_EFFICIENCY),
                 legend=MappingProxyType(dict(found.legend(_STANDARD))),
@@ -223,7 +229,19 @@ def sensitivity(
                 fails_above=_end(lambda s, n=name: np.isnan(at(n, s)[_EFFICIENCY]), steps),
             )
         )
-    return Sensitivity(gearset.name, float(base), steps, tuple(influences))
+    return Sensitivity(
+        name=gearset.name, efficiency=float(base), rises=steps, influences=tuple(influences)
+    )
+
+
+def prepare(case: Case) -> Gears:
+    """Return the gearset of a case and how it runs."""
+    return Gears.of(case)
+
+
+def answer(gears: Gears, _: Run) -> Sensitivity:
+    """Return the sensitivity of a case's gearset."""
+    return sensitivity(gears.gearset, gears.operation, gears.options)
 
 
 def _increasing(rises: npt.ArrayLike) -> FloatArray:

@@ -6,8 +6,9 @@ bears. The permissible torque is the lower of those for wear and strength by BS 
 """
 
 import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -15,16 +16,14 @@ from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.results import Result
+from asperity.results.table import Table
 from asperity.studies.climb import Top, climb, spread
 from asperity.studies.design import VARIABLES, Bounds, Space
-from asperity.studies.quantities import quantity
+from asperity.studies.quantities import varied_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
-    from rich.table import Table
-
-    from asperity.studies.optimise import Optimum
 
 POINTS = 11
 """Required torques on the curve."""
@@ -36,8 +35,7 @@ _FLAT = 1e-6
 _ROOM = 1e-8
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class TradeOff:
+class TradeOff(Result):
     """The most efficient designs for rising permissible torques.
 
     Attributes
@@ -56,6 +54,10 @@ class TradeOff:
     required_torque : float
         Rated torque times the application factor, N m.
     """
+
+    title: ClassVar[str] = "Efficiency and permissible torque"
+    stem: ClassVar[str] = "trade-off"
+    drawings: ClassVar[Mapping[str, str]] = {"trade-off": "asperity.studies.plots:plot_trade_off"}
 
     name: str
     torque: FloatArray
@@ -79,17 +81,11 @@ class TradeOff:
 
         return trade_off_dataset(self)
 
-    def to_rich(self) -> "Table":
-        """Return the designs as a table for the terminal."""
-        from asperity.studies.reports import trade_off_report
+    def tables(self) -> tuple[Table, ...]:
+        """Return the designs as a table."""
+        from asperity.studies.reports import trade_off_table
 
-        return trade_off_report(self)
-
-    def plot(self, optimum: "Optimum | None" = None) -> "Figure":
-        """Draw the curve, with the gearset as it is and perhaps an optimum."""
-        from asperity.studies.plots import plot_trade_off
-
-        return plot_trade_off(self, optimum)
+        return (trade_off_table(self),)
 
 
 def trade_off(
@@ -140,11 +136,14 @@ def trade_off(
         torque=numbers["M_permissible_Nm"],
         efficiency=numbers["eta_z1_2"],
         numbers={
-            **{quantity(n).key: quantity(n).from_si(designs[n]) for n in VARIABLES},
+            **{varied_quantity(n).key: varied_quantity(n).from_si(designs[n]) for n in VARIABLES},
             **{key: numbers[key] for key in ("h_star", "M_w_Nm", "M_s_Nm", "profile_shift")},
         },
         given={
-            **{quantity(n).key: quantity(n).shown(v) for n, v in space.values(space.start).items()},
+            **{
+                varied_quantity(n).key: varied_quantity(n).shown(v)
+                for n, v in space.values(space.start).items()
+            },
             **{key: float(value) for key, value in now.items()},
         },
         required_torque=operation.application_factor * operation.output_torque,

@@ -18,7 +18,7 @@ FAILED = "failed"
 REFUSED = "refused"
 
 
-VARIABLES = SlideResult.numbers()
+VARIABLES = SlideResult.scalars()
 
 
 def task_size(model: Model) -> int:

@@ -1,0 +1,34 @@
+"""The tables of a case that a study of a worm gearset begins with."""
+
+import dataclasses
+from pathlib import Path
+from typing import Self
+
+from asperity.casefile import Case
+from asperity.gearset import Gearset
+from asperity.rating.parameters import Operation, RatingOptions
+
+
+@dataclasses.dataclass(frozen=True)
+class Gears:
+    """A worm gearset, how it runs and how it is rated.
+
+    Attributes
+    ----------
+    gearset, operation, options
+        The tables ``[gearset]``, ``[operation]`` and ``[rating]``, the last of which may be
+        missing.
+    folder : pathlib.Path
+        Where relative file names among the options start.
+    """
+
+    gearset: Gearset
+    operation: Operation
+    options: RatingOptions | None
+    folder: Path
+
+    @classmethod
+    def of(cls, case: Case) -> Self:
+        """Return the tables of a case; raises InputError where one is missing."""
+        options = case.require(RatingOptions) if RatingOptions.table in case else None
+        return cls(case.require(Gearset), case.require(Operation), options, case.folder)
