@@ -1,20 +1,22 @@
 """An elastic block marched through its steps: gravity, pressure, drive, vibration."""
 
+import functools
 import math
 import time
 from collections.abc import Callable
 
 import numpy as np
 
+from asperity.block.notes import block_notes
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, Frame
+from asperity.block.stability import Flutter, Stability
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Snapshot, Walker
 from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
-from asperity.slider.march import march_notes
 from asperity.slider.model import FloatArray
 from asperity.slider.result import History
 
@@ -22,7 +24,6 @@ _RECORDS = 4000
 _REPORTS = 1000
 _FRAMES = 48
 _FRAME_CYCLES = 2
-_MOST_SLIP = 0.5
 
 _NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
 
@@ -88,6 +89,11 @@ class BlockMarch:
             self._walker = Walker(system, rest_under_load(system, self.problem.loads))
             self._record(0)
         return self._walker
+
+    @functools.cached_property
+    def flutter(self) -> Flutter | None:
+        """What grows as the block slides; known before the first increment."""
+        return Stability(self.problem).flutter()
 
     def begin_from(self, state: SystemState) -> None:
         """Begin from a state instead of at rest under the load."""
@@ -210,6 +216,7 @@ class BlockMarch:
         residual = abs(halves[1] - halves[0]) / force
         breakaway = float(second[ledger.BREAKAWAY])
         mean = float(sums[ledger.DRIVE_FORCE]) / span
+        powers = ledger.power_ledger(sums, start, end)
         return BlockResult(
             problem=problem,
             model=model,
@@ -219,13 +226,15 @@ class BlockMarch:
             friction_max=_pair(sums, ledger.MAX_FX, ledger.MAX_FY),
             friction_min=_pair(sums, ledger.MIN_FX, ledger.MIN_FY),
             breakaway_time=breakaway if breakaway >= 0.0 else None,
-            ledger=ledger.power_ledger(sums, start, end),
+            ledger=powers,
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,
             seconds=self.seconds,
             history=self.history if self._stride else None,
-            notes=self._notes(residual, broke=breakaway >= 0.0),
+            notes=block_notes(
+                problem, walker, powers, residual, self.flutter, broke=breakaway >= 0.0
+            ),
             normal_force=float(sums[ledger.NORMAL_FORCE]) / span,
             iterations_mean=float(sums[ledger.ITERATIONS] / sums[ledger.INCREMENTS]),
             iterations_max=int(sums[ledger.MOST_ITERATIONS]),
@@ -238,45 +247,6 @@ class BlockMarch:
             peak_pressure=float(sums[ledger.MAX_PRESSURE]),
             frames=tuple(self.frames),
         )
-
-    def _notes(self, residual: float, *, broke: bool) -> tuple[str, ...]:
-        model, table = self.problem.model, self.problem.timetable
-        notes = list(march_notes(model, table, residual, broke=broke))
-        block = self.problem.block
-        if self.problem.tips:
-            notes.insert(
-                0,
-                "without vibration the block tips over before it slides: mu times its height, "
-                f"{1e3 * model.friction.mu * block.size[2]:.4g} mm, is more than its length, "
-                f"{1e3 * block.size[0]:.4g} mm",
-            )
-        slip = (model.slider.drive_velocity + model.peak_velocity) * table.step
-        most = _MOST_SLIP * self.problem.friction.limit
-        if model.friction.model != "coulomb" and slip > most:
-            notes.append(
-                f"the slip in a step is up to {slip / self.problem.friction.limit:.2g} "
-                "max_deflection, which blurs reversals of the slip; a solve.step of "
-                f"{table.step * most / slip:.2g} s keeps it at {_MOST_SLIP:g}"
-            )
-        system = self.problem.system
-        if system.impact(table.step) and system.resolving_step:
-            notes.append(
-                "the step does not resolve how fast the block bounces on its contact, "
-                f"{system.bounce / (2e3 * math.pi):.3g} kHz: the time integration takes a beta of "
-                f"{system.newmark_beta(table.step):.3g}, for impacts; a solve.step of "
-                f"{system.resolving_step:.2g} s resolves it"
-            )
-        if self.walker.unconverged:
-            notes.append(
-                f"{self.walker.unconverged} increments ended above the tolerance, at a relative "
-                f"residual of up to {self.walker.residual_max:.2g}, for want of digits: a softer "
-                "contact does better"
-            )
-        if self.walker.cuts:
-            notes.append(
-                f"{self.walker.cuts} increments did not converge at once and were taken in halves"
-            )
-        return tuple(notes)
 
 
 def solve_block(

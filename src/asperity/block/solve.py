@@ -5,6 +5,7 @@ from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, UnfinishedBlock
 from asperity.block.resume import key_of, restore, state
+from asperity.block.stability import flutter_note
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError
 from asperity.runs import Run
@@ -45,6 +46,8 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult:
     try:
         # Everything before the first increment, that Ctrl-C ends at once.
         _ = march.walker
+        if march.flutter is not None:
+            run.notify(flutter_note(problem, march.flutter))
         with run.going_on():
             return march.run()
     except (ConvergenceError, KeyboardInterrupt) as error:

@@ -1,0 +1,170 @@
+"""Whether a block flutters as it slides: looked at before it is marched.
+
+The directions of slip are those of the drive and of the extremes of the vibration. In each the
+block is taken to slide steadily with all of its base in contact
+(`asperity.contact.motion.stability`); a vibration that turns the slip leaves a growing oscillation
+less time than that.
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from asperity.block.problem import BlockProblem
+from asperity.contact.motion.stability import Growth, SlidingMotion, sliding_motion
+
+# Directions whose unit vectors agree to this are one, 2.6 degrees.
+_SAME = 0.999
+
+# What grows by less than this factor in the whole march is of no account.
+_SEEN = math.e
+
+# The damping that holds an oscillation is found to this share of it.
+_CLOSE = 0.02
+
+
+@dataclasses.dataclass(frozen=True)
+class Flutter:
+    """An oscillation of a sliding block that grows.
+
+    Attributes
+    ----------
+    direction : tuple of 2 floats
+        Unit vector of the slip, along x and y.
+    growth : Growth
+        In time.
+    stepped : Growth or None
+        In the steps of the march; None where their numerical damping holds it.
+    holding : float or None
+        Least ``block.damping_ratio`` that holds it; None where none does.
+    """
+
+    direction: tuple[float, float]
+    growth: Growth
+    stepped: Growth | None
+    holding: float | None
+
+
+class Stability:
+    """Steady sliding of a block, in each direction it slides to.
+
+    Parameters
+    ----------
+    problem : BlockProblem
+        The block.
+    """
+
+    def __init__(self, problem: BlockProblem) -> None:
+        self._problem = problem
+        system = problem.system
+        pressure = problem.model.slider.normal_force / problem.surface.area
+        self.motions = tuple(
+            sliding_motion(
+                system.mechanism, system.surface, system.normal, system.friction, pressure, way
+            )
+            for way in slip_directions(problem)
+        )
+
+    def flutter(self) -> Flutter | None:
+        """Return the oscillation that grows fastest; None where none grows by e in the march."""
+        step = self._problem.timetable.step
+        found = [(motion, self._seen(motion.growth())) for motion in self.motions]
+        growing = [(motion, growth) for motion, growth in found if growth is not None]
+        if not growing:
+            return None
+        # What the steps do not hold comes first.
+        stepped = [self.in_steps(motion, step) for motion, _ in growing]
+        first = max(
+            range(len(growing)),
+            key=lambda i: (getattr(stepped[i], "rate", 0.0), growing[i][1].rate),
+        )
+        motion, growth = growing[first]
+        return Flutter(motion.direction, growth, stepped[first], self._holding())
+
+    def in_steps(self, motion: SlidingMotion, step: float) -> Growth | None:
+        """Return what grows fastest in steps of a length in s; None for nothing to speak of."""
+        system = self._problem.system
+        stepped = motion.in_steps(step, alpha=system.alpha, impact=system.impact(step))
+        return self._seen(motion.growth(stepped))
+
+    def flutters_in_steps(self, step: float) -> bool:
+        """Whether an oscillation grows that steps of a length in s do not hold."""
+        # What does not grow in time is held by any step.
+        return any(
+            self._seen(motion.growth()) is not None and self.in_steps(motion, step) is not None
+            for motion in self.motions
+        )
+
+    def _seen(self, growth: Growth | None) -> Growth | None:
+        table = self._problem.timetable
+        if growth is None or growth.rate * table.steps * table.step < math.log(_SEEN):
+            return None
+        return growth
+
+    def _holding(self) -> float | None:
+        """Least damping ratio with which nothing grows in any direction, rounded up."""
+        mechanism = self._problem.system.mechanism
+        free = ~mechanism.held
+        critical = 2.0 * np.sqrt(np.diag(mechanism.stiffness) * np.diag(mechanism.mass))[free]
+        given = self._problem.block.damping_ratio
+
+        def holds(ratio: float) -> bool:
+            more = (ratio - given) * critical
+            return all(self._seen(m.damped(more).growth()) is None for m in self.motions)
+
+        high = max(2.0 * given, _CLOSE * _CLOSE)
+        while not holds(high):
+            if high >= 0.5:
+                return None
+            high = min(2.0 * high, 0.5)
+        low = max(given, 0.5 * high)
+        while high - low > _CLOSE * high:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if holds(middle) else (middle, high)
+        digit = 10.0 ** (math.floor(math.log10(high)) - 1)
+        return math.ceil(high / digit - 1e-9) * digit
+
+
+def slip_directions(problem: BlockProblem) -> tuple[tuple[float, float], ...]:
+    """Return the directions a block slides to, unit vectors along x and y: the drive's first."""
+    model = problem.model
+    along, across = model.unit_direction
+    fastest = model.peak_velocity if model.vibrates else 0.0
+    found: list[tuple[float, float]] = []
+    for share in (0.0, 1.0, -1.0):
+        x = model.slider.drive_velocity - share * fastest * along
+        y = -share * fastest * across * model.friction.transfer
+        speed = math.hypot(x, y)
+        if speed > 0.0 and all(x * a + y * b < _SAME * speed for a, b in found):
+            found.append((x / speed, y / speed))
+    return tuple(found)
+
+
+def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
+    """Say which oscillation grows, how fast, and what holds it."""
+    growth, stepped = flutter.growth, flutter.stepped
+    turn = math.degrees(math.atan2(flutter.direction[1], flutter.direction[0])) + 0.0
+    way = "along the drive" if abs(turn) < 1.0 else f"at {turn:.0f} degrees to the drive"
+    given, step = problem.block.damping_ratio, problem.timetable.step
+    text = (
+        f"the block flutters as it slides {way}: {_told(growth)}, which a block.damping_ratio of "
+        f"{given:g} does not hold"
+    )
+    if stepped is None:
+        text += (
+            f"; the numerical damping of steps of {step:.3g} s holds it, that of shorter ones may "
+            "not"
+        )
+    else:
+        text += f"; in steps of {step:.3g} s it grows by {stepped.rate:.4g}/s, which may spoil the "
+            "result"
+    if flutter.holding is None:
+        return f"{text}; none holds it: take other block.modes"
+    return f"{text}; one of {flutter.holding:.2g} does, as may other block.modes"
+
+
+def _told(growth: Growth) -> str:
+    if growth.frequency == 0.0:
+        return f"a motion that does not oscillate grows by {growth.rate:.4g}/s"
+    return f"an oscillation of {1e-3 * growth.frequency:.4g} kHz grows by {growth.rate:.4g}/s"
