@@ -157,8 +157,7 @@ def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
             "not"
         )
     else:
-        text += f"; in steps of {step:.3g} s it grows by {stepped.rate:.4g}/s, which may spoil the "
-            "result"
+        text += f"; in steps of {step:.3g} s it grows by {stepped.rate:.4g}/s, which may spoil the result"
     if flutter.holding is None:
         return f"{text}; none holds it: take other block.modes"
     return f"{text}; one of {flutter.holding:.2g} does, as may other block.modes"
