@@ -20,8 +20,10 @@ _SAME = 0.999
 # What grows by less than this factor in the whole march is of no account.
 _SEEN = math.e
 
-# The damping that holds an oscillation is found to this share of it.
+# Damping holds what is left with this share of its growth; it is found to this share of itself.
+_HELD = 0.01
 _CLOSE = 0.02
+_MOST_RATIO = 0.5
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,42 +70,32 @@ class Stability:
 
     def flutter(self) -> Flutter | None:
         """Return the oscillation that grows fastest; None where none grows by e in the march."""
-        step = self._problem.timetable.step
-        found = [(motion, self._seen(motion.growth())) for motion in self.motions]
-        growing = [(motion, growth) for motion, growth in found if growth is not None]
+        found = [(motion, motion.growth()) for motion in self.motions]
+        growing = [(motion, growth) for motion, growth in found if self._seen(growth)]
         if not growing:
             return None
         # What the steps do not hold comes first.
-        stepped = [self.in_steps(motion, step) for motion, _ in growing]
-        first = max(
-            range(len(growing)),
-            key=lambda i: (getattr(stepped[i], "rate", 0.0), growing[i][1].rate),
-        )
-        motion, growth = growing[first]
-        return Flutter(motion.direction, growth, stepped[first], self._holding())
-
-    def in_steps(self, motion: SlidingMotion, step: float) -> Growth | None:
-        """Return what grows fastest in steps of a length in s; None for nothing to speak of."""
-        system = self._problem.system
-        stepped = motion.in_steps(step, alpha=system.alpha, impact=system.impact(step))
-        return self._seen(motion.growth(stepped))
+        stepped = [self._in_steps(motion, self._problem.timetable.step) for motion, _ in growing]
+        worst = max(range(len(growing)), key=lambda i: (_rate(stepped[i]), _rate(growing[i][1])))
+        motion, growth = growing[worst]
+        assert growth is not None
+        return Flutter(motion.direction, growth, stepped[worst], self._holding(growth))
 
     def flutters_in_steps(self, step: float) -> bool:
         """Whether an oscillation grows that steps of a length in s do not hold."""
-        # What does not grow in time is held by any step.
-        return any(
-            self._seen(motion.growth()) is not None and self.in_steps(motion, step) is not None
-            for motion in self.motions
-        )
+        growing = (motion for motion in self.motions if self._seen(motion.growth()))
+        return any(self._in_steps(motion, step) is not None for motion in growing)
 
-    def _seen(self, growth: Growth | None) -> Growth | None:
+    def _in_steps(self, motion: SlidingMotion, step: float) -> Growth | None:
+        system = self._problem.system
+        return motion.growth(motion.in_steps(step, alpha=system.alpha, impact=system.impact(step)))
+
+    def _seen(self, growth: Growth | None) -> bool:
         table = self._problem.timetable
-        if growth is None or growth.rate * table.steps * table.step < math.log(_SEEN):
-            return None
-        return growth
+        return _rate(growth) * table.steps * table.step >= math.log(_SEEN)
 
-    def _holding(self) -> float | None:
-        """Least damping ratio with which nothing grows in any direction, rounded up."""
+    def _holding(self, worst: Growth) -> float | None:
+        """Least damping ratio that holds what grows in any direction, rounded up."""
         mechanism = self._problem.system.mechanism
         free = ~mechanism.held
         critical = 2.0 * np.sqrt(np.diag(mechanism.stiffness) * np.diag(mechanism.mass))[free]
@@ -111,19 +103,26 @@ class Stability:
 
         def holds(ratio: float) -> bool:
             more = (ratio - given) * critical
-            return all(self._seen(m.damped(more).growth()) is None for m in self.motions)
+            return all(
+                _rate(motion.damped(more).growth()) <= _HELD * worst.rate
+                for motion in self.motions
+            )
 
-        high = max(2.0 * given, _CLOSE * _CLOSE)
+        high = max(2.0 * given, 1e-3)
         while not holds(high):
-            if high >= 0.5:
+            if high >= _MOST_RATIO:
                 return None
-            high = min(2.0 * high, 0.5)
-        low = max(given, 0.5 * high)
+            high = min(2.0 * high, _MOST_RATIO)
+        low = max(given, 0.0 if high == 1e-3 else 0.5 * high)
         while high - low > _CLOSE * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if holds(middle) else (middle, high)
         digit = 10.0 ** (math.floor(math.log10(high)) - 1)
         return math.ceil(high / digit - 1e-9) * digit
+
+
+def _rate(growth: Growth | None) -> float:
+    return growth.rate if growth is not None else 0.0
 
 
 def slip_directions(problem: BlockProblem) -> tuple[tuple[float, float], ...]:
@@ -157,7 +156,7 @@ def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
             "not"
         )
     else:
-        text += f"; in steps of {step:.3g} s it grows by {stepped.rate:.4g}/s, which may spoil the result"
+        text += f"; in steps of {step:.3g} s it grows by {stepped.rate:.4g}/s: mistrust the result"
     if flutter.holding is None:
         return f"{text}; none holds it: take other block.modes"
     return f"{text}; one of {flutter.holding:.2g} does, as may other block.modes"
