@@ -50,6 +50,16 @@ def outcome(folder):
     return {key: value for key, value in answer.items() if key not in TIMES}
 
 
+def test_a_block_that_flutters_is_told_before_it_is_marched(ended):
+    modes = "--set", "block.modes=16", "--set", "block.damping_ratio=0", "--set", "solve.step=1 us"
+    code, output, errors = ended(*SHORT, *modes, "--json")
+    assert code == 0
+    told = json.loads(output)["notes"][0]
+    assert told.startswith("the block flutters as it slides")
+    assert "block.damping_ratio" in told
+    assert told in errors
+
+
 def wait_until(process, path):
     deadline = time.monotonic() + 120
     while not path.exists():

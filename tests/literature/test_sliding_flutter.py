@@ -2,8 +2,8 @@
 
 N. Hoffmann, M. Fischer, R. Allgaier, L. Gaul, A minimal model for studying properties of the
 mode-coupling type instability in friction induced oscillations, Mechanics Research Communications
-29 (2002) 197-205: a mass that moves along and normal to a belt, held by two springs that couple both
-and pressed on a contact spring k_3 with friction mu k_3 per normal displacement,
+29 (2002) 197-205: a mass that moves along and normal to a belt, held by springs that couple both,
+on a contact spring k_3 with friction mu k_3 per normal displacement,
 
     m x'' + k_11 x + (k_12 - mu k_3) z = 0,    m z'' + k_12 x + (k_22 + k_3) z = 0.
 

@@ -104,8 +104,7 @@ class Stability:
         def holds(ratio: float) -> bool:
             more = (ratio - given) * critical
             return all(
-                _rate(motion.damped(more).growth()) <= _HELD * worst.rate
-                for motion in self.motions
+                _rate(motion.damped(more).growth()) <= _HELD * worst.rate for motion in self.motions
             )
 
         high = max(2.0 * given, 1e-3)
@@ -133,7 +132,7 @@ def slip_directions(problem: BlockProblem) -> tuple[tuple[float, float], ...]:
     found: list[tuple[float, float]] = []
     for share in (0.0, 1.0, -1.0):
         x = model.slider.drive_velocity - share * fastest * along
-        y = -share * fastest * across * model.friction.transfer
+        y = 0.0 - share * fastest * across * model.friction.transfer
         speed = math.hypot(x, y)
         if speed > 0.0 and all(x * a + y * b < _SAME * speed for a, b in found):
             found.append((x / speed, y / speed))
