@@ -19,7 +19,7 @@ import pytest
 from asperity.block.problem import BlockProblem
 from asperity.block.stability import Stability
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.interface.friction_point import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import contact_surface
@@ -98,7 +98,7 @@ def test_a_marched_block_flutters_as_fast_as_its_eigenvalues_say():
         "block.damping_ratio=0", "vibration.velocity_ratio=0", "slider.drive_velocity=50 mm/s",
         "friction.law=vector", "solve.duration=2 ms", "solve.step=0.5 us",
     ]  # fmt: skip
-    problem = BlockProblem.from_case(read_case("block-longitudinal", TABLES, settings))
+    problem = BlockProblem.from_case(read_case("block-longitudinal", case_tables(), settings))
     step = problem.timetable.step
     (motion,) = Stability(problem).motions
     growth, stepped = motion.growth(), motion.growth(motion.in_steps(step))

@@ -10,7 +10,7 @@ from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import BlockProblem
 from asperity.block.stability import Flutter, Stability, flutter_note, slip_directions
 from asperity.casefile import read_case
-from asperity.cli.tables import TABLES
+from asperity.commands import case_tables
 from asperity.contact.interface.friction_point import PointFriction
 from asperity.contact.motion import hht
 from asperity.contact.motion.stability import Growth, sliding_motion
@@ -30,7 +30,7 @@ FREE_OF_DAMPING = "block.damping_ratio=0"
 
 
 def problem(*settings, of=SMALL):
-    return BlockProblem.from_case(read_case("block-longitudinal", TABLES, [*of, *settings]))
+    return BlockProblem.from_case(read_case("block-longitudinal", case_tables(), [*of, *settings]))
 
 
 @pytest.mark.parametrize(
