@@ -16,8 +16,7 @@ from asperity.casefile import read_case
 from asperity.friction import LAWS, Friction, lugre_update, update
 from asperity.friction.lugre import stribeck_share
 from asperity.slider import TABLES, Model, Slider, Solve, solve
-from asperity.slider import kernels as k
-from asperity.slider.march import Timetable, Walk
+from asperity.slider.march import March
 
 CANUDAS = {
     "model": "lugre",
@@ -38,15 +37,13 @@ def stick_slip():
     slider = Slider(drive_velocity=0.1, drive_stiffness=2.0, mass=1.0, normal_force=WEIGHT)
     solver = Solve(step=1e-5, duration=14.5)
     model = Model(slider, Friction(**CANUDAS), None, solver)
-    table = Timetable(model)
-    walk = Walk(model, table, record=True)
+    march = March(model, record=True)
+    step = march.table.step
     for begin, end in ((7.3, 7.6), (13.7, 13.9)):
-        walk.to(round(begin / table.step), 1000)
-        walk.to(round(end / table.step), 10)
-    rows = np.concatenate(walk.rows)
-    time = np.concatenate(walk.at) * table.step
-    velocity = rows[:, k.WX] * model.length(table.step) / table.step
-    return time, velocity, rows[:, k.FD], rows[:, k.FX]
+        march.to(round(begin / step), 1000)
+        march.to(round(end / step), 10)
+    history = march.history()
+    return history.time, history.velocity[:, 0], history.drive_force, history.friction[:, 0]
 
 
 def slip_starts(time, velocity):

@@ -9,10 +9,9 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.slider import TABLES, Model, homogenise, solve
 from asperity.slider import homogenised as slow
 from asperity.slider import homogenised_law as hl
-from asperity.slider import kernels as k
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.slider.homogenised import interpolate
-from asperity.slider.march import Timetable, Walk
+from asperity.slider.march import March
 
 LAWS = ["split", "unsplit", "vector"]
 
@@ -36,17 +35,15 @@ def law():
 
 def cycle_mean_force(model, begin, end):
     """Middle of every cycle-long window and the mean drive force over it, from a march."""
-    table = Timetable(model)
-    walk = Walk(model, table, record=True)
-    walk.to(round(begin / table.step), round(begin / table.step))
-    walk.rows.clear()
-    walk.at.clear()
-    walk.to(round(end / table.step), 5 * model.substeps)
-    time = np.concatenate(walk.at) * table.step
-    force = np.concatenate(walk.rows)[:, k.FD] * model.full_friction
-    cycle = round(1.0 / (model.frequency * 5 * model.substeps * table.step))
-    total = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1])))
-    return 0.5 * (time[cycle:] + time[:-cycle]), (total[cycle:] - total[:-cycle]) / cycle
+    march = March(model, record=True)
+    step = march.table.step
+    march.to(round(begin / step), round(begin / step))
+    march.to(round(end / step), 5 * model.substeps)
+    history = march.history()
+    cycle = round(1.0 / (model.frequency * 5 * model.substeps * step))
+    total = np.cumsum(history.drive_force[1:])
+    edge = history.time[1:] + 0.5 * history.span[1:]
+    return 0.5 * (edge[cycle:] + edge[:-cycle]), (total[cycle:] - total[:-cycle]) / cycle
 
 
 @pytest.mark.parametrize(

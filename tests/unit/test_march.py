@@ -1,3 +1,5 @@
+import contextlib
+import dataclasses
 import math
 
 import numpy as np
@@ -5,8 +7,10 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.errors import ConvergenceError, InputError
+from asperity.runs import Interrupted, Run
+from asperity.runs.tree import read_tree, write_tree
 from asperity.slider import TABLES, Model, Stopped, solve
-from asperity.slider.march import march
+from asperity.slider.march import March, march
 
 LAWS = ["split", "unsplit", "vector"]
 EXPONENTS = [0, 0.5, 1, 1.5, 2]
@@ -308,3 +312,81 @@ def test_a_march_without_history_is_stopped_from_outside():
     case = read_case("table-4.3", TABLES, ["solve.duration=100 s"])
     with pytest.raises(Stopped):
         march(Model.from_case(case), history=False, stop=np.ones(1, dtype=np.int64))
+
+
+def aliased(*settings):
+    """A march whose stretches hold whole cycles: 20 kHz seen every 0.2 ms."""
+    return solved(
+        "table-4.3", "vibration.frequency=20 kHz", "vibration.velocity_ratio=20",
+        "vibration.start=0 s", "solve.step=0.5 us", "solve.duration=0.8 s", *settings, history=True,
+    )  # fmt: skip
+
+
+def test_the_means_of_the_history_are_the_means_of_the_result():
+    answer = aliased()
+    history = answer.history
+    assert history.span.sum() == pytest.approx(0.8, rel=1e-12)
+    window = history.time > 0.4
+    for stored, mean in (
+        (history.friction[:, 0], answer.friction_mean[0]),
+        (history.drive_force, answer.drive_force),
+    ):
+        found = np.average(stored[window], weights=history.span[window])
+        assert found == pytest.approx(mean, abs=1e-5 * answer.static_drive_force)
+
+
+def test_the_history_shows_what_a_stretch_swings_through():
+    answer = aliased()
+    history = answer.history
+    window = history.time > 0.4
+    assert history.friction_max[window, 0].max() == answer.friction_max[0]
+    assert history.friction_min[window, 0].min() == answer.friction_min[0]
+    for name in ("drive_force", "friction", "deflection", "position", "velocity"):
+        least, mean, greatest = (getattr(history, name + end) for end in ("_min", "", "_max"))
+        assert np.all(least <= mean)
+        assert np.all(mean <= greatest)
+    long = history.span > 1e-4
+    assert np.all(history.friction_max[long, 0] - history.friction_min[long, 0] > 5.0)
+
+
+def test_a_mean_over_a_stretch_stands_at_its_mean_time():
+    history = solved("table-4.3", "vibration.velocity_ratio=0", history=True).history
+    stretch = 0.5e-3 * history.time - history.position[:, 0]
+    assert history.drive_force == pytest.approx(96068.0 * stretch, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        [],
+        ["friction.model=coulomb"],
+        ["friction.model=lugre", "friction.contact_damping=20 N s/m"],
+        ["solve.scheme=two-phase", "friction.law=split"],
+    ],
+)
+def test_a_march_that_is_kept_goes_on_bit_for_bit(settings, tmp_path, monkeypatch):
+    monkeypatch.setattr("asperity.slider.march._STRETCH", 7000)
+    model = body("table-4.4", "solve.duration=0.2 s", *settings)
+    whole = March(model, record=True).run()
+    kept = {}
+
+    class Halting(Run):
+        def checkpoint(self, done, total, state=None, what="steps"):
+            if state is not None and done not in kept and len(kept) < 40:
+                write_tree(tmp_path / "kept.npz", state())
+                kept[done] = total
+                raise Interrupted
+
+    answer = None
+    while answer is None:
+        march = March(model, record=True, run=Halting())
+        if kept:
+            march.restore(read_tree(tmp_path / "kept.npz"))
+        with contextlib.suppress(Interrupted):
+            answer = march.run()
+    assert len(kept) > 20
+    numbers = [one.to_json() | {"seconds": 0.0} for one in (answer, whole)]
+    assert numbers[0] == numbers[1]
+    for field in dataclasses.fields(whole.history):
+        here, there = (getattr(one.history, field.name) for one in (answer, whole))
+        assert np.array_equal(here, there), field.name

@@ -7,7 +7,6 @@ from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, solve
-from asperity.slider import model as m
 from asperity.vibration import Vibration
 
 BODY = {"drive_velocity": 0.5e-3, "normal_force": 55.0}
@@ -188,14 +187,14 @@ def test_the_scaled_problem_is_the_body_again():
     model = body(COMPLIANT | {"drive_damping": 30.0}, DAHL | {"transfer": 0.71})
     h, length, force = 1e-6, 68.75e-9, 5.5
     p = model.parameters(h)
-    assert p[m.DRIVE] * length / h == pytest.approx(0.5e-3, rel=1e-14)
-    assert p[m.KAPPA] * force / length == pytest.approx(96068.0, rel=1e-14)
-    assert p[m.CHI] * h * force / length == pytest.approx(30.0, rel=1e-14)
-    assert p[m.GIVE_Y] * length * 0.5 / (h * h) == pytest.approx(force, rel=1e-14)
+    assert p.drive * length / h == pytest.approx(0.5e-3, rel=1e-14)
+    assert p.stiffness * force / length == pytest.approx(96068.0, rel=1e-14)
+    assert p.damping * h * force / length == pytest.approx(30.0, rel=1e-14)
+    assert p.mobility_y * length * 0.5 / (h * h) == pytest.approx(force, rel=1e-14)
     # The damper acts on the mean of the velocities before and after: 2m/h (1 -+ h c / 2m).
     damped = 0.5 * h * 30.0 / 0.5
-    assert p[m.KEEP] == pytest.approx((1.0 - damped) / (1.0 + damped), rel=1e-14)
-    assert p[m.GIVE_X] == pytest.approx(p[m.GIVE_Y] / (1.0 + damped), rel=1e-14)
+    assert p.retained == pytest.approx((1.0 - damped) / (1.0 + damped), rel=1e-14)
+    assert p.mobility_x == pytest.approx(p.mobility_y / (1.0 + damped), rel=1e-14)
 
 
 def test_a_vibrated_body_moves_against_a_vibrated_base_and_transfers_its_own_motion():
@@ -204,10 +203,10 @@ def test_a_vibrated_body_moves_against_a_vibrated_base_and_transfers_its_own_mot
     moved = body(
         friction=DAHL | {"transfer": 0.5}, vibration=SINE | angle | {"applied_to": "body"}
     ).parameters(1e-6)
-    assert moved[m.BASE_X] == -base[m.BASE_X]
-    assert moved[m.BASE_Y] == -base[m.BASE_Y]
-    assert (base[m.OWN_1], base[m.OWN_2]) == (1.0, 0.0)
-    assert (moved[m.OWN_1], moved[m.OWN_2]) == (0.0, 0.5)
+    assert moved.base_x == -base.base_x
+    assert moved.base_y == -base.base_y
+    assert (base.own_1, base.own_2) == (1.0, 0.0)
+    assert (moved.own_1, moved.own_2) == (0.0, 0.5)
 
 
 def test_a_model_cannot_be_changed():

@@ -41,8 +41,8 @@ from asperity.contact.motion.compliance import BaseCompliance, base_compliance
 from asperity.contact.motion.system import Shaking, System
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
-from asperity.slider.march import Timetable
 from asperity.slider.model import FloatArray, Model
+from asperity.slider.timetable import Timetable
 
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""

@@ -1,4 +1,4 @@
-"""Many bodies at once: compiled batches where the lanes can take them, one by one otherwise."""
+"""Many bodies at once: compiled batches of those that can march in one, one by one otherwise."""
 
 import math
 import time
@@ -7,14 +7,17 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from asperity.errors import AsperityError, ConvergenceError
-from asperity.slider import kernels as k
-from asperity.slider import lanes as ln
-from asperity.slider import model as m
-from asperity.slider.march import Stopped, Timetable, energies, march_notes, summarise
+from asperity.slider import batch_kernels as bk
+from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import SlideResult
+from asperity.slider.scaled import STATE, SUMS, Parameters
+from asperity.slider.summary import energies, summarise
+from asperity.slider.timetable import Timetable, march_notes
 
+# Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
+_STRETCH = 16384 * bk.BLOCK
 _FEWEST = 2  # a batch of two costs no more than two single marches
 
 
@@ -44,7 +47,7 @@ def solve_many(
     alone: list[int] = []
     for index, model in enumerate(models):
         try:
-            table = Timetable(model) if fits_lanes(model) else None
+            table = Timetable(model) if fits_batch(model) else None
         except AsperityError as error:
             answers[index] = error
             continue
@@ -73,7 +76,7 @@ def solve_many(
     return [answer for answer in answers if answer is not None]
 
 
-def fits_lanes(model: Model) -> bool:
+def fits_batch(model: Model) -> bool:
     """Whether the model can be marched in a batch, in vector instructions."""
     return (
         model.solve.method == "march"
@@ -89,23 +92,22 @@ def _batches(
 ) -> Iterator[list[tuple[int, Timetable]]]:
     # Neighbours in step size share the edges of their windows, which divide the march.
     ordered = sorted(members, key=lambda member: (member[1].window_start, member[1].middle))
-    for first in range(0, len(ordered), ln.LANES):
-        yield ordered[first : first + ln.LANES]
+    for first in range(0, len(ordered), bk.WIDTH):
+        yield ordered[first : first + bk.WIDTH]
 
 
 def _march(
     models: Sequence[Model], tables: Sequence[Timetable], flag: np.ndarray
 ) -> list[SlideResult | AsperityError]:
     began = time.perf_counter()
-    lead = models[0]
     parameters = [model.parameters(t.step) for model, t in zip(models, tables, strict=True)]
-    flat = np.zeros(ln.ROWS * ln.LANES)
-    buffer = flat.reshape(ln.ROWS, ln.LANES)
-    for lane in range(ln.LANES):
-        _load(buffer, lane, parameters[min(lane, len(models) - 1)])
+    lead = parameters[0]
+    flat = np.zeros(bk.ROWS * bk.WIDTH)
+    buffer = flat.reshape(bk.ROWS, bk.WIDTH)
+    for place in range(bk.WIDTH):
+        _load(buffer, place, parameters[min(place, len(models) - 1)])
     waves, shapes, shared = _waves(models, tables)
-    own_1, own_2 = float(parameters[0][m.OWN_1]), float(parameters[0][m.OWN_2])
-    increments = np.empty(ln.BLOCK * ln.LANES)
+    increments = np.empty(bk.BLOCK * bk.WIDTH)
     done = 0
     start_energies: list[tuple[float, float]] = [(0.0, 0.0)] * len(models)
     start_free = np.zeros(len(models))
@@ -113,120 +115,126 @@ def _march(
     edges = {t.window_start for t in tables} | {t.middle for t in tables}
     first_window = min(t.window_start for t in tables)
     for edge in sorted(edges | {tables[0].steps}):
-        waiting = bool(np.any(buffer[ln.WAITING] > 0.0))
-        ln.march_lanes(
-            flat, waves, shapes, shared, increments, edge - done, own_1, own_2,
-            lead.friction.law_code, done >= first_window, waiting, flag,
-        )  # fmt: skip
-        if flag[0]:
-            raise Stopped
-        done = edge
-        for lane, table in enumerate(tables):
+        while done < edge:
+            steps = min(edge - done, _STRETCH)
+            waiting = bool(np.any(buffer[bk.WAITING] > 0.0))
+            bk.march_batch(
+                flat, waves, shapes, shared, increments, steps, lead.own_1, lead.own_2,
+                lead.law, done >= first_window, waiting, flag,
+            )  # fmt: skip
+            if flag[0]:
+                raise Stopped
+            done += steps
+        for place, table in enumerate(tables):
             if table.window_start == edge:
-                buffer[ln.SUM_FREE : ln.MAX_FX, lane] = 0.0
-                buffer[[ln.MAX_FX, ln.MAX_FY], lane] = -1e300
-                buffer[[ln.MIN_FX, ln.MIN_FY], lane] = 1e300
-                state = _state(buffer, lane, parameters[lane])
-                start_energies[lane] = energies(state, parameters[lane], elastic=True)
-                start_free[lane] = state[k.FD]
+                buffer[bk.SUM_FREE : bk.MAX_FX, place] = 0.0
+                buffer[[bk.MAX_FX, bk.MAX_FY], place] = -1e300
+                buffer[[bk.MIN_FX, bk.MIN_FY], place] = 1e300
+                state = _state(buffer, place, parameters[place])
+                start_energies[place] = energies(state, parameters[place], elastic=True)
+                start_free[place] = state["drive_force"]
             if table.middle == edge:
-                first_half[lane] = _drive_sum(buffer, lane, parameters[lane], start_free[lane])
+                first_half[place] = _drive_sum(buffer, place, parameters[place], start_free[place])
     seconds = (time.perf_counter() - began) / len(models)
     answers: list[SlideResult | AsperityError] = []
-    for lane, (model, table) in enumerate(zip(models, tables, strict=True)):
-        p = parameters[lane]
-        state = _state(buffer, lane, p)
-        if not np.all(np.isfinite(buffer[:, lane])):
+    for place, (model, table) in enumerate(zip(models, tables, strict=True)):
+        p = parameters[place]
+        state = _state(buffer, place, p)
+        if not np.all(np.isfinite(buffer[:, place])):
             answers.append(
                 ConvergenceError("the march left the finite numbers; give a smaller solve.step")
             )
             continue
-        sums = _sums(buffer, lane, p, table.window, start_free[lane])
+        sums = _sums(buffer, place, p, table.window, start_free[place])
         half = table.middle - table.window_start
-        first = first_half[lane] / half
-        second = (sums[k.SUM_FD] - first_half[lane]) / (table.window - half)
-        waited = buffer[ln.WAITED, lane]
-        broke = buffer[ln.WAITING, lane] == 0.0 and not model.slider.rigid
+        first = first_half[place] / half
+        second = (sums["drive_force"] - first_half[place]) / (table.window - half)
+        waited = buffer[bk.WAITED, place]
+        broke = buffer[bk.WAITING, place] == 0.0 and not model.slider.rigid
         residual = abs(float(second - first))
-        answer = summarise(
-            model, table.step, sums, start_energies[lane], energies(state, p, elastic=True),
-            residual=residual,
-            steps=table.steps,
-            cycles=table.cycles,
-            seconds=seconds,
-            breakaway_time=float(waited) * table.step if broke else None,
-            substeps=model.substeps,
-            notes=march_notes(model, table, residual, broke=broke),
-        )  # fmt: skip
+        try:
+            answer: SlideResult | AsperityError = summarise(
+                model, p, table.step, sums, start_energies[place], energies(state, p, elastic=True),
+                residual=residual,
+                steps=table.steps,
+                cycles=table.cycles,
+                seconds=seconds,
+                breakaway_time=float(waited) * table.step if broke else None,
+                substeps=model.substeps,
+                notes=march_notes(model, table, residual, broke=broke),
+            )  # fmt: skip
+        except ConvergenceError as error:
+            answer = error
         answers.append(answer)
     return answers
 
 
-def _load(buffer: FloatArray, lane: int, p: FloatArray) -> None:
-    pairs = (
-        (ln.DRIVE, m.DRIVE), (ln.KAPPA, m.KAPPA), (ln.GIVE_X, m.GIVE_X), (ln.GIVE_Y, m.GIVE_Y),
-        (ln.BASE_X, m.BASE_X), (ln.BASE_Y, m.BASE_Y),
-    )  # fmt: skip
-    for row, place in pairs:
-        buffer[row, lane] = p[place]
-    buffer[ln.WX, lane] = p[m.DRIVE] if p[m.RIGID] else 0.0
-    buffer[ln.WAITING, lane] = 1.0
+def _load(buffer: FloatArray, place: int, p: Parameters) -> None:
+    buffer[bk.DRIVE, place] = p.drive
+    buffer[bk.STIFFNESS, place] = p.stiffness
+    buffer[bk.MOBILITY_X, place] = p.mobility_x
+    buffer[bk.MOBILITY_Y, place] = p.mobility_y
+    buffer[bk.BASE_X, place] = p.base_x
+    buffer[bk.BASE_Y, place] = p.base_y
+    buffer[bk.WX, place] = p.drive if p.rigid else 0.0
+    buffer[bk.WAITING, place] = 1.0
 
 
 def _waves(
     models: Sequence[Model], tables: Sequence[Timetable]
 ) -> tuple[FloatArray, FloatArray, bool]:
-    waves = np.zeros((8, ln.LANES))
+    waves = np.zeros((8, bk.WIDTH))
     size = models[0].shape.table.size if models[0].shape is not None else 2
-    shapes = np.zeros((ln.LANES, size))
-    for lane in range(ln.LANES):
-        member = min(lane, len(models) - 1)
+    shapes = np.zeros((bk.WIDTH, size))
+    for place in range(bk.WIDTH):
+        member = min(place, len(models) - 1)
         model, step = models[member], tables[member].step
         if model.shape is None:
             continue
         rate = model.frequency * step
         turn = 2.0 * math.pi * rate
-        waves[:6, lane] = (
+        waves[:6, place] = (
             model.shape.code, model.shape.rise, -model.start * model.frequency, rate,
             math.cos(turn), math.sin(turn),
         )  # fmt: skip
-        shapes[lane] = model.shape.table
+        shapes[place] = model.shape.table
     shared = bool(np.all(waves == waves[:, :1]) and np.all(shapes == shapes[:1]))
     return waves, shapes, shared
 
 
-def _state(buffer: FloatArray, lane: int, p: FloatArray) -> FloatArray:
-    """A lane's state as the single-body kernels have it."""
-    state = np.zeros(k.STATE)
-    state[k.STRETCH] = buffer[ln.STRETCH, lane]
-    state[k.WX] = buffer[ln.WX, lane]
-    state[k.WY] = buffer[ln.WY, lane]
-    state[k.SX] = state[k.FX] = buffer[ln.SX, lane]
-    state[k.SY] = state[k.FY] = buffer[ln.SY, lane]
-    state[k.FD] = state[k.FX] if p[m.RIGID] else p[m.KAPPA] * state[k.STRETCH]
+def _state(buffer: FloatArray, place: int, p: Parameters) -> np.void:
+    """A body's state as the single-body kernels have it."""
+    state: np.void = np.zeros(1, STATE)[0]
+    state["stretch"] = buffer[bk.STRETCH, place]
+    state["velocity_x"] = buffer[bk.WX, place]
+    state["velocity_y"] = buffer[bk.WY, place]
+    state["deflection_x"] = state["friction_x"] = buffer[bk.SX, place]
+    state["deflection_y"] = state["friction_y"] = buffer[bk.SY, place]
+    state["drive_force"] = state["friction_x"] if p.rigid else p.stiffness * state["stretch"]
     return state
 
 
-def _drive_sum(buffer: FloatArray, lane: int, p: FloatArray, start: float) -> float:
+def _drive_sum(buffer: FloatArray, place: int, p: Parameters, start: float) -> float:
     """Trapezoidal sum of the drive force since the start of the window."""
-    if p[m.RIGID]:
-        return float(0.5 * buffer[ln.SUM_FX, lane])
-    end = p[m.KAPPA] * buffer[ln.STRETCH, lane]
-    return float(buffer[ln.SUM_FREE, lane] + 0.5 * (start - end))
+    if p.rigid:
+        return float(0.5 * buffer[bk.SUM_FX, place])
+    end = p.stiffness * buffer[bk.STRETCH, place]
+    return float(buffer[bk.SUM_FREE, place] + 0.5 * (start - end))
 
 
-def _sums(buffer: FloatArray, lane: int, p: FloatArray, steps: int, start: float) -> FloatArray:
-    """A lane's sums as the single-body kernels have them."""
-    sums = np.zeros(k.SUMS)
-    sums[k.SUM_FD] = _drive_sum(buffer, lane, p, start)
-    for here, there in (
-        (k.SUM_FX, ln.SUM_FX), (k.SUM_FY, ln.SUM_FY), (k.SUM_VX, ln.SUM_VX),
-        (k.SUM_VY, ln.SUM_VY), (k.SUM_SLIP, ln.SUM_SLIP),
-    ):  # fmt: skip
-        sums[here] = 0.5 * buffer[there, lane]
-    sums[k.MAX_FX] = buffer[ln.MAX_FX, lane]
-    sums[k.MIN_FX] = buffer[ln.MIN_FX, lane]
-    sums[k.MAX_FY] = buffer[ln.MAX_FY, lane]
-    sums[k.MIN_FY] = buffer[ln.MIN_FY, lane]
-    sums[k.STEPS] = steps
+def _sums(buffer: FloatArray, place: int, p: Parameters, steps: int, start: float) -> np.void:
+    """A body's sums as the single-body kernels have them."""
+    sums: np.void = np.zeros(1, SUMS)[0]
+    sums["drive_force"] = _drive_sum(buffer, place, p, start)
+    # The batch adds the forces at both ends of a step, not their mean.
+    sums["friction_x"] = 0.5 * buffer[bk.SUM_FX, place]
+    sums["friction_y"] = 0.5 * buffer[bk.SUM_FY, place]
+    sums["unit_work_x"] = 0.5 * buffer[bk.SUM_VX, place]
+    sums["unit_work_y"] = 0.5 * buffer[bk.SUM_VY, place]
+    sums["slip_work"] = 0.5 * buffer[bk.SUM_SLIP, place]
+    sums["friction_x_max"] = buffer[bk.MAX_FX, place]
+    sums["friction_x_min"] = buffer[bk.MIN_FX, place]
+    sums["friction_y_max"] = buffer[bk.MAX_FY, place]
+    sums["friction_y_min"] = buffer[bk.MIN_FY, place]
+    sums["steps"] = steps
     return sums

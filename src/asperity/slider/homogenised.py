@@ -15,16 +15,16 @@ from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
 from asperity.results.ledger import PowerLedger
 from asperity.slider import homogenised_law as hl
-from asperity.slider import kernels as k
 from asperity.slider.homogenised_law import (
     HomogenisedLaw,
     homogenise,
     interpolate,
     value_and_slope,
 )
-from asperity.slider.march import Timetable, Walk, march_notes
+from asperity.slider.march import March
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import History, SlideResult
+from asperity.slider.timetable import march_notes
 
 __all__ = ["HomogenisedLaw", "homogenise", "interpolate", "solve_homogenised"]
 
@@ -130,22 +130,26 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     law = homogenise(model)
     if model.slider.rigid:
         return _steady(model, law, began)
-    table = Timetable(model)
-    walk = Walk(model, table)
+    walk = March(model)
+    table = walk.table
     if not model.vibrates:
         walk.to(table.steps, _BLOCK)
-        broke = _breakaway(walk)
+        broke = walk.breakaway
         answer = _steady(model, law, began, broke, table.steps)
         notes = march_notes(model, table, 0.0, broke=broke is not None)
         return dataclasses.replace(answer, notes=(*answer.notes, *notes))
     begin = min(round(model.start / table.step), table.window_start)
     walk.to(begin, _BLOCK)
-    breakaway = _breakaway(walk)
+    breakaway = walk.breakaway
     length, step = model.length(table.step), table.step
     slider = model.slider
     at = begin * step
     row = np.array(
-        [float(walk.state[k.STRETCH]) * length, float(walk.state[k.WX]) * length / step, 0.0]
+        [
+            float(walk.state["stretch"]) * length,
+            float(walk.state["velocity_x"]) * length / step,
+            0.0,
+        ]
     )
     row[2] = law(row[1]) / law.full_friction
     parts = [np.append(at, row)[None]]
@@ -177,11 +181,6 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     return dataclasses.replace(
         answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes)
     )
-
-
-def _breakaway(walk: Walk) -> float | None:
-    steps = float(walk.sums[k.BREAKAWAY])
-    return steps * walk.table.step if steps >= 0.0 else None
 
 
 def _division(model: Model, law: HomogenisedLaw, span: float) -> tuple[float, int, int]:

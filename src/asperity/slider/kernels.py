@@ -7,87 +7,101 @@ of all works then add up exactly to the change of
 .. math:: \tfrac12 w_{n-1/2} w_{n+1/2}/g + \tfrac12 \kappa e^2 + \tfrac12 |\sigma|^2 ,
 
 so the power ledger closes to rounding and what it shows is the model, not the integrator.
-Everything is scaled as in `asperity.slider.model`.
+Everything is scaled as in `asperity.slider.scaled`.
 """
 
 import math
+
+import numpy as np
 
 from asperity.compiled import kernel
 from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import VECTOR, advance, rate_along
 from asperity.friction.lugre import stribeck_share
-from asperity.slider.model import (
-    BASE_X,
-    BASE_Y,
-    CHI,
-    COULOMB,
-    DAHL,
-    DRIVE,
-    EXPONENT,
-    GIVE_X,
-    GIVE_Y,
-    KAPPA,
-    KEEP,
-    OWN_1,
-    OWN_2,
-    RATE_DAMPING,
-    RIGID,
-    SLIP_DAMPING,
-    SMOOTH,
-    STATIC_RATIO,
-    STRIBECK,
-)
+from asperity.slider.scaled import COULOMB, DAHL, NODE
 from asperity.vibration import fill_increments
-
-# Places in the state vector.
-STRETCH = 0  # of the drive
-WX = 1  # the body's way in the coming step
-WY = 2
-SX = 3  # deflection
-SY = 4
-FX = 5  # friction force
-FY = 6
-FD = 7  # drive force
-Y = 8  # lateral position
-STATE = 9
-
-# Places in the vector of sums over a stretch of steps (trapezoidal).
-SUM_FD = 0
-SUM_FX = 1
-SUM_FY = 2
-SUM_VX = 3  # friction times the unit vibration's increments, for the vibration's work
-SUM_VY = 4
-SUM_SLIP = 5  # work of friction on the slip
-SUM_DRAG = 6  # work lost in the drive's damper
-MAX_FX = 7
-MIN_FX = 8
-MAX_FY = 9
-MIN_FY = 10
-STEPS = 11
-BREAKAWAY = 12  # steps up to the first full drive force; negative while it has not come
-SUMS = 13
 
 
 @kernel
 def clear(sums):
     """Empty the sums but for the breakaway, which is a fact of the whole march."""
-    for i in range(STEPS + 1):
-        sums[i] = 0.0
-    sums[MAX_FX] = -1e300
-    sums[MIN_FX] = 1e300
-    sums[MAX_FY] = -1e300
-    sums[MIN_FY] = 1e300
+    sums.drive_force = 0.0
+    sums.friction_x = 0.0
+    sums.friction_y = 0.0
+    sums.unit_work_x = 0.0
+    sums.unit_work_y = 0.0
+    sums.slip_work = 0.0
+    sums.drag_work = 0.0
+    sums.friction_x_max = -1e300
+    sums.friction_x_min = 1e300
+    sums.friction_y_max = -1e300
+    sums.friction_y_min = 1e300
+    sums.steps = 0.0
 
 
 @kernel
-def _node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, p, law):
+def add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, slip_y, rigid):
+    """Add a step to the sums: forces at both ends, the unit vibration's increment, the slip."""
+    mx = 0.5 * (fx + last_fx)
+    my = 0.5 * (fy + last_fy)
+    sums.drive_force += 0.5 * (fd + last_fd)
+    sums.friction_x += mx
+    sums.friction_y += my
+    sums.unit_work_x += mx * u
+    sums.unit_work_y += my * u
+    sums.slip_work += mx * slip_x + my * slip_y
+    sums.friction_x_max = max(sums.friction_x_max, fx)
+    sums.friction_x_min = min(sums.friction_x_min, fx)
+    sums.friction_y_max = max(sums.friction_y_max, fy)
+    sums.friction_y_min = min(sums.friction_y_min, fy)
+    sums.steps += 1.0
+    if sums.breakaway < 0.0:
+        sums.breakaway -= 1.0
+        if fd >= 1.0 and not rigid:
+            sums.breakaway = -1.0 - sums.breakaway
+
+
+@kernel
+def record(node, fx, fy, fd, sx, sy, x, y, wx, wy):
+    """Write down the motion at a node."""
+    node.drive_force = fd
+    node.friction_x = fx
+    node.friction_y = fy
+    node.deflection_x = sx
+    node.deflection_y = sy
+    node.position_x = x
+    node.position_y = y
+    node.velocity_x = wx
+    node.velocity_y = wy
+
+
+@kernel
+def condense(nodes, mean, least, greatest):
+    """Mean, least and greatest of each number of some nodes, into numbers side by side."""
+    for i in range(mean.size):
+        mean[i] = 0.0
+        least[i] = np.inf
+        greatest[i] = -np.inf
+    for n in range(nodes.shape[0]):
+        for i in range(mean.size):
+            value = nodes[n, i]
+            mean[i] += value
+            least[i] = min(least[i], value)
+            greatest[i] = max(greatest[i], value)
+    for i in range(mean.size):
+        # The mean of equal numbers can miss them by its rounding.
+        mean[i] = min(max(mean[i] / nodes.shape[0], least[i]), greatest[i])
+
+
+@kernel
+def _node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, p):
     """LuGre's force at a time node and the velocity after it.
 
     The slip there is the mean of the two half steps around it, the later of which the force
     decides: implicit, by a few fixed-point steps on the relaxation rate.
     """
-    tau = p[RATE_DAMPING] + p[SLIP_DAMPING]
-    own = p[OWN_1] + p[OWN_2]
+    tau = p.rate_damping + p.slip_damping
+    own = p.own_1 + p.own_2
     bx = 0.5 * (ux + ux1)
     by = 0.5 * (uy + uy1)
     wx1 = wx
@@ -97,24 +111,24 @@ def _node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, p, law):
     size = math.sqrt(sx * sx + sy * sy)
     for _ in range(6):
         mx = 0.5 * (wx + wx1) - bx
-        my1 = p[OWN_1] * 0.5 * (wy + wy1)
-        my2 = p[OWN_2] * 0.5 * (wy + wy1) - by
+        my1 = p.own_1 * 0.5 * (wy + wy1)
+        my2 = p.own_2 * 0.5 * (wy + wy1) - by
         my = my1 + my2
         speed = math.sqrt(mx * mx + my * my)
-        limit = stribeck_share(speed, p[STATIC_RATIO], p[STRIBECK])
-        if law != VECTOR:
+        limit = stribeck_share(speed, p.static_ratio, p.stribeck)
+        if p.law != VECTOR:
             rate = 0.0
             if size > 0.0:
-                rate = rate_along(sx / size, sy / size, 1.0, mx, my1, 0.0, my2, 1.0, law) / limit
+                rate = rate_along(sx / size, sy / size, 1.0, mx, my1, 0.0, my2, 1.0, p.law) / limit
         else:
             rate = speed / limit
-        left = 1.0 - p[RATE_DAMPING] * rate
+        left = 1.0 - p.rate_damping * rate
         # f = s left + tau m, with m linear in the new velocity.
-        wx1 = (p[KEEP] * wx + p[GIVE_X] * (free - sx * left - tau * (0.5 * wx - bx))) / (
-            1.0 + 0.5 * p[GIVE_X] * tau
+        wx1 = (p.retained * wx + p.mobility_x * (free - sx * left - tau * (0.5 * wx - bx))) / (
+            1.0 + 0.5 * p.mobility_x * tau
         )
-        wy1 = (wy - p[GIVE_Y] * (sy * left + tau * (0.5 * own * wy - by))) / (
-            1.0 + 0.5 * p[GIVE_Y] * tau * own
+        wy1 = (wy - p.mobility_y * (sy * left + tau * (0.5 * own * wy - by))) / (
+            1.0 + 0.5 * p.mobility_y * tau * own
         )
         fx = sx * left + tau * (0.5 * (wx + wx1) - bx)
         fy = sy * left + tau * (0.5 * own * (wy + wy1) - by)
@@ -122,65 +136,78 @@ def _node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, p, law):
 
 
 @kernel
-def prime(state, p, increments, model, law):
+def prime(state, p, increments):
     """Forces at the first node and the velocities of the first half step, from rest."""
-    ux = p[BASE_X] * increments[0]
-    uy = p[BASE_Y] * increments[0]
-    own = p[OWN_1] + p[OWN_2]
-    free = p[KAPPA] * state[STRETCH] + p[CHI] * p[DRIVE]
-    if p[RIGID] > 0.0:
-        state[WX] = p[DRIVE]
+    ux = p.base_x * increments[0]
+    uy = p.base_y * increments[0]
+    own = p.own_1 + p.own_2
+    free = p.stiffness * state.stretch + p.damping * p.drive
+    if p.rigid:
+        state.velocity_x = p.drive
     else:
-        state[WX] = 0.5 * p[GIVE_X] * free
-    if model == COULOMB:
-        fx, fy = project(state[WX] - ux, own * state[WY] - uy, p[GIVE_X], own * p[GIVE_Y], 0.0, 0.0)
-        state[WX] -= p[GIVE_X] * fx
-        state[WY] -= p[GIVE_Y] * fy
-        state[FX] = fx
-        state[FY] = fy
-    elif model == DAHL:
-        state[FX] = state[SX]
-        state[FY] = state[SY]
+        state.velocity_x = 0.5 * p.mobility_x * free
+    if p.model == COULOMB:
+        fx, fy = project(
+            state.velocity_x - ux,
+            own * state.velocity_y - uy,
+            p.mobility_x,
+            own * p.mobility_y,
+            0.0,
+            0.0,
+        )
+        state.velocity_x -= p.mobility_x * fx
+        state.velocity_y -= p.mobility_y * fy
+        state.friction_x = fx
+        state.friction_y = fy
+    elif p.model == DAHL:
+        state.friction_x = state.deflection_x
+        state.friction_y = state.deflection_y
     else:
         # LuGre's damping meets a vibration that starts at full speed; implicit, as in the march.
-        tau = p[RATE_DAMPING] + p[SLIP_DAMPING]
-        half_x = 0.5 * p[GIVE_X] * tau
-        half_y = 0.5 * p[GIVE_Y] * tau
-        state[WX] = (state[WX] + half_x * ux) / (1.0 + half_x)
-        state[WY] = half_y * uy / (1.0 + half_y * own)
-        state[FX] = tau * (state[WX] - ux)
-        state[FY] = tau * (own * state[WY] - uy)
-    state[FD] = state[FX] if p[RIGID] > 0.0 else free
+        tau = p.rate_damping + p.slip_damping
+        half_x = 0.5 * p.mobility_x * tau
+        half_y = 0.5 * p.mobility_y * tau
+        state.velocity_x = (state.velocity_x + half_x * ux) / (1.0 + half_x)
+        state.velocity_y = half_y * uy / (1.0 + half_y * own)
+        state.friction_x = tau * (state.velocity_x - ux)
+        state.friction_y = tau * (own * state.velocity_y - uy)
+    state.drive_force = state.friction_x if p.rigid else free
 
 
 @kernel
-def march_block(state, sums, p, increments, steps, model, law):
-    """March ``steps`` steps; ``increments`` holds one more, of the step that follows."""
-    drive = p[DRIVE]
-    kappa = p[KAPPA]
-    chi = p[CHI]
-    keep = p[KEEP]
-    give_x = p[GIVE_X]
-    give_y = p[GIVE_Y]
-    own_1 = p[OWN_1]
-    own_2 = p[OWN_2]
+def march_block(state, sums, p, increments, steps, nodes):
+    """March ``steps`` steps; ``increments`` holds one more, of the step that follows.
+
+    ``nodes`` is room for the motion at the end of each step, or empty.
+    """
+    model = p.model
+    law = p.law
+    recording = nodes.size > 0
+    drive = p.drive
+    stiffness = p.stiffness
+    damping = p.damping
+    retained = p.retained
+    mobility_x = p.mobility_x
+    mobility_y = p.mobility_y
+    own_1 = p.own_1
+    own_2 = p.own_2
     own = own_1 + own_2
-    exponent = p[EXPONENT]
-    rigid = p[RIGID] > 0.0
-    smooth = p[SMOOTH] > 0.0
-    stretch = state[STRETCH]
-    wx = state[WX]
-    wy = state[WY]
-    sx = state[SX]
-    sy = state[SY]
-    fx = state[FX]
-    fy = state[FY]
-    fd = state[FD]
-    y = state[Y]
+    exponent = p.exponent
+    rigid = p.rigid
+    smooth = p.smooth
+    stretch = state.stretch
+    wx = state.velocity_x
+    wy = state.velocity_y
+    sx = state.deflection_x
+    sy = state.deflection_y
+    fx = state.friction_x
+    fy = state.friction_y
+    fd = state.drive_force
+    y = state.lateral
     for n in range(steps):
         u = increments[n]
-        ux = p[BASE_X] * u
-        uy = p[BASE_Y] * u
+        ux = p.base_x * u
+        uy = p.base_y * u
         stretch += drive - wx
         y += wy
         dx = wx - ux
@@ -190,26 +217,28 @@ def march_block(state, sums, p, increments, steps, model, law):
         last_fx = fx
         last_fy = fy
         last_fd = fd
-        free = kappa * stretch + chi * drive
+        free = stiffness * stretch + damping * drive
         wx1 = wx
         wy1 = wy
         if model == DAHL:
             sx, sy = advance(sx, sy, dx, dy1, 0.0, dy2, exponent, law)
             fx = sx
             fy = sy
-            wx1 = keep * wx + give_x * (free - fx)
-            wy1 = wy - give_y * fy
+            wx1 = retained * wx + mobility_x * (free - fx)
+            wy1 = wy - mobility_y * fy
         elif model == COULOMB:
             ahead = increments[n + 1]
-            wx1 = keep * wx + give_x * free
-            free_dx = wx1 - p[BASE_X] * ahead
-            free_dy = own * wy1 - p[BASE_Y] * ahead
-            fx, fy = mean_share(dx, dy, free_dx, free_dy, give_x, own * give_y, smooth, fx, fy)
-            wx1 -= give_x * fx
-            wy1 -= give_y * fy
+            wx1 = retained * wx + mobility_x * free
+            free_dx = wx1 - p.base_x * ahead
+            free_dy = own * wy1 - p.base_y * ahead
+            fx, fy = mean_share(
+                dx, dy, free_dx, free_dy, mobility_x, own * mobility_y, smooth, fx, fy
+            )
+            wx1 -= mobility_x * fx
+            wy1 -= mobility_y * fy
         else:
             speed = math.sqrt(dx * dx + dy * dy)
-            limit = stribeck_share(speed, p[STATIC_RATIO], p[STRIBECK])
+            limit = stribeck_share(speed, p.static_ratio, p.stribeck)
             sx, sy = advance(
                 sx / limit, sy / limit, dx / limit, dy1 / limit, 0.0, dy2 / limit, 1.0, law
             )
@@ -217,58 +246,58 @@ def march_block(state, sums, p, increments, steps, model, law):
             sy *= limit
             ahead = increments[n + 1]
             fx, fy, wx1, wy1 = _node_forces(
-                sx, sy, wx, wy, ux, uy, p[BASE_X] * ahead, p[BASE_Y] * ahead, free, p, law
+                sx, sy, wx, wy, ux, uy, p.base_x * ahead, p.base_y * ahead, free, p
             )
         if rigid:
             wx1 = drive
             fd = fx
         else:
-            fd = free - chi * 0.5 * (wx + wx1)
-            drag = chi * (drive - 0.5 * (wx + wx1))
-            last_drag = last_fd - kappa * (stretch - drive + wx)
-            sums[SUM_DRAG] += 0.5 * (drag + last_drag) * (drive - wx)
-        sums[SUM_FD] += 0.5 * (fd + last_fd)
-        mx = 0.5 * (fx + last_fx)
-        my = 0.5 * (fy + last_fy)
-        sums[SUM_FX] += mx
-        sums[SUM_FY] += my
-        sums[SUM_VX] += mx * u
-        sums[SUM_VY] += my * u
-        sums[SUM_SLIP] += mx * dx + my * dy
-        sums[MAX_FX] = max(sums[MAX_FX], fx)
-        sums[MIN_FX] = min(sums[MIN_FX], fx)
-        sums[MAX_FY] = max(sums[MAX_FY], fy)
-        sums[MIN_FY] = min(sums[MIN_FY], fy)
-        sums[STEPS] += 1.0
-        if sums[BREAKAWAY] < 0.0:
-            sums[BREAKAWAY] -= 1.0
-            if fd >= 1.0 and not rigid:
-                sums[BREAKAWAY] = -1.0 - sums[BREAKAWAY]
+            fd = free - damping * 0.5 * (wx + wx1)
+            drag = damping * (drive - 0.5 * (wx + wx1))
+            last_drag = last_fd - stiffness * (stretch - drive + wx)
+            sums.drag_work += 0.5 * (drag + last_drag) * (drive - wx)
+        add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, rigid)
+        if recording:
+            record(nodes[n], fx, fy, fd, sx, sy, (n + 1) * drive - stretch, y, wx1, wy1)
         wx = wx1
         wy = wy1
-    state[STRETCH] = stretch
-    state[WX] = wx
-    state[WY] = wy
-    state[SX] = sx
-    state[SY] = sy
-    state[FX] = fx
-    state[FY] = fy
-    state[FD] = fd
-    state[Y] = y
+    state.stretch = stretch
+    state.velocity_x = wx
+    state.velocity_y = wy
+    state.deflection_x = sx
+    state.deflection_y = sy
+    state.friction_x = fx
+    state.friction_y = fy
+    state.drive_force = fd
+    state.lateral = y
+
+
+@kernel
+def march_stretches(
+    state, sums, p, waveform, rise, table, first_cycles, cycles_per_step, stretches, increments
+):  # fmt: skip
+    """March some stretches of one step less than ``increments`` has room for."""
+    none = np.empty(0, dtype=NODE)
+    steps = increments.size - 1
+    for r in range(stretches):
+        first = first_cycles + r * steps * cycles_per_step
+        fill_increments(waveform, rise, table, first, cycles_per_step, increments)
+        march_block(state, sums, p, increments, steps, none)
 
 
 @kernel
 def march_recorded(
-    state, sums, p, waveform, rise, table, first_cycles, cycles_per_step,
-    records, stride, increments, history, model, law,
+    state, sums, p, waveform, rise, table, first_cycles, cycles_per_step, increments,
+    nodes, mean, least, greatest,
 ):  # fmt: skip
-    """March ``records`` stretches of ``stride`` steps, writing the state after each.
+    """March as many stretches as ``mean`` has rows, recording each in one.
 
-    ``increments`` is room for ``stride + 1`` numbers, ``history`` for ``records`` states.
+    Room for one stretch: ``increments`` for one step more, ``nodes`` for its steps.
     """
-    for r in range(records):
-        first = first_cycles + r * stride * cycles_per_step
+    steps = nodes.size
+    values = nodes.view(np.float64).reshape((steps, -1))
+    for r in range(mean.shape[0]):
+        first = first_cycles + r * steps * cycles_per_step
         fill_increments(waveform, rise, table, first, cycles_per_step, increments)
-        march_block(state, sums, p, increments, stride, model, law)
-        for i in range(STATE):
-            history[r, i] = state[i]
+        march_block(state, sums, p, increments, steps, nodes)
+        condense(values, mean[r], least[r], greatest[r])

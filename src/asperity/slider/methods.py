@@ -6,14 +6,19 @@ import numpy.typing as npt
 from asperity.casefile import Case
 from asperity.runs import Run
 from asperity.slider.homogenised import solve_homogenised
-from asperity.slider.march import Timetable, march
+from asperity.slider.march import march
 from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
+from asperity.slider.timetable import Timetable
 
 
 def solve(
-    model: Model, *, history: bool = True, stop: npt.NDArray[np.int64] | None = None
+    model: Model,
+    *,
+    history: bool = True,
+    stop: npt.NDArray[np.int64] | None = None,
+    run: Run | None = None,
 ) -> SlideResult:
     """Solve a sliding body by the method its case names.
 
@@ -25,6 +30,8 @@ def solve(
         Whether to keep motion and forces over time.
     stop : ndarray of int64, shape (1,), optional
         Set it to 1 from another thread to have a march raise `Stopped` soon.
+    run : Run, optional
+        Where a march is kept and gone on from, and who is told how far it is.
 
     Raises
     ------
@@ -37,7 +44,7 @@ def solve(
         return solve_periodic(model, history=history)
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
-    return march(model, history=history, stop=stop)
+    return march(model, history=history, stop=stop, run=run)
 
 
 def prepare(case: Case) -> Model:
@@ -58,4 +65,4 @@ def prepare(case: Case) -> Model:
 
 def answer(model: Model, run: Run) -> SlideResult:
     """Solve a sliding body as `solve`, with its history where files are written."""
-    return solve(model, history=run.detailed)
+    return solve(model, history=run.detailed, run=run)

@@ -1,9 +1,4 @@
-r"""A sliding body made ready to be solved: one object with everything in SI, and its scaled form.
-
-The kernels work in units of :math:`\ell` (the deflection limit :math:`s_{max}`; for Coulomb
-friction the drive's way in a step), of the time step and of :math:`\mu F_N`, so that a state is of
-order one whatever the contact.
-"""
+"""A sliding body made ready to be solved: one object with everything in SI, and its scaled form."""
 
 import dataclasses
 import functools
@@ -17,34 +12,10 @@ from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.slider.parameters import Slider, Solve
+from asperity.slider.scaled import MODELS, Parameters
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
 
 FloatArray = npt.NDArray[np.float64]
-
-COULOMB = 0
-DAHL = 1
-LUGRE = 2
-MODELS = {"coulomb": COULOMB, "dahl": DAHL, "lugre": LUGRE}
-
-# Places in the parameter vector of the kernels (scaled, see above).
-DRIVE = 0  # drive velocity
-KAPPA = 1  # drive stiffness
-CHI = 2  # drive damping
-KEEP = 3  # what the damped drive leaves of a velocity
-GIVE_X = 4  # velocity change a full friction force makes, along the drive (damping included)
-GIVE_Y = 5  # across
-BASE_X = 6  # amplitude of the base's motion, as the contact sees it
-BASE_Y = 7
-OWN_1 = 8  # share of the body's lateral motion in the first slip part
-OWN_2 = 9  # and in the second
-EXPONENT = 10
-RATE_DAMPING = 11  # LuGre's damping of the deflection's rate
-SLIP_DAMPING = 12  # LuGre's viscous damping
-STATIC_RATIO = 13
-STRIBECK = 14
-RIGID = 15
-SMOOTH = 16  # whether the vibration's velocity has no jumps
-PARAMETERS = 17
 
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4
@@ -56,6 +27,10 @@ RING_BOUND = 0.25
 COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _MOST_SUBSTEPS = 1000
+_FAR_APART = (
+    "the numbers of this case are too far apart to calculate with; look for a value with a wrong "
+    "unit or exponent"
+)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -254,36 +229,40 @@ class Model:
             return self.slider.drive_velocity * step
         return self.friction.deflection_limit(self.slider.normal_force)
 
-    def parameters(self, step: float) -> FloatArray:
-        """Parameter vector of the kernels for a time step in s."""
+    def parameters(self, step: float) -> Parameters:
+        """Return what the kernels are given for a time step in s, see `asperity.slider.scaled`."""
         slider, friction = self.slider, self.friction
         length = self.length(step)
         force = self.full_friction
-        p = np.zeros(PARAMETERS)
-        p[DRIVE] = slider.drive_velocity * step / length
-        p[RIGID] = float(slider.rigid)
-        p[SMOOTH] = float(self.shape is None or self.shape.code in (SINE, SAMPLED))
-        give = step * step * force / (slider.mass * length) if slider.mass is not None else 0.0
-        p[KEEP] = 1.0
+        mobility = step * step * force / (slider.mass * length) if slider.mass is not None else 0.0
+        stiffness = damping = lost = 0.0
         if slider.drive_stiffness is not None:
-            p[KAPPA] = slider.drive_stiffness * length / force
-            p[CHI] = slider.drive_damping * length / (step * force)
-            p[KEEP] = (1.0 - 0.5 * give * p[CHI]) / (1.0 + 0.5 * give * p[CHI])
-            p[GIVE_X] = give / (1.0 + 0.5 * give * p[CHI])
-        p[GIVE_Y] = give if slider.free else 0.0
+            stiffness = slider.drive_stiffness * length / force
+            damping = slider.drive_damping * length / (step * force)
+            lost = 0.5 * mobility * damping
         cos, sin = self.unit_direction
         sign = -1.0 if self.on_body else 1.0
-        p[BASE_X] = sign * self.amplitude * cos / length
-        p[BASE_Y] = sign * friction.transfer * self.amplitude * sin / length
-        p[OWN_1], p[OWN_2] = (0.0, friction.transfer) if self.on_body else (1.0, 0.0)
-        p[EXPONENT] = friction.exponent
-        p[RATE_DAMPING] = friction.contact_damping * length / (step * force)
-        p[SLIP_DAMPING] = friction.viscous_damping * length / (step * force)
-        p[STATIC_RATIO] = (friction.static_mu or friction.mu) / friction.mu
-        p[STRIBECK] = friction.stribeck_velocity * step / length
-        if not np.all(np.isfinite(p)):
-            raise InputError(
-                "the numbers of this case are too far apart to calculate with; look for a value "
-                "with a wrong unit or exponent"
-            )
-        return p
+        scaled = Parameters(
+            drive=slider.drive_velocity * step / length,
+            stiffness=stiffness,
+            damping=damping,
+            retained=(1.0 - lost) / (1.0 + lost),
+            mobility_x=0.0 if slider.rigid else mobility / (1.0 + lost),
+            mobility_y=mobility if slider.free else 0.0,
+            base_x=sign * self.amplitude * cos / length,
+            base_y=sign * friction.transfer * self.amplitude * sin / length,
+            own_1=0.0 if self.on_body else 1.0,
+            own_2=friction.transfer if self.on_body else 0.0,
+            exponent=friction.exponent,
+            rate_damping=friction.contact_damping * length / (step * force),
+            slip_damping=friction.viscous_damping * length / (step * force),
+            static_ratio=(friction.static_mu or friction.mu) / friction.mu,
+            stribeck=friction.stribeck_velocity * step / length,
+            rigid=slider.rigid,
+            smooth=self.shape is None or self.shape.code in (SINE, SAMPLED),
+            model=MODELS[friction.model],
+            law=friction.law_code,
+        )
+        if not all(map(math.isfinite, scaled)):
+            raise InputError(_FAR_APART)
+        return scaled

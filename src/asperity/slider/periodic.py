@@ -7,11 +7,11 @@ import numpy as np
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
-from asperity.slider import model as m
-from asperity.slider.march import energies, summarise
 from asperity.slider.model import FloatArray, Model
 from asperity.slider.result import History, SlideResult
-from asperity.slider.shooting import ACCEPTED, shoot
+from asperity.slider.scaled import NODE, STATE, SUMS, Parameters
+from asperity.slider.shooting import ACCEPTED, MOST_UNKNOWNS, SETTLING, shoot
+from asperity.slider.summary import energies, history_of, summarise
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64
@@ -50,17 +50,19 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     began = time.perf_counter()
     steps = cycle_steps(model)
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
-    p = model.parameters(step)
     increments = np.zeros(steps + 1)
     if model.shape is not None and model.vibrates:
         # One cycle late, so that the wave's rest before its start is not met.
         increments = model.shape.increments(1.0, 1.0 / steps, steps + 1)
-    state = np.zeros(k.STATE)
-    sums = np.zeros(k.SUMS)
-    jacobian = np.zeros((5, 5))
-    law = model.friction.law_code
-    code = m.MODELS[model.friction.model]
-    residual, cycles, unknowns = shoot(state, p, increments, steps, code, law, sums, jacobian)
+    p = model.parameters(step)
+    state, sums = np.zeros(1, STATE)[0], np.zeros(1, SUMS)[0]
+    jacobian = np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS))
+    residual, cycles, unknowns = shoot(state, p, increments, sums, jacobian, 0)
+    for settle in SETTLING:
+        if residual <= ACCEPTED:
+            break
+        residual, more, unknowns = shoot(state, p, increments, sums, jacobian, settle)
+        cycles += more
     if not residual <= ACCEPTED:
         raise ConvergenceError(
             f"no periodic state found: after {cycles} cycles the state still changes by "
@@ -76,14 +78,14 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
             f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
         )
     return summarise(
-        model, step, sums, end, end,
+        model, p, step, sums, end, end,
         residual=float(residual),
         steps=int(cycles) * steps,
         cycles=int(cycles),
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
         notes=notes,
-        history=_one_cycle(model, step, steps, state, p, increments) if history else None,
+        history=_one_cycle(model, step, state, p, increments) if history else None,
     )  # fmt: skip
 
 
@@ -95,27 +97,15 @@ def _growth(jacobian: FloatArray) -> float:
 
 
 def _one_cycle(
-    model: Model, step: float, steps: int, state: FloatArray, p: FloatArray, increments: FloatArray
+    model: Model, step: float, state: np.void, p: Parameters, increments: FloatArray
 ) -> History:
-    rows = np.empty((steps, k.STATE))
-    here = state.copy()
-    here[k.Y] = 0.0
-    sums = np.zeros(k.SUMS)
-    code = m.MODELS[model.friction.model]
-    for n in range(steps):
-        k.march_block(here, sums, p, increments[n : n + 2], 1, code, model.friction.law_code)
-        rows[n] = here
-    time_: FloatArray = step * np.arange(1.0, steps + 1.0)
-    length = model.length(step)
-    drive = model.slider.drive_velocity
-    force = model.full_friction
-    return History(
-        time=time_,
-        drive_force=rows[:, k.FD] * force,
-        friction=rows[:, [k.FX, k.FY]] * force,
-        deflection=rows[:, [k.SX, k.SY]] * length,
-        position=np.stack(
-            [drive * time_ - rows[:, k.STRETCH] * length, rows[:, k.Y] * length], axis=1
-        ),
-        velocity=rows[:, [k.WX, k.WY]] * (length / step),
-    )
+    steps = increments.size - 1
+    here = np.array([state], STATE)
+    here["lateral"] = 0.0
+    nodes = np.empty(steps, NODE)
+    k.march_block(here[0], np.zeros(1, SUMS)[0], p, increments, steps, nodes)
+    # Recorded in one stretch, and given as one a step.
+    nodes["position_x"] -= p.drive * np.arange(steps)
+    rows = nodes.view(np.float64).reshape(steps, -1)
+    begin = step * np.arange(float(steps))
+    return history_of(model, step, begin, np.full(steps, step), rows)

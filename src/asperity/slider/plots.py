@@ -1,6 +1,6 @@
 """Pictures of a solved sliding body."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -8,9 +8,14 @@ from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, draw, legend
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _CYCLES = 3
+_FRICTION: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    ("x", "along the drive, x", {"color": VERMILION}),
+    ("y", "across, y", {"color": GREEN, "dashes": (5, 2)}),
+)
 
 
 def plot_slide(dataset: "xr.Dataset") -> "Figure":
@@ -22,10 +27,10 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
         return draw(dataset)
     figure, (upper, lower) = panels(2, height=6.2)
     time, force = dataset["time"].values, float(dataset["static_drive_force"])
-    friction = dataset["friction"].values
     frequency = dataset.attrs.get("vibration.frequency")
     periodic = dataset.attrs["solve.method"] == "periodic"
     scale, unit = (1e3, "ms") if periodic or time[-1] < 0.1 else (1.0, "s")
+    _band(upper, scale * time, dataset, "drive_force", BLUE)
     upper.plot(scale * time, dataset["drive_force"], color=BLUE)
     upper.axhline(force, color=BLACK, dashes=(4, 3), linewidth=1.0)
     upper.annotate(
@@ -41,12 +46,22 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     if frequency and not periodic:
         last = slice(int(np.searchsorted(time, time[-1] - _CYCLES / frequency)), None)
     shown = 1e3 * (time[last] - time[last][0])
-    lower.plot(shown, friction[last, 0], color=VERMILION, label="along the drive, x")
-    if np.any(friction[:, 1]):
-        lower.plot(shown, friction[last, 1], color=GREEN, dashes=(5, 2), label="across, y")
+    for axis, label, style in _FRICTION:
+        if axis == "x" or np.any(dataset["friction"].sel(axis=axis)):
+            along = dataset.sel(axis=axis).isel(time=last)
+            _band(lower, shown, along, "friction", style["color"])
+            lower.plot(shown, along["friction"], label=label, **style)
     lower.set_xlabel("time in the last cycles (ms)" if frequency else "time (ms)")
     lower.set_ylabel("friction (N)")
     lower.set_title("Friction on the body", loc="left")
     lower.margins(x=0.0)
     legend(lower, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
     return figure
+
+
+def _band(axes: "Axes", time: np.ndarray, dataset: "xr.Dataset", name: str, colour: str) -> None:
+    """Shade between least and greatest of each stretch, where a mean hides something."""
+    if f"{name}_min" in dataset:
+        low, high = dataset[f"{name}_min"].values, dataset[f"{name}_max"].values
+        if np.any(low < high):
+            axes.fill_between(time, low, high, color=colour, alpha=0.25, linewidth=0.0)

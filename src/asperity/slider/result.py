@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
-import numpy as np
-
 from asperity.casefile import Table
 from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.results.dataset import Labels
@@ -16,11 +14,17 @@ _OVER_TIME, _VECTORS = ("time",), ("time", "axis")
 _ROUNDING = 1e-12
 
 
-class History(Quantities):
-    """Motion and forces over time; rows need not be equally spaced.
+def _extreme(which: str, symbol: str, unit: str, meaning: str, dims: tuple[str, ...]) -> Any:
+    return quantity(symbol, unit, f"{which} {meaning} of a stretch", dims=dims, default=None)
 
-    ``position`` and ``velocity`` are the body's own, (n, 2); a vibration prescribed to the body
-    comes on top. Velocities are those of the half step that follows.
+
+class History(Quantities):
+    """Motion and forces over time, in stretches one after the other.
+
+    Each row is the mean over the ends of a stretch's steps, at their mean time; where a stretch
+    may have several, least and greatest say what the mean hides. ``position`` and ``velocity`` are
+    the body's own, (n, 2); a vibration prescribed to the body comes on top. Velocities are those
+    of the half step that follows.
     """
 
     time: FloatArray = quantity("t", "s", "time", dims=_OVER_TIME, coordinate=True)
@@ -31,6 +35,19 @@ class History(Quantities):
     velocity: FloatArray = quantity(
         "v", "m/s", "velocity of the body, half a step later", dims=_VECTORS
     )
+    span: FloatArray | None = quantity(
+        "T", "s", "length of a stretch, its weight in a mean", dims=_OVER_TIME, default=None
+    )
+    drive_force_min: FloatArray | None = _extreme("least", "F_d", "N", "drive force", _OVER_TIME)
+    drive_force_max: FloatArray | None = _extreme("greatest", "F_d", "N", "drive force", _OVER_TIME)
+    friction_min: FloatArray | None = _extreme("least", "F", "N", "friction", _VECTORS)
+    friction_max: FloatArray | None = _extreme("greatest", "F", "N", "friction", _VECTORS)
+    deflection_min: FloatArray | None = _extreme("least", "s", "m", "deflection", _VECTORS)
+    deflection_max: FloatArray | None = _extreme("greatest", "s", "m", "deflection", _VECTORS)
+    position_min: FloatArray | None = _extreme("least", "x", "m", "position", _VECTORS)
+    position_max: FloatArray | None = _extreme("greatest", "x", "m", "position", _VECTORS)
+    velocity_min: FloatArray | None = _extreme("least", "v", "m/s", "velocity", _VECTORS)
+    velocity_max: FloatArray | None = _extreme("greatest", "v", "m/s", "velocity", _VECTORS)
 
 
 class SlideResult(Result):
@@ -201,13 +218,3 @@ def table_inputs(*tables: Table | None) -> dict[str, Any]:
         for key, value in table
         if value is not None
     }
-
-
-def mean_pair(x: float, y: float, force: float) -> tuple[float, float]:
-    """Scale a pair of shares to forces as plain floats."""
-    return float(x * force), float(y * force)
-
-
-def finite(values: FloatArray) -> bool:
-    """Whether every number is finite."""
-    return bool(np.all(np.isfinite(values)))

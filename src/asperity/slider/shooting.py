@@ -11,86 +11,118 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.elimination import eliminate
-from asperity.slider.kernels import (
-    FD,
-    FX,
-    FY,
-    STATE,
-    STRETCH,
-    SUM_FX,
-    SX,
-    SY,
-    WX,
-    WY,
-    clear,
-    march_block,
-)
-from asperity.slider.model import (
-    CHI,
-    COULOMB,
-    DRIVE,
-    GIVE_X,
-    GIVE_Y,
-    KAPPA,
-    KEEP,
-    OWN_1,
-    OWN_2,
-    RIGID,
-)
+from asperity.slider.kernels import clear, march_block
+from asperity.slider.scaled import COULOMB, NODE, STATE, Parameters
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
 _NEWTON_STEPS = 25
-_UNKNOWNS = 5
+MOST_UNKNOWNS = 5
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
+SETTLING = (20, 80, 320, 1280)  # cycles before each further attempt
 
 
 @kernel
-def _unknowns(p, model, places, scales):
-    """Places in the state of what shooting has to find, and the scale of each."""
+def _on_other_drive(p, rigid, damping, retained, mobility_x, mobility_y):
+    """Return the body with another drive and other mobility."""
+    return Parameters(
+        p.drive, p.stiffness, damping, retained, mobility_x, mobility_y,
+        p.base_x, p.base_y, p.own_1, p.own_2, p.exponent, p.rate_damping, p.slip_damping,
+        p.static_ratio, p.stribeck, rigid, p.smooth, p.model, p.law,
+    )  # fmt: skip
+
+
+@kernel
+def _carried(p):
+    """Return the body carried along by its drive, guided."""
+    return _on_other_drive(p, True, p.damping, p.retained, 0.0, 0.0)
+
+
+@kernel
+def _damped(p):
+    """Return the body on a drive damped critically."""
+    if p.rigid:
+        return p
+    mobility = p.mobility_x * 2.0 / (1.0 + p.retained)
+    damping = 2.0 * math.sqrt(p.stiffness / mobility)
+    lost = 0.5 * mobility * damping
+    return _on_other_drive(
+        p, False, damping, (1.0 - lost) / (1.0 + lost), mobility / (1.0 + lost), p.mobility_y
+    )
+
+
+@kernel
+def _read(state, p, unknowns):
+    """Take the unknowns a body has from its state; returns how many they are."""
     count = 0
-    if p[RIGID] == 0.0:
-        places[count] = STRETCH
-        scales[count] = 1.0 / p[KAPPA]
-        places[count + 1] = WX
-        scales[count + 1] = p[DRIVE]
+    if not p.rigid:
+        unknowns[count] = state.stretch
+        unknowns[count + 1] = state.velocity_x
         count += 2
     # A lateral motion the contact does not see (transfer 0) is as periodic at one speed as another.
-    if p[GIVE_Y] > 0.0 and p[OWN_1] + p[OWN_2] > 0.0:
-        places[count] = WY
-        scales[count] = p[DRIVE]
+    if p.mobility_y > 0.0 and p.own_1 + p.own_2 > 0.0:
+        unknowns[count] = state.velocity_y
         count += 1
-    if model != COULOMB:
-        places[count] = SX
-        places[count + 1] = SY
-        scales[count] = 1.0
-        scales[count + 1] = 1.0
+    if p.model != COULOMB:
+        unknowns[count] = state.deflection_x
+        unknowns[count + 1] = state.deflection_y
         count += 2
     return count
 
 
 @kernel
-def _cycle(state, p, increments, steps, model, law, sums):
-    """Forces that belong to a state, then one cycle from it."""
-    if model != COULOMB:
-        state[FX] = state[SX]
-        state[FY] = state[SY]
-    state[FD] = p[KAPPA] * state[STRETCH] + p[CHI] * (p[DRIVE] - state[WX])
-    clear(sums)
-    march_block(state, sums, p, increments, steps, model, law)
+def _write(unknowns, p, state):
+    """Put the unknowns into a state, as `_read` takes them from it."""
+    count = 0
+    if not p.rigid:
+        state.stretch = unknowns[count]
+        state.velocity_x = unknowns[count + 1]
+        count += 2
+    if p.mobility_y > 0.0 and p.own_1 + p.own_2 > 0.0:
+        state.velocity_y = unknowns[count]
+        count += 1
+    if p.model != COULOMB:
+        state.deflection_x = unknowns[count]
+        state.deflection_y = unknowns[count + 1]
 
 
 @kernel
-def _defect(start, p, increments, steps, model, law, sums, places, scales, count, end, defect):
+def _scales(p, scales):
+    """Size each unknown is measured by; returns how many they are."""
+    sizes = np.zeros(1, dtype=STATE)
+    if not p.rigid:
+        sizes[0].stretch = 1.0 / p.stiffness
+    sizes[0].velocity_x = p.drive
+    sizes[0].velocity_y = p.drive
+    sizes[0].deflection_x = 1.0
+    sizes[0].deflection_y = 1.0
+    return _read(sizes[0], p, scales)
+
+
+@kernel
+def _run(state, p, increments, sums):
+    """Forces that belong to a state, then one cycle from it."""
+    if p.model != COULOMB:
+        state.friction_x = state.deflection_x
+        state.friction_y = state.deflection_y
+    state.drive_force = p.stiffness * state.stretch + p.damping * (p.drive - state.velocity_x)
+    clear(sums)
+    march_block(state, sums, p, increments, increments.size - 1, np.empty(0, dtype=NODE))
+
+
+@kernel
+def _defect(start, p, increments, sums, scales, count, end, defect):
     """Scaled change of the unknowns over a cycle from ``start``; returns its largest part."""
-    for i in range(STATE):
-        end[i] = start[i]
-    _cycle(end, p, increments, steps, model, law, sums)
+    before = np.empty(MOST_UNKNOWNS)
+    after = np.empty(MOST_UNKNOWNS)
+    _read(start, p, before)
+    end[0] = start
+    _run(end[0], p, increments, sums)
+    _read(end[0], p, after)
     worst = 0.0
     for i in range(count):
-        place = places[i]
-        defect[i] = (end[place] - start[place]) / scales[i]
+        defect[i] = (after[i] - before[i]) / scales[i]
         size = abs(defect[i])
         if not size <= 1e300:
             return 1e300
@@ -99,37 +131,36 @@ def _defect(start, p, increments, steps, model, law, sums, places, scales, count
 
 
 @kernel
-def _newton(start, p, increments, steps, model, law, sums, places, scales, count, jacobian):
+def _newton(start, p, increments, sums, scales, count, jacobian):
     """Newton from ``start``, which ends at the best state found; returns (defect, cycles run)."""
-    end = np.empty(STATE)
-    trial = np.empty(STATE)
-    defect = np.empty(_UNKNOWNS)
-    trial_defect = np.empty(_UNKNOWNS)
-    matrix = np.empty((_UNKNOWNS, _UNKNOWNS))
-    step = np.empty(_UNKNOWNS)
+    end = np.empty(1, dtype=STATE)
+    trial = np.empty(1, dtype=STATE)
+    here = np.empty(MOST_UNKNOWNS)
+    there = np.empty(MOST_UNKNOWNS)
+    defect = np.empty(MOST_UNKNOWNS)
+    trial_defect = np.empty(MOST_UNKNOWNS)
+    matrix = np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS))
+    step = np.empty(MOST_UNKNOWNS)
     cycles = 1
-    worst = _defect(
-        start, p, increments, steps, model, law, sums, places, scales, count, end, defect
-    )
+    worst = _defect(start, p, increments, sums, scales, count, end, defect)
     fresh = False
     side = 1.0
     for _ in range(_NEWTON_STEPS):
         if worst <= TOLERANCE:
             break
+        _read(start, p, here)
         if not fresh:
             for j in range(count):
-                for i in range(STATE):
-                    trial[i] = start[i]
+                trial[0] = start
+                there[:] = here
                 # Steps that shrink with the defect do not reach a kink the answer is not at. At
                 # first towards the inside: a difference across the limit would be one-sided.
                 change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE)) * side
-                if start[places[j]] > 0.0:
+                if here[j] > 0.0:
                     change = -change
-                trial[places[j]] += change * scales[j]
-                _defect(
-                    trial, p, increments, steps, model, law, sums,
-                    places, scales, count, end, trial_defect,
-                )  # fmt: skip
+                there[j] += change * scales[j]
+                _write(there, p, trial[0])
+                _defect(trial[0], p, increments, sums, scales, count, end, trial_defect)
                 cycles += 1
                 for i in range(count):
                     jacobian[i, j] = (trial_defect[i] - defect[i]) / change
@@ -143,19 +174,16 @@ def _newton(start, p, increments, steps, model, law, sums, places, scales, count
         length = 1.0
         moved = False
         for _ in range(8):
-            for i in range(STATE):
-                trial[i] = start[i]
+            trial[0] = start
             for j in range(count):
-                trial[places[j]] += length * step[j] * scales[j]
-            if model != COULOMB:
-                size = math.sqrt(trial[SX] ** 2 + trial[SY] ** 2)
+                there[j] = here[j] + length * step[j] * scales[j]
+            _write(there, p, trial[0])
+            if p.model != COULOMB:
+                size = math.sqrt(trial[0].deflection_x ** 2 + trial[0].deflection_y ** 2)
                 if size > 1.5:
-                    trial[SX] *= 1.0 / size
-                    trial[SY] *= 1.0 / size
-            reached = _defect(
-                trial, p, increments, steps, model, law, sums,
-                places, scales, count, end, trial_defect,
-            )  # fmt: skip
+                    trial[0].deflection_x *= 1.0 / size
+                    trial[0].deflection_y *= 1.0 / size
+            reached = _defect(trial[0], p, increments, sums, scales, count, end, trial_defect)
             cycles += 1
             if reached < worst * (1.0 - 0.1 * length):
                 moved = True
@@ -172,30 +200,32 @@ def _newton(start, p, increments, steps, model, law, sums, places, scales, count
         # The differences cost a cycle an unknown: keep them while they still gain a digit.
         fresh = reached < 0.1 * worst and length == 1.0
         worst = reached
-        for i in range(STATE):
-            start[i] = trial[i]
+        _read(trial[0], p, there)
+        _write(there, p, start)
         for i in range(count):
             defect[i] = trial_defect[i]
     return worst, cycles
 
 
 @kernel
-def _settle(state, p, increments, steps, model, law, sums, cycles):
-    """Run cycles with the drive damped critically and the lateral motion too: a better guess."""
-    damped = p.copy()
-    if p[RIGID] == 0.0:
-        give = p[GIVE_X] * 2.0 / (1.0 + p[KEEP])
-        chi = 2.0 * math.sqrt(p[KAPPA] / give)
-        damped[CHI] = chi
-        damped[KEEP] = (1.0 - 0.5 * give * chi) / (1.0 + 0.5 * give * chi)
-        damped[GIVE_X] = give / (1.0 + 0.5 * give * chi)
-    for _ in range(cycles):
-        _cycle(state, damped, increments, steps, model, law, sums)
+def shoot(state, p, increments, sums, jacobian, settle):
+    """Look for the periodic state; where it is found, ``sums`` are those of one cycle from it.
 
-
-@kernel
-def shoot(state, p, increments, steps, model, law, sums, jacobian):
-    """Find the periodic state; ``sums`` are those of one cycle from it.
+    Parameters
+    ----------
+    state : record
+        Of zeros, or as an earlier call left it.
+    p : Parameters
+        The body.
+    increments : ndarray
+        Of the unit vibration over the steps of a cycle, and over the first of the next.
+    sums : record
+        Overwritten.
+    jacobian : ndarray
+        Room for that of the map less one.
+    settle : int
+        0 for the first call; else cycles to run beforehand, the drive damped critically, which
+        calms the lateral motion too.
 
     Returns
     -------
@@ -206,52 +236,43 @@ def shoot(state, p, increments, steps, model, law, sums, jacobian):
     unknowns : int
         Size of the Jacobian.
     """
-    places = np.empty(_UNKNOWNS, np.int64)
-    scales = np.empty(_UNKNOWNS)
-    count = _unknowns(p, model, places, scales)
-    end = np.empty(STATE)
-    defect = np.empty(_UNKNOWNS)
+    steps = increments.size - 1
+    scales = np.empty(MOST_UNKNOWNS)
+    count = _scales(p, scales)
     used = 0
-    # Where the slip never reverses, friction at its limit and a body at drive velocity is a
-    # periodic state (longitudinal, k <= 1). Newton is at a loss there: the approach takes forever.
-    for i in range(STATE):
-        state[i] = 0.0
-    state[WX] = p[DRIVE]
-    state[SX] = 1.0
-    state[FX] = 1.0
-    if p[RIGID] == 0.0:
-        state[STRETCH] = 1.0 / p[KAPPA]
-    worst = _defect(
-        state, p, increments, steps, model, law, sums, places, scales, count, end, defect
-    )
-    used += 1
+    worst = np.inf
+    if settle == 0:
+        # Where the slip never reverses, friction at its limit and a body at drive velocity is a
+        # periodic state (longitudinal, k <= 1). Newton is at a loss there: the approach takes
+        # forever.
+        state.velocity_x = p.drive
+        state.deflection_x = 1.0
+        state.friction_x = 1.0
+        if not p.rigid:
+            state.stretch = 1.0 / p.stiffness
+        end = np.empty(1, dtype=STATE)
+        worst = _defect(state, p, increments, sums, scales, count, end, np.empty(MOST_UNKNOWNS))
+        used += 1
+        if worst > 1e-12:
+            # Friction under the drive's mean motion alone tells the mean force to start from.
+            state.stretch = 0.0
+            for _ in range(3):
+                _run(state, _carried(p), increments, sums)
+            used += 3
+            if not p.rigid:
+                state.stretch = sums.friction_x / steps / p.stiffness
+    else:
+        for _ in range(settle):
+            _run(state, _damped(p), increments, sums)
+        used += settle
     if worst > 1e-12:
-        # Friction under the drive's mean motion alone tells the mean force to start from.
-        guided = p.copy()
-        guided[RIGID] = 1.0
-        guided[GIVE_X] = 0.0
-        guided[GIVE_Y] = 0.0
-        state[STRETCH] = 0.0
-        for _ in range(3):
-            _cycle(state, guided, increments, steps, model, law, sums)
-        used += 3
-        if p[RIGID] == 0.0:
-            state[STRETCH] = sums[SUM_FX] / steps / p[KAPPA]
-        worst, cycles = _newton(
-            state, p, increments, steps, model, law, sums, places, scales, count, jacobian
-        )
+        worst, cycles = _newton(state, p, increments, sums, scales, count, jacobian)
         used += cycles
-        settle = 20
-        while worst > ACCEPTED and settle <= 2000:
-            _settle(state, p, increments, steps, model, law, sums, settle)
-            worst, cycles = _newton(
-                state, p, increments, steps, model, law, sums, places, scales, count, jacobian
-            )
-            used += cycles + settle
-            settle *= 4
-    # Once around to bring the node forces in, once for the sums.
-    for _ in range(2):
-        clear(sums)
-        march_block(state, sums, p, increments, steps, model, law)
-    used += 2
+    if worst <= ACCEPTED:
+        # Once around to bring the node forces in, once for the sums.
+        none = np.empty(0, dtype=NODE)
+        for _ in range(2):
+            clear(sums)
+            march_block(state, sums, p, increments, steps, none)
+        used += 2
     return worst, used, count

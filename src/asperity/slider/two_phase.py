@@ -11,114 +11,78 @@ case at k = 6 instead of 0.003 N) and a real error at low frequency, and the pow
 close. Without the stored increment the coupled directions come out differently.
 """
 
+import numpy as np
+
 from asperity.compiled import kernel
 from asperity.friction.two_phase import phases
-from asperity.slider.kernels import (
-    BREAKAWAY,
-    FD,
-    FX,
-    FY,
-    MAX_FX,
-    MAX_FY,
-    MIN_FX,
-    MIN_FY,
-    STATE,
-    STEPS,
-    STRETCH,
-    SUM_DRAG,
-    SUM_FD,
-    SUM_FX,
-    SUM_FY,
-    SUM_SLIP,
-    SUM_VX,
-    SUM_VY,
-    SX,
-    SY,
-    WX,
-    WY,
-    Y,
-)
-from asperity.slider.model import (
-    BASE_X,
-    BASE_Y,
-    CHI,
-    DRIVE,
-    EXPONENT,
-    GIVE_X,
-    GIVE_Y,
-    KAPPA,
-    OWN_2,
-    RIGID,
-)
+from asperity.slider.kernels import add_step, condense, record
 from asperity.vibration import fill_increments
+
+# What the scheme carries beside the state: the asperity's direction, and (42)'s stored increment.
+MEMORY = np.dtype([("cos", float), ("sin", float), ("base_x", float)])
 
 
 @kernel
 def march_two_phase(
-    state, extra, sums, p, waveform, rise, table, first_cycles, cycles_per_step,
-    records, stride, increments, history, on_body,
+    state, memory, sums, p, waveform, rise, table, first_cycles, cycles_per_step, increments,
+    on_body, nodes, mean, least, greatest,
 ):  # fmt: skip
-    """March ``records`` stretches of ``stride`` steps, writing the state after each.
+    """March as many stretches as ``mean`` has rows, recording each in one.
 
-    ``extra`` keeps the asperity's direction and the stored increment of the base between calls.
+    Room for one stretch: ``increments`` for one step more, ``nodes`` for its steps; without room
+    for nodes the rows are left as they are.
     """
-    rigid = p[RIGID] > 0.0
-    for r in range(records):
-        first = first_cycles + r * stride * cycles_per_step
+    rigid = p.rigid
+    recording = nodes.size > 0
+    steps = increments.size - 1
+    values = nodes.view(np.float64).reshape((nodes.size, mean.shape[1]))
+    for r in range(mean.shape[0]):
+        first = first_cycles + r * steps * cycles_per_step
         fill_increments(waveform, rise, table, first, cycles_per_step, increments)
-        for n in range(stride):
+        for n in range(steps):
             u = increments[n]
-            ux = p[BASE_X] * u
-            uy = p[BASE_Y] * u
-            fx = state[FX]
-            fy = state[FY]
-            fd = state[FD]
-            wx = state[WX]
+            ux = p.base_x * u
+            uy = p.base_y * u
+            fx = state.friction_x
+            fy = state.friction_y
+            fd = state.drive_force
+            wx = state.velocity_x
             if not rigid:
-                wx += p[GIVE_X] * (fd - fx)
-            wy = state[WY] - p[GIVE_Y] * fy
-            way_x = wx if on_body else wx - extra[2]
-            stretch = state[STRETCH] + p[DRIVE] - way_x
+                wx += p.mobility_x * (fd - fx)
+            wy = state.velocity_y - p.mobility_y * fy
+            moved = wx if on_body else wx - memory.base_x
+            stretch = state.stretch + p.drive - moved
             if on_body:
-                d1x, d1y, d2y = wx - ux, 0.0, p[OWN_2] * wy - uy
+                d1x, d1y, d2y = wx - ux, 0.0, p.own_2 * wy - uy
             else:
-                d1x, d1y, d2y = way_x, wy, -uy
+                d1x, d1y, d2y = moved, wy, -uy
             one_sided = first + (n + 1) * cycles_per_step <= 0.0
-            size = state[SX] * extra[0] + state[SY] * extra[1]
-            size, ca, sa = phases(
-                size, extra[0], extra[1], d1x, d1y, 0.0, d2y, p[EXPONENT], one_sided
+            size = state.deflection_x * memory.cos + state.deflection_y * memory.sin
+            size, cos, sin = phases(
+                size, memory.cos, memory.sin, d1x, d1y, 0.0, d2y, p.exponent, one_sided
             )
-            extra[0] = ca
-            extra[1] = sa
-            extra[2] = ux
-            state[SX] = size * ca
-            state[SY] = size * sa
-            state[FX] = size * ca
-            state[FY] = size * sa
-            state[WX] = wx
-            state[WY] = wy
-            state[Y] += wy
-            state[STRETCH] = stretch
-            drag = p[CHI] * (p[DRIVE] - wx)
-            state[FD] = state[FX] if rigid else p[KAPPA] * stretch + drag
-            mx = 0.5 * (fx + state[FX])
-            my = 0.5 * (fy + state[FY])
-            sums[SUM_FD] += 0.5 * (fd + state[FD])
-            sums[SUM_FX] += mx
-            sums[SUM_FY] += my
-            sums[SUM_VX] += mx * u
-            sums[SUM_VY] += my * u
-            sums[SUM_SLIP] += mx * (d1x if on_body else wx - ux) + my * (d1y + d2y)
+            memory.cos = cos
+            memory.sin = sin
+            memory.base_x = ux
+            sx = size * cos
+            sy = size * sin
+            drag = p.damping * (p.drive - wx)
+            fd1 = sx if rigid else p.stiffness * stretch + drag
+            slip_x = d1x if on_body else wx - ux
+            add_step(sums, sx, sy, fd1, fx, fy, fd, u, slip_x, d1y + d2y, rigid)
             if not rigid:
-                sums[SUM_DRAG] += drag * (p[DRIVE] - wx)
-            sums[MAX_FX] = max(sums[MAX_FX], state[FX])
-            sums[MIN_FX] = min(sums[MIN_FX], state[FX])
-            sums[MAX_FY] = max(sums[MAX_FY], state[FY])
-            sums[MIN_FY] = min(sums[MIN_FY], state[FY])
-            sums[STEPS] += 1.0
-            if sums[BREAKAWAY] < 0.0:
-                sums[BREAKAWAY] -= 1.0
-                if state[FD] >= 1.0 and not rigid:
-                    sums[BREAKAWAY] = -1.0 - sums[BREAKAWAY]
-        for i in range(STATE):
-            history[r, i] = state[i]
+                sums.drag_work += drag * (p.drive - wx)
+            state.deflection_x = sx
+            state.deflection_y = sy
+            state.friction_x = sx
+            state.friction_y = sy
+            state.velocity_x = wx
+            state.velocity_y = wy
+            state.lateral += wy
+            state.stretch = stretch
+            state.drive_force = fd1
+            if recording:
+                x = (n + 1) * p.drive - stretch
+                record(nodes[n], sx, sy, fd1, sx, sy, x, state.lateral, wx, wy)
+        if recording:
+            condense(values, mean[r], least[r], greatest[r])

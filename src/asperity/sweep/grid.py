@@ -11,9 +11,9 @@ import numpy as np
 from asperity.casefile import Case, Table
 from asperity.errors import AsperityError, InputError
 from asperity.runs.key import code_key
-from asperity.slider.march import Timetable
 from asperity.slider.model import Model
 from asperity.slider.tables import TABLES
+from asperity.slider.timetable import Timetable
 from asperity.sweep.axes import Axis
 
 # Enough for the inner axis of a large grid; more would let memory grow with the grid.

@@ -8,8 +8,8 @@ import numpy as np
 from asperity.closure import source_key
 from asperity.compiled import machine
 from asperity.errors import AsperityError, ConvergenceError, InputError
-from asperity.slider.batch import fits_lanes, solve_many
-from asperity.slider.lanes import LANES
+from asperity.slider.batch import fits_batch, solve_many
+from asperity.slider.batch_kernels import WIDTH
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.sweep.cache import Row
@@ -23,8 +23,8 @@ VARIABLES = SlideResult.scalars()
 
 def task_size(model: Model) -> int:
     """Points solved before they are kept: a batch of lanes, or one where each is slow."""
-    if fits_lanes(model) or model.solve.method == "periodic":
-        return LANES
+    if fits_batch(model) or model.solve.method == "periodic":
+        return WIDTH
     return 1
 
 

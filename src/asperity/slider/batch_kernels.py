@@ -2,8 +2,8 @@ r"""Thirty-two bodies marched side by side: Dahl friction, exponent 1, drives wi
 
 Same equations and units as `asperity.slider.kernels`, laid out for vector instructions. Why it
 looks the way it does: all numbers of a batch stand in ONE buffer at offsets known to the compiler
-(separate arrays cost three times as much, for their pointers), the inner loop runs over the lanes
-and has neither a call nor a branch that depends on a lane, the exponential and
+(separate arrays cost three times as much, for their pointers), the inner loop runs over the bodies
+and has neither a call nor a branch that depends on one, the exponential and
 the return to the limit are polynomials.
 """
 
@@ -14,12 +14,12 @@ from asperity.compiled import kernel
 from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR, inverse_root, relaxation_gain
 from asperity.vibration import fill_increments
 
-LANES = 32
+WIDTH = 32
 
 # Rows of the buffer.
 (
     STRETCH, WX, WY, SX, SY,
-    DRIVE, KAPPA, GIVE_X, GIVE_Y, BASE_X, BASE_Y,
+    DRIVE, STIFFNESS, MOBILITY_X, MOBILITY_Y, BASE_X, BASE_Y,
     SUM_FREE, SUM_FX, SUM_FY, SUM_VX, SUM_VY, SUM_SLIP,
     MAX_FX, MIN_FX, MAX_FY, MIN_FY, WAITING, WAITED,
     ROWS,
@@ -37,42 +37,42 @@ _STAGES = ((False, True), (True, True), (True, False))
 
 @kernel(fastmath=_FAST)
 def _fill(waves, tables, shared, increments, steps):
-    """Increments of every lane's unit vibration for the coming steps; ``waves`` walks on.
+    """Increments of every body's unit vibration for the coming steps; ``waves`` walks on.
 
     Rows of ``waves``: waveform, rise, cycles done, cycles a step, the sine's rotation a step (cos,
-    sin), its phasor (cos, sin). With ``shared`` all lanes have the wave of the first.
+    sin), its phasor (cos, sin). With ``shared`` all bodies have the wave of the first.
     """
     turning = not shared
-    for lane in range(LANES):
-        turning = turning and waves[0, lane] == 0.0 and waves[2, lane] > 0.0
+    for body in range(WIDTH):
+        turning = turning and waves[0, body] == 0.0 and waves[2, body] > 0.0
     if turning:
         # The phasors are set anew every block so that rounding cannot gather.
-        for lane in range(LANES):
-            phase = 2.0 * math.pi * (waves[2, lane] - math.floor(waves[2, lane]))
-            waves[6, lane] = math.cos(phase)
-            waves[7, lane] = math.sin(phase)
+        for body in range(WIDTH):
+            phase = 2.0 * math.pi * (waves[2, body] - math.floor(waves[2, body]))
+            waves[6, body] = math.cos(phase)
+            waves[7, body] = math.sin(phase)
         for n in range(steps):
-            for lane in range(LANES):
-                c = waves[6, lane]
-                s = waves[7, lane]
-                s1 = s * waves[4, lane] + c * waves[5, lane]
-                waves[6, lane] = c * waves[4, lane] - s * waves[5, lane]
-                waves[7, lane] = s1
-                increments[n * LANES + lane] = s1 - s
+            for body in range(WIDTH):
+                c = waves[6, body]
+                s = waves[7, body]
+                s1 = s * waves[4, body] + c * waves[5, body]
+                waves[6, body] = c * waves[4, body] - s * waves[5, body]
+                waves[7, body] = s1
+                increments[n * WIDTH + body] = s1 - s
     else:
-        for lane in range(1 if shared else LANES):
-            room = increments[lane::LANES][:steps]
+        for body in range(1 if shared else WIDTH):
+            room = increments[body::WIDTH][:steps]
             fill_increments(
-                int(waves[0, lane]), waves[1, lane], tables[lane], waves[2, lane],
-                waves[3, lane], room,
+                int(waves[0, body]), waves[1, body], tables[body], waves[2, body],
+                waves[3, body], room,
             )  # fmt: skip
     if shared:
         for n in range(steps):
-            first = increments[n * LANES]
-            for lane in range(1, LANES):
-                increments[n * LANES + lane] = first
-    for lane in range(LANES):
-        waves[2, lane] += steps * waves[3, lane]
+            first = increments[n * WIDTH]
+            for body in range(1, WIDTH):
+                increments[n * WIDTH + body] = first
+    for body in range(WIDTH):
+        waves[2, body] += steps * waves[3, body]
 
 
 def _make_block(law: int, window: bool, wait: bool) -> Any:
@@ -85,15 +85,15 @@ def _make_block(law: int, window: bool, wait: bool) -> Any:
     def block(b, increments, steps, own_1, own_2):
         own = own_1 + own_2
         for n in range(steps):
-            for j in range(LANES):
-                u = increments[n * LANES + j]
-                ux = b[BASE_X * LANES + j] * u
-                uy = b[BASE_Y * LANES + j] * u
-                wx = b[WX * LANES + j]
-                wy = b[WY * LANES + j]
-                sx = b[SX * LANES + j]
-                sy = b[SY * LANES + j]
-                stretch = b[STRETCH * LANES + j] + b[DRIVE * LANES + j] - wx
+            for j in range(WIDTH):
+                u = increments[n * WIDTH + j]
+                ux = b[BASE_X * WIDTH + j] * u
+                uy = b[BASE_Y * WIDTH + j] * u
+                wx = b[WX * WIDTH + j]
+                wy = b[WY * WIDTH + j]
+                sx = b[SX * WIDTH + j]
+                sy = b[SY * WIDTH + j]
+                stretch = b[STRETCH * WIDTH + j] + b[DRIVE * WIDTH + j] - wx
                 dx = wx - ux
                 dy = own * wy - uy
                 if law == VECTOR:
@@ -117,33 +117,33 @@ def _make_block(law: int, window: bool, wait: bool) -> Any:
                     back = inverse_root(over if over > 0.0 else 0.0)
                     sx1 *= back
                     sy1 *= back
-                free = b[KAPPA * LANES + j] * stretch
-                b[WX * LANES + j] = wx + b[GIVE_X * LANES + j] * (free - sx1)
-                b[WY * LANES + j] = wy - b[GIVE_Y * LANES + j] * sy1
-                b[STRETCH * LANES + j] = stretch
-                b[SX * LANES + j] = sx1
-                b[SY * LANES + j] = sy1
+                free = b[STIFFNESS * WIDTH + j] * stretch
+                b[WX * WIDTH + j] = wx + b[MOBILITY_X * WIDTH + j] * (free - sx1)
+                b[WY * WIDTH + j] = wy - b[MOBILITY_Y * WIDTH + j] * sy1
+                b[STRETCH * WIDTH + j] = stretch
+                b[SX * WIDTH + j] = sx1
+                b[SY * WIDTH + j] = sy1
                 if window:
                     mx = sx + sx1
                     my = sy + sy1
-                    b[SUM_FREE * LANES + j] += free
-                    b[SUM_FX * LANES + j] += mx
-                    b[SUM_FY * LANES + j] += my
-                    b[SUM_VX * LANES + j] += mx * u
-                    b[SUM_VY * LANES + j] += my * u
-                    b[SUM_SLIP * LANES + j] += mx * dx + my * dy
-                    top = b[MAX_FX * LANES + j]
-                    b[MAX_FX * LANES + j] = top if top > sx1 else sx1
-                    low = b[MIN_FX * LANES + j]
-                    b[MIN_FX * LANES + j] = low if low < sx1 else sx1
-                    top = b[MAX_FY * LANES + j]
-                    b[MAX_FY * LANES + j] = top if top > sy1 else sy1
-                    low = b[MIN_FY * LANES + j]
-                    b[MIN_FY * LANES + j] = low if low < sy1 else sy1
+                    b[SUM_FREE * WIDTH + j] += free
+                    b[SUM_FX * WIDTH + j] += mx
+                    b[SUM_FY * WIDTH + j] += my
+                    b[SUM_VX * WIDTH + j] += mx * u
+                    b[SUM_VY * WIDTH + j] += my * u
+                    b[SUM_SLIP * WIDTH + j] += mx * dx + my * dy
+                    top = b[MAX_FX * WIDTH + j]
+                    b[MAX_FX * WIDTH + j] = top if top > sx1 else sx1
+                    low = b[MIN_FX * WIDTH + j]
+                    b[MIN_FX * WIDTH + j] = low if low < sx1 else sx1
+                    top = b[MAX_FY * WIDTH + j]
+                    b[MAX_FY * WIDTH + j] = top if top > sy1 else sy1
+                    low = b[MIN_FY * WIDTH + j]
+                    b[MIN_FY * WIDTH + j] = low if low < sy1 else sy1
                 if wait:
-                    waiting = b[WAITING * LANES + j]
-                    b[WAITED * LANES + j] += waiting
-                    b[WAITING * LANES + j] = waiting if free < 1.0 else 0.0
+                    waiting = b[WAITING * WIDTH + j]
+                    b[WAITED * WIDTH + j] += waiting
+                    b[WAITING * WIDTH + j] = waiting if free < 1.0 else 0.0
 
     return block
 
@@ -160,7 +160,7 @@ _UNSPLIT_WAIT, _UNSPLIT_BOTH, _UNSPLIT_WINDOW = (
 
 
 @kernel
-def march_lanes(
+def march_batch(
     buffer, waves, tables, shared, increments, steps, own_1, own_2, law, window, waiting, stop
 ):  # fmt: skip
     """March a batch ``steps`` steps; gives up between blocks once ``stop[0]`` is not zero.

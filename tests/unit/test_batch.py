@@ -10,7 +10,7 @@ from asperity.casefile import read_case
 from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, Stopped, solve, solve_many
-from asperity.slider.lanes import BLOCK, LANES
+from asperity.slider.batch_kernels import BLOCK, WIDTH
 from asperity.slider.march import march
 from asperity.vibration import Vibration
 
@@ -75,12 +75,12 @@ def test_bodies_side_by_side_answer_as_each_alone(law, applied_to):
             },
             step=2.5e-7,
         )
-        for _ in range(LANES)
+        for _ in range(WIDTH)
     ]
     assert_all_same(models)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, LANES - 1, LANES, LANES + 1, 2 * LANES + 5])
+@pytest.mark.parametrize("count", [1, 2, 3, WIDTH - 1, WIDTH, WIDTH + 1, 2 * WIDTH + 5])
 def test_any_number_of_bodies_may_march(count):
     directions = np.linspace(0.0, math.pi, count)
     assert_all_same([body(vibration={"direction": d}, duration=0.02) for d in directions])

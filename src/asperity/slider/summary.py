@@ -1,0 +1,156 @@
+"""From the sums over a window to a result in SI, power ledger and history."""
+
+import numpy as np
+
+from asperity.results.ledger import PowerLedger, guard
+from asperity.slider.model import FloatArray, Model
+from asperity.slider.result import History, SlideResult
+from asperity.slider.scaled import NODE, Parameters
+
+_ADVICE = "give a smaller solve.step"
+
+
+def energies(state: np.void, p: Parameters, *, elastic: bool) -> tuple[float, float]:
+    r"""Mechanical and elastic energy over :math:`\mu F_N \ell`, matching the trapezoidal sums.
+
+    Mechanical: kinetic and in the drive spring; elastic: in the asperities. The lateral kinetic
+    energy counts with the share of the lateral motion the contact sees: where that is not all of
+    it (vibration of the body with eta_y < 1), the rest of the force on the body has no
+    counterpart in the contact.
+    """
+    total = 0.5 * p.stiffness * state["stretch"] ** 2
+    if p.mobility_x > 0.0:
+        mobility = p.mobility_x * 2.0 / (1.0 + p.retained)
+        before = state["velocity_x"] - mobility * (state["drive_force"] - state["friction_x"])
+        total += 0.5 * state["velocity_x"] * before / mobility
+    if p.mobility_y > 0.0:
+        before = state["velocity_y"] + p.mobility_y * state["friction_y"]
+        total += 0.5 * (p.own_1 + p.own_2) * state["velocity_y"] * before / p.mobility_y
+    bristle = 0.0
+    if elastic:
+        bristle = 0.5 * (state["deflection_x"] ** 2 + state["deflection_y"] ** 2)
+    return float(total), float(bristle)
+
+
+def summarise(
+    model: Model,
+    p: Parameters,
+    step: float,
+    sums: np.void,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    *,
+    residual: float,
+    steps: int,
+    cycles: int,
+    seconds: float,
+    breakaway_time: float | None = None,
+    history: History | None = None,
+    notes: tuple[str, ...] = (),
+    substeps: int = 1,
+) -> SlideResult:
+    """Turn the sums over a window, and the energies at its ends, into a result in SI.
+
+    Raises
+    ------
+    ConvergenceError
+        The powers do not balance. The two-phase scheme has no balance to keep.
+    """
+    count = sums["steps"]
+    force = model.full_friction
+    ratio = float(sums["drive_force"] / count)
+    ledger = _ledger(model, p, step, sums, end[0] - start[0], end[1] - start[1])
+    if model.solve.scheme != "two-phase":
+        notes += guard(ledger, _ADVICE, reached={"ratio": ratio})
+    return SlideResult(
+        model=model,
+        ratio=ratio,
+        drive_force=float(sums["drive_force"] / count * force),
+        friction_mean=_pair(sums["friction_x"] / count, sums["friction_y"] / count, force),
+        friction_max=_pair(sums["friction_x_max"], sums["friction_y_max"], force),
+        friction_min=_pair(sums["friction_x_min"], sums["friction_y_min"], force),
+        breakaway_time=breakaway_time,
+        ledger=ledger,
+        residual=residual,
+        steps=steps,
+        cycles=cycles,
+        seconds=seconds,
+        substeps=substeps,
+        history=history,
+        notes=notes,
+    )
+
+
+def _pair(x: float, y: float, force: float) -> tuple[float, float]:
+    return float(x * force), float(y * force)
+
+
+def _ledger(
+    model: Model, p: Parameters, step: float, sums: np.void, mechanical: float, elastic: float
+) -> PowerLedger:
+    length = model.length(step)
+    watts = model.full_friction * length / (float(sums["steps"]) * step)
+    vibration = -(p.base_x * sums["unit_work_x"] + p.base_y * sums["unit_work_y"])
+    whole = model.amplitude * model.unit_direction[1] / length
+    whole = -whole if model.on_body else whole
+    untransferred = -watts * (1.0 - model.friction.transfer) * whole * sums["unit_work_y"]
+    return PowerLedger(
+        drive=float(watts * p.drive * sums["drive_force"]),
+        vibration=float(watts * vibration),
+        friction=float(watts * (sums["slip_work"] - elastic)),
+        damping=float(watts * sums["drag_work"]) if p.damping > 0.0 else 0.0,
+        stored=float(watts * (mechanical + elastic)),
+        untransferred=float(untransferred) + 0.0,  # no -0.0
+    )
+
+
+def history_of(
+    model: Model,
+    step: float,
+    at: FloatArray,
+    span: FloatArray,
+    mean: FloatArray,
+    least: FloatArray | None = None,
+    greatest: FloatArray | None = None,
+) -> History:
+    """Turn recorded stretches into motion and forces in SI.
+
+    Parameters
+    ----------
+    model : Model
+        The body.
+    step : float
+        Time step, s.
+    at, span : ndarray, shape (n,)
+        Begin and length of each stretch, s.
+    mean, least, greatest : ndarray, shape (n, numbers of a node)
+        As `asperity.slider.kernels.condense` leaves them; the latter two only where a stretch is
+        more than a step.
+    """
+    length, force = model.length(step), model.full_friction
+    drive = model.slider.drive_velocity
+    speed = length / step
+
+    def columns(rows: FloatArray | None, ending: str) -> dict[str, FloatArray]:
+        if rows is None:
+            return {}
+        node = np.ascontiguousarray(rows).view(NODE)[:, 0]
+
+        def pair(name: str, unit: float) -> FloatArray:
+            return unit * np.stack([node[f"{name}_x"], node[f"{name}_y"]], axis=1)
+
+        position = pair("position", length)
+        position[:, 0] += drive * at
+        found = {
+            "drive_force": force * node["drive_force"],
+            "friction": pair("friction", force),
+            "deflection": pair("deflection", length),
+            "position": position,
+            "velocity": pair("velocity", speed),
+        }
+        return {name + ending: values for name, values in found.items()}
+
+    # The mean over the ends of a stretch's steps belongs to the mean of their times.
+    time = at + 0.5 * (span + step)
+    of_each = columns(mean, "") | columns(least, "_min") | columns(greatest, "_max")
+    return History(time=time, span=span, **of_each)

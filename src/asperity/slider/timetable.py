@@ -1,0 +1,95 @@
+"""When a march takes its means, and what its reader should know of them."""
+
+import math
+
+from asperity.errors import InputError
+from asperity.slider.model import (
+    CHANGE_BOUND,
+    COULOMB_BOUND,
+    RING_BOUND,
+    SLIP_BOUND,
+    WINDOW_SHARE,
+    Model,
+)
+
+_TAIL_CYCLES = 4
+_TAIL_RECORDS = 4000
+_MOST_STEPS = 1e10
+_UNSTEADY = 1e-3
+
+
+class Timetable:
+    """Steps of a march: how many, and where its window and its finely recorded tail begin."""
+
+    def __init__(self, model: Model) -> None:
+        # Counted in the steps asked for, so that rows stand at the same times however they are
+        # divided.
+        whole = round(model.duration / model.step)
+        if model.vibrates:
+            span = WINDOW_SHARE * max(whole * model.step - model.start, 0.0)
+            self.cycles = math.floor(min(model.window, span) * model.frequency + 1e-9)
+            if self.cycles < 1:
+                raise InputError(
+                    f"solve.duration is {model.duration:g} s; with the vibration of "
+                    f"{model.frequency:g} Hz from {model.start:g} s on it must be at least "
+                    f"{model.start + 1.5 / model.frequency:.7g} s"
+                )
+            window = round(self.cycles / (model.frequency * model.step))
+            tail = round(_TAIL_CYCLES / (model.frequency * model.step))
+        else:
+            self.cycles = 0
+            window = round(min(model.window, WINDOW_SHARE * model.duration) / model.step)
+            tail = 0
+        if whole < 8 or window < 2:
+            raise InputError(
+                f"solve.duration is {model.duration:g} s; it must be at least 8 steps of "
+                f"{model.step:g} s"
+            )
+        if whole * model.substeps > _MOST_STEPS:
+            raise InputError(
+                f"solve.duration is {model.duration:g} s, {whole * model.substeps:.3g} steps of "
+                f"{model.step / model.substeps:.3g} s; a march takes at most {_MOST_STEPS:g}: give "
+                "a shorter duration or a larger step, or solve.method 'periodic'"
+            )
+        window = min(window, whole)
+        tail = min(tail, window // 2, _TAIL_RECORDS)
+        parts = model.substeps
+        self.parts = parts
+        self.step = model.step / parts
+        self.steps = whole * parts
+        self.window = window * parts
+        self.window_start = self.steps - self.window
+        self.middle = self.window_start + window // 2 * parts
+        self.tail = tail * parts
+
+
+def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool) -> tuple[str, ...]:
+    """What a reader of a march's numbers should know."""
+    notes = []
+    span = table.window * table.step
+    if model.vibrates and span < 0.999 * model.window - 1.0 / model.frequency:
+        notes.append(
+            f"the means are over {span:.3g} s: solve.duration has no room for the usual "
+            f"{model.window:.3g} s"
+        )
+    if not (broke or model.vibrates or model.slider.rigid):
+        notes.append("the body has not broken away; give a longer solve.duration")
+    if residual > _UNSTEADY:
+        notes.append(
+            "not steady: from the first to the second half of the window the mean drive force "
+            f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"
+        )
+    if model.substeps > 1 and model.friction.model == "coulomb":
+        notes.append(
+            f"each step of {model.step:g} s was divided by {model.substeps}: the vibration's "
+            f"velocity must not change by more than {COULOMB_BOUND:g} of the drive velocity in a "
+            f"step, nor the step exceed {RING_BOUND:g} over the body's angular frequency"
+        )
+    elif model.substeps > 1:
+        notes.append(
+            f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
+            f"must not exceed {SLIP_BOUND:g} max_deflection, nor change by more than "
+            f"{CHANGE_BOUND:g} of it from step to step, nor the step exceed {RING_BOUND:g} "
+            "over the body's angular frequency on its asperities"
+        )
+    return tuple(notes)
