@@ -375,7 +375,7 @@ def test_a_march_that_is_kept_goes_on_bit_for_bit(settings, tmp_path, monkeypatc
             if state is not None and done not in kept and len(kept) < 40:
                 write_tree(tmp_path / "kept.npz", state())
                 kept[done] = total
-                raise Interrupted
+                raise Interrupted("kept")
 
     answer = None
     while answer is None:
