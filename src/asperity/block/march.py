@@ -19,7 +19,6 @@ from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.slider.model import FloatArray
 from asperity.slider.result import History
-from asperity.slider.timetable import march_notes
 
 _RECORDS = 4000
 _REPORTS = 1000

@@ -6,7 +6,7 @@ from asperity.block.problem import BlockProblem
 from asperity.block.stability import Flutter, Stability, flutter_note
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.contact.motion.steps import Walker
-from asperity.slider.march import march_notes
+from asperity.slider.timetable import march_notes
 
 _MOST_SLIP = 0.5
 
