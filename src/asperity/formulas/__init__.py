@@ -37,6 +37,7 @@ from asperity.formulas.masks import (
     Reasons,
     check,
     common_shape,
+    current_mask,
     masking,
     real,
 )
@@ -62,6 +63,7 @@ __all__ = [
     "acute",
     "check",
     "common_shape",
+    "current_mask",
     "finite",
     "formula",
     "masking",

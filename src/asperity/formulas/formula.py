@@ -36,6 +36,8 @@ class Formula(Protocol[P]):
         Who says so.
     parameters : mapping of str to Symbol
         What it is given.
+    body : callable
+        The function itself, which checks nothing.
     """
 
     __name__: str
@@ -44,6 +46,7 @@ class Formula(Protocol[P]):
     equation: str
     source: Source | None
     parameters: Mapping[str, Symbol]
+    body: Callable[..., Any]
 
     @overload
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> Any: ...
@@ -78,8 +81,8 @@ def formula(
     because : str
         The end of the message about a result that is none.
     error : callable, optional
-        Takes the value that is no result and all arguments by name, as numbers, and returns the
-        error to raise in place of that message.
+        Takes the value that is not within ``result`` and all arguments by name, as numbers, and
+        returns the error to raise in place of that message.
     """
 
     def decorate(body: Callable[P, Any]) -> Formula[P]:
@@ -103,6 +106,7 @@ def formula(
             "equation": equation,
             "source": source,
             "parameters": made.symbols,
+            "body": body,
             "__signature__": made.signature,
             "__doc__": made.described(body.__doc__ or "", equation, source),
         }
@@ -227,14 +231,13 @@ class _Made:
 
     def _refuse(self, values: FloatArray, given: dict[str, Any]) -> Any:
         """Return NaN in place of what is no result, or raise."""
-        lowest, highest = self.result.bounds.ends
-        wrong = ~((values >= lowest) & (values <= highest))
+        wrong = ~self.result.bounds.holds(values)
         mask = current_mask()
         if values.ndim and mask is not None:
             mask.refuse(wrong, self.undefined)
             return np.where(wrong, np.nan, values)
         error = InputError(self.undefined)
-        if self.error is not None:
+        if self.error is not None and np.isfinite(values[wrong].flat[0]):
             first = {
                 name: float(np.broadcast_to(value, values.shape)[wrong].flat[0])
                 if name in self.symbols and value is not None

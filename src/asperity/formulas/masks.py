@@ -55,6 +55,18 @@ class Mask:
         self.reason: Reasons = np.zeros(shape, dtype=np.int16)
         self.legend: dict[int, str] = {}
 
+    def copy(self) -> "Mask":
+        """Return another that goes on from here."""
+        other = Mask()
+        other.reason, other.legend = self.reason.copy(), dict(self.legend)
+        return other
+
+    def part(self, where: Any) -> "Mask":
+        """Return one of some of the elements; what it refuses is refused here."""
+        other = Mask()
+        other.reason, other.legend = self.reason[where], self.legend
+        return other
+
     def refuse(self, where: npt.ArrayLike, sentence: str) -> None:
         """Give a reason where there is none yet; what holds for all is always remembered."""
         new = np.broadcast_to(np.asarray(where), self.reason.shape) & (self.reason == 0)
@@ -119,7 +131,7 @@ def check(name: str, value: Real, symbol: Symbol) -> Real:
     elif value.size == 0 or (value.min() >= lowest and value.max() <= highest):
         return value
     # Comparisons with NaN are false, so that NaN is not allowed either.
-    outside = True if number else ~((value >= lowest) & (value <= highest))
+    outside = np.True_ if number else ~symbol.bounds.holds(value)
     mask = _MASK.get()
     if mask is None or number:
         first = value if number else value[outside].flat[0]

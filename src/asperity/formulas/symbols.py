@@ -6,6 +6,7 @@ import math
 import sys
 from typing import NamedTuple
 
+from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
 
 
@@ -33,6 +34,11 @@ class Bounds:
         """The least and the largest number that are allowed."""
         lower = math.nextafter(self.lower, math.inf) if self.above else self.lower
         return max(lower, -sys.float_info.max), min(self.upper, sys.float_info.max)
+
+    def holds(self, values: FloatArray) -> BoolArray:
+        """Return where values are allowed; NaN is not."""
+        lowest, highest = self.ends
+        return (values >= lowest) & (values <= highest)
 
     def times(self, size: float) -> "Bounds":
         """Return the bounds in another unit."""

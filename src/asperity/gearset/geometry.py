@@ -4,9 +4,10 @@ import dataclasses
 import math
 from typing import Any, Literal
 
+from asperity.arrays import Real
 from asperity.errors import InputError, choices
 from asperity.gearset import relations
-from asperity.gearset.proportions import RULES
+from asperity.gearset.proportions import RULES, Heights
 
 Flank = Literal["ZI", "ZA", "ZN", "ZK", "ZC"]
 Rule = Literal["bs721", "iso"]
@@ -122,19 +123,16 @@ class Geometry:
         gamma = relations.lead_angle(starts, q)
         heights = RULES[tooth_proportions](m, gamma)
         p = relations.reduced_lead(m, starts)
-        d_m1 = relations.worm_pitch_diameter(m, q)
         a = relations.centre_distance(m, q, wheel_teeth, profile_shift)
-        d_m2 = relations.wheel_mean_diameter(a, d_m1)
-        d_a1 = d_m1 + 2.0 * heights.worm_addendum
-        d_f1 = d_m1 - 2.0 * heights.worm_dedendum
-        d_a2 = d_m2 + 2.0 * heights.wheel_addendum
-        d_f2 = d_m2 - 2.0 * heights.wheel_dedendum
-        _possible(gamma, q, wheel_teeth, d_f1, d_f2, heights.wheel_addendum)
+        d = diameters(m, q, wheel_teeth, a, heights)
+        roots = d["worm_root_diameter"], d["wheel_root_diameter"]
+        _possible(gamma, q, wheel_teeth, *roots, heights.wheel_addendum)
+        d_a2 = d["wheel_throat_diameter"]
         d_e2 = d_a2 + m
         widest = relations.widest_contact(m, q)
         b_2 = widest if wheel_face_width is None else float(wheel_face_width)
         if worm_face_width is None:
-            worm_face_width = relations.worm_reach(d_e2, a, d_a1)
+            worm_face_width = relations.worm_reach(d_e2, a, d["worm_tip_diameter"])
         gamma_b = relations.base_lead_angle(pressure_angle, gamma) if flank == "ZI" else None
         return cls(
             starts=int(starts),
@@ -155,13 +153,7 @@ class Geometry:
             lead=2.0 * math.pi * p,
             axial_pitch=math.pi * m,
             normal_pitch=math.pi * relations.normal_module(m, gamma),
-            worm_pitch_diameter=d_m1,
-            worm_tip_diameter=d_a1,
-            worm_root_diameter=d_f1,
-            wheel_reference_diameter=relations.wheel_reference_diameter(m, wheel_teeth),
-            wheel_mean_diameter=d_m2,
-            wheel_throat_diameter=d_a2,
-            wheel_root_diameter=d_f2,
+            **d,
             wheel_outside_diameter=d_e2,
             wheel_throat_radius=a - d_a2 / 2.0,
             worm_addendum=heights.worm_addendum,
@@ -186,6 +178,27 @@ class Geometry:
             suffix = unit.replace("/", "_per_")
             result[f"{field.name}_{suffix}" if unit else field.name] = value
         return result
+
+
+def diameters(
+    axial_module: Real,
+    diameter_factor: Real,
+    wheel_teeth: Real,
+    centre_distance: Real,
+    heights: Heights,
+) -> dict[str, Real]:
+    """Return the diameters of worm and wheel by their names in `Geometry`; numbers or arrays."""
+    d_m1 = relations.worm_pitch_diameter(axial_module, diameter_factor)
+    d_m2 = relations.wheel_mean_diameter(centre_distance, d_m1)
+    return {
+        "worm_pitch_diameter": d_m1,
+        "worm_tip_diameter": d_m1 + 2.0 * heights.worm_addendum,
+        "worm_root_diameter": d_m1 - 2.0 * heights.worm_dedendum,
+        "wheel_reference_diameter": relations.wheel_reference_diameter(axial_module, wheel_teeth),
+        "wheel_mean_diameter": d_m2,
+        "wheel_throat_diameter": d_m2 + 2.0 * heights.wheel_addendum,
+        "wheel_root_diameter": d_m2 - 2.0 * heights.wheel_dedendum,
+    }
 
 
 def _possible(

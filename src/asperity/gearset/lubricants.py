@@ -11,6 +11,7 @@ from asperity.errors import InputError
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN, Files, find, resolve
 from asperity.gearset.materials import BaseOilName
+from asperity.gearset.symbols import THINNEST
 from asperity.sources import Source
 from asperity.units import Quantity
 
@@ -23,7 +24,7 @@ Density = Annotated[
 Viscosity = Annotated[
     float,
     Quantity(
-        "m^2/s", what="a kinematic viscosity", example="68 mm^2/s", ge=oil.THINNEST * _MM2, le=0.1
+        "m^2/s", what="a kinematic viscosity", example="68 mm^2/s", ge=THINNEST * _MM2, le=0.1
     ),
 ]
 

@@ -11,8 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from asperity.gearset.arrays import Real, checked, plain
+from asperity.arrays import Real, plain
+from asperity.formulas import Symbol, acute, check, positive, real
 from asperity.sources import Source
+
+_M = Symbol("m_x1", "", positive)
+_GAMMA = Symbol("gamma_m1", "rad", acute)
 
 
 class Heights(NamedTuple):
@@ -38,8 +42,8 @@ def bs721_heights(axial_module: Real, lead_angle: Real) -> Heights:
     >>> round(bs721_heights(2.1538, 0.44442).worm_dedendum, 4)
     2.1243
     """
-    m = checked("axial_module", axial_module)
-    cosine = np.cos(checked("lead_angle", lead_angle))
+    m = check("axial_module", real("axial_module", axial_module), _M)
+    cosine = np.cos(check("lead_angle", real("lead_angle", lead_angle), _GAMMA))
     return Heights(
         plain(m * np.ones_like(cosine)),
         plain(m * (2.2 * cosine - 1.0)),
@@ -55,8 +59,8 @@ def iso_heights(axial_module: Real, lead_angle: Real) -> Heights:
     :math:`h_{a1} = h_{a2} = m`, :math:`h_{f1} = h_{f2} = 1.2\, m`, :math:`c = 0.2\, m`, for any
     lead angle.
     """
-    angle = checked("lead_angle", lead_angle)
-    m = checked("axial_module", axial_module) * np.ones_like(angle)
+    angle = check("lead_angle", real("lead_angle", lead_angle), _GAMMA)
+    m = check("axial_module", real("axial_module", axial_module), _M) * np.ones_like(angle)
     addendum, dedendum = plain(m), plain(1.2 * m)
     return Heights(addendum, dedendum, addendum, dedendum, plain(0.2 * m))
 

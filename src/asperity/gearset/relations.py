@@ -1,21 +1,34 @@
-r"""The relations between the numbers of a worm gearset.
+"""The relations between the numbers of a worm gearset.
 
 Lengths go in and come out in one unit of your choice, angles in radians. Every function takes
-numbers or arrays, and gives a float where it was given numbers; an argument that is not positive
-(or not finite, for a profile shift) raises InputError. The symbols are those of ISO/TR 14521; the
-shaft angle is 90 deg.
+numbers or arrays, see `asperity.formulas`. The symbols are those of ISO/TR 14521; the shaft angle
+is 90 deg.
 """
-
-from typing import Any
 
 import numpy as np
 
-from asperity.gearset.arrays import Real, relation
+from asperity.arrays import Real
+from asperity.formulas import formula
+from asperity.gearset.symbols import (
+    a,
+    alpha_n,
+    d_a1,
+    d_e2,
+    d_m1,
+    gamma_b,
+    gamma_m1,
+    m_x1,
+    p,
+    q_1,
+    x_2,
+    z_1,
+    z_2,
+)
 
 
-@relation
-def lead_angle(starts: Real, diameter_factor: Real) -> Any:
-    r"""Lead angle of the worm on its reference cylinder, :math:`\gamma = \arctan(z_1/q_1)`, rad.
+@formula(symbol="gamma_m1", unit="rad", equation="atan(z_1/q_1)")
+def lead_angle(starts: z_1, diameter_factor: q_1) -> Real:
+    """Lead angle of the worm on its reference cylinder, rad.
 
     Examples
     --------
@@ -25,35 +38,35 @@ def lead_angle(starts: Real, diameter_factor: Real) -> Any:
     return np.arctan2(starts, diameter_factor)
 
 
-@relation
-def gear_ratio(starts: Real, wheel_teeth: Real) -> Any:
-    """Ratio of the speeds of worm and wheel, :math:`u = z_2/z_1`."""
+@formula(symbol="u", equation="z_2/z_1")
+def gear_ratio(starts: z_1, wheel_teeth: z_2) -> Real:
+    """Ratio of the speeds of worm and wheel."""
     return wheel_teeth / starts
 
 
-@relation
-def worm_pitch_diameter(axial_module: Real, diameter_factor: Real) -> Any:
-    r"""Reference diameter of the worm, :math:`d_{m1} = q_1 m_{x1}`."""
+@formula(symbol="d_m1", equation="q_1 m_x1")
+def worm_pitch_diameter(axial_module: m_x1, diameter_factor: q_1) -> Real:
+    """Reference diameter of the worm."""
     return diameter_factor * axial_module
 
 
-@relation
-def wheel_mean_diameter(centre_distance: Real, worm_pitch_diameter: Real) -> Any:
-    r"""Mean diameter of the wheel, :math:`d_{m2} = 2a - d_{m1}`."""
+@formula(symbol="d_m2", equation="2 a - d_m1")
+def wheel_mean_diameter(centre_distance: a, worm_pitch_diameter: d_m1) -> Real:
+    """Mean diameter of the wheel."""
     return 2.0 * centre_distance - worm_pitch_diameter
 
 
-@relation
-def wheel_reference_diameter(axial_module: Real, wheel_teeth: Real) -> Any:
-    r"""Diameter on which the wheel's pitch is the worm's, :math:`d_2 = z_2 m_{x1}`."""
+@formula(symbol="d_2", equation="z_2 m_x1")
+def wheel_reference_diameter(axial_module: m_x1, wheel_teeth: z_2) -> Real:
+    """Diameter on which the wheel's pitch is the worm's."""
     return wheel_teeth * axial_module
 
 
-@relation
+@formula(symbol="a", equation="m_x1 (q_1 + z_2 + 2 x_2)/2")
 def centre_distance(
-    axial_module: Real, diameter_factor: Real, wheel_teeth: Real, profile_shift: Real = 0.0
-) -> Any:
-    r"""Centre distance, :math:`a = m_{x1} (q_1 + z_2 + 2 x_2)/2`.
+    axial_module: m_x1, diameter_factor: q_1, wheel_teeth: z_2, profile_shift: x_2 = 0.0
+) -> Real:
+    """Centre distance.
 
     Examples
     --------
@@ -63,11 +76,11 @@ def centre_distance(
     return axial_module * (diameter_factor + wheel_teeth + 2.0 * profile_shift) / 2.0
 
 
-@relation
+@formula(symbol="x_2", equation="a/m_x1 - (q_1 + z_2)/2")
 def profile_shift(
-    centre_distance: Real, axial_module: Real, diameter_factor: Real, wheel_teeth: Real
-) -> Any:
-    r"""Profile shift factor of the wheel, :math:`x_2 = a/m_{x1} - (q_1 + z_2)/2`.
+    centre_distance: a, axial_module: m_x1, diameter_factor: q_1, wheel_teeth: z_2
+) -> Real:
+    """Profile shift factor of the wheel.
 
     Examples
     --------
@@ -77,55 +90,55 @@ def profile_shift(
     return centre_distance / axial_module - (diameter_factor + wheel_teeth) / 2.0
 
 
-@relation
+@formula(symbol="m_x1", equation="2 a/(q_1 + z_2 + 2 x_2)")
 def axial_module(
-    centre_distance: Real, diameter_factor: Real, wheel_teeth: Real, profile_shift: Real = 0.0
-) -> Any:
-    r"""Axial module of the worm, :math:`m_{x1} = 2a/(q_1 + z_2 + 2 x_2)`."""
+    centre_distance: a, diameter_factor: q_1, wheel_teeth: z_2, profile_shift: x_2 = 0.0
+) -> Real:
+    """Axial module of the worm."""
     return 2.0 * centre_distance / (diameter_factor + wheel_teeth + 2.0 * profile_shift)
 
 
-@relation
+@formula(symbol="q_1", equation="2 a/m_x1 - z_2 - 2 x_2")
 def diameter_factor(
-    centre_distance: Real, axial_module: Real, wheel_teeth: Real, profile_shift: Real = 0.0
-) -> Any:
-    r"""Diameter factor of the worm, :math:`q_1 = 2a/m_{x1} - z_2 - 2 x_2`.
+    centre_distance: a, axial_module: m_x1, wheel_teeth: z_2, profile_shift: x_2 = 0.0
+) -> Real:
+    """Diameter factor of the worm.
 
     It is negative where the wheel alone is too large for the centre distance.
     """
     return 2.0 * centre_distance / axial_module - wheel_teeth - 2.0 * profile_shift
 
 
-@relation
-def normal_module(axial_module: Real, lead_angle: Real) -> Any:
-    r"""Module in the normal section, :math:`m_n = m_{x1} \cos\gamma`."""
+@formula(symbol="m_n", equation="m_x1 cos(gamma_m1)")
+def normal_module(axial_module: m_x1, lead_angle: gamma_m1) -> Real:
+    """Module in the normal section."""
     return axial_module * np.cos(lead_angle)
 
 
-@relation
-def reduced_lead(axial_module: Real, starts: Real) -> Any:
-    r"""Advance of the thread per radian, :math:`p = z_1 m_{x1}/2`, length/rad."""
+@formula(symbol="p", equation="z_1 m_x1/2")
+def reduced_lead(axial_module: m_x1, starts: z_1) -> Real:
+    """Advance of the thread per radian, length/rad."""
     return starts * axial_module / 2.0
 
 
-@relation
-def axial_pressure_angle(pressure_angle: Real, lead_angle: Real) -> Any:
-    r"""Pressure angle in the worm's axial section, :math:`\tan\alpha_x = \tan\alpha_n/\cos\gamma`.
+@formula(symbol="alpha_x", unit="rad", equation="atan(tan(alpha_n)/cos(gamma_m1))")
+def axial_pressure_angle(pressure_angle: alpha_n, lead_angle: gamma_m1) -> Real:
+    """Pressure angle in the worm's axial section.
 
     This is the wheel's transverse section.
     """
     return np.arctan(np.tan(pressure_angle) / np.cos(lead_angle))
 
 
-@relation
-def transverse_pressure_angle(pressure_angle: Real, lead_angle: Real) -> Any:
-    r"""Pressure angle square to the worm's axis, :math:`\tan\alpha_t = \tan\alpha_n/\sin\gamma`."""
+@formula(symbol="alpha_t", unit="rad", equation="atan(tan(alpha_n)/sin(gamma_m1))")
+def transverse_pressure_angle(pressure_angle: alpha_n, lead_angle: gamma_m1) -> Real:
+    """Pressure angle square to the worm's axis."""
     return np.arctan(np.tan(pressure_angle) / np.sin(lead_angle))
 
 
-@relation
-def base_lead_angle(pressure_angle: Real, lead_angle: Real) -> Any:
-    r"""Lead angle on the base cylinder of a ZI worm, :math:`\cos\gamma_b = \cos\gamma\cos\alpha_n`.
+@formula(symbol="gamma_b", unit="rad", equation="acos(cos(gamma_m1) cos(alpha_n))")
+def base_lead_angle(pressure_angle: alpha_n, lead_angle: gamma_m1) -> Real:
+    """Lead angle on the base cylinder of a ZI worm.
 
     Examples
     --------
@@ -135,9 +148,9 @@ def base_lead_angle(pressure_angle: Real, lead_angle: Real) -> Any:
     return np.arccos(np.cos(lead_angle) * np.cos(pressure_angle))
 
 
-@relation
-def base_radius(reduced_lead: Real, base_lead_angle: Real) -> Any:
-    r"""Radius of the base cylinder of a ZI worm, :math:`r_b = p/\tan\gamma_b`.
+@formula(symbol="r_b1", equation="p/tan(gamma_b)")
+def base_radius(reduced_lead: p, base_lead_angle: gamma_b) -> Real:
+    """Radius of the base cylinder of a ZI worm.
 
     Examples
     --------
@@ -147,9 +160,9 @@ def base_radius(reduced_lead: Real, base_lead_angle: Real) -> Any:
     return reduced_lead / np.tan(base_lead_angle)
 
 
-@relation
-def widest_contact(axial_module: Real, diameter_factor: Real) -> Any:
-    r"""Face width of the wheel that the worm can reach, :math:`2 m_{x1} \sqrt{q_1 + 1}`.
+@formula(symbol="b_2max", equation="2 m_x1 sqrt(q_1 + 1)")
+def widest_contact(axial_module: m_x1, diameter_factor: q_1) -> Real:
+    """Face width of the wheel that the worm can reach.
 
     It is the chord that the tip cylinder of a worm of addendum :math:`m_{x1}` cuts from the plane
     that touches its reference cylinder; BS 721 rates no more than this.
@@ -157,8 +170,8 @@ def widest_contact(axial_module: Real, diameter_factor: Real) -> Any:
     return 2.0 * axial_module * np.sqrt(diameter_factor + 1.0)
 
 
-@relation
-def worm_reach(wheel_outside_diameter: Real, centre_distance: Real, worm_tip_diameter: Real) -> Any:
+@formula(symbol="b_1", equation="2 sqrt((d_e2/2)^2 - (a - d_a1/2)^2)")
+def worm_reach(wheel_outside_diameter: d_e2, centre_distance: a, worm_tip_diameter: d_a1) -> Real:
     r"""Length of worm that the wheel can touch, zero where they do not meet.
 
     :math:`2 \sqrt{(d_{e2}/2)^2 - (a - d_{a1}/2)^2}`, the chord that the worm's tip line cuts from

@@ -25,9 +25,11 @@ from typing import Any
 
 import numpy as np
 
+from asperity.arrays import Real
 from asperity.errors import InputError
+from asperity.formulas import formula
 from asperity.gearset import relations
-from asperity.gearset.arrays import Real, relation
+from asperity.gearset.symbols import a
 from asperity.sources import Range, Source
 
 ADVISED_DIAMETER_FACTOR = Range(
@@ -118,9 +120,13 @@ def module_range(centre_distance: Real, diameter_factor: Real, wheel_teeth: Real
     )
 
 
-@relation
-def least_teeth(centre_distance: Real) -> Any:
-    r"""Fewest teeth a wheel should have, :math:`7 + 2.4\sqrt{c}`, from memory; ``c`` in mm."""
+@formula(
+    symbol="z_2min",
+    equation="7 + 2.4 sqrt(a)",
+    source=Source("BS 721-2:1983", "from memory"),
+)
+def least_teeth(centre_distance: a) -> Real:
+    """Fewest teeth a wheel should have; the centre distance in mm."""
     return 7.0 + 2.4 * np.sqrt(centre_distance)
 
 

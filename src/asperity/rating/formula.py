@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.formulas import Invalid, Masked
+from asperity.formulas import Invalid, Masked, current_mask
 
 __all__ = ["Argument", "FloatArray", "Invalid", "Masked", "angle", "evaluate", "positive"]
 
@@ -96,7 +96,7 @@ def angle(name: str, value: npt.ArrayLike) -> Argument:
     return Argument(name, value, "rad", 0.0, below, above=True)
 
 
-def evaluate(
+def _evaluate(
     formula: Callable[..., Any],
     *arguments: Argument,
     on_invalid: Invalid = "raise",
@@ -178,3 +178,23 @@ def evaluate(
     for code, argument in enumerate(arguments, NOT_A_RESULT + 1):
         legend[code] = f"{argument.name} is not allowed; {argument.allowed()}"
     return Masked(everything, reason, legend)
+
+
+def evaluate(formula: Callable[..., Any], *arguments: Argument, **options: Any) -> Any:
+    """Apply a formula to numbers or arrays; within `asperity.formulas.masking` without raising."""
+    mask = current_mask()
+    if mask is None or options.get("on_invalid") == "mask":
+        return _evaluate(formula, *arguments, **options)
+    numbers = [argument.value for argument in arguments if not np.ndim(argument.value)]
+    if mask.legend and any(number != number for number in numbers):
+        return math.nan
+    try:
+        answer = _evaluate(formula, *arguments, **{**options, "on_invalid": "mask"})
+    except InputError as error:
+        mask.refuse(True, str(error))
+        return math.nan
+    if not isinstance(answer, Masked):
+        return answer
+    for code in np.unique(answer.reason[answer.reason != 0]):
+        mask.refuse(answer.reason == code, answer.legend[int(code)])
+    return answer.values

@@ -6,14 +6,13 @@ arrays of one shape where variants of a gearset are rated.
 
 import dataclasses
 import math
-from typing import Any
 
+from asperity.arrays import Real
 from asperity.gearset.parameters import Gearset
-from asperity.rating.bs721 import running_hours
 from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
 
-Real = Any
-"""A number, or an array of numbers."""
+Values = dict[str, Real]
+"""What a standard's calculation found, by the keys of a rating; NaN where there is no answer."""
 
 _HOUR = 3600.0
 _ZERO_CELSIUS = 273.15
@@ -135,7 +134,7 @@ class Inputs:
         if self.operation.duty_cycle is not None:
             return self._equivalent_hours(0, 1.0)
         if self.operation.wheel_revolutions is not None:
-            return running_hours(self.operation.wheel_revolutions, self.wheel_speed)
+            return self.operation.wheel_revolutions / (60.0 * self.wheel_speed)
         return scaled(self.operation.life or DEFAULT_LIFE, 1.0 / _HOUR)
 
     @property

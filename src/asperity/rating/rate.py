@@ -8,14 +8,14 @@ from asperity.casefile import Case, told
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
-from asperity.rating import bs721, by_iso14521
-from asperity.rating.by_agma6034 import rate_agma6034
-from asperity.rating.by_bs721 import rate_bs721
-from asperity.rating.calculation import directly
-from asperity.rating.describe_iso14521 import rate_iso14521
-from asperity.rating.givens import assumptions
+from asperity.rating import bs721
+from asperity.rating.agma6034.rating import rate as rate_agma6034
+from asperity.rating.bs721.rating import rate as rate_bs721
+from asperity.rating.entries import assumptions
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521 import FilmParameterError
+from asperity.rating.iso14521.calculation import film_parameter_of
+from asperity.rating.iso14521.rating import rate as rate_iso14521
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
@@ -267,7 +267,7 @@ def _require_consistent(given: Inputs, by_iso: bool) -> None:
         # The end of h* tells more about a ratio or module that is too large.
         try:
             if by_iso:
-                by_iso14521.film_parameter_of(given, directly)
+                film_parameter_of(given)
         except FilmParameterError as film:
             raise FilmParameterError(
                 f"{film}; {error}", film.value, film.driver, film.limits

@@ -10,13 +10,15 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.errors import InputError, nearest
+from asperity.formulas import Mask, Reasons, masking
 from asperity.gearset.parameters import Gearset
-from asperity.rating import by_agma6034, by_bs721, by_iso14521
-from asperity.rating.calculation import Masking, Reasons
-from asperity.rating.inputs import Inputs
+from asperity.rating.agma6034.rating import rated as rated_agma6034
+from asperity.rating.bs721.rating import rated as rated_bs721
+from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import STANDARDS, known_standards, tables_of
-from asperity.rating.varied import varied
+from asperity.rating.variation import BLOCK, varied
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -42,7 +44,7 @@ class Variants:
     notes: tuple[str, ...]
     _impossible: npt.NDArray[np.bool_]
     _values: Mapping[str, Any]
-    _masks: Mapping[str, Masking]
+    _masks: Mapping[str, Mask]
 
     def __getitem__(self, key: str) -> npt.NDArray[np.float64]:
         if key not in self._values:
@@ -77,7 +79,7 @@ class Variants:
         """Return the codes of a standard as sentences."""
         return MappingProxyType(self._mask(standard).legend)
 
-    def _mask(self, standard: str) -> Masking:
+    def _mask(self, standard: str) -> Mask:
         if standard not in self._masks:
             raise InputError(f"{standard!r} is not part of the result{self._why(standard)}")
         return self._masks[standard]
@@ -115,7 +117,7 @@ def variants(
         ``centre_distance``, ``axial_module``, ``diameter_factor``, ``profile_shift``,
         ``pressure_angle``, ``worm_roughness``; ``worm_speed``, ``output_torque``;
         ``base_friction``, ``friction``, ``friction_factor``; and ``gear_ratio``, which varies the
-        teeth of the wheel without rounding them. Shapes broadcast. See `asperity.rating.varied`
+        teeth of the wheel without rounding them. Shapes broadcast. See `asperity.rating.variation`
         for which of the geometry's numbers follows.
 
     Returns
@@ -135,25 +137,39 @@ def variants(
     found: dict[str, Any] = {}
     masks, notes = {}, []
     for name in wanted:
-        apply = impossible.copy()
+        mask = impossible.copy()
         try:
-            numbers = _calculate(name, given, apply, capacity, folder)
+            numbers = _calculate(name, given, mask, capacity, folder)
         except InputError as error:
             if len(wanted) == 1:
                 raise
             notes.append(f"{name}: {error}")
             continue
-        masks[name] = apply
+        masks[name] = mask
         found |= {f"{name}.{key}": value for key, value in numbers.items()}
     return Variants(shape, given, tuple(notes), impossible.reason != 0, found, masks)
 
 
-def _calculate(
-    name: str, given: Inputs, apply: Masking, capacity: bool, folder: Path | None
-) -> dict[str, Any]:
-    if name == "iso14521":
-        numbers = by_iso14521.rated_efficiency(given, apply)
-        return by_iso14521.rated_capacity(given, apply, numbers) if capacity else numbers
-    if name == "bs721":
-        return by_bs721.rated(given, apply, tables_of(given.options, folder))[0]
-    return by_agma6034.rated(given, apply)
+def _calculate(name: str, given: Inputs, mask: Mask, capacity: bool, folder: Path | None) -> Values:
+    """Return the numbers of a standard, block by block."""
+    tables = tables_of(given.options, folder) if name == "bs721" else None
+    found: Values = {}
+    count = mask.reason.size
+    fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
+    arrays = {key: value for key, value in fields.items() if np.ndim(value)}
+    for start in range(0, max(count, 1), BLOCK) if count > BLOCK else (None,):
+        part = ... if start is None else slice(start, start + BLOCK)
+        here = dataclasses.replace(given, **{key: array[part] for key, array in arrays.items()})
+        with masking(mask.part(part)):
+            if name == "iso14521":
+                numbers = rated_efficiency(here)
+                numbers = rated_capacity(here, numbers) if capacity else numbers
+            elif tables is not None:
+                numbers = rated_bs721(here, tables)[0]
+            else:
+                numbers = rated_agma6034(here)
+        if start is None:
+            return numbers
+        for key, value in numbers.items():
+            found.setdefault(key, np.empty(count))[part] = value
+    return found

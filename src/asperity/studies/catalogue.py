@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.sizing import MODULES, MOST_STARTS, MOST_TEETH, least_teeth, possible_starts
-from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.variants import Variants, variants
 from asperity.studies.design import NEEDED, Bounds

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from asperity.rating.formula import FloatArray
+from asperity.arrays import FloatArray
 
 Merit = Callable[[FloatArray], FloatArray]
 """From points, a row each, to rows: what is to be high, then constraints, not below zero.

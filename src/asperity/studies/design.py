@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
-from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
 from asperity.rating.variants import variants

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
-from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate
 from asperity.results import Result, quantity

@@ -4,9 +4,10 @@ import functools
 import math
 from typing import Any, NamedTuple
 
+from asperity.arrays import Real
 from asperity.errors import InputError, nearest
-from asperity.rating.facts import facts
-from asperity.rating.inputs import RPM, Inputs, Real
+from asperity.rating.entries import facts
+from asperity.rating.inputs import RPM, Inputs
 
 _TO_SI = {"mm": 1e-3, "um": 1e-6, "rpm": 1.0 / RPM, "deg": math.radians(1.0)}
 

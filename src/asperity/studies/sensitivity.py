@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError, nearest
+from asperity.formulas import Reasons
 from asperity.gearset.parameters import Gearset
-from asperity.rating.calculation import Reasons
-from asperity.rating.formula import FloatArray
 from asperity.rating.inputs import inputs as given_inputs
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
-from asperity.rating.formula import FloatArray
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.results import Result
 from asperity.results.table import Table

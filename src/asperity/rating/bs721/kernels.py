@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from asperity.rating.formula import FloatArray
+from asperity.arrays import FloatArray
 
 # Above 2.3 m sqrt(q + 1) a face width does not count.
 _WIDEST = 0.5 * 2.3

@@ -1,14 +1,11 @@
 """Efficiency and load capacity by ISO/TR 14521 (DIN 3996), one function for each formula.
 
 Arguments and results are in the standard's units, named with each: mm, um, N, N m, rpm, m/s, W,
-MPa, degC; angles are in radians. Numbers give a number, arrays an array. A number that is not
-allowed raises `InputError`, and so does an array unless ``on_invalid="mask"`` asks for
-`asperity.rating.formula.Masked`. `chain` goes all the way from the geometry to the efficiency, and
-`film_parameter` raises `FilmParameterError` where the standard ends on the way. ``edition`` chooses
-between the families of 1998 and 2010.
+MPa, degC; angles are in radians, see `asperity.formulas`. `film_parameter` raises
+`FilmParameterError` where the standard ends. ``edition`` chooses between the families of 1998 and
+2010. `asperity.rating.variants` goes all the way from geometries to efficiencies.
 """
 
-from asperity.rating.iso14521.block import NO_FILM, NO_WHEEL, NOT_DRIVING
 from asperity.rating.iso14521.contact import (
     contact_parameter,
     contact_stress,
@@ -23,8 +20,7 @@ from asperity.rating.iso14521.efficiency import (
     wheel_driving_efficiency,
     worm_driving_efficiency,
 )
-from asperity.rating.iso14521.efficiency_chain import Chain, chain
-from asperity.rating.iso14521.film import film_limits, film_parameter, film_thickness
+from asperity.rating.iso14521.film import film_parameter, film_thickness
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.iso14521.forces import (
     separating_force,
@@ -39,7 +35,7 @@ from asperity.rating.iso14521.friction import (
     size_factor,
     sliding_velocity,
 )
-from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, VALIDITY, jumps, violations
+from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, VALIDITY, violations
 from asperity.rating.iso14521.losses import (
     back_driving_meshing_loss,
     bearing_loss,
@@ -93,12 +89,8 @@ from asperity.rating.iso14521.wear import (
 __all__ = [
     "EDITIONS",
     "MINIMUM_SAFETIES",
-    "NOT_DRIVING",
-    "NO_FILM",
-    "NO_WHEEL",
     "STEEL",
     "VALIDITY",
-    "Chain",
     "FilmParameterError",
     "FrictionConstants",
     "WearConstants",
@@ -107,12 +99,10 @@ __all__ = [
     "base_friction",
     "bearing_loss",
     "bulk_temperature",
-    "chain",
     "contact_parameter",
     "contact_stress",
     "cooling_area",
     "deflection_limit",
-    "film_limits",
     "film_parameter",
     "film_thickness",
     "flank_wear",
@@ -121,7 +111,6 @@ __all__ = [
     "geometry_factor",
     "heat_transfer_coefficient",
     "idle_loss",
-    "jumps",
     "load_cycles",
     "lubricant_structure_factor",
     "mean_friction",

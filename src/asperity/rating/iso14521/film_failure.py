@@ -1,13 +1,26 @@
 """How far each input of h* is from where the formula ends, and the error that tells."""
 
-import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray, Real
 from asperity.errors import InputError
-from asperity.rating.formula import FloatArray
+from asperity.gearset import relations
+
+Film = Callable[..., Real]
+"""From a gearset, by the names of `asperity.rating.iso14521.film_parameter`, to h*."""
+
+# What a message calls an input, its unit there, and how many of those are one of the input's own.
+_SHOWN = {
+    "ratio": ("U", "", 1.0),
+    "axial_module": ("m_x1", " mm", 1.0),
+    "centre_distance": ("c", " mm", 1.0),
+    "diameter_factor": ("q_1", "", 1.0),
+    "pressure_angle": ("alpha_n", " deg", math.degrees(1.0)),
+}
 
 
 class FilmParameterError(InputError):
@@ -20,8 +33,7 @@ class FilmParameterError(InputError):
     driver : str
         The input that has to change least, in parts of itself, to bring it back to zero.
     limits : mapping of str to float or None
-        For each input the value at which :math:`h^*` is zero with the others as they are, in the
-        units of `film_parameter`; None where no value between a fifth of it and five times does.
+        As `film_limits` returns them.
     """
 
     def __init__(
@@ -33,38 +45,89 @@ class FilmParameterError(InputError):
         self.limits = dict(limits)
 
 
-@dataclasses.dataclass(frozen=True)
-class _Limit:
-    factor: float
-    value: float
+def film_limits(film: Film, gearset: Mapping[str, Any]) -> dict[str, float | None]:
+    """Return the value of each input at which h* is zero, the others as they are.
+
+    The centre distance stays unless it is the one that changes; the profile shift follows.
+
+    Parameters
+    ----------
+    film : callable
+        The formula.
+    gearset : mapping of str to float
+        What it is given, by name.
+
+    Returns
+    -------
+    dict of str to float or None
+        ``ratio``, ``axial_module`` (mm), ``centre_distance`` (mm), ``diameter_factor``,
+        ``pressure_angle`` (rad); None where no value between a fifth of it and five times does.
+    """
+    return {name: _limit(film, gearset, name) for name in _SHOWN}
 
 
-_SHOWN = {
-    "ratio": ("U", ""),
-    "axial_module": ("m_x1", " mm"),
-    "centre_distance": ("c", " mm"),
-    "diameter_factor": ("q_1", ""),
-    "pressure_angle": ("alpha_n", " deg"),
-}
+def too_thin(film: Film, gearset: Mapping[str, Any], value: float) -> FilmParameterError:
+    """Return the error for a gearset whose h* is not above zero."""
+    limits = film_limits(film, gearset)
+    shares = {n: limit / _now(gearset, n) for n, limit in limits.items() if limit is not None}
+    driver = min(shares, key=lambda name: abs(math.log(shares[name])), default="ratio")
+    changes = []
+    for name, (symbol, unit, size) in _SHOWN.items():
+        limit = limits[name]
+        if limit is not None:
+            side = "below" if shares[name] < 1.0 else "above"
+            percent = 100.0 * (shares[name] - 1.0)
+            changes.append(f"{symbol} {side} {limit * size:.5g}{unit} ({percent:+.2g} %)")
+        elif name in ("ratio", "axial_module"):
+            changes.append(f"no {symbol}")
+    symbol, unit, size = _SHOWN[driver]
+    return FilmParameterError(
+        f"h* is {value:.3g}; it must be above 0. {symbol} = {_now(gearset, driver) * size:.5g}"
+        f"{unit} drives it (with x_2 = {gearset['profile_shift']:.3g}); any one of these, x_2 "
+        f"following, brings it back: {', '.join(changes)}",
+        value,
+        driver,
+        limits,
+    )
 
 
-def _centre_distance(gearset: Mapping[str, float]) -> float:
-    teeth = gearset["diameter_factor"] + gearset["wheel_teeth"] + 2.0 * gearset["profile_shift"]
-    return 0.5 * gearset["axial_module"] * teeth
-
-
-def _value_of(name: str, gearset: Mapping[str, float]) -> float:
+def _now(gearset: Mapping[str, Any], name: str) -> float:
     if name == "ratio":
-        return gearset["wheel_teeth"] / gearset["starts"]
-    return _centre_distance(gearset) if name == "centre_distance" else gearset[name]
+        return float(gearset["wheel_teeth"] / gearset["starts"])
+    return _centre_distance(gearset) if name == "centre_distance" else float(gearset[name])
 
 
-def _scaled(
-    formula: Callable[..., FloatArray], gearset: Mapping[str, float], name: str, factor: Any
-) -> Any:
+def _centre_distance(gearset: Mapping[str, Any]) -> float:
+    names = ("axial_module", "diameter_factor", "wheel_teeth", "profile_shift")
+    return float(relations.centre_distance(*(gearset[name] for name in names)))
+
+
+def _limit(film: Film, gearset: Mapping[str, Any], name: str) -> float | None:
+    """Return where h* is zero nearest to what an input is, in parts of it."""
+    # Here, because loading it takes longer than all else that a command line needs.
+    from scipy.optimize import brentq
+
+    nearest: float | None = None
+    for way in (-1.0, 1.0):
+        steps = way * np.linspace(0.0, math.log(5.0), 400)
+        # An input that the formula does not know leaves a single value; NaN is no side.
+        side = np.broadcast_to(np.sign(_scaled(film, gearset, name, np.exp(steps))), steps.shape)
+        crossing = np.flatnonzero(np.abs(side[1:] - side[:-1]) > 0.5)
+        if not crossing.size or (nearest and abs(nearest) <= abs(steps[crossing[0]])):
+            continue
+        nearest = float(
+            brentq(
+                lambda step: float(_scaled(film, gearset, name, np.exp(step))),
+                steps[crossing[0]],
+                steps[crossing[0] + 1],
+            )
+        )
+    return None if nearest is None else _now(gearset, name) * math.exp(nearest)
+
+
+def _scaled(film: Film, gearset: Mapping[str, Any], name: str, factor: FloatArray) -> FloatArray:
     """h* with one input times a factor; the profile shift makes up for the centre distance."""
-    changed: dict[str, Any] = dict(gearset)
-    distance = _centre_distance(gearset)
+    changed, distance = dict(gearset), np.asarray(_centre_distance(gearset))
     if name == "centre_distance":
         distance = distance * factor
     else:
@@ -73,70 +136,5 @@ def _scaled(
     teeth = changed["diameter_factor"] + changed["wheel_teeth"]
     changed["profile_shift"] = distance / changed["axial_module"] - 0.5 * teeth
     with np.errstate(all="ignore"):
-        film = formula(*(np.asarray(value) for value in changed.values()))
-    return np.where(changed["pressure_angle"] < 0.5 * np.pi, film, np.nan)
-
-
-def _limits(
-    formula: Callable[..., FloatArray], gearset: Mapping[str, float]
-) -> dict[str, _Limit | None]:
-    # Here, because loading it takes longer than all else that a command line needs.
-    from scipy.optimize import brentq
-
-    steps = np.linspace(0.0, np.log(5.0), 400)
-    limits: dict[str, _Limit | None] = {}
-    for name in _SHOWN:
-        nearest: float | None = None
-        for way in (-1.0, 1.0):
-            values = _scaled(formula, gearset, name, np.exp(way * steps))
-            # An input that the formula does not know leaves a single value; NaN is no side.
-            side = np.broadcast_to(np.sign(values), steps.shape)
-            crossing = np.flatnonzero(np.abs(side[1:] - side[:-1]) > 0.5)
-            if not crossing.size or (nearest and abs(nearest) <= steps[crossing[0]]):
-                continue
-            low, high = steps[crossing[0]] * way, steps[crossing[0] + 1] * way
-            nearest = float(
-                brentq(lambda s, n=name: float(_scaled(formula, gearset, n, np.exp(s))), low, high)
-            )
-        value = _value_of(name, gearset)
-        factor = None if nearest is None else float(np.exp(nearest))
-        limits[name] = _Limit(factor, value * factor) if factor else None
-    return limits
-
-
-def too_thin(
-    formula: Callable[..., FloatArray], gearset: Mapping[str, float], value: float
-) -> FilmParameterError:
-    """Return the error for a gearset whose h* is not above zero."""
-    limits = _limits(formula, gearset)
-    reached = [(abs(np.log(limit.factor)), name) for name, limit in limits.items() if limit]
-    driver = min(reached)[1] if reached else "ratio"
-    changes = []
-    for name, limit in limits.items():
-        symbol, unit = _SHOWN[name]
-        if limit is None:
-            if name in ("ratio", "axial_module"):
-                changes.append(f"no {symbol}")
-            continue
-        side = "below" if limit.factor < 1.0 else "above"
-        shown = np.degrees(limit.value) if name == "pressure_angle" else limit.value
-        changes.append(f"{symbol} {side} {shown:.5g}{unit} ({100.0 * (limit.factor - 1.0):+.2g} %)")
-    symbol, unit = _SHOWN[driver]
-    given = _value_of(driver, gearset)
-    shown = np.degrees(given) if driver == "pressure_angle" else given
-    return FilmParameterError(
-        f"h* is {value:.3g}; it must be above 0. {symbol} = {shown:.5g}{unit} drives it (with "
-        f"x_2 = {gearset['profile_shift']:.3g}); any one of these, x_2 following, brings it back: "
-        f"{', '.join(changes)}",
-        value,
-        driver,
-        {name: limit.value if limit else None for name, limit in limits.items()},
-    )
-
-
-def limits_of(
-    formula: Callable[..., FloatArray], gearset: Mapping[str, float]
-) -> dict[str, float | None]:
-    """Return the value of each input at which a formula for h* is zero, the others as they are."""
-    limits = _limits(formula, gearset)
-    return {name: limit.value if limit else None for name, limit in limits.items()}
+        h = film(**changed)
+    return np.where(changed["pressure_angle"] < 0.5 * math.pi, h, np.nan)

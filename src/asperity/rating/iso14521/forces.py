@@ -1,137 +1,54 @@
 """ISO/TR 14521: the forces between the teeth of a driving worm and its wheel."""
 
-from typing import Any
-
 import numpy as np
-import numpy.typing as npt
 
-from asperity.rating.formula import Argument, Invalid, angle, evaluate, positive
+from asperity.arrays import Real
+from asperity.formulas import formula, positive
+from asperity.rating.iso14521.symbols import (
+    ONE_SOURCE,
+    T_2,
+    F_tm1,
+    F_tm2,
+    alpha_n,
+    d_m2,
+    gamma_m1,
+    mu_zm,
+)
 
 
-def wheel_tangential_force(
-    wheel_torque: npt.ArrayLike,
-    wheel_pitch_diameter: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Tangential force on the wheel, which is the worm's axial force.
-
-    .. math:: F_{tm2} = 2000\, T_2/d_{m2}
-
-    Parameters
-    ----------
-    wheel_torque : array_like
-        :math:`T_2`, N m.
-    wheel_pitch_diameter : array_like
-        :math:`d_{m2} = 2a - d_{m1}`, mm.
-    on_invalid : {'raise', 'mask'}
-        What to do with elements of arrays that are not allowed.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        N.
-
-    Notes
-    -----
-    One source.
+@formula(symbol="F_tm2", unit="N", equation="2000 T_2/d_m2", source=ONE_SOURCE)
+def wheel_tangential_force(wheel_torque: T_2, wheel_mean_diameter: d_m2) -> Real:
+    """Tangential force on the wheel, which is the worm's axial force.
 
     Examples
     --------
-    >>> wheel_tangential_force(366.0, 131.85)  # doctest: +ELLIPSIS
-    5551.7...
+    >>> round(wheel_tangential_force(366.0, 131.85), 1)
+    5551.8
     """
-    return evaluate(
-        lambda t, d: 2000.0 * t / d,
-        positive("wheel_torque", wheel_torque, "N m"),
-        positive("wheel_pitch_diameter", wheel_pitch_diameter, "mm"),
-        on_invalid=on_invalid,
-    )
+    return 2000.0 * wheel_torque / wheel_mean_diameter
 
 
-def worm_tangential_force(
-    wheel_force: npt.ArrayLike,
-    lead_angle: npt.ArrayLike,
-    mean_friction: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Tangential force on the driving worm, which is the wheel's axial force.
-
-    .. math:: F_{tm1} = F_{tm2}\tan(\gamma_{m1} + \arctan\mu_{zm})
-
-    Parameters
-    ----------
-    wheel_force : array_like
-        :math:`F_{tm2}`, N.
-    lead_angle : array_like
-        :math:`\gamma_{m1}`, rad.
-    mean_friction : array_like
-        :math:`\mu_{zm}`.
-    on_invalid : {'raise', 'mask'}
-        What to do with elements of arrays that are not allowed, or where lead angle and friction
-        angle reach 90 degrees.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        N.
-
-    Notes
-    -----
-    One source.
-    """
-    return evaluate(
-        lambda force, lead, mu: force * np.tan(lead + np.arctan(mu)),
-        positive("wheel_force", wheel_force, "N"),
-        angle("lead_angle", lead_angle),
-        Argument("mean_friction", mean_friction, lower=0.0),
-        on_invalid=on_invalid,
-        result="F_tm1",
-        accept=lambda force: force > 0.0,
-        because="lead angle and friction angle reach 90 deg, so the worm cannot drive",
-    )
+@formula(
+    symbol="F_tm1",
+    unit="N",
+    equation="F_tm2 tan(gamma_m1 + atan(mu_zm))",
+    source=ONE_SOURCE,
+    result=positive,
+    because="lead angle and friction angle reach 90 deg, so the worm cannot drive",
+)
+def worm_tangential_force(wheel_force: F_tm2, lead_angle: gamma_m1, mean_friction: mu_zm) -> Real:
+    """Tangential force on the driving worm, which is the wheel's axial force."""
+    return wheel_force * np.tan(lead_angle + np.arctan(mean_friction))
 
 
+@formula(
+    symbol="F_rm",
+    unit="N",
+    equation="F_tm1 tan(alpha_n)/sin(gamma_m1 + atan(mu_zm))",
+    source=ONE_SOURCE,
+)
 def separating_force(
-    worm_force: npt.ArrayLike,
-    pressure_angle: npt.ArrayLike,
-    lead_angle: npt.ArrayLike,
-    mean_friction: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Radial force that pushes worm and wheel apart.
-
-    .. math:: F_{rm} = \frac{F_{tm1}\tan\alpha_n}{\sin(\gamma_{m1} + \arctan\mu_{zm})}
-
-    Parameters
-    ----------
-    worm_force : array_like
-        :math:`F_{tm1}`, N.
-    pressure_angle : array_like
-        :math:`\alpha_n`, rad.
-    lead_angle : array_like
-        :math:`\gamma_{m1}`, rad.
-    mean_friction : array_like
-        :math:`\mu_{zm}`.
-    on_invalid : {'raise', 'mask'}
-        What to do with elements of arrays that are not allowed.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        N.
-
-    Notes
-    -----
-    One source.
-    """
-    return evaluate(
-        lambda force, alpha, lead, mu: force * np.tan(alpha) / np.sin(lead + np.arctan(mu)),
-        positive("worm_force", worm_force, "N"),
-        angle("pressure_angle", pressure_angle),
-        angle("lead_angle", lead_angle),
-        Argument("mean_friction", mean_friction, lower=0.0),
-        on_invalid=on_invalid,
-    )
+    worm_force: F_tm1, pressure_angle: alpha_n, lead_angle: gamma_m1, mean_friction: mu_zm
+) -> Real:
+    """Radial force that pushes worm and wheel apart."""
+    return worm_force * np.tan(pressure_angle) / np.sin(lead_angle + np.arctan(mean_friction))

@@ -21,32 +21,6 @@ EDITIONS: Mapping[str, str] = MappingProxyType(
 )
 """Documents of each family of formulas."""
 
-_WORDS: dict[str, tuple[str, ...]] = {
-    "edition": get_args(Edition),
-    "flank": get_args(Flank),
-    "family": get_args(Family),
-    "base_oil": get_args(BaseOilName),
-    "lubrication": get_args(Lubrication),
-    "immersed": ("worm", "wheel"),
-}
-
-
-def check_words(**given: str) -> None:
-    """Raise where an option is given a word it does not know.
-
-    Raises
-    ------
-    InputError
-        Names the option, the word and what is allowed.
-    """
-    for option, word in given.items():
-        allowed = _WORDS[option]
-        if word not in allowed:
-            raise InputError(
-                f"{option} is {word!r}; it must be one of {choices(allowed)}"
-                f"{suggestion(str(word), allowed)}"
-            )
-
 
 @dataclasses.dataclass(frozen=True)
 class FrictionConstants:
@@ -80,7 +54,16 @@ def _tables() -> dict[str, Any]:
 
 
 def _row(table: str, family: str, lubrication: str, base_oil: str) -> dict[str, Any]:
-    check_words(family=family, lubrication=lubrication, base_oil=base_oil)
+    for option, word, allowed in (
+        ("family", family, get_args(Family)),
+        ("lubrication", lubrication, get_args(Lubrication)),
+        ("base_oil", base_oil, get_args(BaseOilName)),
+    ):
+        if word not in allowed:
+            raise InputError(
+                f"{option} is {word!r}; it must be one of {choices(allowed)}"
+                f"{suggestion(str(word), allowed)}"
+            )
     content = _tables()[table]
     (row,) = (
         row

@@ -7,47 +7,53 @@ that is not varied with it follows.
 """
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray, Real, smaller
 from asperity.errors import InputError, nearest
+from asperity.formulas import (
+    Mask,
+    Symbol,
+    acute,
+    common_shape,
+    finite,
+    not_negative,
+    positive,
+    real,
+)
 from asperity.gearset import relations
+from asperity.gearset.geometry import diameters
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.proportions import RULES
-from asperity.rating.calculation import Masking, smaller
-from asperity.rating.formula import Argument, angle, positive
-from asperity.rating.inputs import RPM, THROUGH_TRAVEL, Inputs, Real, inputs
+from asperity.rating.inputs import GEOMETRY, RPM, THROUGH_TRAVEL, Inputs, inputs
 from asperity.rating.parameters import Operation, RatingOptions
 
-_FROM_SI = {"centre_distance": 1e3, "axial_module": 1e3, "worm_speed": RPM, "worm_roughness": 1e6}
-_UNITS = {
-    "centre_distance": "mm",
-    "axial_module": "mm",
-    "worm_speed": "rpm",
-    "worm_roughness": "um",
-    "output_torque": "N m",
-}
-_NOT_NEGATIVE = ("friction", "friction_factor", "base_friction")
+_FROM_SI = {"mm": 1e3, "um": 1e6, "rpm": RPM}
 
-VARIED = (
-    "gear_ratio",
-    "starts",
-    "wheel_teeth",
-    "centre_distance",
-    "axial_module",
-    "diameter_factor",
-    "profile_shift",
-    "pressure_angle",
-    "worm_speed",
-    "worm_roughness",
-    "output_torque",
-    "base_friction",
-    "friction",
-    "friction_factor",
-)
-"""What can be varied."""
+BLOCK = 32768
+"""How many variants go through the formulas together: their arrays stay in a processor's cache."""
+
+VARIED = {
+    "gear_ratio": Symbol("u", "", positive),
+    "starts": Symbol("z_1", "", positive),
+    "wheel_teeth": Symbol("z_2", "", positive),
+    "centre_distance": Symbol("a", "mm", positive),
+    "axial_module": Symbol("m_x1", "mm", positive),
+    "diameter_factor": Symbol("q_1", "", positive),
+    "profile_shift": Symbol("x_2", "", finite),
+    "pressure_angle": Symbol("alpha_n", "rad", acute),
+    "worm_speed": Symbol("n_1", "rpm", positive),
+    "worm_roughness": Symbol("Ra_1", "um", positive),
+    "output_torque": Symbol("T_R", "N m", positive),
+    "base_friction": Symbol("mu_0T", "", not_negative),
+    "friction": Symbol("mu_zm", "", not_negative),
+    "friction_factor": Symbol("k_mu", "", not_negative),
+}
+"""What can be varied, in the units of the standards."""
 
 
 def varied(
@@ -55,7 +61,7 @@ def varied(
     operation: Operation,
     options: RatingOptions,
     values: Mapping[str, Any],
-) -> tuple[Inputs, Masking, tuple[int, ...]]:
+) -> tuple[Inputs, Mask, tuple[int, ...]]:
     """Return what the formulas need for all variants, which are impossible, and their shape.
 
     Parameters
@@ -63,7 +69,8 @@ def varied(
     gearset, operation, options
         What is not varied.
     values : mapping of str to array_like
-        By the names in `VARIED`, in SI; of shapes that broadcast.
+        By the names in `VARIED`, in SI; of shapes that broadcast. More than `BLOCK` of them come
+        back in one row.
 
     Raises
     ------
@@ -71,20 +78,23 @@ def varied(
         A name that is not known, or shapes and numbers that do not go together.
     """
     base = inputs(gearset, operation, options)
-    arrays, shape = _arrays(values)
-    masking = Masking(shape)
+    arrays = {name: _array(name, value) for name, value in values.items()}
+    shape = common_shape(arrays)
+    if math.prod(shape) > BLOCK:
+        arrays = {n: np.broadcast_to(v, shape).ravel() if v.ndim else v for n, v in arrays.items()}
+    # A single variant too is an array here, because numbers raise.
+    mask = Mask(common_shape(arrays) or (1,))
     given: dict[str, Real] = {}
     for name, array in arrays.items():
-        argument = _argument(name, array)
-        outside = argument.outside(array)
-        masking.mask(outside, f"{name} is not allowed; {argument.allowed()}")
-        stand_in = getattr(base, name)
+        symbol, stand_in = VARIED[name], getattr(base, name)
+        outside = ~symbol.bounds.holds(array)
+        mask.refuse(outside, f"{name} is not allowed; {symbol.allowed}")
         # An impossible number is masked; a possible one in its place keeps the formulas quiet.
         given[name] = np.where(outside, 0.1 if stand_in is None else stand_in, array)
     if "friction" in given and "base_friction" in given:
         raise InputError("friction and base_friction are given; keep one of them")
-    numbers = _macro(base, given, masking)
-    numbers |= _derived(gearset, numbers, masking)
+    numbers = _macro(base, given, mask)
+    numbers |= _derived(gearset, numbers, mask)
     numbers |= {name: value for name, value in given.items() if name not in numbers}
     if "output_torque" in given and operation.through_travel_torque is None:
         numbers["through_travel_torque"] = THROUGH_TRAVEL * given["output_torque"]
@@ -92,38 +102,16 @@ def varied(
         numbers["base_friction"] = None
     elif "base_friction" in given:
         numbers["friction"] = None
-    return dataclasses.replace(base, **numbers), masking, shape
+    return dataclasses.replace(base, **numbers), mask, shape
 
 
-def _arrays(values: Mapping[str, Any]) -> tuple[dict[str, Any], tuple[int, ...]]:
-    arrays = {}
-    for name, value in values.items():
-        if name not in VARIED:
-            raise InputError(f"{name} cannot be varied{nearest(name, VARIED)}")
-        try:
-            arrays[name] = np.asarray(value, dtype=np.float64) * _FROM_SI.get(name, 1.0)
-        except (TypeError, ValueError):
-            raise InputError(
-                f"{name} is {str(value)[:60]!r}; it must be a number or an array of numbers"
-            ) from None
-    try:
-        return arrays, np.broadcast_shapes(*(array.shape for array in arrays.values()))
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise InputError(f"the shapes {shapes} do not go together; make them equal") from None
+def _array(name: str, value: Any) -> FloatArray:
+    if name not in VARIED:
+        raise InputError(f"{name} cannot be varied{nearest(name, VARIED)}")
+    return np.asarray(real(name, value)) * _FROM_SI.get(str(VARIED[name].unit), 1.0)
 
 
-def _argument(name: str, array: Any) -> Argument:
-    if name == "profile_shift":
-        return Argument(name, array)
-    if name == "pressure_angle":
-        return angle(name, array)
-    if name in _NOT_NEGATIVE:
-        return Argument(name, array, lower=0.0)
-    return positive(name, array, _UNITS.get(name, ""))
-
-
-def _macro(base: Inputs, given: Mapping[str, Real], masking: Masking) -> dict[str, Real]:
+def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Real]:
     """Return teeth, module, diameter factor, profile shift and centre distance."""
 
     def now(name: str) -> Real:
@@ -167,7 +155,7 @@ def _macro(base: Inputs, given: Mapping[str, Real], masking: Masking) -> dict[st
         a = 0.5 * m * shifted
         possible = a > 0.0
         a = np.where(possible, a, base.centre_distance)
-    masking.mask(~possible, f"with this profile_shift the {follows[0]} is not positive")
+    mask.refuse(~possible, f"with this profile_shift the {follows[0]} is not positive")
     return {
         "starts": z1,
         "wheel_teeth": z2,
@@ -179,34 +167,28 @@ def _macro(base: Inputs, given: Mapping[str, Real], masking: Masking) -> dict[st
     }
 
 
-def _derived(gearset: Gearset, numbers: Mapping[str, Real], masking: Masking) -> dict[str, Real]:
+def _derived(gearset: Gearset, numbers: Mapping[str, Real], mask: Mask) -> dict[str, Real]:
     """Return the other numbers of `asperity.gearset.Geometry` that the formulas need."""
     a, m, q = (numbers[n] for n in ("centre_distance", "axial_module", "diameter_factor"))
     z1, z2 = numbers["starts"], numbers["wheel_teeth"]
     lead = relations.lead_angle(z1, q)
     heights = RULES[gearset.tooth_proportions](m, lead)
-    d_m1 = relations.worm_pitch_diameter(m, q)
-    d_m2 = relations.wheel_mean_diameter(a, d_m1)
     widest = relations.widest_contact(m, q)
     geometry = gearset.geometry
     b_2 = widest if gearset.wheel_face_width is None else geometry.wheel_face_width
     derived = {
+        **diameters(m, q, z2, a, heights),
         "lead_angle": lead,
         "axial_pitch": np.pi * m,
-        "worm_pitch_diameter": d_m1,
-        "worm_tip_diameter": d_m1 + 2.0 * heights.worm_addendum,
-        "worm_root_diameter": d_m1 - 2.0 * heights.worm_dedendum,
-        "wheel_reference_diameter": relations.wheel_reference_diameter(m, z2),
-        "wheel_mean_diameter": d_m2,
-        "wheel_root_diameter": d_m2 - 2.0 * heights.wheel_dedendum,
         "wheel_face_width": b_2,
         "effective_face_width": smaller(b_2, widest),
         "rim_width": b_2,
         "rim_thickness": (2.0 * m if gearset.rim_thickness is None else geometry.rim_thickness),
     }
+    derived = {name: number for name, number in derived.items() if name in GEOMETRY}
     for name in ("worm_root_diameter", "wheel_mean_diameter", "wheel_root_diameter"):
-        masking.mask(np.asarray(derived[name]) <= 0.0, f"the {name} is not positive")
-    masking.mask(
+        mask.refuse(np.asarray(derived[name]) <= 0.0, f"the {name} is not positive")
+    mask.refuse(
         np.asarray(heights.wheel_addendum) <= 0.0, "the lead angle leaves no teeth of the wheel"
     )
     return derived

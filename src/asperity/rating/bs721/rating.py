@@ -8,21 +8,20 @@ from typing import Any
 
 import numpy as np
 
+from asperity.arrays import smaller
 from asperity.errors import InputError
+from asperity.formulas import current_mask
 from asperity.gearset.library import GIVEN
 from asperity.rating import bs721
-from asperity.rating.by_iso14521 import Apply, Values
-from asperity.rating.calculation import Masking, directly, smaller
-from asperity.rating.facts import entries
-from asperity.rating.givens import given_entries
-from asperity.rating.inputs import Inputs
+from asperity.rating.entries import entries
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import efficiency, strength
 from asperity.rating.iso14521 import friction as iso_friction
 from asperity.rating.result import Rating
 from asperity.sources import Source, weakest
 
 
-def rate_bs721(given: Inputs, tables: bs721.Tables) -> Rating:
+def rate(given: Inputs, tables: bs721.Tables) -> Rating:
     """Rate one gearset by BS 721.
 
     Raises
@@ -30,42 +29,32 @@ def rate_bs721(given: Inputs, tables: bs721.Tables) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    values, notes = rated(given, directly, tables)
+    values, notes = rated(given, tables)
     return Rating(
         "BS 721-2:1983",
-        entries(
-            given_entries(given, "bs721"),
-            "bs721",
-            values,
-            _sources(given, tables),
-            _equations(given, values),
-        ),
+        entries(given, "bs721", values, _sources(given, tables), _equations(given, values)),
         _violations(given, values),
         (*notes, *_notes(given, values)),
     )
 
 
-def rated(given: Inputs, apply: Apply, tables: bs721.Tables) -> tuple[Values, tuple[str, ...]]:
+def rated(given: Inputs, tables: bs721.Tables) -> tuple[Values, tuple[str, ...]]:
     """Return friction and permissible torques by the keys of a rating, and notes."""
     wheel, worm = _rows(given)
     v: Values = {}
-    v["sliding_velocity_m_s"] = apply(
-        iso_friction.sliding_velocity,
+    v["sliding_velocity_m_s"] = iso_friction.sliding_velocity(
         given.worm_pitch_diameter,
         given.worm_speed,
         given.lead_angle,
     )
     mean = given.friction
     if mean is None:
-        mean = apply(bs721.friction, v["sliding_velocity_m_s"], tables=tables)
+        mean = bs721.friction(v["sliding_velocity_m_s"], tables=tables)
     v["mu"] = mean * given.friction_factor
-    v["eta"] = apply(efficiency.worm_driving_efficiency, given.lead_angle, v["mu"])
-    v["eta_back"] = apply(efficiency.wheel_driving_efficiency, given.lead_angle, v["mu"])
-    v["X_c"] = apply(
-        bs721.wear_speed_factor, v["sliding_velocity_m_s"], given.wheel_speed, tables=tables
-    )
-    v["Z"] = apply(
-        bs721.zone_factor,
+    v["eta"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu"])
+    v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu"])
+    v["X_c"] = bs721.wear_speed_factor(v["sliding_velocity_m_s"], given.wheel_speed, tables=tables)
+    v["Z"] = bs721.zone_factor(
         given.starts,
         given.diameter_factor,
         given.wheel_face_width,
@@ -73,18 +62,17 @@ def rated(given: Inputs, apply: Apply, tables: bs721.Tables) -> tuple[Values, tu
         tables=tables,
     )
     v["S_c_MPa"] = tables.surface_stress_factor(wheel, worm)
-    v["X_b"] = apply(bs721.strength_speed_factor, given.wheel_speed, tables=tables)
+    v["X_b"] = bs721.strength_speed_factor(given.wheel_speed, tables=tables)
     v["S_b_MPa"] = tables.bending_stress_factor("wheel", wheel)
-    v["l_r_mm"] = apply(
-        bs721.root_arc,
+    v["l_r_mm"] = bs721.root_arc(
         given.wheel_face_width,
         given.worm_tip_diameter,
         given.axial_module,
         given.diameter_factor,
         given.lead_angle,
     )
-    permitted = _permissible(given, apply, v, tables)
-    _torques(given, apply, v, permitted)
+    permitted = _permissible(given, v, tables)
+    _torques(given, v, permitted)
     notes = dict.fromkeys(limit.note for limit in (permitted.wear, permitted.strength))
     return v, tuple(note for note in notes if note)
 
@@ -169,7 +157,7 @@ def _rows(given: Inputs) -> tuple[str, str]:
     return rows[0], rows[1]
 
 
-def _permissible(given: Inputs, apply: Apply, v: Values, tables: bs721.Tables) -> bs721.Permissible:
+def _permissible(given: Inputs, v: Values, tables: bs721.Tables) -> bs721.Permissible:
     wheel, worm = _rows(given)
     numbers = {
         "starts": given.starts,
@@ -183,34 +171,37 @@ def _permissible(given: Inputs, apply: Apply, v: Values, tables: bs721.Tables) -
         "worm_speed": given.worm_speed,
         "wheel_speed": given.wheel_speed,
     }
-    masking = isinstance(apply, Masking)
-    if isinstance(apply, Masking):
+    mask = current_mask()
+    if mask is not None:
         # An array is masked where a number that all variants share would raise.
-        numbers = {name: np.broadcast_to(value, apply.shape) for name, value in numbers.items()}
+        shape = mask.reason.shape
+        numbers = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
     return bs721.permissible_torques(
         **numbers,
         wheel_material=wheel,
         worm_material=worm,
         tables=tables,
-        on_invalid="mask" if masking else "raise",
+        on_invalid="raise" if mask is None else "mask",
     )
 
 
-def _torques(given: Inputs, apply: Apply, v: Values, permitted: bs721.Permissible) -> None:
+def _torques(given: Inputs, v: Values, permitted: bs721.Permissible) -> None:
     for limit, symbol in ((permitted.wear, "c"), (permitted.strength, "b")):
         v[f"M_{symbol}_wheel_Nm"] = limit.wheel
-        if isinstance(apply, Masking):
+        mask = current_mask()
+        if mask is not None and limit.reason is not None:
             # The worm has no number where no table reaches its speed: the torques below heed that.
-            apply.take_over(limit.reason, limit.legend)
+            for code, sentence in limit.legend.items():
+                mask.refuse(limit.reason == code, sentence)
         elif limit.worm is not None:
             v[f"M_{symbol}_worm_Nm"] = limit.worm
     v["M_26k_Nm"] = permitted.m_26k
     v["U_w_h"], v["U_s_h"] = given.wear_hours, given.strength_hours
-    v["wear_life_factor"] = apply(bs721.wear_life_factor, v["U_w_h"])
-    v["strength_life_factor"] = apply(bs721.strength_life_factor, v["U_s_h"])
+    v["wear_life_factor"] = bs721.wear_life_factor(v["U_w_h"])
+    v["strength_life_factor"] = bs721.strength_life_factor(v["U_s_h"])
     v["M_w_Nm"] = permitted.wear.torque * v["wear_life_factor"]
     v["M_s_Nm"] = permitted.strength.torque * v["strength_life_factor"]
     v["M_permissible_Nm"] = smaller(v["M_w_Nm"], v["M_s_Nm"])
     factor = given.operation.application_factor
-    v["safety_wear"] = apply(strength.safety, v["M_w_Nm"], factor * given.through_travel_torque)
-    v["safety_strength"] = apply(strength.safety, v["M_s_Nm"], factor * given.output_torque)
+    v["safety_wear"] = strength.safety(v["M_w_Nm"], factor * given.through_travel_torque)
+    v["safety_strength"] = strength.safety(v["M_s_Nm"], factor * given.output_torque)

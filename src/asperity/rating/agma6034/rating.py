@@ -10,17 +10,14 @@ from asperity.errors import InputError
 from asperity.gearset.library import GIVEN
 from asperity.rating import agma6034
 from asperity.rating.agma6034.units import VELOCITY
-from asperity.rating.by_iso14521 import Apply, Values
-from asperity.rating.calculation import directly
-from asperity.rating.facts import entries
-from asperity.rating.givens import given_entries
-from asperity.rating.inputs import Inputs
+from asperity.rating.entries import entries
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import losses, strength
 from asperity.rating.result import Rating
 from asperity.sources import Range, Source
 
 
-def rate_agma6034(given: Inputs) -> Rating:
+def rate(given: Inputs) -> Rating:
     """Rate one gearset by AGMA 6034.
 
     Raises
@@ -28,22 +25,16 @@ def rate_agma6034(given: Inputs) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    values = rated(given, directly)
+    values = rated(given)
     return Rating(
         "ANSI/AGMA 6034-B92",
-        entries(
-            given_entries(given, "agma6034"),
-            "agma6034",
-            values,
-            _sources(given),
-            _equations(given, values),
-        ),
+        entries(given, "agma6034", values, _sources(given), _equations(given, values)),
         _violations(given, values),
         _notes(given, values),
     )
 
 
-def rated(given: Inputs, apply: Apply) -> Values:
+def rated(given: Inputs) -> Values:
     """Return friction, efficiency, loads and heat by the keys of a rating."""
     casting = given.gearset.wheel_material.agma6034
     if casting is None:
@@ -52,67 +43,56 @@ def rated(given: Inputs, apply: Apply) -> Values:
             "that AGMA 6034 covers; take another, or a table with the key 'agma6034'"
         )
     v: Values = {}
-    v["sliding_velocity_m_s"] = apply(
-        agma6034.sliding_velocity, given.worm_pitch_diameter, given.lead_angle, given.worm_speed
+    v["sliding_velocity_m_s"] = agma6034.sliding_velocity(
+        given.worm_pitch_diameter, given.lead_angle, given.worm_speed
     )
     mean = given.friction
     if mean is None:
-        mean = apply(agma6034.friction, v["sliding_velocity_m_s"])
+        mean = agma6034.friction(v["sliding_velocity_m_s"])
     v["mu"] = mean * given.friction_factor
     mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["eta"] = apply(agma6034.worm_driving_efficiency, *mesh)
-    v["eta_back"] = apply(agma6034.wheel_driving_efficiency, *mesh)
-    v["C_s"] = apply(
-        agma6034.materials_factor, given.centre_distance, given.wheel_mean_diameter, casting
-    )
-    v["C_m"] = apply(agma6034.ratio_correction_factor, given.gear_ratio)
-    v["C_v"] = apply(agma6034.velocity_factor, v["sliding_velocity_m_s"])
-    v["F_e_mm"] = apply(
-        agma6034.effective_face_width, given.wheel_face_width, given.worm_pitch_diameter
-    )
-    v["W_t_all_N"] = apply(
-        agma6034.allowable_tangential_load,
+    v["eta"] = agma6034.worm_driving_efficiency(*mesh)
+    v["eta_back"] = agma6034.wheel_driving_efficiency(*mesh)
+    v["C_s"] = agma6034.materials_factor(given.centre_distance, given.wheel_mean_diameter, casting)
+    v["C_m"] = agma6034.ratio_correction_factor(given.gear_ratio)
+    v["C_v"] = agma6034.velocity_factor(v["sliding_velocity_m_s"])
+    v["F_e_mm"] = agma6034.effective_face_width(given.wheel_face_width, given.worm_pitch_diameter)
+    v["W_t_all_N"] = agma6034.allowable_tangential_load(
         v["C_s"],
         given.wheel_mean_diameter,
         v["F_e_mm"],
         v["C_m"],
         v["C_v"],
     )
-    v["allowable_torque_Nm"] = apply(
-        agma6034.wheel_torque, v["W_t_all_N"], given.wheel_mean_diameter
-    )
+    v["allowable_torque_Nm"] = agma6034.wheel_torque(v["W_t_all_N"], given.wheel_mean_diameter)
     torque = given.operation.application_factor * given.output_torque
-    v["safety_torque"] = apply(strength.safety, v["allowable_torque_Nm"], torque)
+    v["safety_torque"] = strength.safety(v["allowable_torque_Nm"], torque)
     v["W_G_N"] = 2000.0 * torque / given.wheel_mean_diameter
-    v["W_W_N"] = apply(agma6034.worm_tangential_load, v["W_G_N"], *mesh)
-    v["bending_stress_MPa"] = apply(
-        agma6034.bending_stress,
+    v["W_W_N"] = agma6034.worm_tangential_load(v["W_G_N"], *mesh)
+    v["bending_stress_MPa"] = agma6034.bending_stress(
         v["W_G_N"],
         given.axial_pitch,
         given.lead_angle,
         v["F_e_mm"],
         given.pressure_angle,
     )
-    _heat(given, apply, v)
+    _heat(given, v)
     return v
 
 
-def _heat(given: Inputs, apply: Apply, v: Values) -> None:
-    v["output_power_W"] = apply(
-        losses.output_power, given.output_torque, given.worm_speed, given.gear_ratio
+def _heat(given: Inputs, v: Values) -> None:
+    v["output_power_W"] = losses.output_power(
+        given.output_torque, given.worm_speed, given.gear_ratio
     )
     load = 2000.0 * given.output_torque / given.wheel_mean_diameter
     mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["W_f_N"] = apply(agma6034.friction_force, load, *mesh, form="shigley")
-    v["loss_meshing_W"] = apply(agma6034.friction_power, v["sliding_velocity_m_s"], v["W_f_N"])
+    v["W_f_N"] = agma6034.friction_force(load, *mesh, form="shigley")
+    v["loss_meshing_W"] = agma6034.friction_power(v["sliding_velocity_m_s"], v["W_f_N"])
     v["input_power_W"] = v["output_power_W"] + v["loss_meshing_W"]
     v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
-    v["h_CR_W_m2K"] = apply(
-        agma6034.heat_transfer_coefficient, given.worm_speed, fan=given.operation.fan
-    )
-    v["A_min_m2"] = apply(agma6034.minimum_housing_area, given.centre_distance)
-    v["t_s_degC"] = apply(
-        agma6034.sump_temperature,
+    v["h_CR_W_m2K"] = agma6034.heat_transfer_coefficient(given.worm_speed, fan=given.operation.fan)
+    v["A_min_m2"] = agma6034.minimum_housing_area(given.centre_distance)
+    v["t_s_degC"] = agma6034.sump_temperature(
         given.ambient_temperature,
         v["input_power_W"],
         v["eta"],

@@ -2,19 +2,18 @@
 
 import math
 
+from asperity.formulas import masking
 from asperity.gearset.library import GIVEN
-from asperity.rating.by_iso14521 import Values, rated_capacity, rated_efficiency
-from asperity.rating.calculation import Collecting, directly
-from asperity.rating.facts import entries
-from asperity.rating.givens import given_entries
-from asperity.rating.inputs import Inputs
+from asperity.rating.entries import entries
+from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
 from asperity.rating.result import Rating
 from asperity.sources import Source
 
 
-def rate_iso14521(given: Inputs) -> Rating:
+def rate(given: Inputs) -> Rating:
     """Rate one gearset by ISO/TR 14521.
 
     A stress or safety whose formula does not reach so far is left out, and a note says why.
@@ -26,19 +25,14 @@ def rate_iso14521(given: Inputs) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    collecting = Collecting()
-    values = rated_capacity(given, collecting, rated_efficiency(given, directly))
+    values = rated_efficiency(given)
+    with masking() as unanswered:
+        values = rated_capacity(given, values)
     return Rating(
         EDITIONS[given.options.iso14521_edition],
-        entries(
-            given_entries(given, "iso14521"),
-            "iso14521",
-            values,
-            _sources(given),
-            _equations(given),
-        ),
+        entries(given, "iso14521", values, _sources(given), _equations(given)),
         _violations(given, values),
-        (*dict.fromkeys(collecting.notes), *_notes(given, values)),
+        (*unanswered.legend.values(), *_notes(given, values)),
     )
 
 

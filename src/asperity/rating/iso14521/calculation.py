@@ -1,0 +1,293 @@
+"""A gearset by ISO/TR 14521: the formulas in the order of the calculation.
+
+Efficiency, forces, contact stress, pitting, deflection, tooth root and temperature go by the rated
+torque, wear by the torque through the travel; both times the application factor, but for powers
+and temperatures.
+"""
+
+import math
+
+from asperity.arrays import Real, smaller
+from asperity.gearset import oil
+from asperity.rating import hertz
+from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521 import (
+    contact,
+    efficiency,
+    film,
+    forces,
+    friction,
+    losses,
+    pitting,
+    strength,
+    thermal,
+    wear,
+)
+
+ROOT_LIFE_FACTOR = 1.0
+"""Y_NL, from memory."""
+
+_MPA = 1e-6
+_MM2 = 1e6
+
+
+def rated_efficiency(given: Inputs) -> Values:
+    """Return friction, efficiency and losses, by the keys of a rating."""
+    wheel, operation = given.gearset.wheel_material, given.operation
+    v: Values = {}
+    v["sliding_velocity_m_s"] = friction.sliding_velocity(
+        given.worm_pitch_diameter, given.worm_speed, given.lead_angle
+    )
+    v["mu_0T"] = given.base_friction
+    if given.base_friction is None:
+        v["mu_0T"] = friction.base_friction(
+            v["sliding_velocity_m_s"],
+            family=wheel.family,
+            lubrication=operation.lubrication,
+            base_oil=operation.lubricant.base_oil,
+        )
+    v["Y_S"] = friction.size_factor(given.centre_distance)
+    v["h_star"] = film_parameter_of(given)
+    v["Y_G"] = friction.geometry_factor(v["h_star"])
+    v["Y_W"] = wheel.material_factor
+    v["Y_R"] = friction.roughness_factor(given.worm_roughness)
+    mean = given.friction
+    if mean is None:
+        mean = friction.mean_friction(v["mu_0T"], v["Y_S"], v["Y_G"], v["Y_W"], v["Y_R"])
+    v["mu_zm"] = mean * given.friction_factor
+    v["eta_z1_2"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu_zm"])
+    v["eta_z2_1"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu_zm"])
+    _powers(given, v)
+    return v
+
+
+def film_parameter_of(given: Inputs) -> Real:
+    """Return h*."""
+    return film.film_parameter(
+        given.starts,
+        given.wheel_teeth,
+        given.diameter_factor,
+        given.axial_module,
+        given.pressure_angle,
+        given.profile_shift,
+        wheel_face_width=given.effective_face_width,
+        edition=given.options.iso14521_edition,
+        flank=given.gearset.flank,
+    )
+
+
+def _powers(given: Inputs, v: Values) -> None:
+    mesh = given.output_torque, given.worm_speed, given.gear_ratio
+    v["output_power_W"] = losses.output_power(*mesh)
+    v["loss_meshing_W"] = losses.meshing_loss(*mesh, v["eta_z1_2"])
+    v["loss_idle_W"] = losses.idle_loss(given.centre_distance, given.worm_speed)
+    v["loss_bearing_W"] = losses.bearing_loss(
+        v["output_power_W"],
+        given.centre_distance,
+        given.gear_ratio,
+        given.wheel_mean_diameter,
+        given.operation.bearings.loss_coefficient,
+    )
+    v["loss_seal_W"] = losses.seal_loss(
+        given.worm_pitch_diameter, given.worm_speed, given.operation.seals
+    )
+    others = v["loss_idle_W"] + v["loss_bearing_W"] + v["loss_seal_W"]
+    v["loss_total_W"] = v["loss_meshing_W"] + others
+    v["input_power_W"] = v["output_power_W"] + v["loss_total_W"]
+    v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
+    v["eta_ges"] = efficiency.total_efficiency(v["output_power_W"], v["loss_total_W"])
+    back = losses.back_driving_meshing_loss(*mesh, v["eta_z2_1"])
+    v["loss_meshing_back_W"] = back
+    v["eta_ges2_1"] = efficiency.back_driving_total_efficiency(v["output_power_W"], back + others)
+
+
+def rated_capacity(given: Inputs, v: Values) -> Values:
+    """Return stresses, temperatures and safeties; ``v`` is what `rated_efficiency` returned."""
+    v = dict(v)
+    rated = given.operation.application_factor * given.output_torque
+    v["p_m_star"] = contact.contact_parameter(
+        given.starts,
+        given.wheel_teeth,
+        given.diameter_factor,
+        given.axial_module,
+        given.centre_distance,
+        given.pressure_angle,
+        given.profile_shift,
+        wheel_face_width=given.effective_face_width,
+        edition=given.options.iso14521_edition,
+        flank=given.gearset.flank,
+    )
+    worm, wheel = given.gearset.worm_material, given.gearset.wheel_material
+    elastic = (
+        worm.youngs_modulus * _MPA,
+        worm.poisson_ratio,
+        wheel.youngs_modulus * _MPA,
+        wheel.poisson_ratio,
+    )
+    v["E_red_MPa"] = contact.reduced_modulus(*elastic)
+    v["sigma_Hm_MPa"] = contact.contact_stress(
+        v["p_m_star"], rated, v["E_red_MPa"], given.centre_distance
+    )
+    v["sigma_line_MPa"] = hertz.worm_contact_stress(
+        rated,
+        given.wheel_reference_diameter,
+        given.axial_module,
+        given.diameter_factor,
+        given.lead_angle,
+        given.pressure_angle,
+        hertz.contact_modulus(*elastic),
+    )
+    _forces(given, v, rated)
+    _temperatures(given, v)
+    _wear(given, v)
+    _pitting(given, v)
+    _deflection(given, v)
+    _root(given, v)
+    v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], v["theta_S_degC"])
+    return v
+
+
+def _forces(given: Inputs, v: Values, torque: Real) -> None:
+    v["F_tm2_N"] = forces.wheel_tangential_force(torque, given.wheel_mean_diameter)
+    mesh = given.lead_angle, v["mu_zm"]
+    v["F_tm1_N"] = forces.worm_tangential_force(v["F_tm2_N"], *mesh)
+    v["F_rm_N"] = forces.separating_force(v["F_tm1_N"], given.pressure_angle, *mesh)
+
+
+def _temperatures(given: Inputs, v: Values) -> None:
+    operation, lubricant = given.operation, given.operation.lubricant
+    v["theta_S_degC"] = given.oil_temperature
+    if given.oil_temperature is None:
+        v["theta_S_degC"] = thermal.sump_temperature(
+            given.output_torque,
+            given.worm_speed,
+            given.gear_ratio,
+            given.centre_distance,
+            lubricant.viscosity_40 * _MM2,
+            given.ambient_temperature,
+            base_oil=lubricant.base_oil,
+            fan=operation.fan,
+        )
+    v["theta_S_lim_degC"] = given.sump_limit
+    v["alpha_L_W_m2K"] = thermal.heat_transfer_coefficient(
+        given.worm_speed, immersed=operation.immersed
+    )
+    v["A_R_m2"] = thermal.cooling_area(given.rim_width, given.wheel_mean_diameter)
+    v["theta_M_degC"] = thermal.bulk_temperature(
+        v["theta_S_degC"],
+        v["loss_meshing_W"],
+        v["alpha_L_W_m2K"],
+        v["A_R_m2"],
+    )
+    v["nu_M_mm2_s"] = oil.kinematic_viscosity(
+        v["theta_M_degC"],
+        lubricant.viscosity_40 * _MM2,
+        lubricant.viscosity_100 * _MM2,
+    )
+    v["rho_M_kg_m3"] = oil.density(
+        v["theta_M_degC"], given.density_15, lubricant.base.density_coefficient
+    )
+    v["eta_0M_Pas"] = v["nu_M_mm2_s"] * v["rho_M_kg_m3"] / _MM2
+
+
+def _wear(given: Inputs, v: Values) -> None:
+    wheel, lubricant = given.gearset.wheel_material, given.operation.lubricant
+    torque = given.operation.application_factor * given.through_travel_torque
+    v["sigma_Hm_wear_MPa"] = contact.contact_stress(
+        v["p_m_star"], torque, v["E_red_MPa"], given.centre_distance
+    )
+    v["h_min_um"] = film.film_thickness(
+        v["h_star"],
+        lubricant.base.pressure_viscosity,
+        v["eta_0M_Pas"],
+        given.worm_speed,
+        given.centre_distance,
+        v["E_red_MPa"],
+        torque,
+    )
+    family, base_oil = wheel.family, lubricant.base_oil
+    v["W_S"] = wear.lubricant_structure_factor(v["eta_0M_Pas"], family=family, base_oil=base_oil)
+    v["W_H"] = wear.pressure_factor(v["sigma_Hm_wear_MPa"], family=family)
+    v["K_W_um"] = wear.wear_parameter(v["h_min_um"], v["W_S"], v["W_H"])
+    v["J_0T"] = wear.reference_wear_intensity(
+        v["K_W_um"],
+        lubrication=given.operation.lubrication,
+        family=family,
+        base_oil=base_oil,
+    )
+    v["W_NS"] = wear.start_factor(given.operation.starts_per_hour)
+    v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0)
+    v["J_W"] = wear.wear_intensity(v["J_0T"], v["W_NS"], v["W_ML"])
+    v["s_star"] = contact.path_parameter(
+        given.gear_ratio, given.lead_angle, flank=given.gearset.flank
+    )
+    v["N_L"] = contact.load_cycles(given.life, given.worm_speed, given.gear_ratio)
+    v["s_Wm_mm"] = contact.sliding_path(
+        v["s_star"],
+        v["sigma_Hm_wear_MPa"],
+        given.centre_distance,
+        v["E_red_MPa"],
+        v["N_L"],
+    )
+    v["delta_Wn_mm"] = wear.flank_wear(v["J_W"], v["s_Wm_mm"])
+    v["delta_Wlim_mm"] = wear.wear_limit(given.axial_module, given.lead_angle)
+    v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
+
+
+def _pitting(given: Inputs, v: Values) -> None:
+    edition = given.options.iso14521_edition
+    v["Z_h"] = pitting.pitting_life_factor(given.life)
+    v["Z_v"] = pitting.pitting_velocity_factor(v["sliding_velocity_m_s"])
+    v["Z_S"] = pitting.pitting_size_factor(given.centre_distance)
+    v["Z_u"] = pitting.pitting_ratio_factor(given.gear_ratio, edition=edition)
+    v["Z_oil"] = given.operation.lubricant.base.pitting_factor
+    v["sigma_HlimT_MPa"] = given.gearset.wheel_material.pitting_strength * _MPA
+    v["sigma_HG_MPa"] = pitting.pitting_limit(
+        v["sigma_HlimT_MPa"],
+        v["Z_h"],
+        v["Z_v"],
+        v["Z_S"],
+        v["Z_u"],
+        v["Z_oil"],
+    )
+    v["safety_pitting"] = strength.safety(v["sigma_HG_MPa"], v["sigma_Hm_MPa"])
+
+
+def _deflection(given: Inputs, v: Values) -> None:
+    v["delta_m_mm"] = strength.worm_deflection(
+        v["F_tm2_N"],
+        given.lead_angle,
+        v["mu_zm"],
+        given.pressure_angle,
+        given.worm_root_diameter,
+        0.5 * given.bearing_span,
+        0.5 * given.bearing_span,
+        given.gearset.worm_material.youngs_modulus * _MPA,
+    )
+    v["delta_lim_mm"] = strength.deflection_limit(given.axial_module)
+    v["safety_deflection"] = strength.safety(v["delta_lim_mm"], v["delta_m_mm"])
+
+
+def _root(given: Inputs, v: Values) -> None:
+    v["s_ft2_mm"] = strength.root_thickness(
+        given.axial_module,
+        given.wheel_mean_diameter,
+        given.wheel_root_diameter,
+        given.pressure_angle,
+        given.lead_angle,
+        smaller(v["delta_Wn_mm"], v["delta_Wlim_mm"]),
+    )
+    v["Y_F"] = strength.form_factor(given.axial_module, v["s_ft2_mm"])
+    v["Y_K"] = strength.rim_factor(given.axial_module, given.rim_thickness)
+    v["tau_F_MPa"] = strength.root_shear_stress(
+        v["F_tm2_N"],
+        given.effective_face_width,
+        given.axial_module,
+        v["Y_F"],
+        given.lead_angle,
+        v["Y_K"],
+    )
+    v["tau_FlimT_MPa"] = given.gearset.wheel_material.shear_strength * _MPA
+    v["Y_NL"] = ROOT_LIFE_FACTOR
+    v["tau_FG_MPa"] = strength.root_shear_limit(v["tau_FlimT_MPa"], v["Y_NL"])
+    v["safety_root"] = strength.safety(v["tau_FG_MPa"], v["tau_F_MPa"])
