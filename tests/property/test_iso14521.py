@@ -1,19 +1,23 @@
 """What holds for every worm gearset by ISO/TR 14521."""
 
+import functools
 import math
+from typing import get_args
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from asperity.gearset import relations
+from asperity.gearset import Gearset, relations
+from asperity.gearset.materials import BaseOilName, Family
+from asperity.rating import Operation, RatingOptions, variants
 from asperity.rating import iso14521 as iso
+from asperity.rating.iso14521.film_failure import film_limits
+from asperity.rating.iso14521.tables import Lubrication
 
 leads = st.floats(0.01, 1.2)
 frictions = st.floats(0.0, 0.3)
-materials = st.sampled_from(["CuSn12-C-GZ", "CuAl10Fe5Ni5-C-GZ", "EN-GJS-400-15", "EN-GJL-250"])
-oils = st.sampled_from(["mineral", "polyalphaolefin", "polyglycol"])
 numbers = st.fixed_dictionaries(
     {
         "starts": st.integers(1, 6).map(float),
@@ -34,22 +38,31 @@ options = st.fixed_dictionaries(
         "flank": st.sampled_from(["ZI", "ZC"]),
     }
 )
-LOSSES = ("loss_meshing", "loss_idle", "loss_bearing", "loss_seal")
-ANSWERS = (
-    "centre_distance",
-    "lead_angle",
-    "sliding_velocity",
-    "base_friction",
-    "size_factor",
-    "geometry_factor",
-    "roughness_factor",
-    "mean_friction",
-    "efficiency",
-    "output_power",
-    *LOSSES,
-    "input_power",
-    "total_efficiency",
-)
+GEARSET = {
+    "worm_material": "case-hardened steel",
+    "wheel_material": "CuSn12-C-GZ",
+    "starts": 2,
+    "wheel_teeth": 40,
+    "axial_module": 4e-3,
+    "diameter_factor": 10.0,
+    "profile_shift": 0.0,
+}
+OPERATION = {"worm_speed": 150.0, "output_torque": 300.0, "lubricant": "ISO VG 220 mineral"}
+
+
+def rated(options, **varied):
+    """Efficiencies and frictions of variants; in SI, but for what has no unit."""
+    flank = {"flank": options["flank"]}
+    gearset = Gearset(**GEARSET, **flank)
+    how = RatingOptions(iso14521_edition=options["edition"])
+    operation = Operation(**OPERATION, lubrication=options["lubrication"])
+    return variants(gearset, operation, how, ("iso14521",), capacity=False, **varied)
+
+
+def in_si(gearset):
+    """Numbers of a gearset as variants take them."""
+    size = {"axial_module": 1e-3, "worm_speed": math.pi / 30.0, "worm_roughness": 1e-6}
+    return {name: np.array([value * size.get(name, 1.0)]) for name, value in gearset.items()}
 
 
 @given(leads, frictions, frictions)
@@ -77,52 +90,18 @@ def test_wheel_cannot_drive_exactly_where_the_lead_is_within_the_friction_angle(
         assert (efficiency <= 0.0) == (lead <= np.arctan(friction))
 
 
-@given(numbers, options, materials, oils)
-def test_powers_and_efficiency_add_up(gearset, words, material, oil):
-    answer = iso.chain(**gearset, **words, material=material, base_oil=oil, friction=0.06)
-    lost = sum(getattr(answer, name) for name in LOSSES)
-    assert answer.input_power == pytest.approx(answer.output_power + lost, rel=1e-12)
-    efficiency = answer.output_power / answer.input_power
-    assert answer.total_efficiency == pytest.approx(efficiency, rel=1e-12)
-    assert answer.total_efficiency < 1.0
-    assert all(getattr(answer, name) > 0.0 for name in LOSSES)
-
-
-@settings(max_examples=30)
-@given(st.lists(st.tuples(numbers, materials, oils), min_size=2, max_size=12), options)
-def test_a_gearset_alone_and_among_others_have_the_same_answer(gearsets, words):
-    columns = {name: np.array([g[name] for g, _, _ in gearsets]) for name in gearsets[0][0]}
-    together = iso.chain(
-        **columns,
-        **words,
-        material=[material for _, material, _ in gearsets],
-        base_oil=[oil for _, _, oil in gearsets],
-        on_invalid="mask",
-    )
-    for i, (gearset, material, oil) in enumerate(gearsets):
-        try:
-            alone = iso.chain(**gearset, **words, material=material, base_oil=oil)
-        except iso.FilmParameterError:
-            assert together.reason[i] == iso.NO_FILM
-            assert np.isnan(together.efficiency[i])
-            continue
-        assert together.reason[i] == 0
-        assert together.film_parameter[i] == pytest.approx(alone.film_parameter, abs=1e-15)
-        for name in ANSWERS:
-            expected = pytest.approx(getattr(alone, name), rel=1e-13)
-            assert getattr(together, name)[i] == expected, name
-        back = pytest.approx(alone.back_driving_efficiency, abs=1e-14, rel=1e-13)
-        assert together.back_driving_efficiency[i] == back
-
-
 @given(numbers, options)
 def test_centre_distance_and_profile_shift_lead_to_the_same_answer(gearset, words):
-    rest = {"material": "CuSn12-C-GZ", "base_oil": "polyglycol", "friction": 0.05}
-    shift = gearset.pop("profile_shift")
-    by_shift = iso.chain(**gearset, **words, **rest, profile_shift=shift)
-    by_distance = iso.chain(**gearset, **words, **rest, centre_distance=by_shift.centre_distance)
-    assert by_distance.profile_shift == pytest.approx(shift, abs=1e-12)
-    assert by_distance.total_efficiency == pytest.approx(by_shift.total_efficiency, rel=1e-12)
+    numbers = in_si(gearset)
+    shift = numbers["profile_shift"]
+    del numbers["axial_module"]
+    by_shift = rated(words, **numbers, axial_module=[4e-3])
+    distance = 1e-3 * by_shift.given.centre_distance
+    del numbers["profile_shift"]
+    by_distance = rated(words, **numbers, axial_module=[4e-3], centre_distance=distance)
+    assert by_distance.given.profile_shift == pytest.approx(shift, abs=1e-12)
+    for key in ("iso14521.eta_z1_2", "iso14521.eta_ges"):
+        np.testing.assert_allclose(by_distance[key], by_shift[key], rtol=1e-10)
 
 
 @given(numbers, st.sampled_from(["1998", "2010"]), st.sampled_from(["ZI", "ZC"]))
@@ -130,7 +109,8 @@ def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
     z1, z2, q = (gearset[name] for name in ("starts", "wheel_teeth", "diameter_factor"))
     m, alpha, x2 = (gearset[name] for name in ("axial_module", "pressure_angle", "profile_shift"))
     words = {"edition": edition, "flank": flank}
-    limits = iso.film_limits(z1, z2, q, m, alpha, x2, **words)
+    shape = {n: v for n, v in gearset.items() if n in iso.film_parameter.parameters}
+    limits = film_limits(iso.film_parameter.body, {**shape, **words})
     a = relations.centre_distance(m, q, z2, x2)
     for name, value in limits.items():
         if value is None:
@@ -158,16 +138,13 @@ def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
         assert sides[0] != sides[1], name
 
 
-@given(numbers)
-def test_more_roughness_or_base_friction_never_helps(gearset):
-    rest = {"material": "CuSn12-C-GZ", "base_oil": "mineral"}
-    shape = iso.chain(**gearset, **rest, base_friction=[0.03, 0.04], on_invalid="mask")
-    assume(np.all(shape.reason == 0))
-    assert shape.efficiency[0] > shape.efficiency[1]
-    rough = {**gearset, "worm_roughness": gearset["worm_roughness"] * np.array([1.0, 1.1])}
-    answer = iso.chain(**rough, **rest, on_invalid="mask")
-    assume(np.all(answer.reason == 0))
-    assert answer.efficiency[0] > answer.efficiency[1]
+@given(numbers, options)
+def test_more_roughness_or_base_friction_never_helps(gearset, words):
+    numbers = in_si(gearset)
+    rough = {**numbers, "worm_roughness": numbers["worm_roughness"] * np.array([1.0, 1.1])}
+    for varied in ({**numbers, "base_friction": [0.03, 0.04]}, rough):
+        eta = rated(words, **varied)["iso14521.eta_z1_2"]
+        assert np.isnan(eta).all() or not eta[0] <= eta[1]
 
 
 @given(leads, frictions, st.floats(1.0, 1e5), st.floats(0.2, 0.6))
@@ -181,21 +158,33 @@ def test_forces_give_the_work_that_the_efficiency_says(lead, mu, force, alpha):
     assert iso.separating_force(worm, alpha, lead, mu) > 0.0
 
 
+def branch_points():
+    """Where formulas bend, in their own units: name, formula and place."""
+    for family in get_args(Family):
+        for lubrication in get_args(Lubrication):
+            for oil in get_args(BaseOilName):
+                words = {"family": family, "lubrication": lubrication, "base_oil": oil}
+                law = iso.friction_constants(family, lubrication, oil)
+                cap = (law.gain / (law.cap - law.offset)) ** (1.0 / law.exponent) - law.shift
+                if cap > 0.0:
+                    yield functools.partial(iso.base_friction, **words), cap
+                wear = iso.wear_constants(family, lubrication, oil)
+                if math.isfinite(wear.cap):
+                    cap = (wear.scale / wear.cap) ** (1.0 / wear.exponent)
+                    yield functools.partial(iso.reference_wear_intensity, **words), cap
+    yield iso.pressure_factor, 450.0
+    yield iso.start_factor, 200.0
+    yield iso.pitting_life_factor, 25000.0 / 1.6**6
+    yield iso.pitting_ratio_factor, 20.5
+    yield iso.heat_transfer_coefficient, 150.0
+
+
 def test_no_formula_but_the_rim_factor_jumps_at_its_branch_points():
-    jumps = iso.jumps()
-    assert {jump.formula for jump in jumps} == {
-        "base_friction",
-        "reference_wear_intensity",
-        "pressure_factor",
-        "start_factor",
-        "pitting_life_factor",
-        "pitting_ratio_factor",
-        "heat_transfer_coefficient",
-        "rim_factor",
-    }
-    for jump in jumps:
-        if jump.formula != "rim_factor":
-            assert abs(jump.relative) < 1e-12, jump
+    places = list(branch_points())
+    assert len(places) > 20
+    for formula, at in places:
+        below, above = (formula(math.nextafter(at, end)) for end in (-math.inf, math.inf))
+        assert above == pytest.approx(below, rel=1e-12), formula
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1e-12, 1e-9))

@@ -8,9 +8,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from asperity.errors import InputError
+from asperity.formulas import Masked
 from asperity.rating import agma6034 as agma
 from asperity.rating import bs721, hertz, inverses, shaft
-from asperity.rating.formula import Masked
 
 MM, M_S, N, N_M, MPA, W = (
     25.4,

@@ -89,7 +89,7 @@ def test_the_json_names_units_and_turns_angles_into_degrees():
         ({"wheel_teeth": 4, "profile_shift": -1.0}, "wheel_teeth is 4; the wheel's root"),
         ({"tooth_proportions": "din"}, "'din'; it must be one of 'bs721', 'iso'"),
         ({"axial_module": -1.0}, "axial_module is -1; it must be positive"),
-        ({"pressure_angle": 2.0}, "pressure_angle is 2; .*between 0 and 90 deg"),
+        ({"pressure_angle": 2.0}, "pressure_angle is 2 rad; .*between 0 and 90 deg"),
     ],
 )
 def test_what_makes_no_gearset_is_refused(changes, message):
@@ -117,7 +117,7 @@ def test_relations_give_a_float_for_numbers_and_an_array_for_arrays():
         (relations.lead_angle, (1, math.nan), "diameter_factor is nan; it must be positive"),
         (relations.lead_angle, ("one", 8.4), "starts is 'one'; it must be a number"),
         (relations.centre_distance, (2, 8, 60, math.inf), "profile_shift is inf; .*finite"),
-        (relations.axial_module, (75, 8, 60, -34.0), "axial_module is not defined"),
+        (relations.axial_module, (75, 8, 60, -34.0), "m_x1 is not defined"),
         (relations.lead_angle, ([1, 2], [1, 2, 3]), r"the shapes .*\(2,\).*\(3,\).* do not go"),
     ],
 )

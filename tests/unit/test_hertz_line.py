@@ -57,18 +57,8 @@ def test_stress_grows_with_the_square_root_of_torque():
 
 
 def test_stress_of_the_disc_tests_asks_for_the_torque_of_the_thesis():
-    torque = hertz.wheel_torque_from_contact_stress(194.3, *gearset_3(8.36))
-    assert round(torque) == 23
-    # What the thesis's own pair of 366 N m and 778 N/mm2 leaves.
-    assert torque == pytest.approx(366.0 * (194.3 / 778.0) ** 2, rel=1e-3)
-
-
-def test_torque_from_stress_inverts_stress_from_torque():
-    torque = np.array([0.0, 1e-3, 23.0, 366.0, 1e5])
-    gearset = gearset_3(8.2)
-    stress = hertz.worm_contact_stress(torque, *gearset)
-    back = hertz.wheel_torque_from_contact_stress(stress, *gearset)
-    np.testing.assert_allclose(back, torque, rtol=1e-14)
+    stress = hertz.worm_contact_stress(np.array([22.5, 23.5]), *gearset_3(8.36))
+    assert stress[0] < 194.3 < stress[1]
 
 
 def test_stress_is_that_of_a_cylinder_on_a_plane():

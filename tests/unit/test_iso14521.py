@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError
-from asperity.gearset.materials import wheel_material
+from asperity.formulas import Masked
 from asperity.rating import iso14521 as iso
-from asperity.rating.formula import Masked
 
 ALPHA = math.radians(20.0)
 # Every formula with numbers it takes.
@@ -69,19 +68,6 @@ FORMULAS = {
     iso.bulk_temperature: (60.0, 1300.0, 23000.0, 0.0017),
 }
 NAMES = [formula.__name__ for formula in FORMULAS]
-GEARSET = {
-    "starts": 1,
-    "wheel_teeth": 60,
-    "diameter_factor": 10.8,
-    "axial_module": 1.70,
-    "centre_distance": 60.17,
-    "pressure_angle": ALPHA,
-    "worm_speed": 1440.0,
-    "worm_roughness": 1.6,
-    "material": "CuAl10Fe5Ni5-C-GZ",
-    "base_oil": "mineral",
-    "output_torque": 66.0,
-}
 
 
 def test_every_formula_of_the_package_is_in_the_table_of_this_file():
@@ -91,7 +77,7 @@ def test_every_formula_of_the_package_is_in_the_table_of_this_file():
         if inspect.isfunction(thing := getattr(iso, name))
         and "on_invalid" in inspect.signature(thing).parameters
     }
-    assert takes_arrays - {iso.chain} == set(FORMULAS)
+    assert takes_arrays == set(FORMULAS)
 
 
 @pytest.mark.parametrize(("formula", "numbers"), FORMULAS.items(), ids=NAMES)
@@ -173,8 +159,6 @@ def test_iron_knows_no_difference_between_bath_and_spray_and_bronzes_the_same_fr
         ("flank", "ZX", lambda word: iso.path_parameter(15.0, 0.3, flank=word)),
         ("immersed", "both", lambda word: iso.heat_transfer_coefficient(100.0, immersed=word)),
         ("on_invalid", "nan", lambda word: iso.size_factor(100.0, on_invalid=word)),
-        ("on_invalid", "nan", lambda word: iso.chain(**GEARSET, on_invalid=word)),
-        ("flank", "ZX", lambda word: iso.chain(**GEARSET, flank=word)),
     ],
 )
 def test_unknown_words_are_named_with_what_is_allowed(option, word, call):
@@ -295,133 +279,6 @@ def test_face_width_counts_in_1998_only():
         assert formula(*arguments, edition="1998", wheel_face_width=default) == pytest.approx(old)
         assert formula(*arguments, edition="1998", wheel_face_width=8.0) != pytest.approx(old)
         assert formula(*arguments, wheel_face_width=8.0) == formula(*arguments)
-
-
-def test_the_chain_is_its_formulas_one_after_another():
-    answer = iso.chain(**GEARSET)
-    lead = math.atan2(1.0, 10.8)
-    diameter, shift = 10.8 * 1.7, 60.17 / 1.7 - 0.5 * 70.8
-    velocity = iso.sliding_velocity(diameter, 1440.0, lead)
-    film = iso.film_parameter(1, 60, 10.8, 1.7, ALPHA, shift)
-    mu = iso.mean_friction(
-        iso.base_friction(velocity, family="aluminium bronze"),
-        iso.size_factor(60.17),
-        iso.geometry_factor(film),
-        wheel_material("CuAl10Fe5Ni5-C-GZ").material_factor,
-        iso.roughness_factor(1.6),
-    )
-    eta = iso.worm_driving_efficiency(lead, mu)
-    power = iso.output_power(66.0, 1440.0, 60.0)
-    lost = (
-        iso.meshing_loss(66.0, 1440.0, 60.0, eta)
-        + iso.idle_loss(60.17, 1440.0)
-        + iso.bearing_loss(power, 60.17, 60.0, 2.0 * 60.17 - diameter)
-        + iso.seal_loss(diameter, 1440.0)
-    )
-    assert answer.film_parameter == pytest.approx(film, rel=1e-13)
-    assert answer.mean_friction == pytest.approx(mu, rel=1e-13)
-    assert answer.efficiency == pytest.approx(eta, rel=1e-13)
-    assert answer.total_efficiency == pytest.approx(power / (power + lost), rel=1e-13)
-    assert answer.reason == 0
-    assert type(answer.efficiency) is float
-
-
-def test_the_chain_masks_each_gearset_with_its_reason():
-    columns = {
-        "wheel_teeth": np.array([60.0, 80.0, 60.0, 60.0, 60.0, math.nan]),
-        "centre_distance": np.array([60.17, 60.17, 9.0, 60.17, 60.17, 60.17]),
-        "worm_speed": np.array([1440.0, 1440.0, 1440.0, -1.0, 1440.0, 1440.0]),
-        "friction_factor": np.array([1.0, 1.0, 1.0, 1.0, 900.0, 1.0]),
-    }
-    answer = iso.chain(**{**GEARSET, **columns}, on_invalid="mask")
-    assert answer.reason[:3].tolist() == [0, iso.NO_FILM, iso.NO_WHEEL]
-    assert answer.reason[4] == iso.NOT_DRIVING
-    assert answer.legend[int(answer.reason[3])].startswith("worm_speed is not allowed")
-    assert answer.legend[int(answer.reason[5])].startswith("wheel_teeth is not allowed")
-    for name in ("efficiency", "input_power", "film_parameter", "lead_angle", "size_factor"):
-        values = getattr(answer, name)
-        assert np.isfinite(values[0])
-        assert np.isnan(values[1:]).all()
-    assert answer.efficiency[0] == pytest.approx(iso.chain(**GEARSET).efficiency, rel=1e-13)
-
-
-@pytest.mark.parametrize("place", ["centre_distance", "profile_shift"])
-@pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1e300, 1e300])
-def test_nonsense_in_any_number_of_the_chain_is_masked(place, wrong):
-    shape = {k: v for k, v in GEARSET.items() if isinstance(v, float | int)}
-    rest = {"material": "CuSn12-C-GZ", "base_oil": "polyglycol", "on_invalid": "mask"}
-    if place == "profile_shift":
-        shape = {**shape, "profile_shift": -0.1}
-        del shape["centre_distance"]
-    for name, value in shape.items():
-        answer = iso.chain(**{**shape, name: np.array([value, wrong])}, **rest)
-        assert answer.reason[0] == 0 < answer.reason[1]
-        assert answer.legend[int(answer.reason[1])].startswith(f"{name} is not allowed")
-        assert np.isnan(answer.total_efficiency).tolist() == [False, True]
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"worm_speed": -1.0}, "worm_speed is -1 rpm; it must be from"),
-        ({"worm_speed": "fast"}, "worm_speed is 'fast'; it must be a number"),
-        ({"worm_speed": [1.0, math.nan]}, "worm_speed is nan rpm"),
-        ({"pressure_angle": 20.0}, "pressure_angle is 20 rad"),
-        ({"centre_distance": 5.0}, "centre_distance is 5 mm; it must be above half the worm's"),
-        ({"profile_shift": 0.0}, "give one of centre_distance and profile_shift"),
-        ({"base_friction": 0.05, "friction": 0.05}, "give base_friction or friction, not both"),
-        ({"material": "CuAl"}, "no wheel material of that name"),
-        ({"base_oil": "minerals"}, "did you mean 'mineral'"),
-        ({"worm_speed": [1.0, 2.0], "starts": [1, 2, 3]}, "do not go together"),
-        ({"friction": 20.0, "starts": 6}, "the worm cannot drive"),
-    ],
-)
-def test_what_the_chain_cannot_take_is_said_in_one_line(change, message):
-    with pytest.raises(InputError, match=message) as error:
-        iso.chain(**{**GEARSET, **change})
-    assert "\n" not in str(error.value)
-
-
-def test_a_given_friction_needs_neither_film_nor_factors():
-    answer = iso.chain(**{**GEARSET, "wheel_teeth": 90}, friction=0.1, friction_factor=0.5)
-    assert answer.mean_friction == 0.05
-    assert answer.film_parameter is answer.base_friction is answer.geometry_factor is None
-    assert answer.efficiency == iso.worm_driving_efficiency(answer.lead_angle, 0.05)
-
-
-def test_a_given_base_friction_goes_through_the_factors():
-    plain, given = iso.chain(**GEARSET), iso.chain(**GEARSET, base_friction=0.055)
-    share = 0.055 / plain.base_friction
-    assert given.mean_friction == pytest.approx(share * plain.mean_friction, rel=1e-13)
-
-
-def test_without_a_torque_the_chain_ends_at_the_teeth():
-    answer = iso.chain(**{**GEARSET, "output_torque": None})
-    assert answer.efficiency == iso.chain(**GEARSET).efficiency
-    assert answer.total_efficiency is answer.output_power is answer.loss_meshing is None
-
-
-def test_the_chain_keeps_the_common_shape_over_many_blocks():
-    speeds = np.linspace(100.0, 3000.0, 70000).reshape(2, 1, 35000)
-    materials = np.array(["CuSn12-C-GZ", "CuAl10Fe5Ni5-C-GZ"]).reshape(2, 1, 1)
-    answer = iso.chain(**{**GEARSET, "worm_speed": speeds, "material": materials})
-    assert answer.efficiency.shape == answer.reason.shape == speeds.shape
-    for where in ((0, 0, 0), (0, 0, 34999), (1, 0, 17), (1, 0, 34999)):
-        own = {"worm_speed": speeds[where], "material": str(materials[where[0], 0, 0])}
-        alone = iso.chain(**{**GEARSET, **own})
-        assert answer.total_efficiency[where] == pytest.approx(alone.total_efficiency, rel=1e-13)
-
-
-def test_no_gearsets_have_no_answers():
-    answer = iso.chain(**{**GEARSET, "worm_speed": []})
-    assert answer.efficiency.shape == (0,)
-
-
-def test_materials_of_ones_own_are_taken_as_they_are():
-    own = wheel_material("CuAl10Fe5Ni5-C-GZ").model_copy(update={"material_factor": 0.9})
-    assert iso.chain(**{**GEARSET, "material": own}).material_factor == 0.9
-    both = iso.chain(**{**GEARSET, "material": [own, "CuSn12-C-GZ"]})
-    assert both.material_factor.tolist() == [0.9, 1.0]
 
 
 def test_violations_are_sentences_about_what_is_used():

@@ -69,8 +69,9 @@ class Mask:
 
     def refuse(self, where: npt.ArrayLike, sentence: str) -> None:
         """Give a reason where there is none yet; what holds for all is always remembered."""
-        new = np.broadcast_to(np.asarray(where), self.reason.shape) & (self.reason == 0)
-        if np.ndim(where) and not new.any():
+        holds = np.asarray(where)
+        new = np.broadcast_to(holds, self.reason.shape) & (self.reason == 0)
+        if not new.any() and (holds.ndim or not holds):
             return
         code = next((c for c, known in self.legend.items() if known == sentence), None)
         if code is None:

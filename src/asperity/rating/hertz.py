@@ -5,235 +5,79 @@ radius of curvature that an involute wheel has at its pitch point, on a plane, o
 the wheel's face matches it best; other choices come close, so that this one is inferred.
 """
 
-from typing import Any
+from typing import Annotated
 
 import numpy as np
-import numpy.typing as npt
 
-from asperity.rating.formula import Argument, FloatArray, Invalid, angle, evaluate, positive
+from asperity.arrays import Real
+from asperity.formulas import Symbol, formula, not_negative, positive
+from asperity.rating.iso14521.symbols import (
+    E_1,
+    E_2,
+    alpha_n,
+    gamma_m1,
+    m_x1,
+    nu_1,
+    nu_2,
+    q_1,
+)
 from asperity.sources import Source
 
 SOURCE = Source("Hertz line contact", "verified", "its use for gearset 3 is inferred")
 
+E_star = Annotated[Real, Symbol("E*", "MPa", positive)]
+W_n = Annotated[Real, Symbol("W_n", "N", not_negative)]
+rho = Annotated[Real, Symbol("rho", "mm", positive)]
+L = Annotated[Real, Symbol("L", "mm", positive)]
+T_2 = Annotated[Real, Symbol("T_2", "N m", not_negative)]
+d_2 = Annotated[Real, Symbol("d_2", "mm", positive)]
 
+
+@formula(symbol="E*", unit="MPa", equation="1/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2)", source=SOURCE)
 def contact_modulus(
-    youngs_modulus_1: npt.ArrayLike,
-    poisson_ratio_1: npt.ArrayLike,
-    youngs_modulus_2: npt.ArrayLike,
-    poisson_ratio_2: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Modulus of a contact of two bodies.
-
-    .. math:: \frac{1}{E^*} = \frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}
-
-    Parameters
-    ----------
-    youngs_modulus_1, youngs_modulus_2 : array_like
-        :math:`E_1, E_2`, MPa.
-    poisson_ratio_1, poisson_ratio_2 : array_like
-        :math:`\nu_1, \nu_2`, 0 to 0.5.
-    on_invalid : {'raise', 'mask'}
-        What to do with elements of arrays that are not allowed.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        :math:`E^*`, MPa; half of ISO/TR 14521's :math:`E_{red}`.
+    youngs_modulus_1: E_1, poisson_ratio_1: nu_1, youngs_modulus_2: E_2, poisson_ratio_2: nu_2
+) -> Real:
+    """Modulus of a contact of two bodies; half of ISO/TR 14521's E_red.
 
     Examples
     --------
     >>> round(contact_modulus(209e3, 0.3, 120e3, 0.3))
     83770
     """
-    return evaluate(
-        lambda e1, nu1, e2, nu2: 1.0 / ((1.0 - nu1**2) / e1 + (1.0 - nu2**2) / e2),
-        positive("youngs_modulus_1", youngs_modulus_1, "MPa"),
-        Argument("poisson_ratio_1", poisson_ratio_1, "", 0.0, 0.5),
-        positive("youngs_modulus_2", youngs_modulus_2, "MPa"),
-        Argument("poisson_ratio_2", poisson_ratio_2, "", 0.0, 0.5),
-        on_invalid=on_invalid,
-    )
+    first = (1.0 - poisson_ratio_1**2) / youngs_modulus_1
+    return 1.0 / (first + (1.0 - poisson_ratio_2**2) / youngs_modulus_2)
 
 
-def line_contact_stress(
-    normal_load: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    length: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Largest pressure of a cylinder on a plane.
-
-    .. math:: \sigma_c = \sqrt{\frac{W_n E^*}{\pi \rho L}}
-
-    Parameters
-    ----------
-    normal_load : array_like
-        :math:`W_n`, N.
-    radius, length : array_like
-        Reduced radius of curvature :math:`\rho`; length of contact :math:`L`, mm.
-    contact_modulus : array_like
-        :math:`E^*`, MPa.
-    on_invalid
-        As in `contact_modulus`.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        MPa.
+@formula(symbol="sigma_c", unit="MPa", equation="sqrt(W_n E*/(pi rho L))", source=SOURCE)
+def line_contact_stress(normal_load: W_n, radius: rho, length: L, contact_modulus: E_star) -> Real:
+    """Largest pressure of a cylinder of a reduced radius of curvature on a plane.
 
     Examples
     --------
     >>> round(line_contact_stress(100.0, 10.0, 10.0, 115384.6))
     192
     """
-    return evaluate(
-        _pressure,
-        Argument("normal_load", normal_load, "N", 0.0),
-        positive("radius", radius, "mm"),
-        positive("length", length, "mm"),
-        positive("contact_modulus", contact_modulus, "MPa"),
-        on_invalid=on_invalid,
-    )
+    return np.sqrt(normal_load * contact_modulus / (np.pi * radius * length))
 
 
+@formula(
+    symbol="sigma_c",
+    unit="MPa",
+    equation="sqrt(W_n E*/(pi rho L)) with W_n = 2000 T_2/(d_2 cos(alpha_n) cos(gamma_m1)), "
+    "rho = d_2 sin(alpha_n)/2, L = 2 m_x1 sqrt(q_1 + 1)",
+    source=SOURCE,
+)
 def worm_contact_stress(
-    wheel_torque: npt.ArrayLike,
-    wheel_diameter: npt.ArrayLike,
-    axial_module: npt.ArrayLike,
-    diameter_factor: npt.ArrayLike,
-    lead_angle: npt.ArrayLike,
-    pressure_angle: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Line-contact stress of worm and wheel.
-
-    `line_contact_stress` with
-
-    .. math:: W_n = \frac{2 T_2}{d_2 \cos\alpha_n \cos\gamma}, \qquad
-       \rho = \frac{d_2}{2} \sin\alpha_n, \qquad L = 2 m \sqrt{q + 1}
-
-    Parameters
-    ----------
-    wheel_torque : array_like
-        :math:`T_2`, N m.
-    wheel_diameter, axial_module : array_like
-        Pitch diameter of the wheel :math:`d_2`; :math:`m`, mm.
-    diameter_factor : array_like
-        :math:`q`, [-].
-    lead_angle, pressure_angle : array_like
-        :math:`\gamma`; normal pressure angle :math:`\alpha_n`, rad.
-    contact_modulus : array_like
-        :math:`E^*`, MPa.
-    on_invalid
-        As in `contact_modulus`.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        :math:`\sigma_c`, MPa.
-    """
-    return evaluate(
-        lambda torque, *rest: _pressure(torque / _arm(*rest[:5]), *_shape(*rest)),
-        Argument("wheel_torque", wheel_torque, "N m", 0.0),
-        *_gearset(
-            wheel_diameter,
-            axial_module,
-            diameter_factor,
-            lead_angle,
-            pressure_angle,
-            contact_modulus,
-        ),
-        on_invalid=on_invalid,
-    )
-
-
-def wheel_torque_from_contact_stress(
-    contact_stress: npt.ArrayLike,
-    wheel_diameter: npt.ArrayLike,
-    axial_module: npt.ArrayLike,
-    diameter_factor: npt.ArrayLike,
-    lead_angle: npt.ArrayLike,
-    pressure_angle: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Wheel torque that makes a line-contact stress; the inverse of `worm_contact_stress`.
-
-    .. math:: T_2 = \frac{\pi \rho L \sigma_c^2}{E^*} \frac{d_2}{2} \cos\alpha_n \cos\gamma
-
-    Parameters
-    ----------
-    contact_stress : array_like
-        :math:`\sigma_c`, MPa.
-    wheel_diameter, axial_module, diameter_factor, lead_angle, pressure_angle, contact_modulus
-        As in `worm_contact_stress`.
-    on_invalid
-        As in `contact_modulus`.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        N m.
-    """
-    return evaluate(
-        lambda stress, *rest: _load(stress, *_shape(*rest)) * _arm(*rest[:5]),
-        Argument("contact_stress", contact_stress, "MPa", 0.0),
-        *_gearset(
-            wheel_diameter,
-            axial_module,
-            diameter_factor,
-            lead_angle,
-            pressure_angle,
-            contact_modulus,
-        ),
-        on_invalid=on_invalid,
-    )
-
-
-def _gearset(
-    d2: npt.ArrayLike,
-    m: npt.ArrayLike,
-    q: npt.ArrayLike,
-    lead: npt.ArrayLike,
-    pressure: npt.ArrayLike,
-    modulus: npt.ArrayLike,
-) -> tuple[Argument, ...]:
-    return (
-        positive("wheel_diameter", d2, "mm"),
-        positive("axial_module", m, "mm"),
-        positive("diameter_factor", q),
-        angle("lead_angle", lead),
-        angle("pressure_angle", pressure),
-        positive("contact_modulus", modulus, "MPa"),
-    )
-
-
-def _pressure(load: FloatArray, radius: FloatArray, length: FloatArray, e: FloatArray) -> Any:
-    return np.sqrt(load * e / (np.pi * radius * length))
-
-
-def _load(pressure: FloatArray, radius: FloatArray, length: FloatArray, e: FloatArray) -> Any:
-    return np.pi * radius * length * pressure**2 / e
-
-
-def _arm(d2: FloatArray, m: FloatArray, q: FloatArray, lead: FloatArray, phi: FloatArray) -> Any:
-    """N m of wheel torque for each N between the flanks."""
-    return 0.5e-3 * d2 * np.cos(phi) * np.cos(lead)
-
-
-def _shape(
-    d2: FloatArray,
-    m: FloatArray,
-    q: FloatArray,
-    lead: FloatArray,
-    phi: FloatArray,
-    modulus: FloatArray,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    return 0.5 * d2 * np.sin(phi), 2.0 * m * np.sqrt(q + 1.0), modulus
+    wheel_torque: T_2,
+    wheel_diameter: d_2,
+    axial_module: m_x1,
+    diameter_factor: q_1,
+    lead_angle: gamma_m1,
+    pressure_angle: alpha_n,
+    contact_modulus: E_star,
+) -> Real:
+    """Line-contact stress of worm and wheel, by the wheel's pitch diameter."""
+    arm = 0.5e-3 * wheel_diameter * np.cos(pressure_angle) * np.cos(lead_angle)
+    radius = 0.5 * wheel_diameter * np.sin(pressure_angle)
+    length = 2.0 * axial_module * np.sqrt(diameter_factor + 1.0)
+    return np.sqrt(wheel_torque / arm * contact_modulus / (np.pi * radius * length))

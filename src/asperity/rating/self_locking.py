@@ -16,13 +16,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import Real
+from asperity.formulas import formula
 from asperity.rating import agma6034, bs721
-from asperity.rating.formula import Argument, Invalid, angle, evaluate
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
 from asperity.rating.iso14521 import friction as iso_friction
+from asperity.rating.iso14521.symbols import alpha_n, gamma_m1
 from asperity.rating.result import Rating
 
 State = Literal["static", "dynamic"]
@@ -114,30 +115,12 @@ class SelfLocking:
         ]
 
 
-def locking_friction(
-    lead_angle: npt.ArrayLike,
-    pressure_angle: npt.ArrayLike | None = None,
-    *,
-    on_invalid: Invalid = "raise",
-) -> Any:
-    r"""Coefficient of friction from which on a worm locks itself.
+@formula(symbol="mu", equation="tan(gamma_m1)")
+def locking_friction(lead_angle: gamma_m1, pressure_angle: alpha_n | None = None) -> Real:
+    """Coefficient of friction from which on a worm locks itself.
 
-    .. math:: \mu = \tan\gamma_{m1} \quad \text{(ISO/TR 14521, BS 721)}, \qquad
-        \mu = \cos\alpha_n \tan\gamma_{m1} \quad \text{(AGMA 6034)}
-
-    Parameters
-    ----------
-    lead_angle : array_like
-        :math:`\gamma_{m1}`, rad.
-    pressure_angle : array_like, optional
-        :math:`\alpha_n`, rad, for AGMA 6034.
-    on_invalid : {'raise', 'mask'}
-        What to do with elements of arrays that are not allowed.
-
-    Returns
-    -------
-    float, ndarray or Masked
-        The coefficient of friction.
+    Shown for ISO/TR 14521 and BS 721; with a pressure angle that of AGMA 6034,
+    cos(alpha_n) tan(gamma_m1).
 
     Examples
     --------
@@ -145,42 +128,8 @@ def locking_friction(
     >>> round(locking_friction(math.atan(1 / 10.8)), 4)
     0.0926
     """
-    if pressure_angle is None:
-        return evaluate(np.tan, angle("lead_angle", lead_angle), on_invalid=on_invalid)
-    return evaluate(
-        lambda lead, alpha: np.cos(alpha) * np.tan(lead),
-        angle("lead_angle", lead_angle),
-        angle("pressure_angle", pressure_angle),
-        on_invalid=on_invalid,
-    )
-
-
-def locks(lead_angle: npt.ArrayLike, friction: npt.ArrayLike) -> Any:
-    r"""Whether a worm locks itself, :math:`\gamma_{m1} \le \arctan\mu`.
-
-    Parameters
-    ----------
-    lead_angle : array_like
-        rad.
-    friction : array_like
-        Coefficient of friction; under vibration the effective one.
-
-    Returns
-    -------
-    bool or ndarray of bool
-        Where the efficiency with the wheel driving is not above zero.
-
-    Examples
-    --------
-    >>> locks(0.0923, 0.148), locks(0.0923, 0.5 * 0.148)
-    (True, False)
-    """
-    answer = evaluate(
-        lambda lead, mu: np.where(lead <= np.arctan(mu), 1.0, 0.0),
-        angle("lead_angle", lead_angle),
-        Argument("friction", friction, lower=0.0),
-    )
-    return answer > 0.5 if np.ndim(answer) else bool(answer)
+    share = 1.0 if pressure_angle is None else np.cos(pressure_angle)
+    return share * np.tan(lead_angle)
 
 
 def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: bs721.Tables) -> SelfLocking:
