@@ -20,6 +20,9 @@ import numpy as np
 
 HERE = Path(__file__).parent
 
+# A number among words, with more digits than are compared.
+_LONG = re.compile(r"^-?\d[\d.]{13,}(e[+-]?\d+)?$")
+
 _MOST_KEPT_WHOLE = 24
 _SAMPLES = 16
 
@@ -172,7 +175,7 @@ def digest(array):
     """An array as a list where it is short; else samples evenly over it, and moments."""
     array = np.asarray(array)
     if array.dtype.kind not in "biuf":
-        words = [str(value) for value in array.ravel()]
+        words = [_LONG.sub(_shorter, str(value)) for value in array.ravel()]
         kept = words if len(words) <= _MOST_KEPT_WHOLE else _hash(words)
         return {"shape": list(array.shape), "words": kept}
     flat = array.ravel().astype(float)
@@ -196,6 +199,10 @@ def digest(array):
             "weighted": float((there * np.cos(np.arange(flat.size))).mean()),
         }
     return kept
+
+
+def _shorter(number):
+    return f"{float(number[0]):.11g}"
 
 
 def _hash(words):
