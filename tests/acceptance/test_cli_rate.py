@@ -107,7 +107,7 @@ def test_files_hold_the_same_numbers(asperity, own, tmp_path):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity("rate", own, "--json", "--out", folder)
     assert code == 0
-    assert errors == f"written to {folder}: rate.json, rate.html, rate.csv\n"
+    assert errors == f"written to {folder}: rate.json, rate.nc, rate.html, rate.csv\n"
     answer = one_object(output)
     assert json.loads((folder / "rate.json").read_text()) == answer
     with (folder / "rate.csv").open(newline="") as file:
@@ -129,7 +129,7 @@ def test_standard_that_cannot_be_applied_is_null_with_a_note(asperity, own):
     assert any(note.startswith("agma6034: ") for note in answer["notes"])
     code, output, errors = asperity("rate", own, *iron, "--standard", "agma6034")
     assert (code, output) == (2, "")
-    assert errors.startswith(f"{own}: gearset.wheel_material is 'EN-GJS-400-15'")
+    assert errors.startswith("--set gearset.wheel_material=EN-GJS-400-15: gearset.wheel_material")
 
 
 def test_end_of_h_star_is_one_line_with_the_effect_of_ratio_and_module(asperity):

@@ -353,7 +353,7 @@ def test_end_of_h_star_names_what_drives_it_and_the_effect_of_ratio_and_module()
 
 def test_numbers_that_do_not_belong_together_are_refused_whatever_the_standard():
     for standards in (STANDARDS, ("bs721",)):
-        with pytest.raises(InputError, match=r"gearset-3: gearset\.centre_distance is 80 mm; with"):
+        with pytest.raises(InputError, match=r": gearset\.centre_distance is 80 mm; with"):
             rate_case(case("gearset-3", "gearset.centre_distance=80 mm"), standards)
 
 
