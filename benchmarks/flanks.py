@@ -26,7 +26,7 @@ from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.analysis import analyse
 from asperity.flanks.meshing.pattern.marking import pattern
 from asperity.flanks.meshing.transmission import transmission
-from asperity.flanks.study import prepare_case
+from asperity.flanks.study import prepare
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.distance import distances
@@ -147,7 +147,7 @@ def main():
     """Run all and print one line a figure."""
     on_one_core()
     case = read_case("gearset-3b", {**RATING, **FLANKS})
-    wheel = Wheel.cut(prepare_case(case).wheel.pair)
+    wheel = Wheel.cut(prepare(case).wheel.pair)
     both_flanks(wheel)
     report = {}
     cutting(wheel, report)

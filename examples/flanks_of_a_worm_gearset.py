@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from asperity.casefile import read_case
-from asperity.flanks.study import prepare_case, study
+from asperity.flanks.study import prepare, study
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
 
@@ -21,7 +21,7 @@ TABLES = {**RATING, **FLANKS}
 
 def found(*settings):
     case = read_case("gearset-3b", TABLES, ["mount.backlash=0.05 mm", *settings])
-    return study(prepare_case(case, "coarse"))
+    return study(prepare(case, density="coarse"))
 
 
 # %%

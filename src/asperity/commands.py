@@ -180,5 +180,21 @@ COMMANDS = (
         prepare="asperity.studies.optimise:prepare",
         solve="asperity.studies.optimise:answer",
     ),
+    Command(
+        "flank",
+        "Cut a worm wheel exactly: its contact, transmission error, backlash and mesh.",
+        "With --out also flank.json, flank.nc, pictures, and tooth and worm as mesh and surface.",
+        prepare="asperity.flanks.study:prepare",
+        solve="asperity.flanks.study:answer",
+        options=(
+            Option(
+                "density",
+                "Of the mesh: coarse, intermediate, fine, or an element size as '0.5 mm'.",
+                "SIZE",
+                default="intermediate",
+            ),
+            Option("step", "Also write tooth and worm as STEP, with --out.", default=False),
+        ),
+    ),
 )
 """In the order of the help."""

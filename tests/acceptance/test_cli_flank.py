@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from asperity.cli.main import main
+from asperity.errors import ConvergenceError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.store import read_dataset
 from asperity.units import quantity_of, to_si
@@ -242,6 +244,17 @@ def test_a_worm_that_misses_the_wheel_is_no_convergence(asperity):
     assert code == 3
     assert errors.startswith("the worm reaches no tooth")
     assert one_object(output)["reached"] == {"share_of_pitch": 0.0}
+
+
+def test_what_was_reached_may_be_no_number(capsys, monkeypatch):
+    def lost(prepared):
+        raise ConvergenceError("lost", reached={"backlash_mm": math.nan})
+
+    monkeypatch.setattr("asperity.flanks.study.study", lost)
+    with pytest.raises(SystemExit) as ended:
+        main(["flank", "gearset-3b", "--json"])
+    assert ended.value.code == 3
+    assert one_object(capsys.readouterr().out)["reached"] == {"backlash_mm": None}
 
 
 @pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount])

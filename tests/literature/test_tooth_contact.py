@@ -127,8 +127,8 @@ def test_other_flanks_with_an_oversized_hob_do_not_run_evenly_either():
 
 def test_oversized_and_tilted_hob_leaves_the_known_ease_off(tilted):
     for flank in tilted.flanks.values():
-        assert 1e3 * flank.ease_off.smallest == pytest.approx(-8.0, abs=0.5)
-        assert 1e3 * flank.ease_off.largest == pytest.approx(156.0, abs=0.5)
+        assert flank.ease_off.smallest == pytest.approx(-8.0, abs=0.5)
+        assert flank.ease_off.largest == pytest.approx(156.0, abs=0.5)
 
 
 def test_blue_dye_shows_a_pattern_near_the_face_edge_and_tilting_the_hob_brings_it_inwards(

@@ -27,6 +27,7 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
+from asperity.results.table import text_of
 from asperity.store import read_dataset, write_dataset
 
 CASE = read_case("gearset-3b", case_tables(), ())
@@ -261,6 +262,16 @@ def test_answers_have_the_keys_of_the_command_and_survive_a_file(tilted, tmp_pat
     assert all(np.isfinite(v).all() for v in dataset.data_vars.values())
     write_dataset(dataset, tmp_path / "flank.nc")
     assert read_dataset(tmp_path / "flank.nc").sizes == dataset.sizes
+
+
+def test_what_is_below_what_the_method_resolves_is_shown_as_none(tilted):
+    plus = {
+        entry.key: text_of(entry.value, entry.resolution) for entry in tilted.flanks[1].entries()
+    }
+    assert 0.0 < tilted.flanks[1].transmission.peak_to_peak < 1e-12
+    assert plus["transmission_error_rad"] == plus["conjugacy_residual_mm"] == "none"
+    assert plus["ease_off_max_um"] == "156.03"
+    assert plus["transmission_error_mean_rad"] != "none"
 
 
 def test_flanks_without_a_base_cylinder_say_so():

@@ -1,16 +1,10 @@
-"""Pictures of flanks show what they are given: shape, units, and what is bare."""
+"""Pictures of flanks show what their dataset holds: shape, units, and what is bare."""
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from asperity.flanks.plots import (
-    FlankMap,
-    plot_contact_lines,
-    plot_ease_off,
-    plot_pattern,
-    plot_transmission_error,
-    plot_vibration,
-)
+from asperity.flanks import plots
 
 ROWS, COLUMNS = 12, 15
 FACE = np.broadcast_to(np.linspace(-6.0, 6.0, COLUMNS), (ROWS, COLUMNS))
@@ -18,12 +12,26 @@ RADIUS = np.linspace(62.0, 67.0, ROWS)[:, None] + 0.05 * FACE**2
 PITCH = np.pi / 2.0
 
 
-def over_the_flank(values, side=1):
-    return FlankMap(side, FACE, RADIUS, np.broadcast_to(values, FACE.shape).astype(float))
+def dataset(**values):
+    """Both flanks, the other one mirrored: maps by name, and what has a side alone."""
+
+    def sides(array):
+        array = np.asarray(array, dtype=float)
+        if array.ndim == 0:
+            return ("side", np.array([1.0, -1.0]) * array)
+        over = np.broadcast_to(array, FACE.shape)
+        return (("side", "row", "column"), np.stack([over, over[:, ::-1]]))
+
+    maps = {"face": np.zeros(1), "radius": RADIUS, "compared": np.ones(1)} | values
+    found = xr.Dataset({name: sides(each) for name, each in maps.items()}, {"side": [1, -1]})
+    found["face"] = (("side", "row", "column"), np.stack([FACE, FACE]))
+    return found.assign(pitch=PITCH, marking_thickness=6e-3)
 
 
-def both(values):
-    return [over_the_flank(values), over_the_flank(np.asarray(values)[:, ::-1], side=-1)]
+def with_error(error):
+    return dataset().assign(
+        transmission_error=(("side", "place"), np.stack([1e-3 + error, -error]))
+    )
 
 
 def labels(axes):
@@ -31,7 +39,7 @@ def labels(axes):
 
 
 def test_the_outline_runs_once_round_the_flank():
-    face, radius = over_the_flank(0.0).outline
+    face, radius = plots.outline(FACE, RADIUS)
     assert len(face) == 2 * (ROWS + COLUMNS) - 3
     assert (face[0], radius[0]) == (face[-1], radius[-1])
     area = 0.5 * np.sum(face[:-1] * radius[1:] - face[1:] * radius[:-1])
@@ -39,7 +47,9 @@ def test_the_outline_runs_once_round_the_flank():
 
 
 def test_pattern_marks_its_centre_and_only_what_lies_below_the_film():
-    figure = plot_pattern(both((FACE - 1.0) ** 2), 6.0, [(1.0, 65.0), (-1.0, 65.0)])
+    gap = 1e-3 * (FACE - 1.0) ** 2
+    shown = dataset(gap=gap, pattern_face=1.0)
+    figure = plots.pattern(shown.assign(pattern_radius=("side", [65.0, 65.0])))
     left, right, bar = figure.axes
     assert "6" in bar.get_xlabel()
     assert "µm" in bar.get_xlabel()
@@ -55,14 +65,14 @@ def test_pattern_marks_its_centre_and_only_what_lies_below_the_film():
 
 
 def test_a_flank_that_bears_nowhere_is_bare():
-    figure = plot_pattern(both(np.full(FACE.shape, 9.0)), 6.0, [(0.0, 65.0), (0.0, 65.0)])
+    figure = plots.pattern(dataset(gap=np.full(FACE.shape, 9e-3)))
     assert len(figure.axes) == 2
     assert not figure.axes[0].collections
 
 
 @pytest.mark.parametrize("size", [0.0, 150.0])
-def test_ease_off_covers_its_range_also_where_there_is_none(size):
-    figure = plot_ease_off(both(size * (FACE / 6.0) ** 2 - 8.0))
+def test_ease_off_covers_its_range_also_where_it_is_even(size):
+    figure = plots.ease_off(dataset(ease_off=1e-3 * (size * (FACE / 6.0) ** 2 - 8.0)))
     bar = figure.axes[-1]
     assert "(µm)" in bar.get_xlabel()
     low, high = bar.get_xlim()
@@ -70,10 +80,17 @@ def test_ease_off_covers_its_range_also_where_there_is_none(size):
     assert high >= size - 8.0
 
 
+def test_ease_off_that_is_rounding_is_said_to_be_none():
+    noise = 1e-14 * np.random.default_rng(1).standard_normal(FACE.shape)
+    left, right = plots.ease_off(dataset(ease_off=noise)).axes
+    for panel in (left, right):
+        assert [text.get_text() for text in panel.texts] == ["none"]
+        assert not panel.collections
+
+
 def test_contact_lines_are_drawn_where_the_worm_is_nearest_and_nowhere_else():
-    phase = np.broadcast_to((RADIUS - 65.0) * 0.9, FACE.shape).copy()
-    phase[FACE > 3.0] = np.nan
-    figure = plot_contact_lines(both(phase), PITCH)
+    phase = np.broadcast_to((RADIUS - 65.0) * 0.9, FACE.shape)
+    figure = plots.contact_lines(dataset(phase=phase, reach=3.0 - FACE))
     assert "90°" in figure.get_suptitle()
     drawn = [path.vertices for lines in figure.axes[0].collections for path in lines.get_paths()]
     assert max(vertices[:, 0].max() for vertices in drawn if len(vertices)) <= 3.0 + 1e-9
@@ -81,34 +98,32 @@ def test_contact_lines_are_drawn_where_the_worm_is_nearest_and_nowhere_else():
 
 
 def test_transmission_error_is_drawn_about_its_mean_in_microradians():
-    angle = np.linspace(0.0, PITCH, 33)
-    error = 3e-6 * np.cos(4.0 * angle)
-    figure = plot_transmission_error(angle, {1: 1e-3 + error, -1: -error}, PITCH)
+    angle = np.linspace(0.0, PITCH, 32, endpoint=False)
+    figure = plots.transmission_error(with_error(3e-6 * np.cos(4.0 * angle)))
     (axes,) = figure.axes
     assert "(µrad)" in axes.get_ylabel()
     plus, minus = axes.lines
+    assert len(plus.get_xdata()) == 33
     assert np.ptp(plus.get_ydata()) == pytest.approx(6.0)
     assert np.mean(minus.get_ydata()) == pytest.approx(0.0, abs=1e-12)
     assert axes.get_xlim() == pytest.approx((0.0, 90.0))
 
 
 def test_rounding_is_not_blown_up_to_a_transmission_error():
-    angle = np.linspace(0.0, PITCH, 33)
-    figure = plot_transmission_error(angle, {1: 1e-16 * np.sin(angle)}, PITCH)
-    assert figure.axes[0].get_ylim() == (-1.0, 1.0)
+    (axes,) = plots.transmission_error(with_error(1e-16 * np.sin(np.arange(32.0)))).axes
+    assert axes.get_ylim() == (-1.0, 1.0)
+    assert [text.get_text() for text in axes.texts] == ["none"]
 
 
 def test_vibration_has_a_panel_for_each_direction_and_part_on_one_scale():
-    maps = {
-        direction: {part: over_the_flank(value) for part, value in parts.items()}
-        for direction, parts in {
-            "axial": {"along": 0.4, "across": 0.4, "normal": -0.8},
-            "torsional": {"along": 0.9, "across": 0.0, "normal": 0.4},
-        }.items()
-    }
-    names = {"axial": "worm, along", "torsional": "worm, about"}
-    figure = plot_vibration(maps, names)
+    directions, parts = (
+        ["axial", "torsional", "wheel_axial", "screw"],
+        ["along", "across", "normal"],
+    )
+    shown = dataset().assign_coords(direction=directions, part=parts)
+    over = ("side", "row", "column", "direction", "part")
+    figure = plots.vibration(shown.assign(vibration=(over, np.full((2, *FACE.shape, 4, 3), 0.4))))
     *panels, bar = figure.axes
-    assert len(panels) == 6
-    assert [panel.get_title() for panel in panels[:3]] == ["along", "across", "normal"]
+    assert len(panels) == 9
+    assert [panel.get_title() for panel in panels[:3]] == parts
     assert bar.get_ylim() == pytest.approx((-1.05, 1.05))

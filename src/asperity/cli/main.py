@@ -117,34 +117,6 @@ for _listed in COMMANDS:
 
 @app.command()
 @reported
-def flank(
-    case: CaseArgument,
-    density: Annotated[
-        str,
-        typer.Option(
-            "--density",
-            metavar="SIZE",
-            help="Of the mesh: coarse, intermediate, fine, or an element size as '0.5 mm'.",
-        ),
-    ] = "intermediate",
-    step: Annotated[
-        bool, typer.Option("--step", help="Also write tooth and worm as STEP, with --out.")
-    ] = False,
-    settings: SetOption = None,
-    as_json: JsonOption = False,
-    out: OutOption = None,
-) -> None:
-    """Cut a worm wheel exactly: its contact, transmission error, backlash and mesh.
-
-    With --out also flank.json, flank.nc, pictures, and tooth and worm as mesh and surface.
-    """
-    from asperity.cli.flank import flank as run
-
-    run(case, settings or (), density=density, step=step, as_json=as_json, out=out)
-
-
-@app.command()
-@reported
 def export(
     case: CaseArgument,
     program: Annotated[str, typer.Option("--to", metavar="PROGRAM", help="abaqus or calculix.")],

@@ -1,161 +1,93 @@
-"""Pictures of flanks and of what happens on them.
+"""Pictures of flanks and of what happens on them, drawn from the dataset of a study alone.
 
 Maps lie over the flank as it is seen along the tooth: across, the distance from mid-face along the
-wheel's axis; upwards, the distance from the wheel's axis.
+wheel's axis; upwards, the distance from the wheel's axis. There is a panel for each flank.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.flanks.wheel.flank import RESOLVED
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _GROUND = "#F2F2F2"
 _LINES = 12
 _SIDES = {1: BLUE, -1: VERMILION}
+_MICROMETRES = 1e3
+_SHAKEN = {"axial": "worm, axial", "torsional": "worm, torsional", "wheel_axial": "wheel, axial"}
 
 
-@dataclass(frozen=True, eq=False)
-class FlankMap:
-    """Values over one flank.
-
-    Attributes
-    ----------
-    side : int
-        Which flank, 1 or -1.
-    face, radius : ndarray, shape (rows, columns)
-        Distance from mid-face and from the wheel's axis, mm.
-    values : ndarray, shape (rows, columns)
-        What is drawn.
-    """
-
-    side: int
-    face: FloatArray
-    radius: FloatArray
-    values: FloatArray
-
-    @property
-    def name(self) -> str:
-        """How the flank is called in a picture."""
-        return f"flank s = {self.side:+d}"
-
-    @property
-    def outline(self) -> tuple[FloatArray, FloatArray]:
-        """The edge of the flank, closed."""
-
-        def round_it(values: FloatArray) -> FloatArray:
-            return np.concatenate(
-                [values[0], values[1:, -1], values[-1, -2::-1], values[-2::-1, 0]]
-            )
-
-        return round_it(self.face), round_it(self.radius)
-
-
-def plot_pattern(
-    maps: Sequence[FlankMap], film: float, centres: Sequence[tuple[float, float]]
-) -> "Figure":
-    """Draw where the marking compound is squeezed out.
-
-    Parameters
-    ----------
-    maps : sequence of FlankMap
-        Smallest gap over all phases, micrometres, a panel each.
-    film : float
-        Thickness of the compound, micrometres.
-    centres : sequence of tuple of float
-        Place of each pattern's centre, face and radius, mm.
-    """
-    figure, axes = _flanks(maps)
+def pattern(dataset: "xr.Dataset") -> "Figure":
+    """Draw where the marking compound is squeezed out."""
+    figure, axes = _flanks(dataset)
+    film = _MICROMETRES * float(dataset["marking_thickness"].max())
     filled: Any = None
-    for panel, shown, (face, radius) in zip(axes, maps, centres, strict=True):
-        panel.fill(*shown.outline, color=_GROUND, zorder=0)
-        if shown.values.min() < film:
+    for panel, flank in zip(axes, _each(dataset), strict=True):
+        face, radius = flank["face"].values, flank["radius"].values
+        gap = np.maximum(_MICROMETRES * flank["gap"].values, 0.0)
+        if gap.min() < film:
             levels = np.linspace(0.0, film, 7)
-            gap = np.maximum(shown.values, 0.0)
-            filled = panel.contourf(
-                shown.face, shown.radius, gap, levels=levels, cmap="viridis", extend="neither"
-            )
-            panel.contour(
-                shown.face, shown.radius, gap, levels=[film], colors=BLACK, linewidths=1.0
-            )
-            panel.plot(
-                face, radius, linestyle="none", marker="+", markersize=13.0, markeredgewidth=2.2,
-                color="white",
-            )  # fmt: skip
-            panel.plot(
-                face, radius, linestyle="none", marker="+", markersize=11.0, markeredgewidth=1.2,
-                color=BLACK,
-            )  # fmt: skip
-        panel.plot(*shown.outline, color=BLACK, linewidth=1.2)
+            filled = panel.contourf(face, radius, gap, levels=levels, cmap="viridis")
+            panel.contour(face, radius, gap, levels=[film], colors=BLACK, linewidths=1.0)
+            centre = float(flank["pattern_face"]), float(flank["pattern_radius"])
+            for size, width, colour in ((13.0, 2.2, "white"), (11.0, 1.2, BLACK)):
+                panel.plot(
+                    *centre, linestyle="none", marker="+", markersize=size, color=colour,
+                    markeredgewidth=width,
+                )  # fmt: skip
     if filled is not None:
         _bar(figure, filled, axes, f"gap (µm), bare above {film:g}; + centre")
     return figure
 
 
-def plot_ease_off(maps: Sequence[FlankMap]) -> "Figure":
-    """Draw how much less material the wheel has than one cut by an identical hob.
-
-    Parameters
-    ----------
-    maps : sequence of FlankMap
-        Ease-off, micrometres, a panel each; NaN where there is nothing to compare with.
-    """
-    figure, axes = _flanks(maps)
-    known = np.concatenate([shown.values[np.isfinite(shown.values)] for shown in maps])
-    low, high = float(known.min()), float(known.max())
-    filled: Any = None
-    if high - low < 1e-6:
-        # The same hob: nothing but rounding is left, and that is no map.
+def ease_off(dataset: "xr.Dataset") -> "Figure":
+    """Draw how much less material the wheel has than one cut by an identical hob."""
+    figure, axes = _flanks(dataset)
+    removed = _MICROMETRES * dataset["ease_off"].where(dataset["compared"].astype(bool))
+    low, high = float(removed.min()), float(removed.max())
+    rounding = _MICROMETRES * RESOLVED
+    if max(-low, high) <= rounding:
+        for panel in axes:
+            _none(panel)
+        return figure
+    if high - low <= rounding:
         low, high = low - 1.0, high + 1.0
     levels = _levels(low, high)
-    for panel, shown in zip(axes, maps, strict=True):
-        panel.fill(*shown.outline, color=_GROUND, zorder=0)
-        filled = panel.contourf(
-            shown.face, shown.radius, shown.values, levels=levels, cmap="cividis"
-        )
-        lines = panel.contour(
-            shown.face, shown.radius, shown.values, levels=levels, colors="white", linewidths=0.7
-        )
+    filled: Any = None
+    for panel, flank, side in zip(axes, _each(dataset), dataset["side"], strict=True):
+        face, radius, values = flank["face"], flank["radius"], removed.sel(side=side)
+        filled = panel.contourf(face, radius, values, levels=levels, cmap="cividis")
+        lines = panel.contour(face, radius, values, levels=levels, colors="white", linewidths=0.7)
         panel.clabel(lines, levels[::2], fmt="%g", fontsize=8.5)
-        panel.plot(*shown.outline, color=BLACK, linewidth=1.2)
     _bar(figure, filled, axes, "ease-off (µm), positive where material was removed")
     return figure
 
 
-def plot_contact_lines(maps: Sequence[FlankMap], pitch: float) -> "Figure":
-    """Draw contact lines over the flank.
-
-    Parameters
-    ----------
-    maps : sequence of FlankMap
-        Angle of the worm at which each point is nearest to it, rad, a panel each; NaN where the
-        worm's flank is never nearest.
-    pitch : float
-        Angle of the worm from one tooth to the next, rad: as far apart are two lines that touch at
-        once on neighbouring teeth.
-    """
-    figure, axes = _flanks(maps)
-    for panel, shown in zip(axes, maps, strict=True):
-        panel.fill(*shown.outline, color=_GROUND, zorder=0)
-        panel.plot(*shown.outline, color=BLACK, linewidth=1.2)
-        known = shown.values[np.isfinite(shown.values)]
-        if not known.size:
+def contact_lines(dataset: "xr.Dataset") -> "Figure":
+    """Draw contact lines: as far apart as a pitch are two that touch at once on two teeth."""
+    figure, axes = _flanks(dataset)
+    pitch = float(dataset["pitch"])
+    every = pitch / 4.0
+    for panel, flank in zip(axes, _each(dataset), strict=True):
+        # Beyond, the worm is nearest with its tip, and never touches.
+        phase = flank["phase"].where(flank["reach"] >= -RESOLVED)
+        if not phase.notnull().any():
             continue
-        low, high = float(known.min()), float(known.max())
-        every = pitch / 4.0
-        first, last = int(np.ceil(low / every)), int(np.floor(high / every))
+        first = int(np.ceil(float(phase.min()) / every))
+        last = int(np.floor(float(phase.max()) / every))
         for number in range(first, last + 1):
             whole = number % 4 == 0
             lines = panel.contour(
-                shown.face, shown.radius, shown.values, levels=[number * every],
-                colors=_SIDES[shown.side], linewidths=2.0 if whole else 0.8,
+                flank["face"], flank["radius"], phase, levels=[number * every],
+                colors=_SIDES[int(flank["side"])], linewidths=2.0 if whole else 0.8,
                 linestyles="solid" if whole else "dashed",
             )  # fmt: skip
             if whole:
@@ -167,74 +99,59 @@ def plot_contact_lines(maps: Sequence[FlankMap], pitch: float) -> "Figure":
     return figure
 
 
-def plot_transmission_error(
-    phase: FloatArray, errors: Mapping[int, FloatArray], pitch: float
-) -> "Figure":
-    """Draw the transmission error over a pitch.
-
-    Parameters
-    ----------
-    phase : ndarray, shape (n,)
-        Angle of the worm, rad.
-    errors : mapping of int to ndarray, shape (n,)
-        Error of the wheel by side, rad.
-    pitch : float
-        Angle of the worm from one tooth to the next, rad.
-    """
+def transmission_error(dataset: "xr.Dataset") -> "Figure":
+    """Draw the transmission error over a pitch, which ends where the next begins."""
     figure, (axes,) = panels(height=3.6)
+    angle = np.degrees(np.linspace(0.0, float(dataset["pitch"]), dataset.sizes["place"] + 1))
     peak = 0.0
-    for side, error in errors.items():
-        about = 1e6 * (error - np.mean(error))
+    for flank in _each(dataset):
+        error, side = flank["transmission_error"].values, int(flank["side"])
+        error = np.append(error, error[0])
+        about = error - np.mean(error)
         peak = max(peak, float(np.ptp(about)))
         axes.plot(
-            np.degrees(phase), about, color=_SIDES[side], label=f"flank s = {side:+d}",
+            angle, 1e6 * about, color=_SIDES[side], label=f"flank s = {side:+d}",
             dashes=(1, 0) if side > 0 else (4, 2),
         )  # fmt: skip
-    # What is rounding is drawn as the straight line that it is.
-    if peak < 1e-3:
+    axes.margins(y=0.25)
+    if peak <= RESOLVED / float(dataset["radius"].max()):
         axes.set_ylim(-1.0, 1.0)
-    axes.set_xlim(np.degrees(phase[0]), np.degrees(phase[0] + pitch))
+        _none(axes)
+    axes.set_xlim(angle[0], angle[-1])
     axes.set_xlabel("angle of the worm (°)")
     axes.set_ylabel("error of the wheel (µrad)")
     axes.set_title("Transmission error about its mean over a pitch", loc="left")
     legend(axes, loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.0))
-    axes.margins(y=0.25)
     return figure
 
 
-def plot_vibration(
-    maps: Mapping[str, Mapping[str, FlankMap]], names: Mapping[str, str]
-) -> "Figure":
-    """Draw the parts of each vibration direction over a flank.
-
-    Parameters
-    ----------
-    maps : mapping of str to mapping of str to FlankMap
-        By direction and part, per unit of the vibration's velocity.
-    names : mapping of str to str
-        What each direction is called.
-    """
-    parts = list(next(iter(maps.values())))
-    figure, axes = panels(len(maps), len(parts), width=8.6, height=1.75 * len(maps) + 0.6)
+def vibration(dataset: "xr.Dataset") -> "Figure":
+    """Draw the parts of each vibration direction over the flank s = +1."""
+    flank = dataset.sel(side=1)
+    face, radius = flank["face"].values, flank["radius"].values
+    parts = list(flank["part"].values)
+    count = len(_SHAKEN)
+    figure, axes = panels(count, len(parts), width=8.6, height=1.75 * count + 0.6)
     filled: Any = None
     # An even number of levels, so that nothing has a colour of its own.
     levels = np.linspace(-1.05, 1.05, 22)
-    for row, (direction, by_part) in enumerate(maps.items()):
-        for column, (part, shown) in enumerate(by_part.items()):
+    for row, (direction, name) in enumerate(_SHAKEN.items()):
+        for column, part in enumerate(parts):
             panel = axes[row * len(parts) + column]
             panel.grid(visible=False)
             filled = panel.contourf(
-                shown.face, shown.radius, shown.values, levels=levels, cmap="RdBu_r", extend="both"
-            )
-            panel.plot(*shown.outline, color=BLACK, linewidth=1.0)
+                face, radius, flank["vibration"].sel(direction=direction, part=part),
+                levels=levels, cmap="RdBu_r", extend="both",
+            )  # fmt: skip
+            panel.plot(*outline(face, radius), color=BLACK, linewidth=1.0)
             if row == 0:
                 panel.set_title(part)
-            if row == len(maps) - 1:
+            if row == count - 1:
                 panel.set_xlabel("face (mm)")
             else:
                 panel.tick_params(labelbottom=False)
             if column == 0:
-                panel.set_ylabel(f"{names[direction]}\nradius (mm)")
+                panel.set_ylabel(f"{name}\nradius (mm)")
             else:
                 panel.tick_params(labelleft=False)
     _bar(figure, filled, axes, "part of the vibration's velocity", location="right")
@@ -242,21 +159,38 @@ def plot_vibration(
     return figure
 
 
-def _round(values: FloatArray) -> FloatArray:
-    top, back = values[-1, -2::-1], values[-2::-1, 0]
-    return np.concatenate([values[0], values[1:, -1], top, back])
+def outline(face: FloatArray, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the edge of a grid over a flank, closed."""
+
+    def round_it(values: FloatArray) -> FloatArray:
+        return np.concatenate([values[0], values[1:, -1], values[-1, -2::-1], values[-2::-1, 0]])
+
+    return round_it(face), round_it(radius)
 
 
-def _flanks(maps: Sequence[FlankMap]) -> "tuple[Figure, list[Axes]]":
-    figure, axes = panels(1, len(maps), width=4.6 * len(maps), height=3.9)
-    for place, (panel, shown) in enumerate(zip(axes, maps, strict=True)):
+def _each(dataset: "xr.Dataset") -> "Iterator[xr.Dataset]":
+    for side in dataset["side"]:
+        yield dataset.sel(side=side)
+
+
+def _flanks(dataset: "xr.Dataset") -> "tuple[Figure, list[Axes]]":
+    count = dataset.sizes["side"]
+    figure, axes = panels(1, count, width=4.6 * count, height=3.9)
+    for place, (panel, flank) in enumerate(zip(axes, _each(dataset), strict=True)):
+        edge = outline(flank["face"].values, flank["radius"].values)
+        panel.fill(*edge, color=_GROUND, zorder=0)
+        panel.plot(*edge, color=BLACK, linewidth=1.2, zorder=2.5)
         panel.grid(visible=False)
-        panel.set_title(shown.name, loc="left")
+        panel.set_title(f"flank s = {int(flank['side']):+d}", loc="left")
         panel.set_xlabel("distance from mid-face (mm)")
         if place == 0:
             panel.set_ylabel("distance from the wheel's axis (mm)")
         panel.margins(0.04)
     return figure, axes
+
+
+def _none(panel: "Axes") -> None:
+    panel.text(0.5, 0.55, "none", transform=panel.transAxes, ha="center", va="center", color=BLACK)
 
 
 def _levels(low: float, high: float) -> FloatArray:

@@ -1,39 +1,77 @@
 """What is found of the flanks of a worm gearset."""
 
-import dataclasses
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from asperity.flanks.meshing.analysis import Analysis, FlankAnalysis
-from asperity.flanks.meshing.vibration_share import PARTS
-from asperity.flanks.plots import (
-    FlankMap,
-    plot_contact_lines,
-    plot_ease_off,
-    plot_pattern,
-    plot_transmission_error,
-    plot_vibration,
-)
+from asperity.flanks.meshing.analysis import LABELS, Analysis
+from asperity.flanks.meshing.lubrication import LoadedNumbers
 from asperity.flanks.wheel.enveloped import Wheel
-from asperity.flanks.worm.profiles import FloatArray
+from asperity.flanks.wheel.flank import RESOLVED
 from asperity.mesh import HexMesh
+from asperity.results import Quantities, Result, labelled, part, quantity
+from asperity.results.dataset import to_dataset
+from asperity.results.table import Column, Table, table_of, text_of
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
-    from rich.console import Group
 
-MICROMETRES = 1e3
-"""Of a millimetre."""
+_PLOTS = "asperity.flanks.plots"
+_DIRECTIONS = {
+    "axial": "worm along its axis",
+    "torsional": "worm about its axis",
+    "wheel_axial": "wheel along its axis",
+    "screw": "worm along its lead",
+}
+# What is shown of the load: the worst over a pitch.
+_WORST = {
+    "loaded_teeth": min,
+    "line_load_max": max,
+    "hertz_pressure_max": max,
+    "film_mean": min,
+    "film_min": min,
+    "sliding_speed_mean": max,
+}
 
-_SHAKEN = {"axial": "worm, axial", "torsional": "worm, torsional", "wheel_axial": "wheel, axial"}
+
+class ToothMesh(Quantities):
+    """One tooth with its share of the rim, and how good its hexahedra are.
+
+    Attributes
+    ----------
+    hexahedra : HexMesh
+        The mesh, mm.
+    """
+
+    density: str = quantity("", "", "density", shown=False)
+    element_size: float = quantity("", "mm", "element size on the flank")
+    nodes: int = quantity("", "", "nodes")
+    elements: int = quantity("", "", "elements")
+    scaled_jacobian_min: float = quantity("", "", "scaled Jacobian, least")
+    scaled_jacobian_median: float = quantity("", "", "scaled Jacobian, median")
+    volume: float = quantity("", "mm3", "volume", shown=False)
+    hexahedra: HexMesh
+
+    @classmethod
+    def of(cls, hexahedra: HexMesh, density: str, element_size: float) -> "ToothMesh":
+        """Return a mesh with its quality; the density as it was asked for, the size in mm."""
+        quality = hexahedra.scaled_jacobian()
+        return cls(
+            density=density,
+            element_size=element_size,
+            nodes=len(hexahedra.points),
+            elements=len(hexahedra.cells),
+            scaled_jacobian_min=float(quality.min()),
+            scaled_jacobian_median=float(np.median(quality)),
+            volume=hexahedra.volume(),
+            hexahedra=hexahedra,
+        )
 
 
-@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class FlankStudy:
+class FlankStudy(Result):
     """The flanks of a worm gearset: how they were made, how they touch, and a mesh.
 
     Attributes
@@ -45,35 +83,64 @@ class FlankStudy:
         backlash asks for.
     analysis : Analysis
         How both flanks touch.
-    mesh : HexMesh
+    mesh : ToothMesh
         One tooth with its share of the rim.
-    density : str
-        As it was asked for.
-    element_size : float
-        On the flank, mm.
     assumed, from_memory : mapping of str to str
         What was not given, and what no document at hand confirms.
-    notes : tuple of str
-        What else a reader of the numbers should know.
-    seconds : float
-        What it took.
+    step : bool
+        Whether the files hold tooth and worm as STEP.
     """
+
+    title: ClassVar[str] = "worm gearset"
+    stem: ClassVar[str] = "flank"
+    drawings: ClassVar[Mapping[str, str]] = {
+        "pattern": f"{_PLOTS}:pattern",
+        "ease-off": f"{_PLOTS}:ease_off",
+        "contact-lines": f"{_PLOTS}:contact_lines",
+        "transmission-error": f"{_PLOTS}:transmission_error",
+        "vibration": f"{_PLOTS}:vibration",
+    }
+    labels = LABELS
 
     name: str
     wheel: Wheel
-    analysis: Analysis
-    mesh: HexMesh
-    density: str
-    element_size: float
+    analysis: Analysis = part(Analysis)
+    mesh: ToothMesh
     assumed: Mapping[str, str]
     from_memory: Mapping[str, str]
-    notes: tuple[str, ...]
-    seconds: float
+    step: bool = False
+    seconds: float = quantity("", "s", "time it took", key="seconds", only="json", shown=False)
 
     @property
+    @labelled(
+        "j_n", "mm", "backlash, normal, least over a pitch",
+        key="backlash_normal_mm", variable="backlash_normal_least",
+    )  # fmt: skip
     def backlash(self) -> float:
         """Least play normal to the flanks, mm."""
         return min(self.analysis.play.normal.values())
+
+    @property
+    @labelled("", "mm", "pitch radius of the wheel", shown=False)
+    def pitch_radius(self) -> float:
+        """Pitch radius of the wheel, mm."""
+        return self.analysis.pair.geometry.wheel_mean_diameter / 2.0
+
+    @property
+    @labelled("", "mm2", "area of a flank of the wheel")
+    def flank_area(self) -> float:
+        """Area of the trimmed flank, mm^2."""
+        return self.wheel.flank(1).area()
+
+    @property
+    @labelled("", "rad", "angle of the worm from tooth to tooth", only="file", shown=False)
+    def pitch(self) -> float:
+        """Angle of the worm from one tooth to the next, rad."""
+        return 2.0 * math.pi / self.analysis.pair.geometry.starts
+
+    def resolution(self, name: str) -> float:
+        """Return the size below which a quantity is rounding and shown as none, in its unit."""
+        return RESOLVED if name == "backlash" else 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Return the numbers by name and unit: those of the flank s = +1, and both in ``flanks``.
@@ -81,16 +148,12 @@ class FlankStudy:
         ``base_radius_mm`` and ``base_lead_angle_deg`` are None for flanks without a base cylinder.
         """
         pair = self.analysis.pair
-        g = pair.geometry
-        quality = self.mesh.scaled_jacobian()
         return {
             "name": self.name,
             "flank": pair.flank,
             "hand": pair.hand,
             **self.analysis.to_json(),
-            "backlash_normal_mm": self.backlash,
-            "pitch_radius_mm": g.wheel_mean_diameter / 2.0,
-            "flank_area_mm2": self.wheel.flank(1).area(),
+            **super().to_json(),
             "hob": {
                 "pitch_diameter_mm": 2.0 * pair.hob.pitch_radius,
                 "lead_angle_deg": math.degrees(pair.hob.lead_angle),
@@ -102,84 +165,118 @@ class FlankStudy:
                 "tip_rounding_mm": pair.worm.tip_rounding,
                 "thread_thickness_mm": 2.0 * (pair.worm.half_pitch - pair.worm.half_space),
             },
-            "mesh": {
-                "density": self.density,
-                "element_size_mm": self.element_size,
-                "nodes": len(self.mesh.points),
-                "elements": len(self.mesh.cells),
-                "scaled_jacobian_min": float(quality.min()),
-                "scaled_jacobian_median": float(np.median(quality)),
-                "volume_mm3": self.mesh.volume(),
-            },
-            "seconds": self.seconds,
+            "mesh": self.mesh.to_json(),
             "assumed": dict(self.assumed),
             "from_memory": dict(self.from_memory),
-            "notes": list(self.notes),
         }
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return what lies over the flanks and over a pitch, labelled, in the gearset's frame."""
-        from asperity.flanks.dataset import flank_dataset
+        """Return maps and curves of both flanks by ``side``, and the scalars; lengths in mm.
 
-        return flank_dataset(self)
+        Velocities are those at the worm's speed of the attribute ``worm_speed_rad_per_s``. All is
+        in the gearset's own frame: that of a left-handed one is the mirror image of what was
+        computed.
+        """
+        import xarray as xr
 
-    def to_rich(self) -> "Group":
-        """Return tables for the terminal, with notes below them."""
-        from asperity.flanks.report import to_rich
+        pair, flanks = self.analysis.pair, self.analysis.flanks
+        parts = [flank.to_dataset().drop_attrs(deep=False) for flank in flanks.values()]
+        whole = xr.concat(parts, "side", combine_attrs="override")
+        side = xr.Variable("side", list(flanks), {"units": "1", "long_name": "flank s"})
+        attributes = {
+            "notes": "; ".join(self.notes),
+            "flank": pair.flank,
+            "hand": pair.hand,
+            "worm_speed_rad_per_s": flanks[1].motion.worm_speed,
+        }
+        numbers = to_dataset(self, {}, attributes, title=f"flanks of {self.heading()}")
+        return whole.assign_coords(side=side).merge(numbers).assign_attrs(numbers.attrs)
 
-        return to_rich(self)
+    def heading(self) -> str:
+        """Return what it is of."""
+        return self.name or self.title
 
-    def pictures(self) -> "dict[str, Figure]":
-        """Return the pictures by name."""
-        found = list(self.analysis.flanks.values())
-        one = self.analysis.flanks[1]
-        g = self.analysis.pair.geometry
-        pitch = 2.0 * math.pi / g.starts
-        centres = [
-            (
-                flank.mirror * flank.pattern.centre[0],
-                g.wheel_mean_diameter / 2.0 + flank.pattern.centre[1],
-            )
-            for flank in found
+    def tables(self) -> tuple[Table, ...]:
+        """Return tables of gearset, flanks, load, vibrations and mesh, and the notes."""
+        pair, flanks = self.analysis.pair, self.analysis.flanks
+        parts = list(flanks[1].vibration["axial"])
+        vibration = [
+            (_DIRECTIONS[direction], *(_share(value) for value in by_part.values()))
+            for direction, by_part in flanks[1].vibration.items()
         ]
-        phases = [np.where(flank.motion.on_flank, flank.motion.phase, np.nan) for flank in found]
-        removed = [
-            np.where(flank.ease_off.compared, MICROMETRES * flank.ease_off.distance, np.nan)
-            for flank in found
-        ]
-        # A period ends where the next begins.
-        angle = g.gear_ratio * np.append(
-            one.transmission.wheel_angle, 2.0 * math.pi / g.wheel_teeth
+        loaded = [flank.loaded for flank in flanks.values()]
+        return (
+            table_of(self, title=f"{pair.flank}, {pair.hand} hand"),
+            _by_side("flank", map(_texts, flanks.values())),
+            *(
+                [_by_side("under load, worst over a pitch", map(_worst, loaded))]
+                if all(loaded)
+                else []
+            ),
+            Table.of(("part of a vibration, s = +1", *parts), vibration),
+            table_of(
+                self.mesh, title=f"mesh of a tooth, {self.mesh.density}", remarks=self._remarks()
+            ),
         )
-        errors = {
-            flank.side: np.append(flank.transmission.error, flank.transmission.error[0])
-            for flank in found
-        }
-        # Across is a normal times a velocity, and turns round in a mirror.
-        sign = {"across": one.mirror}
-        shaken = {
-            direction: {
-                part: _map(one, sign.get(part, 1) * one.share.of(direction, part)) for part in PARTS
-            }
-            for direction in _SHAKEN
-        }
-        return {
-            "pattern": plot_pattern(
-                [_map(flank, MICROMETRES * flank.pattern.gap) for flank in found],
-                MICROMETRES * one.pattern.thickness,
-                centres,
-            ),
-            "ease-off": plot_ease_off(
-                [_map(flank, values) for flank, values in zip(found, removed, strict=True)]
-            ),
-            "contact-lines": plot_contact_lines(
-                [_map(flank, phase) for flank, phase in zip(found, phases, strict=True)], pitch
-            ),
-            "transmission-error": plot_transmission_error(angle, errors, pitch),
-            "vibration": plot_vibration(shaken, _SHAKEN),
-        }
+
+    def _remarks(self) -> Iterator[str]:
+        yield from self.notes
+        for words, group in (
+            ("from memory, check before use", self.from_memory),
+            ("assumed, give them to replace the defaults", self.assumed),
+        ):
+            if group:
+                listed = "; ".join(f"{key} ({text})" for key, text in group.items())
+                yield f"{words}: {listed}"
+
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write numbers, pictures, meshes and bodies to a folder that exists; return their names.
+
+        Raises
+        ------
+        MissingExtraError
+            STEP is asked for and the ``cad`` extra is not installed.
+        StorageError
+            A file cannot be written.
+        """
+        from asperity.flanks.export.files import write_bodies
+
+        return [
+            *super().write(folder, pictures=pictures),
+            *write_bodies(self.wheel, self.mesh.hexahedra, folder, step=self.step),
+        ]
 
 
-def _map(flank: FlankAnalysis, values: FloatArray) -> FlankMap:
-    """Values at the points of a flank as they are drawn, in the gearset's own frame."""
-    return FlankMap(flank.side, flank.mirror * flank.grid.z, flank.grid.radius, values)
+def _texts(answer: Quantities) -> dict[tuple[str, str], str]:
+    """What is shown of an answer by meaning and unit."""
+    return {
+        (entry.label.meaning, entry.label.unit): text_of(entry.value, entry.resolution)
+        for entry in answer.entries()
+        if entry.label.shown and not entry.label.dims
+    }
+
+
+def _worst(loaded: tuple[Any, ...]) -> dict[tuple[str, str], str]:
+    numbers = [lines.numbers for lines in loaded]
+    labels = {entry.name: entry.label for entry in LoadedNumbers.declared()}
+    return {
+        (labels[name].meaning, labels[name].unit): text_of(
+            choose(getattr(each, name) for each in numbers)
+        )
+        for name, choose in _WORST.items()
+    }
+
+
+def _by_side(title: str, sides: Iterator[dict[tuple[str, str], str]]) -> Table:
+    plus, minus = sides
+    rows = tuple((name, text, minus[name, unit], unit) for (name, unit), text in plus.items())
+    columns = (
+        Column(title),
+        *(Column(f"s = {s}", right=True) for s in ("+1", "-1")),
+        Column("unit"),
+    )
+    return Table(columns, rows)
+
+
+def _share(value: float) -> str:
+    return "none" if value < RESOLVED else f"{value:.3f}"

@@ -1,25 +1,26 @@
 """The study of a worm gearset's flanks, from the tables of a case."""
 
-import contextlib
 import dataclasses
 import time
-from collections.abc import Iterator
 from typing import TypeVar
 
 from asperity.casefile import Case, Table
-from asperity.errors import InputError
+from asperity.errors import InputError, MissingExtraError
+from asperity.flanks.export.brep import require_cad
+from asperity.flanks.export.views import require_view
+from asperity.flanks.mesh.density import read_density
 from asperity.flanks.mesh.tooth import element_size, tooth
-from asperity.flanks.meshing.analysis import Analysis, analyse
+from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.flanks.remarks import assumptions, from_memory
-from asperity.flanks.result import MICROMETRES, FlankStudy
+from asperity.flanks.result import FlankStudy, ToothMesh
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
-from asperity.mesh import HexMesh
 from asperity.rating import Operation, rate_case
+from asperity.runs import Run
 
 _TOUCH = 1e-9
 _ZERO_CELSIUS = 273.15
@@ -39,36 +40,30 @@ class Prepared:
         How it is cut and ground.
     wheel : Wheel
         The wheel as it is cut.
-    mesh : HexMesh
+    mesh : ToothMesh
         One tooth.
-    density : str
-        Of the mesh, as it was asked for.
-    element_size : float
-        mm.
     seconds : float
         What it took.
     load : Load or None
         What it runs under.
     notes : tuple of str
         What is to be said of the load.
-    source : str
-        The case it comes from, for messages; empty for none.
+    step : bool
+        Whether its files are to hold tooth and worm as STEP.
     """
 
     gearset: Gearset
     hob: Hob | None
     disc: Disc | None
     wheel: Wheel
-    mesh: HexMesh
-    density: str
-    element_size: float
+    mesh: ToothMesh
     seconds: float
     load: Load | None = None
     notes: tuple[str, ...] = ()
-    source: str = ""
+    step: bool = False
 
 
-def prepare(
+def prepare_gearset(
     gearset: Gearset,
     hob: Hob | None = None,
     mount: Mount | None = None,
@@ -98,24 +93,56 @@ def prepare(
         size, name = element_size(wheel, density), density
     else:
         size, name = density, f"{density:g} mm"
-    mesh = tooth(wheel, size)
-    seconds = time.perf_counter() - began
-    return Prepared(gearset, hob, disc, wheel, mesh, name, size, seconds)
+    mesh = ToothMesh.of(tooth(wheel, size), name, size)
+    return Prepared(gearset, hob, disc, wheel, mesh, time.perf_counter() - began)
 
 
-def prepare_case(case: Case, density: str | float = "intermediate") -> Prepared:
-    """Return what the study of a case file begins with; as `prepare`."""
+def prepare(case: Case, *, density: str | float = "intermediate", step: bool = False) -> Prepared:
+    """Return what the study of a case begins with.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    density : str or float
+        Of the mesh: ``coarse``, ``intermediate``, ``fine``, or the element size on the flank, as
+        text with its unit or in mm.
+    step : bool
+        Whether the files are to hold tooth and worm as STEP.
+
+    Raises
+    ------
+    InputError
+        There is no such wheel, with the reason, or no such mesh, or it would take too much memory.
+    MissingExtraError
+        STEP is asked for and the ``cad`` extra is not installed.
+    """
 
     def table(model: type[T]) -> T | None:
         return case.require(model) if model.table in case else None
 
+    if step:
+        require_cad()
+    size = read_density(density) if isinstance(density, str) else density
     gearset = case.require(Gearset)
-    with _named(case.source):
-        prepared = prepare(
-            gearset, table(Hob), table(Mount), table(Modification), table(Disc), density
-        )
-        load, notes = _load(case, gearset)
-    return dataclasses.replace(prepared, load=load, notes=tuple(notes), source=case.source)
+    made = prepare_gearset(
+        gearset, table(Hob), table(Mount), table(Modification), table(Disc), size
+    )
+    load, notes = _load(case, gearset)
+    return dataclasses.replace(made, load=load, notes=tuple(notes), step=step)
+
+
+def answer(prepared: Prepared, run: Run) -> FlankStudy:
+    """Find how a gearset meshes, as the command does; errors as in `study`."""
+    if run.folder is None:
+        if prepared.step:
+            raise InputError("--step: there is no folder for the files; name one with --out DIR")
+        return study(prepared)
+    try:
+        require_view()
+    except MissingExtraError as error:
+        run.notify(str(error))
+    return study(prepared)
 
 
 def study(prepared: Prepared) -> FlankStudy:
@@ -128,11 +155,6 @@ def study(prepared: Prepared) -> FlankStudy:
     ConvergenceError
         The worm does not reach the wheel somewhere, or no thread leaves the backlash.
     """
-    with _named(prepared.source):
-        return _study(prepared)
-
-
-def _study(prepared: Prepared) -> FlankStudy:
     began = time.perf_counter()
     pair, load = prepared.wheel.pair, prepared.load
     notes = list(prepared.notes)
@@ -149,24 +171,12 @@ def _study(prepared: Prepared) -> FlankStudy:
         wheel=Wheel(found.pair),
         analysis=found,
         mesh=prepared.mesh,
-        density=prepared.density,
-        element_size=prepared.element_size,
         assumed=assumed,
         from_memory=from_memory(prepared.gearset, assumed, loaded=load is not None),
         notes=(*_notes(found, prepared.wheel), *notes),
         seconds=prepared.seconds + time.perf_counter() - began,
+        step=prepared.step,
     )
-
-
-@contextlib.contextmanager
-def _named(source: str) -> Iterator[None]:
-    """Let a refusal begin with the case that is refused."""
-    try:
-        yield
-    except InputError as error:
-        if source:
-            error.args = (f"{source}: {error}", *error.args[1:])
-        raise
 
 
 def _notes(found: Analysis, wheel: Wheel) -> list[str]:

@@ -79,11 +79,14 @@ class Entry:
         What is said of it.
     value : object
         None where it does not exist.
+    resolution : float
+        Size below which it is rounding, in its unit.
     """
 
     name: str
     label: Label
     value: Any = None
+    resolution: float = 0.0
 
     @property
     def key(self) -> str:
@@ -175,6 +178,10 @@ class Quantities:
         """Return the scalars a sweep keeps: those declared as float."""
         return tuple(entry for entry in _floats(cls, "") if entry.label.swept)
 
+    def to_json(self) -> dict[str, Any]:
+        """Return the scalars by key, each key with its unit."""
+        return {entry.key: plain(entry.value) for entry in self.entries() if entry.in_json}
+
     def resolution(self, name: str) -> float:
         """Return the size below which a quantity is rounding and shown as none, in its unit."""
         return 0.0
@@ -192,7 +199,8 @@ def _entries(cls: type[Quantities], holder: object, prefix: str) -> Iterator[Ent
     for name, label in cls._labels.items():
         value = None if holder is None else getattr(holder, name)
         if isinstance(label, Label):
-            yield Entry(prefix + name, label, value)
+            below = holder.resolution(name) if isinstance(holder, Quantities) else 0.0
+            yield Entry(prefix + name, label, value, below)
         elif holder is None:
             yield from _entries(label.of, None, prefix + label.prefix)
         elif value is not None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.errors import AsperityError, InputError, StorageError
 from asperity.results import dataset as datasets
-from asperity.results.quantity import Entry, Label, Quantities, plain
+from asperity.results.quantity import Entry, Label, Quantities
 from asperity.results.table import Table, table_of, text_of
 
 if TYPE_CHECKING:
@@ -74,8 +74,7 @@ class Result(Quantities):
 
     def to_json(self) -> dict[str, Any]:
         """Return the scalars by key, each key with its unit, and the notes."""
-        found = {entry.key: entry.value for entry in self.entries() if entry.in_json}
-        return {key: plain(value) for key, value in found.items()} | {"notes": list(self.notes)}
+        return super().to_json() | {"notes": list(self.notes)}
 
     def to_dataset(self) -> "xr.Dataset":
         """Return everything as a labelled dataset in SI, every variable with its unit."""
@@ -156,7 +155,7 @@ class Result(Quantities):
 
     def __repr__(self) -> str:
         shown = [
-            f"{entry.name}={text_of(entry.value)}{' ' * bool(entry.label.unit)}{entry.label.unit}"
+            f"{entry.name}={text_of(entry.value, entry.resolution)} {entry.label.unit}".rstrip()
             for entry in self.entries()
             if entry.label.shown and not entry.label.dims and entry.value is not None
         ]

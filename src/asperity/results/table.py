@@ -93,7 +93,7 @@ def table_of(answer: Quantities, *, title: str = "", remarks: Iterable[str] = ()
         (
             entry.label.meaning,
             entry.label.symbol,
-            text_of(entry.value, answer.resolution(entry.name)),
+            text_of(entry.value, entry.resolution),
             entry.label.unit,
         )
         for entry in answer.entries()

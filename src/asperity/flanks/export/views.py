@@ -28,6 +28,22 @@ _COLOURS = "viridis"
 _LIGHT = {"ambient": 0.2, "diffuse": 0.8, "specular": 0.25, "specular_power": 20.0}
 
 
+def require_view() -> None:
+    """Raise unless the ``view`` extra is installed.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not.
+    """
+    try:
+        import pyvista  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(
+            f"pictures in space need the view extra ({error}): pip install asperity[view]"
+        ) from error
+
+
 @dataclass(frozen=True)
 class Camera:
     """Where a picture is seen from.
@@ -217,12 +233,9 @@ def _quads(shape: tuple[int, ...]) -> NDArray[np.int64]:
 @contextlib.contextmanager
 def _plotter(path: str | os.PathLike[str], camera: Camera) -> Iterator[Any]:
     """Give a plotter to draw with; what was drawn is written when the block ends well."""
-    try:
-        import pyvista
-    except ImportError as error:
-        raise MissingExtraError(
-            f"pictures in space need the view extra ({error}): pip install asperity[view]"
-        ) from error
+    require_view()
+    import pyvista
+
     # Without a display VTK complains on standard error before it draws without one.
     with pyvista.vtk_verbosity("off"):
         plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE), theme=_theme())

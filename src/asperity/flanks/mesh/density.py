@@ -27,11 +27,11 @@ def read_density(text: str) -> str | float:
         "such as '0.5 mm'"
     )
     if split_unit(text) is None:
-        raise InputError(f"density is {text!r}; {expected}")
+        raise InputError(f"--density is {text!r}; {expected}")
     try:
         size = to_si(text, "m") * _MILLIMETRES
     except InputError as error:
-        raise InputError(f"density is {text!r}; {expected}: {error}") from None
+        raise InputError(f"--density is {text!r}; {expected}: {error}") from None
     if not size > 0.0:
-        raise InputError(f"density is {text!r}; an element size must be positive")
+        raise InputError(f"--density is {text!r}; an element size must be positive")
     return size

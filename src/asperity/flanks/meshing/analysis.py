@@ -1,6 +1,5 @@
 """Tooth contact analysis of a worm and its wheel: one call for all that is known of both flanks."""
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -15,10 +14,18 @@ from asperity.flanks.meshing.lubrication import Load, LoadedLines, loaded_lines
 from asperity.flanks.meshing.pattern.area import node_areas
 from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
 from asperity.flanks.meshing.transmission import SAMPLES, Transmission, transmission
-from asperity.flanks.meshing.vibration_share import VibrationShare, vibration_share
+from asperity.flanks.meshing.vibration_share import (
+    DIRECTIONS,
+    PARTS,
+    VibrationShare,
+    vibration_share,
+)
 from asperity.flanks.wheel.conjugacy import conjugacy_residual
-from asperity.flanks.wheel.enveloped import FlankGrid, Wheel
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.flank import RESOLVED, FlankGrid
 from asperity.flanks.worm.setting import Pair
+from asperity.results import Quantities, labelled, part, quantity
+from asperity.results.dataset import Labels, to_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,12 +33,29 @@ if TYPE_CHECKING:
 ROWS, COLUMNS = 41, 49
 """Points of a flank that the maps are made of, along its height and across its face."""
 
-_MICROMETRES = 1e3
+MICROMETRES = 1e3
+"""Of a millimetre."""
+
+LABELS: Labels = {
+    "axis": (("x", "y", "z"), "axes of the wheel, the third its own"),
+    "direction": (DIRECTIONS, "direction of the vibration"),
+    "part": (PARTS, "along and across the sliding velocity, along the normal"),
+}
+
 _ANGLES = 8
+# What changes its sign in the mirror image Z -> -Z. Across the sliding is a normal times a
+# velocity, and turns round.
+_MIRRORED: dict[str, float | tuple[float, ...]] = {
+    "face": -1.0,
+    "contact_face": -1.0,
+    "point": (1.0, 1.0, -1.0),
+    "flank_normal": (1.0, 1.0, -1.0),
+    "sliding": (1.0, 1.0, -1.0),
+    "vibration": (1.0, -1.0, 1.0),
+}
 
 
-@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class FlankAnalysis:
+class FlankAnalysis(Quantities):
     """What is known of one flank of the wheel. Maps have the shape of the grid.
 
     All is in the right-handed frame; `to_json` and `to_dataset` answer in the gearset's own.
@@ -42,37 +66,70 @@ class FlankAnalysis:
         :math:`s`, 1 or -1.
     transmission : Transmission
         Transmission error over a pitch.
-    grid : FlankGrid
-        Points of the flank.
-    pattern : Pattern
-        Contact pattern and smallest gap.
     ease_off : EaseOff
         Against the wheel of an identical hob.
+    pattern : Pattern
+        Contact pattern and smallest gap.
+    grid : FlankGrid
+        Points of the flank.
     motion : Kinematics
         Velocities and curvatures where each point is nearest to the worm.
     share : VibrationShare
         What each vibration direction touches of the sliding.
     play : Play
         Backlash and axial clearance.
-    undercut : bool
-        Whether the hob undercuts the flank anywhere.
-    conjugacy_residual : float
-        Largest distance of a point, at its own phase, to the hob that made it, mm.
     loaded : tuple of LoadedLines
         Contact lines under load at angles of the worm over a pitch; empty without a load.
     """
 
+    transmission: Transmission = part(Transmission)
+    ease_off: EaseOff = part(EaseOff)
+    pattern: Pattern = part(Pattern)
+    grid: FlankGrid = part(FlankGrid)
+    motion: Kinematics = part(Kinematics)
+    share: VibrationShare = part(VibrationShare)
+    undercut: bool = quantity("", "", "undercut")
+    conjugacy_residual: float = quantity("", "mm", "distance to the hob that cuts it")
     side: int
-    transmission: Transmission
-    grid: FlankGrid
-    pattern: Pattern
-    ease_off: EaseOff
-    motion: Kinematics
-    share: VibrationShare
     play: Play
-    undercut: bool
-    conjugacy_residual: float
     loaded: tuple[LoadedLines, ...] = ()
+
+    @property
+    @labelled("", "mm", "centre of the pattern: face, radial", only="json")
+    def pattern_centre(self) -> tuple[float, float]:
+        """From mid-face and from the pitch radius outwards, in the gearset's own frame, mm."""
+        face, radial = self.pattern.centre
+        return self.mirror * face, radial
+
+    @property
+    @labelled("", "mm", "centre of the pattern, from mid-face", only="file", shown=False)
+    def pattern_face(self) -> float:
+        """Place of the pattern's centre across the face, mm."""
+        return self.pattern_centre[0]
+
+    @property
+    @labelled("", "mm", "centre of the pattern, from the axis", only="file", shown=False)
+    def pattern_radius(self) -> float:
+        """Radius of the pattern's centre, mm."""
+        return self.pair.geometry.wheel_mean_diameter / 2.0 + self.pattern_centre[1]
+
+    @property
+    @labelled("", "", "contact ratio, unloaded")
+    def contact_ratio(self) -> float:
+        """Mean number of teeth that bear, rigid."""
+        return self.transmission.contact_ratio()
+
+    @property
+    @labelled("", "", "contact ratio, marked gaps as well")
+    def contact_ratio_marked(self) -> float:
+        """Mean number of teeth that bear or leave a gap that is marked."""
+        return self.transmission.contact_ratio(self.pattern.thickness)
+
+    @property
+    @labelled("j_n", "mm", "backlash, normal, this flank bearing", shown=False)
+    def backlash_normal(self) -> float:
+        """Normal backlash while this flank bears, mm."""
+        return self.play.normal[self.side]
 
     @property
     def pair(self) -> Pair:
@@ -98,64 +155,57 @@ class FlankAnalysis:
         """Return the contact lines of all teeth at an angle of the worm, rad."""
         return contact_lines(self.motion, self.grid, self.pair.geometry.starts, worm_angle)
 
+    def resolution(self, name: str) -> float:
+        """Return the size below which a quantity is rounding and shown as none, in its unit."""
+        return RESOLVED if name in ("conjugacy_residual", "pattern_centre") else 0.0
+
     def to_json(self) -> dict[str, Any]:
-        """Scalar results, each key with its unit, in the gearset's own frame."""
-        face, radial = self.pattern.centre
-        answer: dict[str, Any] = {
-            "transmission_error_rad": self.transmission.peak_to_peak,
-            "transmission_error_mean_rad": self.transmission.mean,
-            "contact_ratio": self.transmission.contact_ratio(),
-            "contact_ratio_marked": self.transmission.contact_ratio(self.pattern.thickness),
-            "backlash_normal_mm": self.play.normal[self.side],
-            "axial_clearance_mm": self.play.axial,
-            "axial_amplitude_max_mm": self.play.amplitude,
-            "ease_off_max_um": _MICROMETRES * self.ease_off.largest,
-            "ease_off_min_um": _MICROMETRES * self.ease_off.smallest,
-            "pattern_area_fraction": self.pattern.area_fraction,
-            "pattern_centre_mm": [self.mirror * face, radial],
-            "undercut": self.undercut,
-            "conjugacy_residual_mm": self.conjugacy_residual,
-            "vibration": self.vibration,
-        }
+        """Return the scalars, each key with its unit, in the gearset's own frame."""
+        answer = {**super().to_json(), **self.play.to_json(), "vibration": self.vibration}
         if self.loaded:
-            answer["loaded"] = [lines.to_json() for lines in self.loaded]
+            answer["loaded"] = [lines.numbers.to_json() for lines in self.loaded]
         return answer
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return maps over the flank and curves over a pitch, in the gearset's own frame."""
-        from asperity.flanks.analysis_dataset import to_dataset
+        """Return maps over the flank and curves over a pitch, in the gearset's own frame, mm."""
+        attributes = {"side": self.side, "hand": self.pair.hand, "flank": self.pair.flank}
+        found = to_dataset(self, LABELS, attributes, title=f"flank s = {self.side:+d}")
+        if self.mirror > 0:
+            return found
+        return found.assign(
+            {
+                name: found[name].copy(data=found[name].values * np.array(sign))
+                for name, sign in _MIRRORED.items()
+            }
+        )
 
-        return to_dataset(self)
 
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Analysis:
+class Analysis(Quantities):
     """Both flanks of a wheel.
 
     Attributes
     ----------
-    pair : Pair
-        Worm and wheel, the worm with the threads that leave the backlash asked for.
+    base_radius, base_lead_angle : float or None
+        None for flanks without a base cylinder.
     play : Play
         Backlash and axial clearance.
+    pair : Pair
+        Worm and wheel, the worm with the threads that leave the backlash asked for.
     flanks : mapping of int to FlankAnalysis
         By side, 1 and -1.
     """
 
+    lead_angle: float = quantity("gamma", "deg", "lead angle")
+    base_radius: float | None = quantity("r_b", "mm", "base radius")
+    base_lead_angle: float | None = quantity("gamma_b", "deg", "base lead angle")
+    play: Play = part(Play)
     pair: Pair
-    play: Play
     flanks: Mapping[int, FlankAnalysis]
 
     def to_json(self) -> dict[str, Any]:
         """Scalar results of the worm, of the flank s = +1, and of both by side under ``flanks``."""
-        worm = self.pair.worm
-        base = worm.profile.base_radius
         return {
-            "lead_angle_deg": math.degrees(worm.lead_angle),
-            "base_radius_mm": base,
-            "base_lead_angle_deg": None
-            if base is None
-            else math.degrees(math.atan2(worm.reduced_lead, base)),
+            **super().to_json(),
             **self.flanks[1].to_json(),
             "flanks": {f"{side:+d}": flank.to_json() for side, flank in self.flanks.items()},
         }
@@ -207,7 +257,16 @@ def analyse(
     flanks = {
         side: _flank(meshes[side], free, rows, columns, thickness, speed, load) for side in (1, -1)
     }
-    return Analysis(meshes[1].search.pair, free, flanks)
+    thinned = meshes[1].search.pair
+    worm, base = thinned.worm, thinned.worm.profile.base_radius
+    return Analysis(
+        lead_angle=math.degrees(worm.lead_angle),
+        base_radius=base,
+        base_lead_angle=base and math.degrees(math.atan2(worm.reduced_lead, base)),
+        play=free,
+        pair=thinned,
+        flanks=flanks,
+    )
 
 
 def _flank(

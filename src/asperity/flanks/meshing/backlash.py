@@ -11,7 +11,6 @@ interfere. The wheel's tips may stand nearer to the worm's core than that: `core
 Lengths are in mm, angles in rad.
 """
 
-import dataclasses
 import math
 
 import numpy as np
@@ -19,7 +18,9 @@ import numpy as np
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.transmission import ToothSearch, Transmission
 from asperity.flanks.wheel.blank import Blank
+from asperity.flanks.wheel.flank import RESOLVED
 from asperity.flanks.worm.setting import Pair
+from asperity.results import Quantities, labelled, quantity
 
 # Further than this from the least no place is looked at below the grid, mm.
 _NEAR = 3e-3
@@ -29,29 +30,37 @@ _TOLERANCE = 1e-10
 _CLOSE, _SWEPT = 201, 0.2
 
 
-@dataclasses.dataclass(frozen=True)
-class Play:
+class Play(Quantities):
     """The play of a worm between both flanks of the wheel, the least over a pitch.
 
     Attributes
     ----------
     normal : dict of int to float
         Normal backlash by the flank that bears, mm.
-    axial : float
-        Axial clearance of the worm, from flank to flank, the wheel held, mm.
     worm_angle, wheel_angle : float
         Turn of the worm, the wheel held, and of the wheel, the worm held, rad.
     """
 
     normal: dict[int, float]
-    axial: float
+    axial: float = quantity(
+        "", "mm", "axial clearance of the worm",
+        key="axial_clearance_mm", variable="axial_clearance",
+    )  # fmt: skip
     worm_angle: float
     wheel_angle: float
 
     @property
+    @labelled(
+        "", "mm", "greatest amplitude of its axial vibration",
+        key="axial_amplitude_max_mm", variable="axial_amplitude_max",
+    )  # fmt: skip
     def amplitude(self) -> float:
         """Largest amplitude of an axial vibration of the worm about mid-play, mm; at least 0."""
         return max(0.0, 0.5 * self.axial)
+
+    def resolution(self, name: str) -> float:
+        """Return the size below which a length is rounding, mm."""
+        return RESOLVED
 
 
 def normal_backlash(bearing: Transmission, other: ToothSearch) -> float:

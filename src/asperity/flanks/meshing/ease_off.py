@@ -5,44 +5,41 @@ ease-off is the distance along that wheel's normal between both flanks at equal 
 the axis, without turning one against the other; positive where material was removed.
 """
 
-import dataclasses
-
 import numpy as np
 
 from asperity.errors import InputError
-from asperity.flanks.wheel.enveloped import FlankGrid, WheelFlank
+from asperity.flanks.wheel.flank import MAP, RESOLVED, FlankGrid, WheelFlank
 from asperity.flanks.worm.profiles import FloatArray
+from asperity.results import Quantities, labelled, quantity
 
-_ROUNDING = 1e-9
+_MICROMETRES = 1e3
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class EaseOff:
-    """The ease-off at points of a flank.
+class EaseOff(Quantities):
+    """The ease-off at points of a flank; 0 where there is nothing to compare with."""
 
-    Attributes
-    ----------
-    grid : FlankGrid
-        The points.
-    distance : ndarray
-        Ease-off, mm; 0 where there is nothing to compare.
-    compared : ndarray of bool
-        Whether the identical hob leaves a flank there, and not its fillet.
-    """
-
-    grid: FlankGrid
-    distance: FloatArray
-    compared: np.typing.NDArray[np.bool_]
+    distance: FloatArray = quantity(
+        "", "mm", "ease-off, positive where removed", variable="ease_off", dims=MAP
+    )
+    compared: np.typing.NDArray[np.bool_] = quantity(
+        "", "", "whether an identical hob leaves a flank", dims=MAP
+    )
 
     @property
+    @labelled("", "um", "ease-off, greatest", key="ease_off_max_um", variable="ease_off_max")
     def largest(self) -> float:
-        """The largest ease-off, mm."""
-        return float(self.distance[self.compared].max())
+        """The largest ease-off, um."""
+        return _MICROMETRES * float(self.distance[self.compared].max())
 
     @property
+    @labelled("", "um", "ease-off, least", key="ease_off_min_um", variable="ease_off_min")
     def smallest(self) -> float:
-        """The smallest ease-off, mm; negative where material was left."""
-        return float(self.distance[self.compared].min())
+        """The smallest ease-off, um; negative where material was left."""
+        return _MICROMETRES * float(self.distance[self.compared].min())
+
+    def resolution(self, name: str) -> float:
+        """Return the size below which an ease-off is rounding, um."""
+        return _MICROMETRES * RESOLVED
 
 
 def ease_off(flank: WheelFlank, grid: FlankGrid) -> EaseOff:
@@ -63,11 +60,11 @@ def ease_off(flank: WheelFlank, grid: FlankGrid) -> EaseOff:
     reference = WheelFlank(flank.pair.conjugate(), flank.side)
     start, _ = reference.limits(grid.z[0])
     held = reference.at(np.maximum(grid.radius, start), grid.z)
-    compared = grid.radius >= start - _ROUNDING
+    compared = grid.radius >= start - RESOLVED
     if not compared.any():
         raise InputError(
             "gearset: the flank lies wholly where an identical hob leaves its fillet, so there is "
             "no ease-off: take a smaller hob.oversize or hob.tilt"
         )
     away = np.sum((held.points - grid.points) * held.normals, axis=-1)
-    return EaseOff(grid, np.where(compared, away, 0.0), compared)
+    return EaseOff(distance=np.where(compared, away, 0.0), compared=compared)

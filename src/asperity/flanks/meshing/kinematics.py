@@ -9,81 +9,87 @@ hob, so that its curvature is the hob's less a rank-one part, in closed form
 Vectors are in the standing frame of the wheel, lengths in mm, velocities in mm/s.
 """
 
-import dataclasses
-
 import numpy as np
 import numpy.typing as npt
 
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import kinematics as rows
 from asperity.flanks.wheel.cutting.conjugate import cut_params
-from asperity.flanks.wheel.enveloped import FlankGrid
+from asperity.flanks.wheel.flank import MAP, RESOLVED, FlankGrid
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
+from asperity.results import Quantities, labelled, quantity
 
-_ROUNDING = 1e-9
 
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Kinematics:
+class Kinematics(Quantities):
     r"""What holds at each point of a flank while the worm turns.
 
-    Arrays have the shape of the points given; vectors one more axis of 3.
+    Arrays have the shape of the points given; vectors one more axis of 3. What is not described
+    with its field:
 
     Attributes
     ----------
     worm_speed : float
         :math:`\omega_1`, rad/s.
-    phase : ndarray
-        Angle of the worm at which the point is nearest to it.
-    gap : ndarray
-        The distance then, mm.
     reach : ndarray
         How far below the end of the worm's flank the nearest place lies, mm; negative where it is
         on the worm's tip, and the point never touches.
+    gap : ndarray
+        The distance to the worm where it is nearest, mm.
     position, normal : ndarray
         The point in space then, mm; unit normal of the worm's surface, out of the worm.
-    sliding : ndarray
-        Velocity of the worm relative to the wheel, mm/s.
     across, along : ndarray
         Unit vectors of the tangent plane, across and along the contact line.
-    worm_rolling, wheel_rolling : ndarray
-        Velocity :math:`u_k` of each surface over the contact line, along ``across``, mm/s.
     worm_curvature, wheel_curvature, relative_curvature : ndarray
-        (..., 2): principal curvatures, 1/mm, the larger one first; positive where convex. The
-        relative ones are those of the sum of both.
+        (..., 2): the larger one first; positive where convex. The relative ones are those of the
+        sum of both.
     line_curvature : ndarray
-        Relative curvature across the contact line, 1/mm; its inverse is the radius of the Hertzian
-        line contact.
+        Its inverse is the radius of the Hertzian line contact.
     """
 
+    phase: FloatArray = quantity(
+        "", "rad", "angle of the worm at which the point is nearest to it", dims=MAP
+    )
+    reach: FloatArray = quantity(
+        "", "mm", "nearest place below the end of the worm's flank", dims=MAP
+    )
+    sliding: FloatArray = quantity("", "mm/s", "sliding velocity of the worm", dims=(*MAP, "axis"))
+    worm_rolling: FloatArray = quantity(
+        "u_1", "mm/s", "worm's velocity over the contact line", dims=MAP
+    )
+    wheel_rolling: FloatArray = quantity(
+        "u_2", "mm/s", "wheel's velocity over the contact line", dims=MAP
+    )
+    worm_curvature: FloatArray = quantity(
+        "", "1/mm", "principal curvatures, worm", dims=(*MAP, "principal")
+    )
+    wheel_curvature: FloatArray = quantity(
+        "", "1/mm", "principal curvatures, wheel", dims=(*MAP, "principal")
+    )
+    relative_curvature: FloatArray = quantity(
+        "", "1/mm", "principal curvatures, relative", dims=(*MAP, "principal")
+    )
+    line_curvature: FloatArray = quantity("", "1/mm", "relative, across the contact line", dims=MAP)
     worm_speed: float
-    phase: FloatArray
     gap: FloatArray
-    reach: FloatArray
     position: FloatArray
     normal: FloatArray
-    sliding: FloatArray
     across: FloatArray
     along: FloatArray
-    worm_rolling: FloatArray
-    wheel_rolling: FloatArray
-    worm_curvature: FloatArray
-    wheel_curvature: FloatArray
-    relative_curvature: FloatArray
-    line_curvature: FloatArray
 
     @property
     def on_flank(self) -> npt.NDArray[np.bool_]:
         """Whether the nearest place is on the worm's flank, and not on its tip."""
-        return self.reach >= -_ROUNDING
+        return self.reach >= -RESOLVED
 
     @property
+    @labelled("", "mm/s", "size of the sliding velocity", dims=MAP)
     def sliding_speed(self) -> FloatArray:
         """Size of the sliding velocity, mm/s."""
         return np.asarray(np.linalg.norm(self.sliding, axis=-1))
 
     @property
+    @labelled("u", "mm/s", "mean velocity over the contact line", dims=MAP)
     def entrainment(self) -> FloatArray:
         r"""Speed :math:`(u_1 + u_2)/2` that draws oil into the contact line, mm/s, not signed."""
         return np.abs(0.5 * (self.worm_rolling + self.wheel_rolling))

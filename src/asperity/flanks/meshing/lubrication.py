@@ -28,6 +28,7 @@ from asperity.flanks.meshing.transmission import Transmission
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.gearset import Gearset
 from asperity.rating import Operation, hertz
+from asperity.results import Quantities, quantity
 from asperity.sources import Source
 
 SOURCES = {
@@ -109,6 +110,23 @@ class Load:
         )
 
 
+class LoadedNumbers(Quantities):
+    """What holds of all contact lines under load at one angle of the worm."""
+
+    worm_angle: float = quantity("phi_1", "deg", "angle of the worm")
+    loaded_teeth: int = quantity("", "", "teeth that carry")
+    loaded_length: float = quantity("", "mm", "length of line that carries")
+    loaded_twist: float = quantity("theta", "rad", "angle by which the wheel yields")
+    normal_force: float = quantity("F_N", "N", "sum of the normal forces")
+    line_load_max: float = quantity("w", "N/mm", "line load, greatest")
+    hertz_pressure_max: float = quantity("p", "MPa", "Hertzian pressure, greatest")
+    hertz_pressure_mean: float = quantity("p_m", "MPa", "Hertzian pressure, mean")
+    film_mean: float = quantity("h_m", "um", "oil film, mean")
+    film_min: float = quantity("h_min", "um", "oil film, least")
+    sliding_speed_mean: float = quantity("v_g", "mm/s", "sliding speed, mean")
+    entrainment_mean: float = quantity("u", "mm/s", "entrainment, mean")
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class LoadedLines:
     r"""Contact lines under load; arrays hold a number for each piece of line.
@@ -157,22 +175,23 @@ class LoadedLines:
         force = self.load * self.lines.length
         return float(np.sum(force * values) / np.sum(force))
 
-    def to_json(self) -> dict[str, float | int]:
-        """Scalar results, each key with its unit."""
-        return {
-            "worm_angle_deg": float(np.degrees(self.lines.worm_angle)),
-            "loaded_teeth": self.teeth,
-            "loaded_length_mm": float(self.lines.length[self.carrying].sum()),
-            "loaded_twist_rad": self.twist,
-            "normal_force_N": self.normal_force,
-            "line_load_max_N_per_mm": float(self.load.max()),
-            "hertz_pressure_max_MPa": float(self.pressure.max()),
-            "hertz_pressure_mean_MPa": self.mean(self.pressure),
-            "film_min_um": float(self.film[self.carrying].min()),
-            "film_mean_um": self.mean(self.film),
-            "sliding_speed_mean_mm_per_s": self.mean(self.sliding_speed),
-            "entrainment_mean_mm_per_s": self.mean(self.entrainment),
-        }
+    @property
+    def numbers(self) -> LoadedNumbers:
+        """What is found over all lines."""
+        return LoadedNumbers(
+            worm_angle=float(np.degrees(self.lines.worm_angle)),
+            loaded_teeth=self.teeth,
+            loaded_length=float(self.lines.length[self.carrying].sum()),
+            loaded_twist=self.twist,
+            normal_force=self.normal_force,
+            line_load_max=float(self.load.max()),
+            hertz_pressure_max=float(self.pressure.max()),
+            hertz_pressure_mean=self.mean(self.pressure),
+            film_mean=self.mean(self.film),
+            film_min=float(self.film[self.carrying].min()),
+            sliding_speed_mean=self.mean(self.sliding_speed),
+            entrainment_mean=self.mean(self.entrainment),
+        )
 
 
 def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedLines:

@@ -20,9 +20,10 @@ import numpy as np
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.wheel.cutting.conjugate import cut_params
-from asperity.flanks.wheel.enveloped import FlankGrid, WheelFlank
+from asperity.flanks.wheel.flank import RESOLVED, FlankGrid, WheelFlank
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
+from asperity.results import Quantities, labelled, quantity
 
 SAMPLES = 32
 """Places of the wheel in a pitch."""
@@ -113,37 +114,39 @@ class ToothSearch:
         return self._least(kernels.NEAR, worm, beta, phase, exact)
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Transmission:
+class Transmission(Quantities):
     r"""How the unloaded mesh transmits over a pitch of the wheel, on one flank.
 
     Attributes
     ----------
     search : ToothSearch
         The flank and the worm.
-    wheel_angle : ndarray
-        :math:`\beta` over one pitch.
     lead : ndarray
-        :math:`D` there: by how much the worm turns further than :math:`i\beta` until it touches.
+        :math:`D` at each place: by how much the worm turns further than :math:`i\beta` until it
+        touches, rad.
     tooth_angle : ndarray
-        Angles of one tooth from where it enters the mesh to where it leaves it.
+        Angles of one tooth from where it enters the mesh to where it leaves it, rad.
     tooth_lead : ndarray
         :math:`D` of that tooth alone; infinite where the worm does not reach it.
     contact : ndarray
         (n, 2) radius and z of the place that bears, on the tooth that bears, mm.
-    peak_to_peak : float
-        Of the transmission error over a pitch, its extremes refined between the places.
     """
 
+    wheel_angle: FloatArray = quantity("beta", "rad", "angle of the wheel", dims=("place",))
+    peak_to_peak: float = quantity(
+        "", "rad", "transmission error, peak to peak",
+        key="transmission_error_rad", variable="transmission_error_range",
+    )  # fmt: skip
     search: ToothSearch
-    wheel_angle: FloatArray
     lead: FloatArray
     tooth_angle: FloatArray
     tooth_lead: FloatArray
     contact: FloatArray
-    peak_to_peak: float
 
     @property
+    @labelled(
+        "", "rad", "the wheel ahead of the worm", variable="transmission_error", dims=("place",)
+    )
     def error(self) -> FloatArray:
         r"""Transmission error at each place of the pitch, rad.
 
@@ -153,9 +156,25 @@ class Transmission:
         return -self.lead / self.search.pair.ratio
 
     @property
+    @labelled(
+        "", "rad", "transmission error, mean",
+        key="transmission_error_mean_rad", variable="transmission_error_mean",
+    )  # fmt: skip
     def mean(self) -> float:
         """Mean of `error`, rad."""
         return float(np.mean(self.error))
+
+    @property
+    @labelled("", "mm", "where it bears, from the axis", dims=("place",))
+    def contact_radius(self) -> FloatArray:
+        """Radius of the place that bears, mm."""
+        return self.contact[:, 0]
+
+    @property
+    @labelled("", "mm", "where it bears, from mid-face", dims=("place",))
+    def contact_face(self) -> FloatArray:
+        """Place along the wheel's axis that bears, mm."""
+        return self.contact[:, 1]
 
     @property
     def ahead(self) -> float:
@@ -163,10 +182,15 @@ class Transmission:
         return self.search.flank.side * self.mean
 
     @property
+    @labelled("phi_1", "rad", "angle of the worm in contact", dims=("place",))
     def worm_angle(self) -> FloatArray:
         r"""Angle :math:`\varphi_1` of the worm in contact at each place of the pitch."""
         side = self.search.flank.side
         return self.search.pair.ratio * self.wheel_angle + side * self.lead
+
+    def resolution(self, name: str) -> float:
+        """Return the size below which an angle of the wheel is rounding, rad."""
+        return 2.0 * RESOLVED / self.search.pair.geometry.wheel_mean_diameter
 
     def contact_ratio(self, gap: float = 0.0) -> float:
         r"""Mean number of teeth that bear, to about one place in the pitch.

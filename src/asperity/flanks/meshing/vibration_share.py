@@ -14,14 +14,15 @@ cylinder), so that the parts of each are shares of it:
   surface then slides in itself: there is no part along the normal, whatever the flank.
 """
 
-import dataclasses
 import math
 
 import numpy as np
 
 from asperity.flanks.meshing.kinematics import Kinematics
+from asperity.flanks.wheel.flank import MAP
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
+from asperity.results import Quantities, quantity
 
 DIRECTIONS = ("axial", "torsional", "wheel_axial", "screw")
 """The directions of `VibrationShare`, in its order."""
@@ -30,18 +31,17 @@ PARTS = ("along", "across", "normal")
 """The parts of each, in the order of `VibrationShare`."""
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class VibrationShare:
-    """Parts of a unit vibration velocity at each point of a flank.
+class VibrationShare(Quantities):
+    """Parts of a unit vibration velocity at each point of a flank, by `DIRECTIONS` and `PARTS`.
 
-    Attributes
-    ----------
-    parts : ndarray
-        ``(..., 4, 3)``: by `DIRECTIONS` and `PARTS`. The velocity is that of the worm relative to
-        the wheel; along is positive in the direction of sliding, normal away from the worm.
+    The velocity is that of the worm relative to the wheel; along is positive in the direction of
+    sliding, normal away from the worm.
     """
 
-    parts: FloatArray
+    parts: FloatArray = quantity(
+        "", "", "part of a unit vibration velocity",
+        variable="vibration", dims=(*MAP, "direction", "part"),
+    )  # fmt: skip
 
     def of(self, direction: str, part: str) -> FloatArray:
         """Return one part of one direction, shaped as the points."""
@@ -90,4 +90,4 @@ def vibration_share(pair: Pair, motion: Kinematics) -> VibrationShare:
     slide = motion.sliding - np.sum(motion.sliding * normal, axis=-1, keepdims=True) * normal
     slide = slide / np.linalg.norm(slide, axis=-1, keepdims=True)
     basis = np.stack([slide, np.cross(normal, slide), normal], axis=-2)
-    return VibrationShare(velocities @ np.swapaxes(basis, -1, -2))
+    return VibrationShare(parts=velocities @ np.swapaxes(basis, -1, -2))

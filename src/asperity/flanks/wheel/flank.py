@@ -17,40 +17,50 @@ from asperity.flanks.wheel.cutting.conjugate import conjugate_each, cut_params
 from asperity.flanks.wheel.refusal import refusal, widest_face
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
+from asperity.results import Quantities, quantity
+
+MAP = ("row", "column")
+"""Dimensions of what lies over a flank: from the fillet to the tip, and across the face."""
+
+RESOLVED = 1e-9
+"""Differences of lengths smaller than this are rounding, mm: points are found to a tenth of it."""
 
 GAUSS = 16
 """Points of Gauss's rule for areas."""
 
-_TOLERANCE = 1e-10
+_TOLERANCE = 0.1 * RESOLVED
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class FlankGrid:
+class FlankGrid(Quantities):
     """Points of the cut wheel, each with the phase at which the hob cuts it.
 
     All arrays have the shape of the grid: rows from the inside out, columns along the wheel's axis.
 
     Attributes
     ----------
-    points : ndarray
-        (..., 3), in the wheel, mm.
-    normals : ndarray
-        (..., 3), unit normals out of the tooth.
+    points, normals : ndarray
+        (..., 3), in the wheel, mm; unit normals out of the tooth.
+    radius, z : ndarray
+        Distance from the wheel's axis and place on it, mm.
     phase : ndarray
         Angle of the hob at which the point is cut; the wheel is then at its ``z_1/z_2``-fold.
     u, psi : ndarray
         Place on the hob's curve (0 to 1 flank, to 2 tip arc, to 3 land) and standing angle.
-    radius, z : ndarray
-        Distance from the wheel's axis and place on it, mm.
     """
 
-    points: FloatArray
-    normals: FloatArray
+    radius: FloatArray = quantity("", "mm", "distance from the wheel's axis", dims=MAP)
+    z: FloatArray = quantity(
+        "", "mm", "distance from mid-face along the wheel's axis", variable="face", dims=MAP
+    )
+    points: FloatArray = quantity(
+        "", "mm", "point of the flank, in the wheel", variable="point", dims=(*MAP, "axis")
+    )
+    normals: FloatArray = quantity(
+        "", "", "normal out of the tooth", variable="flank_normal", dims=(*MAP, "axis")
+    )
     phase: FloatArray
     u: FloatArray
     psi: FloatArray
-    radius: FloatArray
-    z: FloatArray
 
     @property
     def angle(self) -> FloatArray:
@@ -153,10 +163,14 @@ class WheelFlank:
         conjugate_each(u.reshape(-1), psi.reshape(-1), side, hob, cut, points, normals, phase)
         shape = u.shape
         points = points.reshape(*shape, 3)
-        radius = np.hypot(points[..., 0], points[..., 1])
-        z = points[..., 2].copy()
         return FlankGrid(
-            points, normals.reshape(*shape, 3), phase.reshape(shape), u, psi, radius, z
+            radius=np.hypot(points[..., 0], points[..., 1]),
+            z=points[..., 2].copy(),
+            points=points,
+            normals=normals.reshape(*shape, 3),
+            phase=phase.reshape(shape),
+            u=u,
+            psi=psi,
         )
 
     def grid(self, n_radial: int, n_face: int, z: npt.ArrayLike | None = None) -> FlankGrid:

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.flanks.plots import outline
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 from asperity.thesis.flanks.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint
 from asperity.thesis.flanks.shapes import Shape
@@ -72,7 +73,7 @@ def formation(dataset: "xr.Dataset") -> "Figure":
         root, tip = float(dataset["worm_root"]), float(dataset["worm_tip"])
         worm.axhspan(root, tip, color=_GROUND, zorder=0)
         worm.set_ylim(root - 0.3, tip + 0.3)
-        _ground(wheel, *_round(own["face"].values, own["radius"].values))
+        _ground(wheel, *outline(own["face"].values, own["radius"].values))
         for time in range(times):
             gap = own["gap"].values[time]
             near = np.ma.masked_where(gap > film, own["phase"].values)
@@ -114,7 +115,7 @@ def dye(dataset: "xr.Dataset") -> "Figure":
             f"middle {abs(float(own['centre'])):.1f} mm from mid-face"
         )
         face, radius = own["face"].values, own["radius"].values
-        _ground(flat, *_round(face, radius))
+        _ground(flat, *outline(face, radius))
         gap = np.maximum(own["gap"].values, 0.0)
         filled = flat.contourf(face, radius, gap, levels=np.linspace(0.0, film, 7), cmap="Blues_r")
         flat.contour(face, radius, gap, levels=[film], colors=BLACK, linewidths=1.0)
@@ -161,10 +162,6 @@ def _ground(panel: "Axes", x: Any, y: Any) -> None:
     panel.grid(visible=False)
     panel.fill(x, y, color=_GROUND, zorder=0)
     panel.plot(x, y, color=BLACK, linewidth=1.0)
-
-
-def _round(x: Any, y: Any) -> list[Any]:
-    return [np.concatenate([v[0], v[1:, -1], v[-1, -2::-1], v[-2::-1, 0]]) for v in (x, y)]
 
 
 def _labels(panel: "Axes", *, bottom: bool, left: bool) -> None:

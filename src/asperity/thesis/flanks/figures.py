@@ -8,6 +8,7 @@ import numpy as np
 
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
+from asperity.flanks.wheel.flank import FlankGrid
 from asperity.thesis.exhibits import Drawn, FigureOf, labelled
 from asperity.thesis.flanks import drawings
 from asperity.thesis.flanks.meshing import Meshing, meshing, pair_of
@@ -144,7 +145,7 @@ def figure_2_11() -> Drawn:
         heights.append(grid.radius)
         shares.append(marks.area_fraction)
         centres.append(marks.centre[0])
-        variables |= _dyed(found, marks).variables(f"teeth_{tilt:g}")
+        variables |= _dyed(found, grid, marks).variables(f"teeth_{tilt:g}")
     flank = ("tilt", "row", "column")
     dataset = labelled(
         tilt=(("tilt",), list(TILTS), "deg", "tilt of the hob"),
@@ -159,7 +160,7 @@ def figure_2_11() -> Drawn:
     return Drawn(drawings.dye(dataset), dataset, _commands(*TILTS.values()))
 
 
-def _dyed(found: Meshing, marks: Pattern) -> Shape:
+def _dyed(found: Meshing, grid: FlankGrid, marks: Pattern) -> Shape:
     """Some teeth, the flanks that bear in fine faces, those that are marked with the number 1."""
     mesh = tooth(found.wheel, "coarse", teeth=_TEETH)
     sets = [name for name in mesh.face_sets if name.split("_")[0] in ("fillet", "tip", "face")]
@@ -168,7 +169,7 @@ def _dyed(found: Meshing, marks: Pattern) -> Shape:
     corners = [marks.gap[:-1, :-1], marks.gap[1:, :-1], marks.gap[1:, 1:], marks.gap[:-1, 1:]]
     dyed = np.mean(corners, axis=0) < marks.thickness
     pitch = 2.0 * math.pi / found.wheel.pair.geometry.wheel_teeth
-    flank = Shape.of_grid(marks.grid.points, dyed.reshape(-1))
+    flank = Shape.of_grid(grid.points, dyed.reshape(-1))
     flanks = [flank.turned(pitch * number) for number in range(_TEETH)]
     return joined([bare, *flanks]).turned(-pitch * (_TEETH // 2))
 

@@ -6,47 +6,42 @@ the compound is carried over: this is the check with blue dye of gear makers. Be
 the transmission error the worm follows the wheel linearly.
 """
 
-import dataclasses
-
 import numpy as np
 
 from asperity.flanks.meshing.kernels.pattern import smallest_gap
 from asperity.flanks.meshing.pattern.area import part_below
 from asperity.flanks.meshing.transmission import Transmission
 from asperity.flanks.wheel.cutting.conjugate import cut_params
-from asperity.flanks.wheel.enveloped import FlankGrid
+from asperity.flanks.wheel.flank import MAP, FlankGrid
 from asperity.flanks.worm.profiles import FloatArray
+from asperity.results import Quantities, quantity
 
 MARKING = 6e-3
 """Thickness of the marking compound, mm."""
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Pattern:
+class Pattern(Quantities):
     """The contact pattern on one flank.
 
     Attributes
     ----------
-    grid : FlankGrid
-        Points of the flank.
-    gap : ndarray
-        Smallest gap of each over all phases and teeth, mm.
     wheel_angle : ndarray
-        Angle of the wheel then, rad.
-    thickness : float
-        Of the marking compound, mm.
-    area_fraction : float
-        Share of the trimmed flank that is marked.
+        Angle of the wheel where each gap is smallest, rad.
     centre : tuple of 2 floats
         Centroid of the marked area: from mid-face along the wheel's axis and from the pitch radius
         outwards, mm.
     """
 
-    grid: FlankGrid
-    gap: FloatArray
+    gap: FloatArray = quantity("", "mm", "smallest gap over all phases and teeth", dims=MAP)
+    thickness: float = quantity(
+        "", "mm", "thickness of the marking compound", variable="marking_thickness",
+        only="file", shown=False,
+    )  # fmt: skip
+    area_fraction: float = quantity(
+        "", "", "contact pattern, share of the flank",
+        key="pattern_area_fraction", variable="pattern_area_fraction",
+    )  # fmt: skip
     wheel_angle: FloatArray
-    thickness: float
-    area_fraction: float
     centre: tuple[float, float]
 
     @property
@@ -84,7 +79,6 @@ def pattern(mesh: Transmission, grid: FlankGrid, thickness: float = MARKING) -> 
     place = np.stack([grid.z, grid.radius - pair.geometry.wheel_mean_diameter / 2.0], axis=-1)
     part = part_below(grid.points, gap, thickness, place)
     return Pattern(
-        grid=grid,
         gap=gap,
         wheel_angle=at,
         thickness=thickness,
