@@ -9,7 +9,8 @@ import numpy as np
 
 from asperity.block.notes import block_notes
 from asperity.block.problem import BlockProblem
-from asperity.block.result import BlockResult, Frame
+from asperity.block.result import BlockResult
+from asperity.block.series import Frame
 from asperity.block.stability import Flutter, Stability
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo

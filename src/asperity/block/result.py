@@ -1,6 +1,5 @@
 """What a solved block is: the answer of a sliding body, and what only a contact has."""
 
-import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
@@ -9,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.block.problem import BlockProblem
+from asperity.block.series import Frame, write_block_series
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
@@ -17,34 +17,6 @@ from asperity.slider.result import History, SlideResult, table_inputs
 from asperity.slider.result import inputs as slider_inputs
 
 IntArray = NDArray[np.int64]
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Frame:
-    """One moment of a block, enough to draw all of it.
-
-    Attributes
-    ----------
-    time : float
-        s.
-    coordinates : ndarray, shape (m,)
-        Generalised coordinates.
-    drive_force : float
-        N.
-    force : ndarray, shape (3 n,)
-        Contact forces on the block, N.
-    pressure : ndarray, shape (q,)
-        At the points of the contact, Pa.
-    traction : ndarray, shape (q, 3)
-        On the block, Pa.
-    """
-
-    time: float
-    coordinates: FloatArray
-    drive_force: float
-    force: FloatArray
-    pressure: FloatArray
-    traction: FloatArray
 
 
 class BlockResult(SlideResult):
@@ -213,10 +185,8 @@ class BlockResult(SlideResult):
 
     def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
         """Write JSON, netCDF and pictures, and an animation for ParaView."""
-        from asperity.block.series import write_block_series
-
         names = super().write(folder, pictures=pictures)
-        write_block_series(self, folder / "block.pvd")
+        write_block_series(self.problem, self.frames, folder / "block.pvd")
         for path in sorted(folder.glob("block_[0-9]*.vtu"))[len(self.frames) :]:
             path.unlink(missing_ok=True)
         return [*names, "block.pvd with its frames"]

@@ -12,7 +12,8 @@ import numpy as np
 
 from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
-from asperity.block.result import Frame, inputs
+from asperity.block.result import inputs
+from asperity.block.series import Frame
 from asperity.contact.increment.memory import (
     inverses_as_arrays,
     restore_inverses,

@@ -1,5 +1,6 @@
 """A block in motion as a series of VTU files: all of it, deformed, with its pressure below."""
 
+import dataclasses
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,10 +14,37 @@ from asperity.slider.model import FloatArray
 
 if TYPE_CHECKING:
     from asperity.block.problem import BlockProblem
-    from asperity.block.result import BlockResult, Frame
 
 
-def write_block_series(result: "BlockResult", path: Path) -> Path:
+@dataclasses.dataclass(frozen=True, eq=False)
+class Frame:
+    """One moment of a block, enough to draw all of it.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    coordinates : ndarray, shape (m,)
+        Generalised coordinates.
+    drive_force : float
+        N.
+    force : ndarray, shape (3 n,)
+        Contact forces on the block, N.
+    pressure : ndarray, shape (q,)
+        At the points of the contact, Pa.
+    traction : ndarray, shape (q, 3)
+        On the block, Pa.
+    """
+
+    time: float
+    coordinates: FloatArray
+    drive_force: float
+    force: FloatArray
+    pressure: FloatArray
+    traction: FloatArray
+
+
+def write_block_series(problem: "BlockProblem", frames: tuple[Frame, ...], path: Path) -> Path:
     """Write a block's frames for ParaView, which plays the ``.pvd`` file.
 
     At the nodes of the block: ``displacement`` (m), from where it stood unloaded;
@@ -25,24 +53,26 @@ def write_block_series(result: "BlockResult", path: Path) -> Path:
 
     Parameters
     ----------
-    result : BlockResult
-        With frames.
+    problem : BlockProblem
+        The block.
+    frames : tuple of Frame
+        Moments of it.
     path : path
         The ``.pvd`` file; the frames stand beside it.
 
     Raises
     ------
     InputError
-        The result has no frames.
+        There are no frames.
     StorageError
         A file cannot be written.
     """
-    if not result.frames:
+    if not frames:
         raise InputError("the result has no frames to write; solve with history=True")
-    return write_series(path, result.problem.mesh, fields(result.problem, result.frames))
+    return write_series(path, problem.mesh, fields(problem, frames))
 
 
-def fields(problem: "BlockProblem", frames: "tuple[Frame, ...]") -> Iterator[tuple[float, Data]]:
+def fields(problem: "BlockProblem", frames: tuple[Frame, ...]) -> Iterator[tuple[float, Data]]:
     """Yield time and nodal fields of each frame.
 
     What the contact nodes were condensed from is found again from the forces: the deformation

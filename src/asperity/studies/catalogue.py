@@ -22,6 +22,7 @@ from asperity.gearset.sizing import MODULES, MOST_STARTS, MOST_TEETH, least_teet
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.variants import Variants, variants
 from asperity.studies.design import NEEDED, Bounds
+from asperity.studies.layout import labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,6 +48,22 @@ NUMBERS = {
 
 _OWN_SIZE = ("worm_face_width", "wheel_face_width", "rim_thickness")
 _SIZE = ("centre_distance", "axial_module", "diameter_factor", "worm_pitch_diameter")
+
+
+_CATALOGUE = {
+    "starts": ("1", "threads of the worm"),
+    "wheel_teeth": ("1", "teeth of the wheel"),
+    "diameter_factor": ("1", "diameter factor"),
+    "axial_module_mm": ("mm", "axial module"),
+    "profile_shift": ("1", "profile shift of the wheel"),
+    "mu_zm": ("1", "mean coefficient of tooth friction"),
+    "eta_z1_2": ("1", "efficiency of the teeth"),
+    "eta_ges": ("1", "efficiency of the gearbox"),
+    "M_w_Nm": ("N m", "torque permitted by wear"),
+    "M_s_Nm": ("N m", "torque permitted by strength"),
+    "safety_wear": ("1", "permitted torque over the one required, wear"),
+    "safety_strength": ("1", "permitted torque over the one required, strength"),
+}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -117,10 +134,21 @@ class Catalogue:
         return {"proposals": proposals, "impossible": impossible}
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return the proposals over ratio and centre distance, labelled."""
-        from asperity.studies.datasets import catalogue_dataset
-
-        return catalogue_dataset(self)
+        """Return the proposals over ratio and centre distance."""
+        both = ("ratio", "centre_distance")
+        named = {key: (both, values, *_CATALOGUE[key]) for key, values in self.numbers.items()}
+        return labelled(
+            "Most efficient worm gearsets of a catalogue",
+            {
+                "ratio": (("ratio",), self.ratios, "1", "gear ratio asked for"),
+                "centre_distance": (
+                    ("centre_distance",), self.centre_distances, "m", "centre distance",
+                ),
+            },
+            candidates=(both, self.candidates, "1", "gearsets that were rated"),
+            reason=(both, self.reason, "1", "why there is no proposal"),
+            **{key.removesuffix("_Nm").removesuffix("_mm"): value for key, value in named.items()},
+        )  # fmt: skip
 
 
 def search(

@@ -2,13 +2,16 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from asperity.errors import InputError, nearest
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.sources import Source
+from asperity.studies.layout import labelled, percent, points, words
 from asperity.studies.shaken import Shaken
 
 if TYPE_CHECKING:
@@ -144,10 +147,50 @@ class Comparison(Result):
         }
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return friction and efficiency over the methods, labelled."""
-        from asperity.studies.datasets import comparison_dataset
+        """Return friction, efficiencies and vibrations over the methods."""
+        rows, over = self.rows, ("way",)
 
-        return comparison_dataset(self)
+        def column(get: Callable[["Compared"], float]) -> Any:
+            return np.array([get(row) for row in rows])
+
+        def imposed(get: Callable[["Shaken"], float]) -> Any:
+            return np.array([np.nan if r.vibration is None else get(r.vibration) for r in rows])
+
+        dataset = labelled(
+            f"Ways to less friction in {self.name or 'a worm gearset'}",
+            {"way": (over, words(r.key for r in rows), "1", "way to less friction")},
+            name=(over, words(r.name for r in rows), "1", "what it is"),
+            kind=(over, words(r.kind for r in rows), "1", "family"),
+            source=(over, words(str(r.source) for r in rows), "1", "who reports its friction"),
+            mu_0T=(over, column(lambda r: r.base_friction), "1", "base coefficient of friction"),
+            mu_zm=(over, column(lambda r: r.friction), "1", "mean coefficient of tooth friction"),
+            eta_z1_2=(over, column(lambda r: r.efficiency), "1", "efficiency of the teeth"),
+            eta_ges=(over, column(lambda r: r.total_efficiency), "1", "efficiency of the gearbox"),
+            eta_z2_1=(
+                over, column(lambda r: r.back_driving_efficiency), "1",
+                "efficiency of the teeth, wheel driving",
+            ),
+            velocity_ratio=(
+                over, imposed(lambda v: v.velocity_ratio), "1",
+                "peak velocity of the vibration over the sliding velocity",
+            ),
+            velocity_amplitude=(
+                over, imposed(lambda v: v.velocity), "m/s", "peak velocity of the vibration",
+            ),
+            vibration_power=(
+                over, column(lambda r: r.vibration_power), "W", "power of the vibration",
+            ),
+            eta_z1_2_with_power=(
+                over, column(lambda r: r.efficiency_with_vibration), "1",
+                "efficiency of the teeth with the power of the vibration counted",
+            ),
+        )  # fmt: skip
+        dataset.attrs |= {
+            "sliding_velocity_m_s": self.sliding_velocity,
+            "output_power_W": self.output_power,
+            "notes": "; ".join(self.notes),
+        }
+        return dataset
 
     def heading(self) -> str:
         """Return the gearset's name."""
@@ -155,6 +198,28 @@ class Comparison(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return friction and efficiency with each method, with the sources and notes below."""
-        from asperity.studies.reports import comparison_tables
-
-        return comparison_tables(self)
+        rows = [
+            [
+                row.name,
+                f"{row.base_friction:.4f}",
+                f"{row.friction:.4f}",
+                percent(row.efficiency),
+                points(row.gain),
+                percent(row.total_efficiency),
+                row.locks,
+            ]
+            for row in self.rows
+        ]
+        assumed = [f"{what} is assumed: {text}" for what, text in self.assumed.items()]
+        names: dict[str, list[str]] = {}
+        for row in self.rows:
+            names.setdefault(str(row.source), []).append(row.name)
+        sources = [f"friction of {'; '.join(of)}: {source}" for source, of in names.items()]
+        return (
+            Table.of(
+                ("", "mu_0T", "mu_zm", "eta_z", "points", "eta_ges", "locks"),
+                rows,
+                title="Efficiency of the teeth eta_z and of the gearbox eta_ges in percent",
+                remarks=(*self.notes, *assumed, *sources),
+            ),
+        )

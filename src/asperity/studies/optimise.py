@@ -25,6 +25,7 @@ from asperity.runs import Run
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
 from asperity.studies.gears import Gears
+from asperity.studies.layout import points
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.tradeoff import TradeOff, trade_off
 
@@ -152,10 +153,33 @@ class Optimum(Result):
         return self.before.gearset.name or "worm gearset"
 
     def tables(self) -> tuple[Table, ...]:
-        """Return both designs side by side, what holds the design back, and the curve."""
-        from asperity.studies.reports import optimum_tables
-
-        return optimum_tables(self, design_numbers(self.before), design_numbers(self.after))
+        """Return the gearset and its best design side by side, and what holds the design back."""
+        before, after = design_numbers(self.before), design_numbers(self.after)
+        rows = []
+        for key, value in before.items():
+            if isinstance(value, dict):
+                now = after[key] or {}
+                rows += [[f"{key}.{own}", value[own], now[own]] for own in value if own in now]
+            elif value is not None:
+                rows.append([key, value, after[key]])
+        active = [[limit.key, limit.relation, limit.bound, limit.value] for limit in self.active]
+        remarks = [
+            f"eta_z {points(self.gain)} points; {self.agreed} of {self.starts} starts agree",
+            "other constraints do not hold it back: "
+            + ", ".join(
+                f"{limit.symbol} {limit.relation} {limit.bound:.4g}"
+                for limit in self.limits
+                if not limit.active
+            ),
+            "rate it with " + " ".join(f'--set "{setting}"' for setting in self.settings),
+            *self.notes,
+        ]
+        held = "Constraints that hold it back"
+        tables = (
+            Table.of(("", "as it is", "self"), rows, title="Highest efficiency of the teeth"),
+            Table.of(("", "", "limit", "self"), active, title=held, left=2, remarks=remarks),
+        )
+        return tables if self.curve is None else (*tables, self.curve.table())
 
 
 def optimise(

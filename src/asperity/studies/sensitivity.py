@@ -26,6 +26,7 @@ from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.studies.gears import Gears
+from asperity.studies.layout import labelled, percent, points, words
 from asperity.studies.quantities import Quantity, varied_quantity
 
 if TYPE_CHECKING:
@@ -158,20 +159,80 @@ class Sensitivity(Result):
         }
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return the efficiency over input and rise, and the summary, labelled."""
-        from asperity.studies.datasets import sensitivity_dataset
-
-        return sensitivity_dataset(self)
+        """Return efficiencies over input and rise, what ends them, and the elasticities."""
+        found = self.influences
+        both = ("input", "rise")
+        ends = [np.nan if i.fails_above is None else 100.0 * i.fails_above for i in found]
+        dataset = labelled(
+            f"Sensitivity of the efficiency of {self.name or 'a worm gearset'}",
+            {
+                "input": (
+                    ("input",), words(i.quantity.name for i in found), "1", "input that is raised",
+                ),
+                "rise": (("rise",), 100.0 * self.rises, "percent", "rise of the input"),
+            },
+            symbol=(
+                ("input",), words(i.quantity.symbol for i in found), "1", "symbol of the input",
+            ),
+            eta_z1_2=(
+                both, np.array([i.efficiency for i in found]), "1", "efficiency of the teeth",
+            ),
+            reason=(
+                both,
+                np.array([[i.legend.get(int(c), "") for c in i.reason] for i in found], object),
+                "1",
+                "why there is no efficiency",
+            ),
+            elasticity=(
+                ("input",), np.array([i.elasticity for i in found]), "1",
+                "relative change of the efficiency over that of the input",
+            ),
+            fails_above=(
+                ("input",), np.array(ends), "percent", "rise above which there is no efficiency",
+            ),
+            **{
+                i.quantity.name: (("rise",), i.values, i.quantity.unit or "1", i.quantity.meaning)
+                for i in found
+            },
+        )  # fmt: skip
+        dataset.attrs["eta_z1_2"] = self.efficiency
+        return dataset
 
     def heading(self) -> str:
         """Return the gearset's name."""
         return self.name or "worm gearset"
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the efficiencies over the rises, and a summary of the influences."""
-        from asperity.studies.reports import sensitivity_tables
-
-        return sensitivity_tables(self)
+        """Return efficiencies over the rises, and a summary of the influences."""
+        rises = [f"{100.0 * rise:+.0f} %" if rise else "as is" for rise in self.rises]
+        curves, summary, remarks = [], [], []
+        for found in self.influences:
+            what = found.quantity
+            curves.append([what.symbol, *map(percent, found.efficiency)])
+            summary.append(
+                [
+                    what.symbol,
+                    what.text(found.values[0]),
+                    found.effect,
+                    found.size,
+                    f"{found.elasticity:+.2f}",
+                    points(found.change),
+                ]
+            )
+            if found.fails_above is not None:
+                remarks.append(
+                    f"{what.symbol} raised by more than {100.0 * found.fails_above:.1f} %: "
+                    f"{found.failure}"
+                )
+        remarks.append(
+            "points: change of the efficiency up to the last rise with an answer; elasticity: "
+            "change over the input's, both in parts of themselves"
+        )
+        headings = ("", "at", "effect", "size", "elasticity", "points")
+        return (
+            Table.of(["", *rises], curves, title="Efficiency of the teeth eta_z in percent"),
+            Table.of(headings, summary, title="Influence", left=4, remarks=remarks),
+        )
 
 
 def sensitivity(

@@ -20,6 +20,7 @@ from asperity.results import Result
 from asperity.results.table import Table
 from asperity.studies.climb import Top, climb, spread
 from asperity.studies.design import VARIABLES, Bounds, Space
+from asperity.studies.layout import labelled, percent
 from asperity.studies.quantities import varied_quantity
 
 if TYPE_CHECKING:
@@ -76,16 +77,46 @@ class TradeOff(Result):
         }
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return the curve over the permissible torque, labelled."""
-        from asperity.studies.datasets import trade_off_dataset
+        """Return the designs over the permissible torque."""
+        over = ("torque",)
+        dataset = labelled(
+            f"Efficiency and permissible torque of {self.name or 'a worm gearset'}",
+            {"torque": (over, self.torque, "N m", "permissible torque, by wear and strength")},
+            eta_z1_2=(over, self.efficiency, "1", "highest efficiency of the teeth"),
+            h_star=(over, self.numbers["h_star"], "1", "parameter of the lubricant film"),
+            M_w=(over, self.numbers["M_w_Nm"], "N m", "torque permitted by wear"),
+            M_s=(over, self.numbers["M_s_Nm"], "N m", "torque permitted by strength"),
+            **{
+                what.name: (over, self.numbers[what.key], what.unit or "1", what.meaning)
+                for what in map(varied_quantity, (*VARIABLES, "profile_shift"))
+            },
+        )
+        given = {f"given.{key}": value for key, value in self.given.items()}
+        dataset.attrs |= given | {"required_torque_Nm": self.required_torque}
+        return dataset
 
-        return trade_off_dataset(self)
+    def table(self) -> Table:
+        """Return the most efficient designs for rising permissible torques."""
+        keys = ("pressure_angle_deg", "diameter_factor", "axial_module_mm", "worm_roughness_um")
+        columns = [self.numbers[key] for key in (*keys, "profile_shift")]
+        rows = [
+            [
+                f"{torque:.4g}",
+                percent(self.efficiency[place]),
+                *(f"{column[place]:.4g}" for column in columns),
+            ]
+            for place, torque in enumerate(self.torque)
+        ]
+        return Table.of(
+            ("M_p (N m)", "eta_z (%)", "alpha_n (deg)", "q_1", "m_x1 (mm)", "Ra_1 (um)", "x_2"),
+            rows,
+            title="Most efficient designs for a permissible torque",
+            left=0,
+        )
 
     def tables(self) -> tuple[Table, ...]:
         """Return the designs as a table."""
-        from asperity.studies.reports import trade_off_table
-
-        return (trade_off_table(self),)
+        return (self.table(),)
 
 
 def trade_off(
