@@ -8,41 +8,44 @@ BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 PYTEST_OPTIONS ?= -n auto --dist loadgroup
 
-.PHONY: run test slow lint types floors docs examples bench clean
+.PHONY: help run test slow lint types floors docs examples bench clean
 
-run: .venv/.runtime
+run: .venv/.runtime  ## reproduce the thesis: claims, figures and tables into out/thesis/index.html
 	$(BIN)/asperity thesis
 
-test: .venv/.dev
+test: .venv/.dev  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
-slow: .venv/.dev
+slow: .venv/.dev  ## prove the rest of it
 	$(BIN)/python -m pytest -m slow $(PYTEST_OPTIONS)
 
-lint: .venv/.dev
+lint: .venv/.dev  ## look at format and style
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 
-types: .venv/.dev
+types: .venv/.dev  ## check the types
 	$(BIN)/mypy
 
-floors: .venv/.dev
+floors: .venv/.dev  ## check that rooms import only from below, and in no circles
 	$(BIN)/lint-imports
 
-docs: .venv/.dev
+docs: .venv/.dev  ## build the documentation into docs/_build/html
 	$(BIN)/sphinx-build -W --keep-going -q docs docs/_build/html
 
-examples: .venv/.dev
+examples: .venv/.dev  ## run the examples
 	@for file in $(wildcard examples/*.py); do \
 	  echo "$$file"; MPLBACKEND=Agg $(BIN)/python "$$file" || exit 1; \
 	done
 
-bench: .venv/.dev
+bench: .venv/.dev  ## measure speed, as ratios
 	@for file in $(wildcard benchmarks/[a-z]*.py); do \
 	  echo "$$file"; $(BIN)/python "$$file" || exit 1; \
 	done
 
-clean:
+help:  ## say what can be made
+	@sed -n 's/^\([a-z]*\):.*  ## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | expand -t 12
+
+clean:  ## remove everything that was made
 	rm -rf .venv out dist build docs/_build docs/api docs/gallery docs/sg_execution_times.rst
 	rm -rf .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 

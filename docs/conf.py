@@ -1,6 +1,14 @@
 """Configuration of the documentation."""
 
+import sys
+from pathlib import Path
+
 import asperity
+
+sys.path.insert(0, str(Path(__file__).parent))
+from draw_tower import draw
+
+draw(Path(__file__).parent / "_static" / "tower.png")
 
 project = "asperity"
 author = "the asperity authors"
