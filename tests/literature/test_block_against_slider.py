@@ -12,13 +12,13 @@ import pytest
 from asperity.block.march import solve_block
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case, shipped_cases
+from asperity.commands import case_tables
 from asperity.contact.motion import ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Walker
 from asperity.slider.march import march
 from asperity.thesis.contact.blocks import LIGHT, Block, in_series
-from asperity.thesis.rating.gearsets import CASE_TABLES
 
 WAYS = {
     "longitudinal": ("block-longitudinal", ()),
@@ -99,7 +99,7 @@ def test_on_the_shipped_mesh_too_it_is_the_rocking_at_k_20(way):
 
 def test_from_rest_the_block_goes_the_way_of_the_sliding_body_with_its_compliance():
     settings = [*LIGHT, "vibration.start=0 s", "vibration.direction=45 deg"]
-    problem = BlockProblem.from_case(read_case("block-transverse", CASE_TABLES, settings))
+    problem = BlockProblem.from_case(read_case("block-transverse", case_tables(), settings))
     springy = in_series(problem, rocking=True)
     step = 1.0 / (3000.0 * 160)
     means = []
@@ -121,7 +121,7 @@ def test_from_rest_the_block_goes_the_way_of_the_sliding_body_with_its_complianc
 
 
 def shipped():
-    cases = {name: read_case(name, CASE_TABLES) for name in shipped_cases()}
+    cases = {name: read_case(name, case_tables()) for name in shipped_cases()}
     return sorted(name for name, case in cases.items() if "block" in case)
 
 
@@ -133,7 +133,7 @@ def test_blocks_are_shipped_for_both_directions():
 @pytest.mark.parametrize("name", shipped())
 def test_every_shipped_block_balances_its_powers_and_leaves_no_increment_unsolved(name):
     short = ["vibration.start=0.5 ms", "solve.duration=5 ms"]
-    problem = BlockProblem.from_case(read_case(name, CASE_TABLES, short))
+    problem = BlockProblem.from_case(read_case(name, case_tables(), short))
     result = solve_block(problem, history=False)
     assert result.steps == round(5e-3 / problem.model.step) >= 5000
     assert result.cuts == result.to_json()["unconverged"] == 0

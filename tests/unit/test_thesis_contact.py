@@ -8,15 +8,13 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
-from asperity.thesis.contact import blocks, pressed
+from asperity.commands import case_tables
+from asperity.thesis.contact import blocks, elastic, pressed
 from asperity.thesis.contact import claims as claims_contact
 from asperity.thesis.contact.blocks import LIGHT, Block, Settled, settle_all
-from asperity.thesis.contact.figures import _over_ratio
+from asperity.thesis.contact.elastic import BlockFromRest, ElasticBlock, from_rest
+from asperity.thesis.contact.figures import figure_7_9
 from asperity.thesis.contents import FIGURES
-from asperity.thesis.exhibits import FigureOf
-from asperity.thesis.rating.gearsets import CASE_TABLES
-from asperity.thesis.reproduce.files import found_figure, make_figure
-from asperity.thesis.sliding.figures import figure_2_7
 
 K_2 = "vibration.velocity_ratio=2"
 STIFF = "block.youngs_modulus=20900 GPa"
@@ -24,7 +22,9 @@ STIFF = "block.youngs_modulus=20900 GPa"
 
 @functools.cache
 def problem(*settings):
-    return BlockProblem.from_case(read_case("block-longitudinal", CASE_TABLES, [*LIGHT, *settings]))
+    return BlockProblem.from_case(
+        read_case("block-longitudinal", case_tables(), (*LIGHT, *settings))
+    )
 
 
 def compliance(*settings):
@@ -102,18 +102,16 @@ def test_pressure_on_the_base_makes_it_give_more_than_its_shear_alone():
 def test_claims_of_equal_ratios_are_judged_by_the_ratio_too(monkeypatch, share, verdict):
     """At k = 20 the ratio is a thirtieth: 3 % of it are a thousandth of mu F_N."""
 
-    def settled(all_blocks):
-        for one in all_blocks:
-            ratio = (1.0 + share) / 30.0 if claims_contact.ON_BODY in one.settings else 1.0 / 30.0
-            yield Settled(ratio, 1.0 / 30.0 / (1.0 + share), ratio, ratio, 0.0, 16, 0.0)
+    def settled(block):
+        ratio = (1.0 + share) / 30.0 if elastic.ON_BODY in block.settings else 1.0 / 30.0
+        return Settled(ratio, 1.0 / 30.0 / (1.0 + share), ratio, ratio, 0.0, 16, 0.0)
 
     slid = SimpleNamespace(ratio=0.15)
-    monkeypatch.setattr(claims_contact, "settle_all", lambda all_blocks: [*settled(all_blocks)])
-    monkeypatch.setattr(claims_contact.Block, "march", lambda one: slid)
-    monkeypatch.setattr(claims_contact.Block, "settled", lambda one: next(settled([one])))
+    monkeypatch.setattr(BlockFromRest, "marched", lambda one: slid)
+    monkeypatch.setattr(ElasticBlock, "settled", settled)
     monkeypatch.setattr(claims_contact.Body, "solve", lambda one: slid)
     monkeypatch.setattr(claims_contact.Sweep, "ratios", lambda one: np.full(8, 1.0 / 30.0))
-    for claim in (claims_contact._equal_ratios, claims_contact._base_or_body):
+    for claim in (claims_contact.claim_5_1, claims_contact.claim_7_8):
         finding = claim()
         assert finding.verdict == verdict
         assert f"({share:.1%})" in finding.ours
@@ -134,8 +132,9 @@ def test_a_surface_touched_at_its_nodes_keeps_its_area():
     assert np.allclose(nodal.points, nodal.positions[nodal.faces])
 
 
-def test_a_figure_holds_block_and_sliding_body_at_the_same_points():
-    drawn = _over_ratio("block-longitudinal", LIGHT, (2.0,), on_body=True)
+def test_a_figure_holds_block_and_sliding_body_at_the_same_points(monkeypatch):
+    monkeypatch.setattr(elastic, "ALONG", (2.0,))
+    drawn = figure_7_9()
     assert list(drawn.dataset["shaken"].values) == ["base", "body"]
     assert drawn.dataset["slider"].values == pytest.approx(
         drawn.dataset["periodic"].sel(k=[2.0]).values, rel=1e-9
@@ -145,24 +144,38 @@ def test_a_figure_holds_block_and_sliding_body_at_the_same_points():
 
 
 def test_figures_of_blocks_have_more_to_show_in_full():
-    with_more = {number for number, figure in FIGURES.items() if figure.full is not None}
+    with_more = {number for number, figure in FIGURES.items() if figure.has_full}
     assert with_more == {"5.5", "5.6", "5.7", "5.8", "5.9", "5.10", "5.11", "7.8", "7.9"}
+    for number in with_more:
+        light, full = ({part.task.name for part in FIGURES[number].parts(f)} for f in (False, True))
+        assert light
+        assert not light & full
 
 
-def test_what_was_made_in_full_serves_where_less_is_asked_for(tmp_path):
-    made = []
+def test_a_block_is_settled_once_for_all_runs(tmp_path, monkeypatch):
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    solved = []
 
-    def grade(name):
-        def make():
-            made.append(name)
-            return figure_2_7()
+    def settled(block):
+        solved.append(block)
+        return Settled(0.5, 0.5, 0.5, 0.5, 0.0, 16, 0.0)
 
-        return make
+    monkeypatch.setattr(Block, "settled", settled)
+    block, other = (ElasticBlock("block-longitudinal", (*LIGHT, k)) for k in (K_2, f"{K_2}.5"))
+    assert block.settled() == block.settled() == other.settled()
+    assert len(solved) == 2
 
-    figure = FigureOf("2.7", "Title", "Caption", (), grade("light"), grade("full"))
-    make_figure(tmp_path, figure, lambda line: None)
-    assert found_figure(tmp_path, figure) is not None
-    assert found_figure(tmp_path, figure, full=True) is None
-    assert not make_figure(tmp_path, figure, lambda line: None, full=True).reused
-    assert make_figure(tmp_path, figure, lambda line: None).reused
-    assert made == ["light", "full"]
+
+def test_what_is_shown_of_a_march_is_kept_as_it_was(tmp_path, monkeypatch):
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    time = np.linspace(0.0, 1.0, 5)
+    history = SimpleNamespace(
+        time=time, drive_force=2.0 * time, friction=np.stack([time, -time], axis=1)
+    )
+    results = [SimpleNamespace(ratio=0.25, history=history)]
+    monkeypatch.setattr(Block, "march", lambda block: results.pop())
+    (block,) = from_rest("block-longitudinal")
+    now, again = block.marched(), block.marched()
+    for name in ("ratio", "time", "drive_force", "friction"):
+        assert np.array_equal(getattr(now, name), getattr(again, name))
+    assert again.to_dataset()["friction"].sel(axis="y").values[-1] == -1.0

@@ -6,29 +6,12 @@ import json
 
 import pytest
 
-from asperity.thesis import contents
-from asperity.thesis.contents import CHAPTERS, CLAIMS, FIGURES, TABLES, chapter_of
-from asperity.thesis.exhibits import Grid, TableOf
-from asperity.thesis.page import report
-from asperity.thesis.rating.gearsets import GEARSET_2, Gear
-from asperity.thesis.reproduce.run import run
+from asperity.thesis.contents import CHAPTERS, CLAIMS, FIGURES, TABLES, chapter_of, everything
+from asperity.thesis.exhibits import Grid
+from asperity.thesis.rating.rated import GEARSET_2, RatedGear
+from asperity.thesis.reproduce import page as report
 
 GRID = Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("a, b", 60), ("gone", "")), ("how",))
-
-
-@pytest.fixture
-def counted(monkeypatch):
-    """One table, and how often it was made."""
-    made = []
-
-    def make():
-        made.append("9.1")
-        return GRID
-
-    monkeypatch.setattr(contents, "FIGURES", {})
-    table = TableOf("9.1", "Title", "Caption.", ("gearset-2",), make)
-    monkeypatch.setattr(contents, "TABLES", {"9.1": table})
-    return made
 
 
 def test_a_table_loses_no_digit_in_csv_and_json():
@@ -44,44 +27,13 @@ def test_a_row_has_a_cell_for_every_column():
         Grid(("symbol", "value"), (("m",),), ())
 
 
-def test_a_table_that_is_there_and_true_is_used_again(tmp_path, counted):
-    lines = []
-    first = run(tmp_path, ["9.1"])
-    again = run(tmp_path, ["9.1"], lines.append)
-    assert counted == ["9.1"]
-    assert (first.tables[0].reused, again.tables[0].reused) == (False, True)
-    assert again.tables[0].grid == GRID
-    assert lines == ["table 9.1: there already"]
-
-
-@pytest.mark.parametrize("suffix", [".csv", ".json"])
-def test_a_damaged_table_is_made_again(tmp_path, counted, suffix):
-    path = run(tmp_path, ["9.1"]).tables[0].path.with_suffix(suffix)
-    path.write_bytes(path.read_bytes()[:-3])
-    assert not run(tmp_path, ["9.1"]).tables[0].reused
-    assert counted == ["9.1", "9.1"]
-
-
-def test_other_tables_of_a_standard_make_a_table_again(tmp_path, counted, monkeypatch):
-    run(tmp_path, ["9.1"])
-    monkeypatch.setattr("asperity.thesis.reproduce.files._data_hash", lambda: "changed")
-    assert not run(tmp_path, ["9.1"]).tables[0].reused
-
-
-def test_a_number_asks_for_the_figure_and_the_table_that_have_it():
-    figures, tables = contents.select(["3.2"])
-    assert [figure.title for figure in figures] == [FIGURES["3.2"].title]
-    assert [table.title for table in tables] == [TABLES["3.2"].title]
-
-
 def test_everything_belongs_to_a_chapter_of_the_page():
     chapters = {chapter.number for chapter in CHAPTERS}
-    assert {chapter_of(claim.id) for claim in CLAIMS} <= chapters
-    assert {chapter_of(number) for number in (*FIGURES, *TABLES)} == chapters
+    assert {chapter_of(exhibit.number) for exhibit in everything()} == chapters
 
 
 def test_claims_figures_and_tables_stand_in_the_order_of_the_thesis():
-    assert [claim.id for claim in CLAIMS] == [
+    assert list(CLAIMS) == [
         *(f"3.{n}" for n in range(1, 9)), *(f"4.{n}" for n in range(1, 9)), "5.1", "7.1",
         "7.8",
     ]  # fmt: skip
@@ -92,9 +44,9 @@ def test_claims_figures_and_tables_stand_in_the_order_of_the_thesis():
 
 
 def test_cells_are_shown_to_five_digits_and_never_as_markup():
-    assert report.shown(1.0 / 3.0) == "0.33333"
-    assert report.shown(500000) == "500000"
-    assert report.shown("<b> m_x1") == "&lt;b&gt; m<sub>x1</sub>"
+    assert report.cell(1.0 / 3.0) == "0.33333"
+    assert report.cell(500000) == "500000"
+    assert report.cell("<b> m_x1") == "&lt;b&gt; m<sub>x1</sub>"
 
 
 @pytest.mark.parametrize(
@@ -117,7 +69,7 @@ def test_a_column_with_a_number_is_a_column_of_numbers():
 
 
 def test_a_gearset_knows_its_command_and_its_numbers():
-    gear = Gear("gearset-2", ("rating.base_friction=0.055", "gearset.pressure_angle=25 deg"))
+    gear = RatedGear("gearset-2", ("rating.base_friction=0.055", "gearset.pressure_angle=25 deg"))
     assert gear.command("rate") == (
         "asperity rate gearset-2 --set rating.base_friction=0.055 "
         "--set 'gearset.pressure_angle=25 deg'"

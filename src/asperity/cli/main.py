@@ -146,7 +146,7 @@ def export(
 def thesis(
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", metavar="NUMBER", help="Only this figure or table, as 4.17."),
+        typer.Option("--only", metavar="NUMBER", help="Only what has this number, as 4.17."),
     ] = None,
     out: Annotated[
         Path, typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write to.")
@@ -157,8 +157,13 @@ def thesis(
     ] = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Reproduce the thesis's claims, figures and tables into one page, index.html."""
+    """Reproduce the thesis's claims, figures and tables into one page, index.html.
+
+    The page is there at once and fills. What is done is kept: after Ctrl-C, or a change in the
+    package, the same command makes what is missing and no more.
+    """
     from asperity.cli import show
+    from asperity.errors import ConvergenceError
     from asperity.thesis import run
 
     result = run(out, only or (), show.note, full=full)
@@ -166,6 +171,10 @@ def thesis(
         show.print_json(result.to_json())
     else:
         show.print_text(str(result.index))
+    if result.failed:
+        name, why = next(iter(result.failed.items()))
+        count = f"{len(result.failed)} of what was to be made failed"
+        raise ConvergenceError(f"{count}, the first of them {name}: {why}")
 
 
 @app.command()

@@ -5,18 +5,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from asperity.errors import InputError, nearest
-from asperity.thesis.contact import claims as claims_contact
-from asperity.thesis.contact import figures as figures_contact
-from asperity.thesis.exhibits import FigureOf, TableOf
-from asperity.thesis.flanks import figures as figures_flanks
-from asperity.thesis.flanks import solids as figures_solids
-from asperity.thesis.rating import claims as claims_rating
-from asperity.thesis.rating import figures as figures_rating
-from asperity.thesis.rating import tables as tables_rating
-from asperity.thesis.sliding import claims as claims_sliding
-from asperity.thesis.sliding import figures as figures_sliding
+from asperity.thesis.contact import contents as contact
+from asperity.thesis.exhibits import Exhibit, FigureOf, TableOf
+from asperity.thesis.flanks import contents as flanks
+from asperity.thesis.ledger import Claim
+from asperity.thesis.rating import contents as rating
+from asperity.thesis.sliding import contents as sliding
 
-E = TypeVar("E", FigureOf, TableOf)
+E = TypeVar("E", bound=Exhibit)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,9 +54,6 @@ CHAPTERS = (
 )  # fmt: skip
 """Those of which something is reproduced."""
 
-CASES = (*claims_rating.CASES, *claims_sliding.CASES, *claims_contact.CASES)
-"""Cases the claims rest on."""
-
 
 def _by_number(exhibits: Iterable[E]) -> dict[str, E]:
     found = {exhibit.number: exhibit for exhibit in exhibits}
@@ -82,38 +75,38 @@ def chapter_of(number: str) -> str:
     return number.partition(".")[0]
 
 
-CLAIMS = tuple(
-    sorted(
-        (*claims_sliding.CLAIMS, *claims_rating.CLAIMS, *claims_contact.CLAIMS),
-        key=lambda claim: _order(claim.id),
-    )
-)
+CLAIMS: Mapping[str, Claim] = _by_number((*sliding.CLAIMS, *rating.CLAIMS, *contact.CLAIMS))
 FIGURES: Mapping[str, FigureOf] = _by_number(
-    (
-        *figures_sliding.FIGURES,
-        *figures_rating.FIGURES,
-        *figures_contact.FIGURES,
-        *figures_flanks.FIGURES,
-        *figures_solids.FIGURES,
-    )
+    (*sliding.FIGURES, *rating.FIGURES, *flanks.FIGURES, *contact.FIGURES)
 )
-TABLES: Mapping[str, TableOf] = _by_number(tables_rating.TABLES)
+TABLES: Mapping[str, TableOf] = _by_number(rating.TABLES)
 
 
-def select(only: Sequence[str]) -> tuple[list[FigureOf], list[TableOf]]:
-    """Return the figures and tables of some numbers, all for none.
+def everything() -> list[Exhibit]:
+    """Return all that is reproduced, in the order of the page."""
+    shelves: tuple[Mapping[str, Exhibit], ...] = (CLAIMS, FIGURES, TABLES)
+    return [
+        exhibit
+        for chapter in CHAPTERS
+        for shelf in shelves
+        for number, exhibit in shelf.items()
+        if chapter_of(number) == chapter.number
+    ]
+
+
+def select(only: Sequence[str]) -> list[Exhibit]:
+    """Return the exhibits of some numbers, all for none.
 
     Raises
     ------
     InputError
-        There is neither figure nor table of such a number.
+        There is nothing of such a number.
     """
+    numbers = {exhibit.number for exhibit in everything()}
     for number in only:
-        if number not in FIGURES and number not in TABLES:
+        if number not in numbers:
             raise InputError(
-                f"{number!r} is neither a figure nor a table that is reproduced"
-                f"{nearest(number, sorted({*FIGURES, *TABLES}, key=_order))}"
+                f"{number!r} is neither a figure nor a table nor a claim that is reproduced"
+                f"{nearest(number, sorted(numbers, key=_order))}"
             )
-    figures = [figure for number, figure in FIGURES.items() if not only or number in only]
-    tables = [table for number, table in TABLES.items() if not only or number in only]
-    return figures, tables
+    return [exhibit for exhibit in everything() if not only or exhibit.number in only]

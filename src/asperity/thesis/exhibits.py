@@ -1,10 +1,17 @@
-"""What the thesis shows: a figure or a table, its number, and how to make it."""
+"""What the thesis shows or says: a figure, a table or a claim, and where it is made here.
+
+All of these are plain data. What makes them is imported when they are made, so that a list of them
+costs nothing and one of them alone no more than its own room.
+"""
 
 import csv
 import dataclasses
+import importlib
 import io
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from asperity.runs.workers import Task
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,21 +28,6 @@ class Drawn:
     figure: "Figure"
     dataset: "xr.Dataset"
     how: Sequence[str]
-
-
-@dataclasses.dataclass(frozen=True)
-class FigureOf:
-    """A figure of the thesis: its number, what it shows, the cases it uses, and how to make it.
-
-    ``full`` makes it in full where that takes long: on finer meshes, at more points.
-    """
-
-    number: str
-    title: str
-    caption: str
-    cases: tuple[str, ...]
-    make: Callable[[], Drawn]
-    full: Callable[[], Drawn] | None = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,15 +72,93 @@ class Grid:
         return cls(tuple(plain["columns"]), rows, tuple(plain["how"]))
 
 
-@dataclasses.dataclass(frozen=True)
-class TableOf:
-    """A table of the thesis: its number, what it shows, the cases it uses, and how to make it."""
+class Part(Protocol):
+    """Something an exhibit needs that is kept when it is made."""
 
+    @property
+    def task(self) -> Task:
+        """To make it."""
+
+
+def _no_parts(full: bool) -> Sequence[Part]:
+    return ()
+
+
+@dataclasses.dataclass(frozen=True)
+class Exhibit:
+    """Something of the thesis that is made here.
+
+    Attributes
+    ----------
+    number : str
+        Its number in the thesis.
+    module : str
+        Where the function stands that makes it; figure 4.23 is made by ``figure_4_23``.
+    cases : tuple of str
+        Shipped cases it uses.
+    parts : callable
+        Gives what it shares with others, or what takes so long that several processes are to work
+        at it; takes whether it is made in full.
+    seconds : float
+        About how long it takes, s.
+    """
+
+    kind: ClassVar[str]
     number: str
+    module: str = dataclasses.field(kw_only=True)
+    cases: tuple[str, ...] = dataclasses.field(kw_only=True, default=())
+    parts: Callable[[bool], Sequence[Part]] = dataclasses.field(kw_only=True, default=_no_parts)
+    seconds: float = dataclasses.field(kw_only=True, default=1.0)
+
+    @property
+    def name(self) -> str:
+        """Its kind and number: ``figure 4.23``."""
+        return f"{self.kind} {self.number}"
+
+    @property
+    def room(self) -> str:
+        """The package its module stands in, which shares compiled code."""
+        return self.module.rpartition(".")[0]
+
+    @property
+    def function(self) -> Callable[..., Any]:
+        """What makes it."""
+        name = self.name.replace(" ", "_").replace(".", "_")
+        made_by: Callable[..., Any] = getattr(importlib.import_module(self.module), name)
+        return made_by
+
+
+@dataclasses.dataclass(frozen=True)
+class FigureOf(Exhibit):
+    """A figure of the thesis: what it shows.
+
+    One that ``has_full`` can be made in full: on finer meshes, at more points. Its function takes
+    ``full=True`` for that.
+    """
+
+    kind = "figure"
     title: str
     caption: str
-    cases: tuple[str, ...]
-    make: Callable[[], Grid]
+    has_full: bool = dataclasses.field(kw_only=True, default=False)
+
+    def make(self, *, full: bool = False) -> Drawn:
+        """Draw it."""
+        drawn: Drawn = self.function(full=True) if full and self.has_full else self.function()
+        return drawn
+
+
+@dataclasses.dataclass(frozen=True)
+class TableOf(Exhibit):
+    """A table of the thesis: what it shows."""
+
+    kind = "table"
+    title: str
+    caption: str
+
+    def make(self) -> Grid:
+        """Calculate it."""
+        grid: Grid = self.function()
+        return grid
 
 
 def labelled(**variables: tuple[tuple[str, ...], Any, str, str]) -> "xr.Dataset":

@@ -1,8 +1,10 @@
 """The claims ledger: what the thesis says, what comes out here, and whether the two agree."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
+
+from asperity.thesis.exhibits import Exhibit
 
 Verdict = Literal["reproduced", "differs"]
 
@@ -52,44 +54,49 @@ class Finding:
 
 
 @dataclasses.dataclass(frozen=True)
-class Claim:
-    """A statement of the thesis and the computation that tests it.
+class Claim(Exhibit):
+    """A statement of the thesis, whose number never changes.
 
     Attributes
     ----------
-    id : str
-        Its number, which never changes.
     section : str
         Where the thesis makes it.
     text : str
         What is claimed.
     thesis : str
         The thesis's number or word.
-    compute : callable
-        Computes the `Finding`.
     """
 
-    id: str
+    kind = "claim"
     section: str
     text: str
     thesis: str
-    compute: Callable[[], Finding]
+
+    def make(self) -> Finding:
+        """Compute what tests it."""
+        finding: Finding = self.function()
+        return finding
 
 
 @dataclasses.dataclass(frozen=True)
 class Entry:
     """A claim with its finding: a line of the ledger."""
 
-    id: str
+    number: str
     section: str
     text: str
     thesis: str
     finding: Finding
 
+    @classmethod
+    def of(cls, claim: Claim, finding: Finding) -> "Entry":
+        """The line of a claim."""
+        return cls(claim.number, claim.section, claim.text, claim.thesis, finding)
+
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
         return {
-            "id": self.id,
+            "id": self.number,
             "section": self.section,
             "claim": self.text,
             "thesis": self.thesis,
@@ -107,8 +114,3 @@ class Entry:
             plain["verdict"], plain["ours"], plain["reason"], plain["numbers"], plain["how"]
         )
         return cls(plain["id"], plain["section"], plain["claim"], plain["thesis"], finding)
-
-
-def settle(claim: Claim) -> Entry:
-    """Compute a claim."""
-    return Entry(claim.id, claim.section, claim.text, claim.thesis, claim.compute())

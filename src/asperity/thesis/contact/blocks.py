@@ -21,6 +21,7 @@ import numpy.typing as npt
 from asperity.block.march import solve_block
 from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import BlockResult
+from asperity.block.tables import TABLES as BLOCK_TABLES
 from asperity.casefile import read_case
 from asperity.contact.interface.surface import contact_surface
 from asperity.contact.motion import hht, ledger
@@ -31,9 +32,11 @@ from asperity.contact.motion.system import Shaking, System, SystemState
 from asperity.mesh import box
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic
-from asperity.thesis.rating.gearsets import CASE_TABLES
+from asperity.slider.tables import TABLES as SLIDER_TABLES
 
 FloatArray = npt.NDArray[np.float64]
+
+_TABLES = {**SLIDER_TABLES, **BLOCK_TABLES}
 
 LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
 """A mesh of 20 contact nodes; without these settings a shipped block has 221."""
@@ -97,7 +100,7 @@ class Block:
 
     def model(self, **changes: float) -> Model:
         """The sliding body it is, with values of keys in SI (``slider__drive_velocity=...``)."""
-        case = read_case(self.case, CASE_TABLES, self.settings)
+        case = read_case(self.case, _TABLES, self.settings)
         values = {key.replace("__", "."): value for key, value in changes.items()}
         return Model.from_case(case.replace_values(values) if values else case)
 
@@ -138,7 +141,7 @@ def settle_all(blocks: Sequence[Block]) -> list[Settled]:
 
 @functools.cache
 def _marched(block: Block) -> BlockResult:
-    return solve_block(BlockProblem.from_case(read_case(block.case, CASE_TABLES, block.settings)))
+    return solve_block(BlockProblem.from_case(read_case(block.case, _TABLES, block.settings)))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -152,7 +155,7 @@ class _Resting:
 
 @functools.cache
 def _at_rest(case: str, settings: tuple[str, ...]) -> _Resting:
-    problem = BlockProblem.from_case(read_case(case, CASE_TABLES, settings))
+    problem = BlockProblem.from_case(read_case(case, _TABLES, settings))
 
     def resting(system: System, loads: tuple[mo.Port, ...] = ()) -> tuple[System, SystemState]:
         load = system.mechanism.load

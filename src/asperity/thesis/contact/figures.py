@@ -1,47 +1,45 @@
 """Figures 5.2, 5.5 to 5.11, 7.8 and 7.9: elastic blocks on the curves of the sliding body."""
 
-import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
 from asperity.thesis.contact import drawings, pressed
-from asperity.thesis.contact.blocks import LIGHT, Block, settle_all
-from asperity.thesis.contact.claims import (
-    ACROSS,
-    ALONG,
+from asperity.thesis.contact.elastic import (
+    ALL_DIRECTIONS,
+    DIRECTION,
     DIRECTIONS,
-    FROM_REST,
     LONGITUDINAL,
     ON_BODY,
+    RATIO,
     SLIDING,
     TRANSVERSE,
-    at_ratios,
-    in_directions,
+    BlockFromRest,
+    from_rest,
+    over_direction,
+    over_ratio,
+    ratios,
 )
-from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.exhibits import Drawn, labelled
 from asperity.thesis.sliding import drawings as drawings_sliding
 from asperity.thesis.sliding.bodies import PERIODIC, Body, Sweep
-from asperity.thesis.sliding.claims import DIRECTION, PLOTTED, RATIO
+from asperity.thesis.sliding.claims import PLOTTED
 from asperity.thesis.sliding.figures import side_by_side, two_cycles
-
-ALL_DIRECTIONS = tuple(np.arange(0.0, 360.1, 15.0).tolist())
-FINE = ("solve.duration=0.3 s", "solve.step=1 us")
 
 _DENSE = "0.1:20:0.1"
 _NAMES = ("sliding body", "elastic block")
 _CLOSED = "asperity.slider.closed_forms"
 
 
-def _over_ratio(case: str, mesh: Sequence[str], ratios: Sequence[float], *, on_body: bool) -> Drawn:
+def _over_ratio(case: str, full: bool, *, on_body: bool = False) -> Drawn:
     """The sliding body as a line, blocks as markers, and how far they are apart."""
-    base = at_ratios(case, ratios, mesh)
-    shaken = at_ratios(case, ratios, (*mesh, ON_BODY)) if on_body else []
-    solved = settle_all([*base, *shaken])
-    groups = [solved[: len(base)], solved[len(base) :]][: 1 + on_body]
+    over = ratios(case)
+    blocks = over_ratio(case, full, on_body=on_body)
     modes = [(), (ON_BODY,)][: 1 + on_body]
+    solved = [block.settled() for block in blocks]
+    groups = [solved[n : n + len(over)] for n in range(0, len(solved), len(over))]
     sweeps = [Sweep(SLIDING[case], ((RATIO, _DENSE),), (PERIODIC, *mode)) for mode in modes]
     dense = sweeps[0].values()
     if case == LONGITUDINAL:
@@ -51,7 +49,7 @@ def _over_ratio(case: str, mesh: Sequence[str], ratios: Sequence[float], *, on_b
     place = ("shaken", "k_block")
     dataset = labelled(
         k=(("k",), dense, "1", "velocity ratio v_a/v_d"),
-        k_block=(("k_block",), np.array(ratios), "1", "velocity ratio v_a/v_d, blocks"),
+        k_block=(("k_block",), np.array(over), "1", "velocity ratio v_a/v_d, blocks"),
         shaken=(("shaken",), _objects(["base", "body"][: len(groups)]), "1", "what is shaken"),
         periodic=(
             ("shaken", "k"), np.array([sweep.ratios() for sweep in sweeps]), "1",
@@ -60,9 +58,7 @@ def _over_ratio(case: str, mesh: Sequence[str], ratios: Sequence[float], *, on_b
         rigid=(("k",), rigid, "1", "ratio, rigid Coulomb friction and rigid drive"),
         **_compared(groups, place),
     )  # fmt: skip
-    how = [
-        *(sweep.command for sweep in sweeps), closed, *(block.how for block in (*base, *shaken)),
-    ]  # fmt: skip
+    how = [*(sweep.command for sweep in sweeps), closed, *(block.how for block in blocks)]
     return Drawn(drawings.over_ratio(dataset), dataset, how)
 
 
@@ -91,9 +87,11 @@ def _objects(names: Sequence[str]) -> Any:
     return np.array(names, dtype=object)
 
 
-def _over_direction(mesh: Sequence[str], directions: Sequence[float]) -> Drawn:
-    blocks = in_directions(directions, mesh)
-    solved = settle_all(blocks)
+def figure_5_11(*, full: bool = False) -> Drawn:
+    """Ratio over direction."""
+    directions = ALL_DIRECTIONS if full else DIRECTIONS
+    blocks = over_direction(full)
+    solved = [block.settled() for block in blocks]
     count = len(directions)
     groups = [solved[n : n + count] for n in range(0, len(solved), count)]
     settled = Sweep(SLIDING[TRANSVERSE], ((RATIO, PLOTTED), (DIRECTION, "0:360:3")), (PERIODIC,))
@@ -108,33 +106,71 @@ def _over_direction(mesh: Sequence[str], directions: Sequence[float]) -> Drawn:
     return Drawn(drawings.over_direction(dataset), dataset, how)
 
 
-def _from_rest(
-    case: str,
-    ratio: str,
-    mesh: Sequence[str],
-    keep: str,
-    part: Callable[..., Any] | None,
-    axes: Sequence[str],
-) -> Drawn:
-    """The sliding body and the block marched from rest side by side."""
-    settings = (f"{RATIO}={ratio}", *(FROM_REST if mesh else FINE))
-    body, block = Body(SLIDING[case], settings), Block(case, (*mesh, *settings))
-    results = [body.solve(), block.march()]
-    if part is None:
-        dataset = side_by_side(_NAMES, results, keep)
-        figure = drawings_sliding.drive_over_time(dataset)
-    else:
-        dataset = side_by_side(_NAMES, results, keep, part).sel(axis=list(axes))
-        figure = drawings_sliding.friction_over_cycles(dataset)
+def _drive(case: str, full: bool) -> Drawn:
+    body, block = _from_rest(case, full)
+    result = body.solve()
+    histories = [one.to_dataset()[["drive_force"]] for one in (result, block.marched())]
+    dataset = side_by_side(_NAMES, histories, result.static_drive_force)
+    return Drawn(drawings_sliding.drive_over_time(dataset), dataset, [body.command, block.command])
+
+
+def _friction(case: str, full: bool, axes: Sequence[str]) -> Drawn:
+    body, block = _from_rest(case, full)
+    result = body.solve()
+    cycles = [
+        two_cycles(one.to_dataset()[["friction"]], result.model)
+        for one in (result, block.marched())
+    ]
+    dataset = side_by_side(_NAMES, cycles, result.static_drive_force).sel(axis=list(axes))
+    figure = drawings_sliding.friction_over_cycles(dataset)
     return Drawn(figure, dataset, [body.command, block.command])
 
 
-def _drive(case: str, ratio: str, mesh: Sequence[str]) -> Drawn:
-    return _from_rest(case, ratio, mesh, "drive_force", None, ())
+def _from_rest(case: str, full: bool) -> tuple[Body, BlockFromRest]:
+    """The block marched from rest, and the sliding body that it is."""
+    (block,) = from_rest(case, full)
+    settings = [setting for setting in block.settings if not setting.startswith("block.")]
+    return Body(SLIDING[case], tuple(settings)), block
 
 
-def _friction(case: str, ratio: str, mesh: Sequence[str], axes: Sequence[str]) -> Drawn:
-    return _from_rest(case, ratio, mesh, "friction", two_cycles, axes)
+def figure_5_6(*, full: bool = False) -> Drawn:
+    """Drive force from rest, longitudinal, k = 6."""
+    return _drive(LONGITUDINAL, full)
+
+
+def figure_5_7(*, full: bool = False) -> Drawn:
+    """Friction from rest, longitudinal, k = 6."""
+    return _friction(LONGITUDINAL, full, ["x"])
+
+
+def figure_5_9(*, full: bool = False) -> Drawn:
+    """Drive force from rest, transverse, k = 20."""
+    return _drive(TRANSVERSE, full)
+
+
+def figure_5_10(*, full: bool = False) -> Drawn:
+    """Friction from rest, transverse, k = 20."""
+    return _friction(TRANSVERSE, full, ["x", "y"])
+
+
+def figure_5_5(*, full: bool = False) -> Drawn:
+    """Ratio over k, longitudinal."""
+    return _over_ratio(LONGITUDINAL, full)
+
+
+def figure_5_8(*, full: bool = False) -> Drawn:
+    """Ratio over k, transverse."""
+    return _over_ratio(TRANSVERSE, full)
+
+
+def figure_7_8(*, full: bool = False) -> Drawn:
+    """Ratio over k, transverse, base or block shaken."""
+    return _over_ratio(TRANSVERSE, full, on_body=True)
+
+
+def figure_7_9(*, full: bool = False) -> Drawn:
+    """Ratio over k, longitudinal, base or block shaken."""
+    return _over_ratio(LONGITUDINAL, full, on_body=True)
 
 
 def figure_5_2() -> Drawn:
@@ -178,84 +214,3 @@ def figure_5_2() -> Drawn:
         "asperity.thesis.contact.pressed.hertz()",
     ]
     return Drawn(drawings.pressure(dataset), dataset, how)
-
-
-_BLOCK = (
-    "Lines: the sliding body of chapter 4; markers: the elastic block, its friction read after it "
-    "has settled from the sliding body's periodic state, over sixteen cycles or more until four "
-    "parts of them agree within 0.1 %. Below: how far it is from the sliding body, from one that "
-    "has the block's compliance as a spring between itself and its asperities, and from one that "
-    "rocks on it as the block does."
-)
-_REST = "From rest over 0.3 s, with the same increments for the sliding body and the block."
-_ALONG, _ACROSS = ((case, SLIDING[case]) for case in (LONGITUDINAL, TRANSVERSE))
-
-
-def _two(
-    number: str, title: str, caption: str, cases: tuple[str, ...], make: Callable[..., Drawn],
-    *, full: Callable[[], Drawn] | None = None,
-) -> FigureOf:  # fmt: skip
-    """A figure on the light mesh and, where more is asked for, on that of the shipped case."""
-    return FigureOf(
-        number, title, caption, cases,
-        functools.partial(make, mesh=LIGHT), full or functools.partial(make, mesh=()),
-    )  # fmt: skip
-
-
-FIGURES = (
-    FigureOf(
-        "5.2", "Contact at nodes and integrated over the surface",
-        "A rigid cylinder on a block of 8-node elements nearly as wide as the contact's "
-        "half-width, with the same law of pressure and the same load. Above: it stands between two "
-        "lines of nodes; so coarse, neither is Hertz's pressure point by point, at nodes too low, "
-        "integrated as much too high in the middle. Below, what tells them apart: how "
-        "far it goes while it moves over an element; held at nodes alone it sinks between them, "
-        "integrated less than half as much.",
-        (), figure_5_2,
-    ),
-    _two(
-        "5.5", "Longitudinal vibration: the elastic block",
-        f"Table 4.3. {_BLOCK}", _ALONG,
-        functools.partial(_over_ratio, LONGITUDINAL, ratios=ALONG, on_body=False),
-    ),
-    _two(
-        "5.6", "Drive force of the elastic block, longitudinal, k = 6",
-        f"Table 4.3. {_REST}", _ALONG, functools.partial(_drive, LONGITUDINAL, "6"),
-    ),
-    _two(
-        "5.7", "Friction of the elastic block, longitudinal, k = 6",
-        f"Table 4.3, two cycles at the end. {_REST}", _ALONG,
-        functools.partial(_friction, LONGITUDINAL, "6", axes=("x",)),
-    ),
-    _two(
-        "5.8", "Transverse vibration: the elastic block",
-        f"Table 4.4. {_BLOCK}", _ACROSS,
-        functools.partial(_over_ratio, TRANSVERSE, ratios=ACROSS, on_body=False),
-    ),
-    _two(
-        "5.9", "Drive force of the elastic block, transverse, k = 20",
-        f"Table 4.4. {_REST}", _ACROSS, functools.partial(_drive, TRANSVERSE, "20"),
-    ),
-    _two(
-        "5.10", "Friction of the elastic block, transverse, k = 20",
-        f"Table 4.4, two cycles at the end. {_REST}", _ACROSS,
-        functools.partial(_friction, TRANSVERSE, "20", axes=("x", "y")),
-    ),
-    _two(
-        "5.11", "The elastic block in every direction of vibration",
-        "Table 4.4. Lines: the sliding body of chapter 4; markers: the elastic block. Below: how "
-        "far it is from the sliding body.", _ACROSS,
-        functools.partial(_over_direction, directions=DIRECTIONS),
-        full=functools.partial(_over_direction, (), ALL_DIRECTIONS),
-    ),
-    _two(
-        "7.8", "Transverse vibration of the base or of the block",
-        f"Table 4.4. {_BLOCK}", _ACROSS,
-        functools.partial(_over_ratio, TRANSVERSE, ratios=ACROSS, on_body=True),
-    ),
-    _two(
-        "7.9", "Longitudinal vibration of the base or of the block",
-        f"Table 4.3. {_BLOCK}", _ALONG,
-        functools.partial(_over_ratio, LONGITUDINAL, ratios=ALONG, on_body=True),
-    ),
-)  # fmt: skip

@@ -9,11 +9,11 @@ import numpy as np
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
 from asperity.flanks.wheel.flank import FlankGrid
-from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.exhibits import Drawn, labelled
 from asperity.thesis.flanks import drawings
 from asperity.thesis.flanks.meshing import Meshing, meshing, pair_of
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.rating.gearsets import Gear
+from asperity.thesis.gearsets import Gear
 
 _CASE = "gearset-3b"
 _IDENTICAL = ("hob.oversize=1", "hob.tilt=0 deg")
@@ -200,43 +200,3 @@ def figure_2_13() -> Drawn:
     )  # fmt: skip
     how = [*_commands(EPS), "asperity.flanks.worm.helicoid.Helicoid.width"]
     return Drawn(drawings.modified_profile(dataset), dataset, how)
-
-
-_ALL = (
-    "Mao's and Litvin's gears are not at hand; this is gearset 3 with a centre distance of 2.9 in."
-)
-
-FIGURES = (
-    FigureOf(
-        "2.9", "Contact pressure before and after lead angle correction and tip relief",
-        "Hertzian pressure along the contact lines at 24 angles of the worm, rated torque, by one "
-        "stiffness per length of line: no finite elements as in Mao's figure, and a worm gearset "
-        "with an identical hob instead of his helical gears. (a) The worm's axis stands 0.1 deg "
-        "askew; 0.07 deg of lead correction brings the load back from the edge. (b) A tip relief "
-        "of 80 um from the pitch line, and one of 10 um over the outer half of the addendum.",
-        (_CASE,), figure_2_9,
-    ),
-    FigureOf(
-        "2.10", "Formation of contact on worm and wheel",
-        f"{_ALL} Where one tooth is within 6 um of the worm, at five instants while it is at all: "
-        "above on the worm's thread, below on the wheel's flank; lines: nearest places. (a) "
-        "Identical hob: contact lines. (b) The same with the worm's axis 0.1 deg askew and 0.05 mm "
-        "too far away: contact at the edge. (c) A hob of 1.12 times the diameter, tilted by 2 deg: "
-        "ellipses about the middle. Unloaded.",
-        (_CASE,), figure_2_10,
-    ),
-    FigureOf(
-        "2.11", "Mesh check with dye: 12 % oversized hob without and with a tilt of 2 deg",
-        "Gearset 3 with a centre distance of 2.9 in instead of the gearset photographed, which is "
-        "not named; dye 6 um thick, unloaded. Without tilt the wheel bears near a face edge; with "
-        "2 deg in the middle, as the thesis found.",
-        (_CASE,), figure_2_11,
-    ),
-    FigureOf(
-        "2.13", "Worm profile modified between pitch line and tip",
-        "A steering worm's dimensions are not given; the worm of gearset 3 stands in. The relief "
-        "grows with the third power from the pitch line to 30 um at the tip; in the left picture "
-        "it is drawn ten times as large.",
-        (_CASE,), figure_2_13,
-    ),
-)  # fmt: skip

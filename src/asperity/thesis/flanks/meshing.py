@@ -19,7 +19,7 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
-from asperity.thesis.rating.gearsets import Gear
+from asperity.thesis.gearsets import Gear
 
 Floats = npt.NDArray[np.float64]
 T = TypeVar("T", bound=Table)

@@ -9,16 +9,16 @@ import numpy.typing as npt
 
 from asperity.flanks.export.together import mounted_worm
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.mesh.tooth import COARSE, DENSITIES, element_size, tooth
+from asperity.flanks.mesh.tooth import DENSITIES, element_size, tooth
 from asperity.flanks.wheel.enveloped import FlankGrid, Wheel, WheelFlank
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
-from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.exhibits import Drawn, labelled
 from asperity.thesis.flanks import drawings_solids as drawings
 from asperity.thesis.flanks.meshing import pair_of, stood
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.rating.gearsets import Gear
+from asperity.thesis.gearsets import Gear
 
 Floats = npt.NDArray[np.float64]
 
@@ -158,46 +158,3 @@ def figure_7_11() -> Drawn:
     )
     how = [f"asperity flank gearset-3b --density {name} --out out/flank" for name in DENSITIES]
     return Drawn(drawings.densities(dataset), dataset, how)
-
-
-_CAD = (
-    "The thesis's CAD model is lost; this is gearset 3 as reconstructed, with a centre distance of "
-    "2.9 in."
-)
-
-FIGURES = (
-    FigureOf(
-        "7.1", "Gearset 3 in space, and what a machining simulation leaves of a flank",
-        f"{_CAD} Right: the exact flank, and one cut at every 30 deg of the hob alone, its facets "
-        "enlarged 30 times. Those of the thesis's model, at the edges of the teeth, came from its "
-        "tool's path, which is lost; shaft and hub are left out.",
-        (GEAR.case,), figure_7_1,
-    ),
-    FigureOf(
-        "7.2", "Gearset 3 simplified for a simulation",
-        f"{_CAD} The worm and nine teeth with their rim; shaft and hub are left out, as the "
-        "thesis does.",
-        (GEAR.case,), figure_7_2,
-    ),
-    FigureOf(
-        "7.3", "The worm as a rigid shell",
-        "Its surface alone, open at both ends, as quadrilaterals; every corner lies on the exact "
-        "surface. A simulation here takes the worm without facets, by its distance function; the "
-        "mesh is for others.",
-        (GEAR.case,), figure_7_3,
-    ),
-    FigureOf(
-        "7.4", "Topology and mesh of a wheel tooth",
-        "The thesis had to blend facets into one face a flank. Here each flank, fillet and tip is "
-        "one face from the start, and the corners of the mesh lie on it exactly. The mesh is of "
-        "structured hexahedra, of intermediate density.",
-        (GEAR.case,), figure_7_4,
-    ),
-    FigureOf(
-        "7.11", "Mesh densities of the wheel: coarse, intermediate, fine",
-        "As in the thesis the element sizes are 100, 75 and 50 % of the coarse one, which is "
-        f"{COARSE:g} axial modules here, as Table 7.4 is lost. A tooth of the wheel; the worm "
-        "needs no mesh.",
-        (GEAR.case,), figure_7_11,
-    ),
-)  # fmt: skip

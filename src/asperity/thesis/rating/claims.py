@@ -8,22 +8,21 @@ from asperity.rating import STANDARDS, Rated
 from asperity.rating.shaft import torsional_stiffness
 from asperity.studies.design import Bounds
 from asperity.studies.optimise import Optimum, optimise
-from asperity.thesis.ledger import Claim, Finding
-from asperity.thesis.rating.gearsets import (
+from asperity.thesis.ledger import Finding
+from asperity.thesis.rating.rated import (
     GEARSET_2,
     GEARSET_3,
     GEARSETS,
-    Gear,
+    RatedGear,
     comparison_of,
     methods_of_thesis,
     optimum_of,
     sensitivity_of,
 )
 
-CASES = tuple(gear.case for gear in GEARSETS.values())
 
-
-def _efficiency() -> Finding:
+def claim_3_1() -> Finding:
+    """Efficiency of gearset 2."""
     iso = functools.partial(GEARSET_2.number, "iso14521")
     mesh, gearbox = iso("eta_z1_2"), iso("eta_ges")
     return Finding.judged(
@@ -38,7 +37,8 @@ def _efficiency() -> Finding:
     )
 
 
-def _base_friction() -> Finding:
+def claim_3_2() -> Finding:
+    """Base friction of gearset 2."""
     iso = functools.partial(GEARSET_2.number, "iso14521")
     friction, velocity = iso("mu_0T"), iso("sliding_velocity_m_s")
     return Finding.judged(
@@ -52,7 +52,8 @@ def _base_friction() -> Finding:
     )
 
 
-def _methods() -> Finding:
+def claim_3_3() -> Finding:
+    """Ways to less friction in order of the efficiency they give."""
     study = comparison_of(GEARSET_2)
     reported = {method.key: study[method.key] for method in methods_of_thesis()}
     along, across = reported["longitudinal_quoted"], reported["transverse_quoted"]
@@ -91,11 +92,12 @@ def _methods() -> Finding:
 
 def _as_mean_friction(friction: float) -> float:
     """Gain of gearset 2 if a method's friction were the mean of the teeth."""
-    changed = Gear(GEARSET_2.case, (f"rating.friction={friction}",))
+    changed = RatedGear(GEARSET_2.case, (f"rating.friction={friction}",))
     return changed.number("iso14521", "eta_z1_2") - GEARSET_2.number("iso14521", "eta_z1_2")
 
 
-def _failures() -> Finding:
+def claim_3_4() -> Finding:
+    """Where the calculation of gearset 2 fails."""
     study = sensitivity_of(GEARSET_2)
     ratio, module = study["gear_ratio"], study["axial_module"]
     ends = [math.nan if i.fails_above is None else i.fails_above for i in (ratio, module)]
@@ -117,7 +119,8 @@ def _failures() -> Finding:
     )
 
 
-def _signs() -> Finding:
+def claim_3_5() -> Finding:
+    """What raises and what lowers the efficiency."""
     study = sensitivity_of(GEARSET_2)
     slopes = {i.quantity.name: i.elasticity for i in study.influences}
     effects = {i.quantity.name: i.effect for i in study.influences}
@@ -140,7 +143,8 @@ def _signs() -> Finding:
     )
 
 
-def _optimum() -> Finding:
+def claim_3_6() -> Finding:
+    """The optimum of gearset 2."""
     optima = {name: optimum_of(gear) for name, gear in GEARSETS.items()}
     designs = [optimum.gearset for optimum in optima.values()]
     first = optima["gearset 2"]
@@ -211,7 +215,8 @@ def _number(rated: Rated, standard: str, key: str) -> float:
     return float(value)
 
 
-def _standards() -> Finding:
+def claim_3_7() -> Finding:
+    """Three standards beside each other."""
     parts: dict[str, bool] = {}
     numbers: dict[str, float] = {}
     shown, misprinted = [], []
@@ -253,7 +258,8 @@ def _standards() -> Finding:
     )
 
 
-def _gearset_3() -> Finding:
+def claim_3_8() -> Finding:
+    """Friction and efficiency of gearset 3."""
     iso = functools.partial(GEARSET_3.number, "iso14521")
     friction, mesh = iso("mu_zm"), iso("eta_z1_2")
     velocity, stress = iso("sliding_velocity_m_s"), iso("sigma_line_MPa")
@@ -280,7 +286,8 @@ def _gearset_3() -> Finding:
     )
 
 
-def _shaft() -> Finding:
+def claim_7_1() -> Finding:
+    """Torsional stiffness of the worm shaft."""
     stiffness = torsional_stiffness(17.0, 150.0, 209000.0, 0.3)
     return Finding.judged(
         {"4394 N m/rad": round(stiffness) == 4394},
@@ -290,26 +297,3 @@ def _shaft() -> Finding:
         {"torsional_stiffness_Nm_per_rad": stiffness},
         ["asperity.rating.shaft.torsional_stiffness(17.0, 150.0, 209000.0, 0.3)"],
     )
-
-
-CLAIMS = (
-    Claim("3.1", "3.2.1", "Gearset 2: efficiency of the mesh and of the gearbox, eta_z, eta_ges.",
-          "38 %, 31 %", _efficiency),
-    Claim("3.2", "3.2.2", "Gearset 2: base friction mu_0T in mineral oil.", "0.0715",
-          _base_friction),
-    Claim("3.3", "3.2.2", "Friction of the methods as quoted (polyalphaolefin 0.0550, polyglycol "
-          "0.0170, Fe3O4 -30 %, diamond -50 %, MoS2/Ti -42 %, superfinished -49 %, DLC -30 %, "
-          "transverse vibration -90 %, longitudinal -95 %): vibration gives the best efficiency of "
-          "gearset 2, then polyglycol; polyalphaolefin adds 6 %.", "order, +6 %", _methods),
-    Claim("3.4", "3.2.3", "U raised by over 27 % or m_x1 by over 37 % makes the calculation of "
-          "gearset 2 fail.", "h* <= 0", _failures),
-    Claim("3.5", "3.2.3", "alpha_n, c, n_1 raise eta_z; U, q_1, m_x1, Ra_1 lower it; alpha_n and "
-          "Ra_1 little, c most.", "signs", _signs),
-    Claim("3.6", "3.3.5", "The optimum over alpha_n, q_1, m_x1, Ra_1 without lowering M_w and M_s: "
-          "alpha_n 30 deg, Ra_1 0.8 um, eta_z 7 % more.", "30 deg, 0.8 um, +7 %", _optimum),
-    Claim("3.7", "3.3.4", "T_G,all > M_26k for gearsets 1 to 3; eta_AGMA is much higher than "
-          "eta_z.", "order", _standards),
-    Claim("3.8", "7.2.4, 7.4", "Gearset 3: mu_zm, eta_z, v_g.", "0.1344, 73 %, 1510.8 mm/s",
-          _gearset_3),
-    Claim("7.1", "7.2.2", "Torsional stiffness of the worm shaft.", "4394 N m/rad", _shaft),
-)  # fmt: skip

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.rating.variants import variants
-from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.exhibits import Drawn, labelled
 from asperity.thesis.rating import drawings
-from asperity.thesis.rating.gearsets import (
+from asperity.thesis.rating.rated import (
     GEARSET_2,
     GEARSETS,
     comparison_of,
@@ -106,40 +106,3 @@ def figure_3_5() -> Drawn:
 
 
 _OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
-
-FIGURES = (
-    FigureOf(
-        "3.1", "Efficiency of gearset 2 with each way to less friction",
-        "By ISO/TR 14521, with the friction that the thesis quotes for each; oils by the standard "
-        "and, hatched, a vibration of 20 um at 20 kHz by our own friction model stand beside them. "
-        "The quoted vibrations are 20 times as fast as the sliding. Bars leave the power of a "
-        "vibration out, as the thesis does; diamonds count what of it goes into the contact.",
-        (GEARSET_2.case,), figure_3_1,
-    ),
-    FigureOf(
-        "3.2", "Efficiency of gearset 2 over each of its inputs",
-        "By ISO/TR 14521; one input is raised at a time, in steps of 5 %, with the centre distance "
-        "as it is. Crosses: above these the film parameter h* is not above zero, and there is no "
-        "answer.",
-        (GEARSET_2.case,), figure_3_2,
-    ),
-    FigureOf(
-        "3.3", "Friction by two standards",
-        "Base friction by ISO/TR 14521 in mineral oil, tooth friction of gearsets 2 and 3 with its "
-        "size, geometry, material and roughness factors, and friction by AGMA 6034, which knows "
-        "the sliding velocity alone; markers: the gearsets at 1440 rpm.",
-        _CASES, figure_3_3,
-    ),
-    FigureOf(
-        "3.4", "Efficiencies as they are and at the optimum",
-        "By ISO/TR 14521 and AGMA 6034; gearsets 1 and 4 are lost, and so are the bounds of the "
-        "optimum (Table 3.6 here).",
-        _CASES, figure_3_4,
-    ),
-    FigureOf(
-        "3.5", "Permissible torques as they are and at the optimum",
-        "M_26k, M_w and M_s by BS 721, from tables that are from memory; T_G,all by AGMA 6034. "
-        "Gearsets 1 and 4 are lost.",
-        _CASES, figure_3_5,
-    ),
-)  # fmt: skip

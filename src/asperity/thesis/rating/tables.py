@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from asperity.rating import Rated
 from asperity.rating.result import Entry
-from asperity.thesis.exhibits import Cell, Grid, TableOf
-from asperity.thesis.rating.gearsets import (
+from asperity.thesis.exhibits import Cell, Grid
+from asperity.thesis.rating.rated import (
     GEARSET_2,
     GEARSETS,
     comparison_of,
@@ -281,45 +281,3 @@ def table_3_7() -> Grid:
 
 
 _OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
-_CASES = tuple(gear.case for gear in GEARSETS.values())
-
-TABLES = (
-    TableOf(
-        "3.2", "Efficiency of gearset 2: inputs and results",
-        "By ISO/TR 14521. The thesis's table is lost; its column holds what the text repeats of "
-        "it, the last one where the number here is from.",
-        (GEARSET_2.case,), table_3_2,
-    ),
-    TableOf(
-        "3.3", "Friction and efficiency of gearset 2 with each way to less friction",
-        "What the thesis has of the oils' viscosities is lost, and without influence on the "
-        "efficiency. Rows that are not in the thesis: oils by the formulas of ISO/TR 14521, and "
-        "vibration by our own friction model.",
-        (GEARSET_2.case,), table_3_3,
-    ),
-    TableOf(
-        "3.4", "What each input does to the efficiency of gearset 2",
-        "The thesis's table is lost; its column holds what the text of 3.2.3 says. Elasticity: "
-        "relative change of the efficiency over that of the input, at the gearset as it is.",
-        (GEARSET_2.case,), table_3_4,
-    ),
-    TableOf(
-        "3.5", "Efficiency and load capacity of gearsets 2 and 3 as they are",
-        "By ISO/TR 14521, AGMA 6034 and, from tables that are from memory, BS 721. The thesis's "
-        "table is lost, gearsets 1 and 4 with it. The required life is 500 000 turns of the wheel, "
-        "a tenth of it for strength (3.3.1).",
-        _CASES, table_3_5,
-    ),
-    TableOf(
-        "3.6", "Constraints of the optimum",
-        "The thesis's table is lost. The bounds of alpha_n, q_1, m_x1, Ra_1 and x_2 are assumed; "
-        "that M_w and M_s may not fall is the thesis's.",
-        _CASES, table_3_6,
-    ),
-    TableOf(
-        "3.7", "Efficiency and load capacity of gearsets 2 and 3 at the optimum",
-        "As Table 3.5, within the constraints of Table 3.6. The thesis's table is lost; its column "
-        "holds what the text of 3.3.5 says.",
-        _CASES, table_3_7,
-    ),
-)  # fmt: skip

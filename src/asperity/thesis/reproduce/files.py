@@ -1,25 +1,26 @@
-"""Figures and tables on disk: made, or found where an earlier run left them and still true."""
+"""Figures, tables and findings on disk: made, or found where an earlier run left them, still true.
+
+What a run made stands in ``made.json``: under which key, of which files with which content. It is
+written after them and vouches for them, so that an exhibit whose making was cut short, whose files
+were harmed or whose sources have changed is made again.
+"""
 
 import dataclasses
-import functools
 import hashlib
 import json
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-import asperity
 from asperity import __version__
-from asperity.casefile import read_case
-from asperity.closure import package_hash
-from asperity.errors import StorageError
-from asperity.store import read_dataset, write_atomically, write_dataset, write_text
-from asperity.thesis.exhibits import FigureOf, Grid, TableOf
-from asperity.thesis.rating.gearsets import CASE_TABLES
+from asperity.casefile import shipped_cases
+from asperity.store import write_atomically, write_dataset, write_text
+from asperity.thesis.exhibits import Exhibit, FigureOf, Grid, TableOf
+from asperity.thesis.ledger import Claim, Entry
 
-Say = Callable[[str], None]
-
-_PACKAGE = Path(asperity.__file__).parent
+_MADE = "made.json"
+_LEDGER = "claims.json"
 _DOTS_PER_INCH = 150
 
 
@@ -72,125 +73,148 @@ class TableFiles:
     reused: bool
 
 
-def stamp(name: str, cases: Sequence[str]) -> str:
-    """Hash of all that decides what comes out: the sources, their data and the cases' values."""
-    digest = hashlib.sha256(f"{package_hash()}\0{_data_hash()}\0{name}".encode())
-    for case in cases:
-        digest.update(b"\0" + read_case(case, CASE_TABLES).canonical().encode())
-    return digest.hexdigest()
+Shown = FigureFiles | TableFiles | Entry
 
 
-@functools.cache
-def _data_hash() -> str:
-    digest = hashlib.sha256()
-    for path in sorted(_PACKAGE.rglob("data/*.toml")):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()
+@dataclasses.dataclass(frozen=True)
+class Made:
+    """What making an exhibit gave.
 
-
-def found_figure(folder: Path, figure: FigureOf, *, full: bool = False) -> FigureFiles | None:
-    """Return a figure an earlier run left, if it is whole and still true.
-
-    One that was made in full serves as well where that is not asked for.
+    Attributes
+    ----------
+    name : str
+        Its kind and number.
+    key : str
+        What it follows from.
+    plain : dict
+        What is not in its files, as plain values.
+    files : mapping of str to str
+        Its files and hashes of what is in them.
+    seconds : float
+        Time it took, s.
     """
-    picture, path = _figure_paths(folder, figure)
-    try:
-        attributes = read_dataset(path).attrs
-        digest = _sha256(picture)
-    except (StorageError, OSError):
-        return None
-    grades = {full, True} if figure.full else {False}
-    if attributes.get("stamp") not in {_figure_stamp(figure, full=grade) for grade in grades}:
-        return None
-    if attributes.get("picture_sha256") != digest:
-        return None
-    how = tuple(json.loads(attributes["how"]))
-    return FigureFiles(figure.number, figure.title, figure.caption, picture, path, how, True)
+
+    name: str
+    key: str
+    plain: dict[str, Any]
+    files: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    seconds: float = 0.0
 
 
-def make_figure(folder: Path, figure: FigureOf, say: Say, *, full: bool = False) -> FigureFiles:
-    """Return a figure, drawn if it is not there; in full where there is more of it."""
-    full = full and figure.full is not None
-    found = found_figure(folder, figure, full=full)
-    if found is not None:
-        say(f"figure {figure.number}: there already")
-        return found
+def key_of(exhibit: Exhibit, *, full: bool = False) -> str:
+    """Return what an exhibit follows from: the sources of what makes it, and its cases."""
+    from asperity.runs.key import code_key, key
+
+    shipped = shipped_cases()
+    cases = [shipped[case].read_bytes() for case in exhibit.cases]
+    in_full = full and isinstance(exhibit, FigureOf) and exhibit.has_full
+    return key(code_key(exhibit.module), exhibit.name + " in full" * in_full, *cases)
+
+
+def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Made:
+    """Make an exhibit and write its files; they are found again under the key."""
     began = time.perf_counter()
-    picture, path = _figure_paths(folder, figure)
-    drawn = figure.full() if full and figure.full else figure.make()
+    paths: Sequence[Path] = ()
+    if isinstance(exhibit, FigureOf):
+        plain, paths = _draw(exhibit, folder, full)
+    elif isinstance(exhibit, TableOf):
+        plain, paths = _calculate(exhibit, folder)
+    elif isinstance(exhibit, Claim):
+        plain = Entry.of(exhibit, exhibit.make()).to_json()
+    else:
+        raise TypeError(f"{exhibit.name} is neither a figure nor a table nor a claim")
+    files = {path.name: _sha256(path) for path in paths}
+    return Made(exhibit.name, key, plain, files, time.perf_counter() - began)
+
+
+def _draw(figure: FigureOf, folder: Path, full: bool) -> tuple[dict[str, Any], list[Path]]:
+    drawn = figure.make(full=full)
+    picture, path = _paths(folder, figure, ".png", ".nc")
     metadata = {"Software": f"asperity {__version__}", "Title": figure.title}
     write_atomically(
         picture,
         lambda target: drawn.figure.savefig(target, dpi=_DOTS_PER_INCH, metadata=metadata),
     )
-    # The dataset comes last and vouches for the picture: an interrupted figure is made again.
-    dataset = drawn.dataset.assign_attrs(
-        title=figure.title,
-        caption=figure.caption,
-        how=json.dumps(list(drawn.how)),
-        asperity=__version__,
-        stamp=_figure_stamp(figure, full=full),
-        picture_sha256=_sha256(picture),
-    )
-    write_dataset(dataset, path)
-    say(f"figure {figure.number}: made in {time.perf_counter() - began:.1f} s")
-    return FigureFiles(
-        figure.number, figure.title, figure.caption, picture, path, tuple(drawn.how), False
-    )
+    labels = {"title": figure.title, "caption": figure.caption, "asperity": __version__}
+    write_dataset(drawn.dataset.assign_attrs(**labels, how=json.dumps(list(drawn.how))), path)
+    return {"how": list(drawn.how)}, [picture, path]
 
 
-def found_table(folder: Path, table: TableOf) -> TableFiles | None:
-    """Return a table an earlier run left, if it is whole and still true."""
-    path, beside = _table_paths(folder, table)
-    try:
-        plain = json.loads(beside.read_text("utf-8"))
-        if plain["stamp"] != stamp(f"table {table.number}", table.cases):
-            return None
-        if plain["csv_sha256"] != _sha256(path):
-            return None
-        grid = Grid.from_json(plain)
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-    return TableFiles(table.number, table.title, table.caption, path, grid, True)
-
-
-def make_table(folder: Path, table: TableOf, say: Say) -> TableFiles:
-    """Return a table, calculated if it is not there."""
-    found = found_table(folder, table)
-    if found is not None:
-        say(f"table {table.number}: there already")
-        return found
-    began = time.perf_counter()
-    path, beside = _table_paths(folder, table)
+def _calculate(table: TableOf, folder: Path) -> tuple[dict[str, Any], list[Path]]:
     grid = table.make()
+    path, beside = _paths(folder, table, ".csv", ".json")
     write_text(path, grid.to_csv())
-    # Last, as the dataset of a figure: it vouches for the CSV.
-    plain = {
-        "title": table.title,
-        "caption": table.caption,
-        **grid.to_json(),
-        "asperity": __version__,
-        "stamp": stamp(f"table {table.number}", table.cases),
-        "csv_sha256": _sha256(path),
-    }
-    write_text(beside, json.dumps(plain, indent=1, allow_nan=False))
-    say(f"table {table.number}: made in {time.perf_counter() - began:.1f} s")
-    return TableFiles(table.number, table.title, table.caption, path, grid, False)
+    labels = {"title": table.title, "caption": table.caption, "asperity": __version__}
+    write_text(beside, json.dumps({**labels, **grid.to_json()}, indent=1, allow_nan=False))
+    return {}, [path, beside]
 
 
-def _figure_stamp(figure: FigureOf, *, full: bool) -> str:
-    return stamp(f"figure {figure.number}" + full * " in full", figure.cases)
+class Collection:
+    """What is in a run's folder.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        The folder.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._made = {made.name: made for made in _read(folder)}
+
+    def add(self, made: Made) -> None:
+        """Take note of what was made, on disk too."""
+        self._made[made.name] = made
+        kept = [dataclasses.asdict(made) for made in self._made.values()]
+        if made.name.startswith(Claim.kind):
+            claims = [one["plain"] for one in kept if one["name"].startswith(Claim.kind)]
+            write_text(self.folder / _LEDGER, _text({"claims": claims}))
+        write_text(self.folder / _MADE, _text(kept))
+
+    def find(self, exhibit: Exhibit, *, full: bool = False) -> Shown | None:
+        """Return an exhibit an earlier run left, if it is whole and still true.
+
+        A figure that was made in full serves as well where that is not asked for.
+        """
+        made = self._made.get(exhibit.name)
+        if made is None or made.key not in {key_of(exhibit, full=grade) for grade in (full, True)}:
+            return None
+        return self.show(exhibit, made, reused=True)
+
+    def show(self, exhibit: Exhibit, made: Made, *, reused: bool) -> Shown | None:
+        """Return an exhibit as it stands on disk, None if its files are not what was written."""
+        try:
+            if any(_sha256(self.folder / name) != was for name, was in made.files.items()):
+                return None
+            if isinstance(exhibit, FigureOf):
+                labels = exhibit.number, exhibit.title, exhibit.caption
+                picture, path = _paths(self.folder, exhibit, ".png", ".nc")
+                how = tuple(made.plain["how"])
+                return FigureFiles(*labels, picture, path, how, reused)
+            if isinstance(exhibit, TableOf):
+                path, beside = _paths(self.folder, exhibit, ".csv", ".json")
+                grid = Grid.from_json(json.loads(beside.read_text("utf-8")))
+                labels = exhibit.number, exhibit.title, exhibit.caption
+                return TableFiles(*labels, path, grid, reused)
+            return Entry.from_json(made.plain)
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+
+
+def _read(folder: Path) -> list[Made]:
+    try:
+        return [Made(**plain) for plain in json.loads((folder / _MADE).read_text("utf-8"))]
+    except (OSError, ValueError, TypeError):
+        return []
+
+
+def _text(plain: object) -> str:
+    return json.dumps(plain, indent=1, allow_nan=False)
 
 
 def _sha256(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def _figure_paths(folder: Path, figure: FigureOf) -> tuple[Path, Path]:
-    name = f"figure-{figure.number}"
-    return folder / f"{name}.png", folder / f"{name}.nc"
-
-
-def _table_paths(folder: Path, table: TableOf) -> tuple[Path, Path]:
-    name = f"table-{table.number}"
-    return folder / f"{name}.csv", folder / f"{name}.json"
+def _paths(folder: Path, exhibit: Exhibit, *suffixes: str) -> list[Path]:
+    return [folder / f"{exhibit.name.replace(' ', '-')}{suffix}" for suffix in suffixes]

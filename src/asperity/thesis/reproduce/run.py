@@ -1,29 +1,34 @@
-"""Everything at once: figures, tables and ledger computed or found, and the page written."""
+"""Everything at once: what is not there yet is made, and the page fills while it is."""
 
+import contextlib
 import dataclasses
-import json
+import functools
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from asperity import __version__
+from asperity.errors import AsperityError
+from asperity.runs import Interrupted
+from asperity.runs.workers import Task, cores, done
 from asperity.store import output_folder, write_text
 from asperity.thesis import contents
-from asperity.thesis.ledger import Entry, settle
-from asperity.thesis.page.report import render
+from asperity.thesis.exhibits import Exhibit
+from asperity.thesis.ledger import Entry
 from asperity.thesis.reproduce.files import (
+    Collection,
     FigureFiles,
+    Made,
+    Shown,
     TableFiles,
-    found_figure,
-    found_table,
-    make_figure,
-    make_table,
-    stamp,
+    key_of,
+    make,
 )
+from asperity.thesis.reproduce.page import render
 
-_LEDGER = "claims.json"
+Say = Callable[[str], None]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,6 +45,8 @@ class ThesisResult:
         The figures asked for.
     tables : tuple of TableFiles
         The tables asked for.
+    failed : mapping of str to str
+        What could not be made, and why.
     seconds : float
         Time it took, s.
     """
@@ -48,6 +55,7 @@ class ThesisResult:
     claims: tuple[Entry, ...]
     figures: tuple[FigureFiles, ...]
     tables: tuple[TableFiles, ...]
+    failed: Mapping[str, str]
     seconds: float
 
     def to_json(self) -> dict[str, Any]:
@@ -76,6 +84,7 @@ class ThesisResult:
                 }
                 for table in self.tables
             ],
+            "failed": dict(self.failed),
             "seconds": self.seconds,
         }
 
@@ -83,82 +92,137 @@ class ThesisResult:
 def run(
     out: str | os.PathLike[str],
     only: Sequence[str] = (),
-    progress: Callable[[str], None] | None = None,
+    progress: Say | None = None,
     *,
     full: bool = False,
+    processes: int | None = None,
 ) -> ThesisResult:
     """Reproduce the thesis's figures, tables and claims into a folder.
 
-    Each is written as soon as it is made; what an earlier run left there and is still true is used
-    again.
+    The page is there at once and is written again as each of them is made, in processes on all
+    cores. What an earlier run left there and is still true is used again. What cannot be made is
+    said, and keeps nothing else from being made.
 
     Parameters
     ----------
     out : path
         Folder for ``index.html``, the ledger, each figure's PNG and netCDF, and each table's CSV.
     only : sequence of str
-        Numbers of figures and tables to make, such as ``"4.17"``, and nothing else; all and the
-        ledger if empty. A figure and a table may have the same number.
+        Numbers of figures, tables and claims to make, such as ``"4.17"``, and nothing else; all if
+        empty. Several may have the same number.
     progress : callable, optional
         Takes a line about each thing done.
     full : bool
         Make figures in full that take long: elastic blocks on the mesh of the shipped cases, in
         25 directions.
+    processes : int, optional
+        How many at a time; as many as there are cores if left out. With 1 all is made in this one.
 
     Raises
     ------
     InputError
-        There is neither figure nor table of such a number.
+        There is nothing of such a number.
     StorageError
         The folder cannot be written to.
+    Interrupted
+        Ctrl-C was pressed; what was made is kept.
     """
     began = time.perf_counter()
-    say = progress or (lambda line: None)
-    wanted_figures, wanted_tables = contents.select(only)
-    folder = output_folder(out)
-    figures = {
-        figure.number: make_figure(folder, figure, say, full=full) for figure in wanted_figures
-    }
-    tables = {table.number: make_table(folder, table, say) for table in wanted_tables}
-    claims = _ledger(folder, say, compute=not only)
-    all_figures = [
-        figures.get(number) or found_figure(folder, figure)
-        for number, figure in contents.FIGURES.items()
-    ]
-    all_tables = [
-        tables.get(number) or found_table(folder, table)
-        for number, table in contents.TABLES.items()
-    ]
-    page = render(
-        claims,
-        [figure for figure in all_figures if figure is not None],
-        [table for table in all_tables if table is not None],
-        __version__,
-    )
-    index = write_text(folder / "index.html", page)
-    seconds = time.perf_counter() - began
-    return ThesisResult(index, claims, tuple(figures.values()), tuple(tables.values()), seconds)
-
-
-def _ledger(folder: Path, say: Callable[[str], None], *, compute: bool) -> tuple[Entry, ...]:
-    """The ledger an earlier run left as far as it is still true, completed if asked for."""
-    path = folder / _LEDGER
-    true = stamp("ledger", contents.CASES)
-    entries: dict[str, Entry] = {}
+    wanted = contents.select(only)
+    work = _Reproduction(output_folder(out), wanted, progress or (lambda line: None), full)
+    work.show()
     try:
-        plain = json.loads(path.read_text("utf-8"))
-        if plain["stamp"] == true:
-            entries = {claim["id"]: Entry.from_json(claim) for claim in plain["claims"]}
-    except (OSError, ValueError, KeyError, TypeError):
-        entries = {}
-    for claim in contents.CLAIMS if compute else ():
-        if claim.id in entries:
-            say(f"claim {claim.id}: there already")
-            continue
-        began = time.perf_counter()
-        entries[claim.id] = settle(claim)
-        done = {"stamp": true, "claims": [entry.to_json() for entry in entries.values()]}
-        write_text(path, json.dumps(done, indent=1, allow_nan=False))
-        say(f"claim {claim.id}: {entries[claim.id].finding.verdict}, "
-            f"{time.perf_counter() - began:.1f} s")  # fmt: skip
-    return tuple(entries[claim.id] for claim in contents.CLAIMS if claim.id in entries)
+        work.make(processes or cores())
+    except KeyboardInterrupt:
+        raise Interrupted(
+            f"interrupted: {len(wanted) - len(work.missing)} of {len(wanted)} are kept; the same "
+            "command goes on from there"
+        ) from None
+    finally:
+        work.show()
+    shown = [work.shown[exhibit.name] for exhibit in wanted if exhibit.name in work.shown]
+    entries = [work.shown.get(claim.name) for claim in contents.CLAIMS.values()]
+    return ThesisResult(
+        work.index,
+        tuple(one for one in entries if isinstance(one, Entry)),
+        tuple(one for one in shown if isinstance(one, FigureFiles)),
+        tuple(one for one in shown if isinstance(one, TableFiles)),
+        work.failed,
+        time.perf_counter() - began,
+    )
+
+
+class _Reproduction:
+    """A run on its way: what is there, what is still to come, what failed."""
+
+    def __init__(self, folder: Path, wanted: Sequence[Exhibit], say: Say, full: bool) -> None:
+        self.index = folder / "index.html"
+        self.failed: dict[str, str] = {}
+        self.shown: dict[str, Shown] = {}
+        self._say = say
+        self._full = full
+        self._folder = folder
+        self._collection = Collection(folder)
+        names = {exhibit.name for exhibit in wanted}
+        self.missing: dict[str, Exhibit] = {}
+        for exhibit in contents.everything():
+            asked = exhibit.name in names
+            found = self._collection.find(exhibit, full=full and asked)
+            if found is not None:
+                self.shown[exhibit.name] = found
+                if asked:
+                    say(f"{exhibit.name}: there already")
+            elif asked:
+                self.missing[exhibit.name] = exhibit
+
+    def show(self) -> None:
+        """Write the page as it is now."""
+        page = render([*self.shown.values()], [*self.missing], self.failed, __version__)
+        write_text(self.index, page)
+
+    def make(self, processes: int) -> None:
+        """Make what is missing."""
+        if not self.missing:
+            return
+        shared = (part.task for one in self.missing.values() for part in one.parts(self._full))
+        tasks = [*{task.name: task for task in shared}.values()]
+        tasks += [self._task(exhibit) for exhibit in self.missing.values()]
+        if processes == 1 or (len(self.missing) == 1 and len(tasks) <= 2):
+            # In place: a process of its own would take longer to begin than most take to be made.
+            for exhibit in list(self.missing.values()):
+                self._take(exhibit.name, self._task(exhibit).do)
+            return
+        with contextlib.closing(done(tasks, processes)) as ended:
+            for task, future in ended:
+                if task.name in self.missing:
+                    self._take(task.name, future.result)
+                elif future.exception() is None:
+                    # Why it failed, if it did, is said of what needs it.
+                    self._say(f"{task.name}: done")
+
+    def _task(self, exhibit: Exhibit) -> Task:
+        key = key_of(exhibit, full=self._full)
+        do = functools.partial(make, exhibit, self._folder, key, full=self._full)
+        after = tuple(part.task.name for part in exhibit.parts(self._full))
+        return Task(exhibit.name, do, exhibit.room, exhibit.seconds, after)
+
+    def _take(self, name: str, made_by: Callable[[], Made]) -> None:
+        exhibit = self.missing.pop(name)
+        try:
+            made = made_by()
+        except Exception as error:
+            kind = "" if isinstance(error, AsperityError) else f"{type(error).__name__}: "
+            self.failed[name] = f"{kind}{error}"
+            self._say(f"{name}: failed: {self.failed[name]}")
+            self.show()
+            return
+        except BaseException:
+            self.missing[name] = exhibit
+            raise
+        self._collection.add(made)
+        shown = self._collection.show(exhibit, made, reused=False)
+        if shown is not None:
+            self.shown[name] = shown
+        verdict = f"{shown.finding.verdict}," if isinstance(shown, Entry) else "made in"
+        self._say(f"{name}: {verdict} {made.seconds:.1f} s")
+        self.show()

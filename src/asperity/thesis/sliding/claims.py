@@ -6,7 +6,7 @@ import numpy as np
 
 from asperity.slider import SlideResult
 from asperity.slider.closed_forms import transverse_ratio
-from asperity.thesis.ledger import Claim, Finding
+from asperity.thesis.ledger import Finding
 from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body, Sweep
 
 RATIO = "vibration.velocity_ratio"
@@ -16,12 +16,12 @@ MARKED = f"{UP_TO_ONE},1.5,2,3,4,6,8,10,15,20"
 PLOTTED = "2,3,4,6,20"
 ALL_AROUND = "0:360:15"
 LUGRE = ("friction.model=lugre", PERIODIC)
-CASES = (*(f"table-4.1-L{n}" for n in range(1, 7)), "table-4.3", "table-4.4")
 _SAME = 1e-9
 _CLOSE = 1e-3
 
 
-def _basic_bodies() -> Finding:
+def claim_4_1() -> Finding:
+    """A body on a rigid drive."""
     bodies = [Body(f"table-4.1-L{n}", (PERIODIC,)) for n in range(1, 7)]
     results = [body.solve() for body in bodies]
     full = results[0].static_drive_force
@@ -83,7 +83,8 @@ def drive_stiffness(
     return (mass * acceleration + friction) / (drive_velocity * times[1] - position)
 
 
-def _digitised_stiffness() -> Finding:
+def claim_4_2() -> Finding:
+    """Drive stiffness from the digitised point."""
     mass, drive, times = 0.5, 0.5e-3, (1.500001386, 1.500006410)
     slower, faster, position, friction = 0.1833e-3, 0.2234e-3, 0.749175e-3, -3.91128
     half = 0.5e-7  # half of the last digit printed of a velocity
@@ -124,7 +125,8 @@ def _digitised_stiffness() -> Finding:
     )
 
 
-def _longitudinal() -> Finding:
+def claim_4_3() -> Finding:
+    """Longitudinal vibration by two schemes."""
     older = Sweep("table-4.3", ((RATIO, MARKED),))
     coupled = Sweep("table-4.3", ((RATIO, MARKED),), (TWO_PHASE,))
     k = older.values()
@@ -157,7 +159,8 @@ def _longitudinal() -> Finding:
     )
 
 
-def _breakaway() -> Finding:
+def claim_4_4() -> Finding:
+    """Breakaway."""
     bodies = [Body("table-4.3"), Body("table-4.4")]
     results = [body.solve() for body in bodies]
     times = [result.breakaway_time or np.nan for result in results]
@@ -205,7 +208,8 @@ def _forces_at(time: float, result: SlideResult) -> tuple[float, float]:
     return drive, float(np.interp(time, history.time, history.friction[:, 0]))
 
 
-def _transverse() -> Finding:
+def claim_4_5() -> Finding:
+    """Transverse vibration slower than the drive."""
     laws = ("split", "unsplit", "vector")
     sweeps = [
         Sweep("table-4.4", ((RATIO, UP_TO_ONE),), (PERIODIC, f"friction.law={law}")) for law in laws
@@ -225,7 +229,8 @@ def _transverse() -> Finding:
     )
 
 
-def _directions() -> Finding:
+def claim_4_6() -> Finding:
+    """Vibration in every direction."""
     around = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, ALL_AROUND)), (PERIODIC,))
     ratios = around.ratios()
     theta = around.values(1)
@@ -269,7 +274,8 @@ def _crossing() -> float:
     return float(brentq(difference, 1.05, 2.0, xtol=1e-5))
 
 
-def _lugre() -> Finding:
+def claim_4_7() -> Finding:
+    """LuGre without its extras beside Dahl."""
     axes = ((RATIO, "2,20"), (DIRECTION, ALL_AROUND))
     dahl = Sweep("table-4.4", axes, (PERIODIC,))
     lugre = Sweep("table-4.4", axes, LUGRE)
@@ -286,7 +292,8 @@ def _lugre() -> Finding:
     )
 
 
-def _high_ratio() -> Finding:
+def claim_4_8() -> Finding:
+    """Vibration twenty times as fast as the drive."""
     bodies = [
         Body("table-4.3", (PERIODIC, f"{RATIO}=20")),
         Body("table-4.4", (PERIODIC, f"{RATIO}=20")),
@@ -306,40 +313,3 @@ def _high_ratio() -> Finding:
         {"ratio_90deg": across, "ratio_0deg": along, "ratio_90deg_full_transfer": full},
         [body.command for body in bodies],
     )
-
-
-CLAIMS = (
-    Claim(
-        "4.1", "4.2.3",
-        "L1 and L3: no reduction for v_a < v_d. L2: a square wave. L4 to L6: smoother as s_max "
-        "grows, until the force keeps its sign.",
-        "in words", _basic_bodies,
-    ),
-    Claim(
-        "4.2", "4.3.1", "Drive stiffness from the digitised point.", "96068 N/m",
-        _digitised_stiffness,
-    ),
-    Claim(
-        "4.3", "4.5.4",
-        "Longitudinal: no reduction for k <= 1; the pre-existing and the coupled model agree.",
-        "agree", _longitudinal,
-    ),
-    Claim(
-        "4.4", "4.5.4, 4.5.5", "Breakaway: time and drive force.",
-        "about 0.12 s at 5.5 N, 0.11 s at 5.08 N", _breakaway,
-    ),
-    Claim("4.5", "4.5.5", "Transverse: reduction also for k <= 1.", "yes", _transverse),
-    Claim(
-        "4.6", "4.5.6",
-        "Drive force symmetric about a direction of 180 deg; longitudinal always lowest.",
-        "yes, yes", _directions,
-    ),
-    Claim(
-        "4.7", "App. A.5", "LuGre with zero damping and Stribeck terms equals Dahl.", "exact",
-        _lugre,
-    ),
-    Claim(
-        "4.8", "3.2.2", "At k = 20 vibration saves, transverse and longitudinal.",
-        "-90 %, -95 % (0.10, 0.05; after Gutowski and Leus)", _high_ratio,
-    ),
-)  # fmt: skip

@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.slider import Model, SlideResult
 from asperity.slider.closed_forms import dahl_from_rest, longitudinal_ratio, transverse_ratio
-from asperity.thesis.exhibits import Drawn, FigureOf, labelled
+from asperity.thesis.exhibits import Drawn, labelled
 from asperity.thesis.sliding import drawings
 from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body, Sweep
 from asperity.thesis.sliding.claims import ALL_AROUND, DIRECTION, LUGRE, MARKED, PLOTTED, RATIO
@@ -22,26 +22,28 @@ _CLOSED = "asperity.slider.closed_forms"
 
 
 def side_by_side(
-    names: Sequence[str],
-    results: Sequence[SlideResult],
-    keep: str,
-    part: Callable[["xr.Dataset", Model], "xr.Dataset"] = lambda history, model: history,
+    names: Sequence[str], histories: Sequence["xr.Dataset"], full_force: float
 ) -> "xr.Dataset":
-    """One variable of several bodies' histories, each over its own times, and mu F_N."""
+    """Histories of one variable of several bodies, each over its own times, and mu F_N."""
     import xarray as xr
 
-    histories = []
-    for name, result in zip(names, results, strict=True):
-        history = part(result.to_dataset()[[keep]], result.model)
-        own = drawings.own_names(keep, name)
-        histories.append(history.rename({keep: own[0], "time": own[1]}))
-    joined = xr.merge(histories, combine_attrs="override")
+    renamed = []
+    for name, history in zip(names, histories, strict=True):
+        (keep,) = history.data_vars
+        own = drawings.own_names(str(keep), name)
+        renamed.append(history.rename({keep: own[0], "time": own[1]}))
+    joined = xr.merge(renamed, combine_attrs="override")
     joined.attrs.clear()
     labels = {"units": "1", "long_name": "what was solved"}
     joined = joined.assign_coords(body=("body", np.array(names, dtype=object), labels))
     labels = {"units": "N", "long_name": "full friction force"}
-    joined["full_force"] = ((), results[0].static_drive_force, labels)
+    joined["full_force"] = ((), full_force, labels)
     return joined
+
+
+def _solved(names: Sequence[str], results: Sequence[SlideResult], keep: str) -> "xr.Dataset":
+    histories = [result.to_dataset()[[keep]] for result in results]
+    return side_by_side(names, histories, results[0].static_drive_force)
 
 
 def two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
@@ -80,7 +82,7 @@ def figure_2_7() -> Drawn:
 def _cycle(bodies: Sequence[Body], names: Sequence[str]) -> Drawn:
     """Base velocity and friction over one cycle of periodic states."""
     results = [body.solve() for body in bodies]
-    dataset = side_by_side(names, results, "friction")
+    dataset = _solved(names, results, "friction")
     model = results[0].model
     _, time = drawings.own_names("friction", names[0])
     base = np.cos(2.0 * np.pi * model.frequency * dataset[time].values)
@@ -113,7 +115,7 @@ def figure_2_15() -> Drawn:
 
 def _basic(names: Sequence[str]) -> Drawn:
     bodies = [Body(f"table-4.1-{name}", ("solve.duration=30 ms",)) for name in names]
-    dataset = side_by_side(names, [body.solve() for body in bodies], "drive_force")
+    dataset = _solved(names, [body.solve() for body in bodies], "drive_force")
     return Drawn(drawings.stacked(dataset), dataset, [body.command for body in bodies])
 
 
@@ -165,14 +167,15 @@ def figure_4_20() -> Drawn:
 
 def _drive_over_time(case: str, ratio: str) -> Drawn:
     bodies = _schemes(case, ratio)
-    dataset = side_by_side(_SCHEMES, [body.solve() for body in bodies], "drive_force")
+    dataset = _solved(_SCHEMES, [body.solve() for body in bodies], "drive_force")
     return Drawn(drawings.drive_over_time(dataset), dataset, [body.command for body in bodies])
 
 
 def _friction_over_cycles(case: str, ratio: str, axes: Sequence[str]) -> Drawn:
     bodies = _schemes(case, ratio)
     results = [body.solve() for body in bodies]
-    dataset = side_by_side(_SCHEMES, results, "friction", two_cycles).sel(axis=list(axes))
+    cycles = [two_cycles(result.to_dataset()[["friction"]], result.model) for result in results]
+    dataset = side_by_side(_SCHEMES, cycles, results[0].static_drive_force).sel(axis=list(axes))
     how = [body.command for body in bodies]
     return Drawn(drawings.friction_over_cycles(dataset), dataset, how)
 
@@ -214,82 +217,3 @@ def figure_4_23() -> Drawn:
     )
     how = [sweep.command for sweep in (marched, settled, lugre)]
     return Drawn(drawings.over_direction(dataset), dataset, how)
-
-
-_LINES = "Exponential scheme (full line) and two-phase scheme (dashed)"
-
-FIGURES = (
-    FigureOf(
-        "2.7", "Dahl's friction force from rest",
-        "The exponent sets how the contact yields: 0 is elastic up to the full force, 2 creeps "
-        "towards it. Full force and deflection limit of Table 4.3.",
-        (), figure_2_7,
-    ),
-    FigureOf(
-        "2.14", "Rigid friction in a cycle of longitudinal vibration",
-        "While the base outruns the body, friction pushes the body forward. The thesis gives "
-        "no numbers; those of simulation L2 are used, with v_a = 2 v_d.",
-        ("table-4.1-L2",), figure_2_14,
-    ),
-    FigureOf(
-        "2.15", "Dahl friction in a cycle of longitudinal vibration",
-        "At 4 kHz and v_a = 0.75 mm/s against v_d = 0.5 mm/s the asperities give way before "
-        "the force can turn: it falls, but keeps its sign. The thesis gives no other numbers; "
-        "those of Table 4.3 are used, with its compliant drive and with a rigid one.",
-        ("table-4.3", "table-4.1-L4"), figure_2_15,
-    ),
-    FigureOf(
-        "4.3", "Rigid drive, vibration slower than the drive",
-        "Simulations L1 (rigid friction) and L3 (asperities): the drive force stays at "
-        "mu F_N once the asperities are stretched.",
-        ("table-4.1-L1", "table-4.1-L3"), figure_4_3,
-    ),
-    FigureOf(
-        "4.4", "Rigid drive, vibration faster than the drive",
-        "Simulations L2 (rigid friction) and L4, L5, L6 with softer and softer asperities, "
-        "from rest; L6 has not settled yet at the end.",
-        ("table-4.1-L2", "table-4.1-L4", "table-4.1-L5", "table-4.1-L6"), figure_4_4,
-    ),
-    FigureOf(
-        "4.17", "Longitudinal vibration: what is left of the drive force",
-        "Table 4.3. Line: periodic states; markers: 1 s marched with either scheme; dashed: "
-        "rigid friction and rigid drive.",
-        ("table-4.3",), figure_4_17,
-    ),
-    FigureOf(
-        "4.18", "Drive force when longitudinal vibration sets in, k = 6",
-        f"Table 4.3. {_LINES}. The last millisecond, enlarged, shows the undulation that the "
-        "two-phase scheme puts into the drive force by stretching the drive with the base's "
-        "motion; it is not physical.",
-        ("table-4.3",), figure_4_18,
-    ),
-    FigureOf(
-        "4.19", "Friction under longitudinal vibration, k = 6",
-        f"Table 4.3, two cycles at the end of the march. {_LINES}.",
-        ("table-4.3",), figure_4_19,
-    ),
-    FigureOf(
-        "4.20", "Transverse vibration: what is left of the drive force",
-        "Table 4.4. Lines: periodic states of the three relaxation laws; markers: 1 s marched "
-        "with law split and either scheme; dotted: rigid friction and rigid drive with the "
-        "transferred part of the vibration, eta_y k.",
-        ("table-4.4",), figure_4_20,
-    ),
-    FigureOf(
-        "4.21", "Drive force when transverse vibration sets in, k = 20",
-        f"Table 4.4. {_LINES}. Enlarged: the last millisecond.",
-        ("table-4.4",), figure_4_21,
-    ),
-    FigureOf(
-        "4.22", "Friction under transverse vibration, k = 20",
-        f"Table 4.4, two cycles at the end of the march. {_LINES}. Along the drive the force "
-        "changes in size, across it in size and sign.",
-        ("table-4.4",), figure_4_22,
-    ),
-    FigureOf(
-        "4.23", "What is left of the drive force in every direction of vibration",
-        "Table 4.4. Lines: periodic states; filled markers: 25 directions marched for 1 s; "
-        "open diamonds: LuGre friction without damping and Stribeck terms, at k = 2 and 20.",
-        ("table-4.4",), figure_4_23,
-    ),
-)  # fmt: skip

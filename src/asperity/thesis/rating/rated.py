@@ -1,44 +1,23 @@
-"""Shipped gearsets that know the command that rates them."""
+"""Shipped gearsets, their ratings, and the studies of these."""
 
 import dataclasses
 import functools
-import shlex
-from collections.abc import Mapping
 from typing import Any
 
-from asperity.block.tables import TABLES as CONTACT_TABLES
-from asperity.casefile import Case, Table, read_case
-from asperity.flanks.tables import TABLES as FLANKS_TABLES
 from asperity.gearset import Gearset
 from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case
 from asperity.rating.result import Rating
-from asperity.rating.tables import TABLES as RATING_TABLES
-from asperity.slider.tables import TABLES as SLIDER_TABLES
 from asperity.studies.comparison import Comparison
 from asperity.studies.methods import compare_case
 from asperity.studies.optimise import Optimum, optimise
 from asperity.studies.reported import Method, reported_methods
 from asperity.studies.sensitivity import Sensitivity, sensitivity
-
-CASE_TABLES: Mapping[str, type[Table]] = {
-    **SLIDER_TABLES,
-    **RATING_TABLES,
-    **FLANKS_TABLES,
-    **CONTACT_TABLES,
-}
-"""Every table of the cases the thesis is reproduced from."""
+from asperity.thesis.gearsets import Gear
 
 
 @dataclasses.dataclass(frozen=True)
-class Gear:
-    """A shipped case of a gearset with settings."""
-
-    case: str
-    settings: tuple[str, ...] = ()
-
-    def read(self) -> Case:
-        """The case."""
-        return read_case(self.case, CASE_TABLES, self.settings)
+class RatedGear(Gear):
+    """A shipped gearset with its ratings and the studies of them."""
 
     def tables(self) -> tuple[Gearset, Operation, RatingOptions]:
         """What the ratings and their studies take."""
@@ -62,11 +41,6 @@ class Gear:
         value: Any = self.ratings()[standard][key]
         return float(value)
 
-    def command(self, verb: str = "rate") -> str:
-        """The same on the command line."""
-        settings = [f"--set {shlex.quote(setting)}" for setting in self.settings]
-        return " ".join(["asperity", verb, self.case, *settings])
-
 
 def methods_of_thesis() -> tuple[Method, ...]:
     """The ways to less friction in its Table 3.3, which has no oil by the standard's formula."""
@@ -74,29 +48,29 @@ def methods_of_thesis() -> tuple[Method, ...]:
 
 
 @functools.cache
-def sensitivity_of(gear: Gear) -> Sensitivity:
+def sensitivity_of(gear: RatedGear) -> Sensitivity:
     """Its efficiency over each of its inputs."""
     return sensitivity(*gear.tables())
 
 
 @functools.cache
-def comparison_of(gear: Gear) -> Comparison:
+def comparison_of(gear: RatedGear) -> Comparison:
     """Its efficiency with each way to less friction."""
     return compare_case(gear.read())
 
 
 @functools.cache
-def optimum_of(gear: Gear) -> Optimum:
+def optimum_of(gear: RatedGear) -> Optimum:
     """Its most efficient design that keeps the permissible torques."""
     return optimise(*gear.tables())
 
 
 @functools.cache
-def _rated(gear: Gear) -> Rated:
+def _rated(gear: RatedGear) -> Rated:
     return rate_case(gear.read())
 
 
-GEARSET_2 = Gear("gearset-2")
-GEARSET_3 = Gear("gearset-3")
+GEARSET_2 = RatedGear("gearset-2")
+GEARSET_3 = RatedGear("gearset-3")
 GEARSETS = {"gearset 2": GEARSET_2, "gearset 3": GEARSET_3}
 """The two of which enough survives."""

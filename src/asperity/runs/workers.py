@@ -1,0 +1,136 @@
+"""Tasks done in processes on all cores, what others wait for first."""
+
+import concurrent.futures as cf
+import contextlib
+import dataclasses
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing.connection import Connection
+from typing import Any
+
+from asperity.errors import StorageError
+
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+@dataclasses.dataclass(frozen=True)
+class Task:
+    """Something to be done in one process.
+
+    Attributes
+    ----------
+    name : str
+        What it is called; a task is known by it.
+    do : callable
+        A function of a module, and what it takes if it is a partial one.
+    room : str
+        Tasks of one room share compiled code: the first of them is done before others begin, so
+        that it is compiled once.
+    seconds : float
+        About how long it takes, s; what takes longest begins first.
+    after : tuple of str
+        Names of tasks that must be done before, if they are among those that are done.
+    """
+
+    name: str
+    do: Callable[[], Any]
+    room: str
+    seconds: float = 1.0
+    after: tuple[str, ...] = ()
+
+
+Done = tuple[Task, "cf.Future[Any]"]
+
+
+def cores() -> int:
+    """Return the number of cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def done(tasks: Sequence[Task], processes: int) -> Generator[Done, None, None]:
+    """Yield tasks with what they gave or raised, as they end.
+
+    Left early, as by Ctrl-C, it ends the processes at once, whatever they are at. So does the end
+    of this process, however it ends.
+
+    Raises
+    ------
+    StorageError
+        A process died.
+    """
+    # Processes begin anew instead of with a copy of this one, whose threads a copy would not have.
+    context = multiprocessing.get_context("spawn")
+    ear, mouth = context.Pipe(duplex=False)
+    with _single_threaded(), ear, mouth:
+        pool = cf.ProcessPoolExecutor(
+            processes, mp_context=context, initializer=_begin, initargs=(ear,)
+        )
+        try:
+            yield from _fed(pool, processes, tasks)
+        except BrokenProcessPool:
+            raise StorageError(
+                "a process ended: killed, perhaps for memory, or begun by a script without "
+                "\"if __name__ == '__main__':\"; the same again goes on from what is kept"
+            ) from None
+        except BaseException:
+            mouth.close()
+            raise
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _fed(pool: cf.Executor, processes: int, tasks: Sequence[Task]) -> Generator[Done, None, None]:
+    waiting = sorted(tasks, key=lambda task: -task.seconds)
+    to_do = {task.name for task in tasks}
+    running: dict[cf.Future[Any], Task] = {}
+    compiled: set[str] = set()
+
+    def may_begin(task: Task) -> bool:
+        alone = task.room in compiled or all(task.room != other.room for other in running.values())
+        return alone and to_do.isdisjoint(task.after)
+
+    while waiting or running:
+        while len(running) < processes and (task := next(filter(may_begin, waiting), None)):
+            waiting.remove(task)
+            running[pool.submit(task.do)] = task
+        ended, _ = cf.wait(running, return_when=cf.FIRST_COMPLETED)
+        for future in ended:
+            if isinstance(future.exception(), BrokenProcessPool):
+                future.result()
+            task = running.pop(future)
+            to_do.remove(task.name)
+            compiled.add(task.room)
+            yield task, future
+
+
+def _begin(ear: Connection) -> None:
+    """Let Ctrl-C be heard by the process that feeds this one, and end with that."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def listen() -> None:
+        with contextlib.suppress(EOFError, OSError):
+            ear.recv()
+        os._exit(1)
+
+    threading.Thread(target=listen, daemon=True).start()
+
+
+@contextlib.contextmanager
+def _single_threaded() -> Iterator[None]:
+    """Keep linear algebra in processes begun here to one thread: they have the cores already."""
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value

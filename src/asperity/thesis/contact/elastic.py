@@ -1,0 +1,208 @@
+"""Elastic blocks of chapter 5 by what decides them, and which of them a figure or claim compares.
+
+Light, so that a run can hand them out before anything of theirs is imported.
+"""
+
+import dataclasses
+import shlex
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.runs.workers import Task
+from asperity.thesis.exhibits import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from asperity.block.result import BlockResult
+    from asperity.thesis.contact.blocks import Settled
+
+LONGITUDINAL, TRANSVERSE = "block-longitudinal", "block-transverse"
+SLIDING = {LONGITUDINAL: "table-4.3", TRANSVERSE: "table-4.4"}
+"""The sliding bodies of chapter 4 that the blocks are."""
+
+RATIO = "vibration.velocity_ratio"
+DIRECTION = "vibration.direction"
+LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
+"""A mesh of 20 contact nodes; without these settings a shipped block has 221."""
+
+ON_BODY = "vibration.applied_to=body"
+ALONG = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0)
+ACROSS = (0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0)
+AROUND = (2.0, 3.0, 4.0, 6.0, 20.0)
+DIRECTIONS = (30.0, 135.0, 240.0)
+FROM_REST = ("solve.duration=0.3 s", "solve.step=4 us")
+FINE = ("solve.duration=0.3 s", "solve.step=1 us")
+ALL_DIRECTIONS = tuple(15.0 * n for n in range(25))
+
+_ROOM = "asperity.thesis.contact"
+_SETTLING, _MARCH = 4.0, 30.0  # s, about
+T = TypeVar("T")
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True)
+class ElasticBlock:
+    """A shipped case of an elastic block with settings, under steady vibration."""
+
+    case: str
+    settings: tuple[str, ...] = ()
+
+    def settled(self) -> "Settled":
+        """Its friction and that of the sliding bodies beside it, solved once for all runs."""
+        from asperity.thesis.contact.blocks import Block, Settled
+
+        return _once(self, Settled, lambda: Block(self.case, self.settings).settled())
+
+    @property
+    def task(self) -> Task:
+        """To settle it, for those that ask later."""
+        name = f"settle {self.case} {' '.join(self.settings)}"
+        return Task(name, self.settled, _ROOM, _SETTLING)
+
+    @property
+    def how(self) -> str:
+        """How to come by what it settles to."""
+        settings = "".join(f"{setting!r}, " for setting in self.settings)
+        return f"{__name__}.ElasticBlock({self.case!r}, ({settings})).settled()"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FromRest:
+    """What is shown of a block's march from rest.
+
+    Attributes
+    ----------
+    ratio : float
+        Mean drive force over mu F_N in the window of the march.
+    time : ndarray, shape (n,)
+        s.
+    drive_force : ndarray, shape (n,)
+        N.
+    friction : ndarray, shape (n, 2)
+        Along and across the drive, N.
+    """
+
+    ratio: float
+    time: FloatArray
+    drive_force: FloatArray
+    friction: FloatArray
+
+    @classmethod
+    def of(cls, result: "BlockResult") -> "FromRest":
+        """What is shown of a result."""
+        history = result.history
+        if history is None:
+            raise ValueError("marched without a history")
+        return cls(result.ratio, history.time, history.drive_force, history.friction)
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the histories."""
+        return labelled(
+            time=(("time",), self.time, "s", "time"),
+            axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "axis"),
+            drive_force=(("time",), self.drive_force, "N", "drive force"),
+            friction=(("time", "axis"), self.friction, "N", "friction force"),
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class BlockFromRest:
+    """A shipped case of an elastic block with settings, marched from rest."""
+
+    case: str
+    settings: tuple[str, ...] = ()
+
+    def marched(self) -> FromRest:
+        """What is shown of its march, solved once for all runs."""
+        from asperity.thesis.contact.blocks import Block
+
+        return _once(self, FromRest, lambda: FromRest.of(Block(self.case, self.settings).march()))
+
+    @property
+    def task(self) -> Task:
+        """To march it, for those that ask later."""
+        name = f"march {self.case} {' '.join(self.settings)}"
+        return Task(name, self.marched, _ROOM, _MARCH)
+
+    @property
+    def command(self) -> str:
+        """The same on the command line."""
+        settings = " ".join(f"--set {shlex.quote(setting)}" for setting in self.settings)
+        return f"asperity block {self.case} {settings}".strip()
+
+
+def _once(block: ElasticBlock | BlockFromRest, of: type[T], solve: Callable[[], T]) -> T:
+    from asperity.casefile import shipped_cases
+    from asperity.runs.cache import Cache
+    from asperity.runs.key import code_key, key
+    from asperity.runs.tree import from_tree, to_tree
+
+    case = shipped_cases()[block.case].read_bytes()
+    name = key(code_key(f"{_ROOM}.blocks"), of.__name__, case, *block.settings)
+    kept = Cache.of_this_user("thesis")
+    tree = kept.get(name)
+    if tree is None:
+        tree = to_tree(solve())
+        kept.put(name, tree)
+    return from_tree(of, tree)
+
+
+def mesh(full: bool) -> tuple[str, ...]:
+    """Return settings of the mesh: a light one, or that of the shipped case."""
+    return () if full else LIGHT
+
+
+def ratios(case: str) -> tuple[float, ...]:
+    """Return the velocity ratios at which a case is settled."""
+    return ALONG if case == LONGITUDINAL else ACROSS
+
+
+def over_ratio(case: str, full: bool = False, *, on_body: bool = False) -> list[ElasticBlock]:
+    """Blocks over the velocity ratio, with the base shaken and, if asked for, then the body."""
+    modes = [(), (ON_BODY,)] if on_body else [()]
+    return [
+        ElasticBlock(case, (*mesh(full), *mode, f"{RATIO}={ratio:g}"))
+        for mode in modes
+        for ratio in ratios(case)
+    ]
+
+
+def over_direction(full: bool = False) -> list[ElasticBlock]:
+    """Blocks for each velocity ratio and direction, the latter running fastest."""
+    return [
+        ElasticBlock(TRANSVERSE, (*mesh(full), f"{RATIO}={k:g}", f"{DIRECTION}={theta:g} deg"))
+        for k in AROUND
+        for theta in (ALL_DIRECTIONS if full else DIRECTIONS)
+    ]
+
+
+def from_rest(case: str, full: bool = False) -> list[BlockFromRest]:
+    """The block marched from rest that is shown of a case."""
+    settings = f"{RATIO}={'6' if case == LONGITUDINAL else '20'}", *(FINE if full else FROM_REST)
+    return [BlockFromRest(case, (*mesh(full), *settings))]
+
+
+def equal_ratios(full: bool = False) -> list[ElasticBlock | BlockFromRest]:
+    """Blocks beside the sliding bodies they are."""
+    del full
+    return [
+        *over_ratio(LONGITUDINAL),
+        *over_ratio(TRANSVERSE),
+        *over_direction(),
+        STIFF,
+        *from_rest(LONGITUDINAL),
+    ]
+
+
+def base_or_body(full: bool = False) -> list[ElasticBlock]:
+    """Blocks on a base that is shaken, and such that are shaken themselves."""
+    del full
+    return [*over_ratio(LONGITUDINAL, on_body=True), *over_ratio(TRANSVERSE, on_body=True)]
+
+
+STIFF = ElasticBlock(LONGITUDINAL, (*LIGHT, "block.youngs_modulus=20900 GPa", f"{RATIO}=20"))
+"""A block a hundred times as stiff as steel."""

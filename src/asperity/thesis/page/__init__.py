@@ -1,1 +1,0 @@
-"""The page that shows claims, figures and tables."""

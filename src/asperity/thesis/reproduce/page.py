@@ -1,0 +1,138 @@
+"""The page: ledger, tables and pictures beside it, how each number was made, what is to come."""
+
+import dataclasses
+import importlib.metadata
+import platform
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from asperity.thesis import contents
+from asperity.thesis.contents import Chapter, chapter_of
+from asperity.thesis.exhibits import Cell
+from asperity.thesis.ledger import Entry
+from asperity.thesis.reproduce.files import FigureFiles, Shown, TableFiles
+
+E = TypeVar("E", bound=Shown)
+
+_PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
+_GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "µ", "nu": "ν", "sigma": "σ"}
+_SIGNS = {
+    "<=": "≤",
+    r"\+-": "±",
+    r"\bmu\b": "µ",
+    r"\bdegC\b": "°C",
+    r"\bum\b": "µm",
+    r"\bmm2\b": "mm²",
+    # A hyphen that does not break, between the side that drives and the side that is driven.
+    r"\beta_z(\d)_(\d)": r"eta_z\1‑\2",
+    **{rf"\b{name}_": f"{letter}_" for name, letter in _GREEK.items()},
+}
+_INDEXED = r"\b(Ra|[A-Za-zµα-ω])_(\w+(?:[,‑]\w+)?)"
+_TEMPLATE = Path(__file__).with_name("page.html.j2")
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """A chapter with what is shown of it, the names of what is to come, and what failed and why."""
+
+    chapter: Chapter
+    claims: list[Entry]
+    figures: list[FigureFiles]
+    tables: list[TableFiles]
+    to_come: list[str]
+    failed: dict[str, str]
+
+    @property
+    def empty(self) -> bool:
+        """Whether there is nothing to say of it."""
+        return not any((self.claims, self.figures, self.tables, self.to_come, self.failed))
+
+    @property
+    def differ(self) -> int:
+        """How many of its claims do not hold."""
+        return sum(entry.finding.verdict == "differs" for entry in self.claims)
+
+
+def render(
+    shown: Sequence[Shown], to_come: Sequence[str], failed: Mapping[str, str], version: str
+) -> str:
+    """Return the page as text.
+
+    Parameters
+    ----------
+    shown : sequence of FigureFiles, TableFiles and Entry
+        What is there, in any order.
+    to_come : sequence of str
+        Names of exhibits that are still being made; until there are none the page loads itself
+        again now and then.
+    failed : mapping of str to str
+        Names of exhibits that could not be made, and why.
+    version : str
+        Of this package.
+    """
+    import jinja2
+
+    environment = jinja2.Environment(
+        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters |= {"typeset": typeset, "cell": cell}
+    template = environment.from_string(_TEMPLATE.read_text("utf-8"))
+    versions = {"asperity": version, "Python": platform.python_version()}
+    versions |= {name: importlib.metadata.version(name) for name in _PACKAGES}
+
+    def of(kind: type[E], shelf: Iterable[str], chapter: Chapter) -> list[E]:
+        there = {one.number: one for one in shown if isinstance(one, kind)}
+        return [there[n] for n in shelf if n in there and chapter_of(n) == chapter.number]
+
+    parts = [
+        Part(
+            chapter,
+            of(Entry, contents.CLAIMS, chapter),
+            of(FigureFiles, contents.FIGURES, chapter),
+            of(TableFiles, contents.TABLES, chapter),
+            [name for name in to_come if _chapter(name) == chapter.number],
+            {name: why for name, why in failed.items() if _chapter(name) == chapter.number},
+        )
+        for chapter in contents.CHAPTERS
+    ]
+    claims = [entry for part in parts for entry in part.claims]
+    return template.render(
+        parts=[part for part in parts if not part.empty],
+        claimed=len(claims),
+        reproduced=sum(entry.finding.verdict == "reproduced" for entry in claims),
+        to_come=len(to_come),
+        failed=len(failed),
+        versions=versions,
+    )
+
+
+def _chapter(name: str) -> str:
+    return chapter_of(name.rpartition(" ")[2])
+
+
+def cell(value: Cell) -> Any:
+    """Return a cell of a table as HTML: a number to five digits, a text with its symbols set.
+
+    Examples
+    --------
+    >>> print(cell(1.390279), cell(60), cell("m_x1"))
+    1.3903 60 m<sub>x1</sub>
+    """
+    return f"{value:.5g}" if isinstance(value, float) else typeset(str(value))
+
+
+def typeset(text: str) -> Any:
+    """Return a text as HTML with its symbols set: ``mu F_N``, ``eta_y``, ``<=``.
+
+    Examples
+    --------
+    >>> print(typeset("s_max <= 5 % of mu F_N"))
+    s<sub>max</sub> ≤ 5 % of µ F<sub>N</sub>
+    """
+    from markupsafe import Markup, escape
+
+    for plain, sign in _SIGNS.items():
+        text = re.sub(plain, sign, text)
+    return Markup(re.sub(_INDEXED, r"\1<sub>\2</sub>", str(escape(text))))

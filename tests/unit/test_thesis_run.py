@@ -1,0 +1,287 @@
+"""A run of the thesis: what is made again, in which order, and what the page says meanwhile."""
+
+import functools
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from asperity import closure
+from asperity.errors import InputError, StorageError
+from asperity.runs import Interrupted, key, workers
+from asperity.runs.workers import Task, done
+from asperity.thesis import contents
+from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, Chapter, everything, select
+from asperity.thesis.exhibits import FigureOf, TableOf
+from asperity.thesis.ledger import Claim
+from asperity.thesis.reproduce import run as reproduction
+from asperity.thesis.reproduce.files import key_of
+from asperity.thesis.reproduce.run import run
+
+MODULE = """
+import os, time
+import numpy as np
+from asperity.runs.workers import Task
+from asperity.thesis.exhibits import Drawn, Grid, labelled
+from asperity.thesis.ledger import Finding
+
+HERE = os.path.dirname(__file__)
+
+def note(name):
+    with open(os.path.join(HERE, "made"), "a") as file:
+        file.write(name + "\\n")
+
+def figure_9_1(full=False):
+    from matplotlib.figure import Figure
+    note("figure 9.1" + " in full" * full)
+    return Drawn(Figure(), labelled(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"])
+
+def table_9_1():
+    note("table 9.1")
+    return Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("gone", "")), ("how",))
+
+def table_9_2():
+    if os.path.exists(os.path.join(HERE, "harm")):
+        raise ZeroDivisionError("nothing to divide by")
+    note("table 9.2")
+    return Grid(("symbol",), (("q_1",),), ())
+
+def claim_9_3():
+    note("claim 9.3")
+    return Finding.judged({"one": True}, "1", "Because.", {"ratio": 1.0}, ["asperity cases"])
+
+class Shared:
+    task = Task("shared", __import__("functools").partial(note, "shared"), "elsewhere")
+
+def shared(full):
+    return [Shared()]
+"""
+
+
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """Some exhibits of a module of their own; returns a list of what has been made so far."""
+    home = tmp_path / "module"
+    home.mkdir()
+    (home / "made_in_a_test.py").write_text(MODULE, "utf-8")
+    monkeypatch.syspath_prepend(home)
+    monkeypatch.delitem(sys.modules, "made_in_a_test", raising=False)
+    import made_in_a_test as module
+
+    name = module.__name__
+    shelves = {
+        "FIGURES": [FigureOf("9.1", "Figure", "F.", module=name, has_full=True)],
+        "TABLES": [
+            TableOf("9.1", "Table", "T.", module=name, parts=module.shared),
+            TableOf("9.2", "Table", "T.", module=name, parts=module.shared),
+        ],
+        "CLAIMS": [Claim("9.3", "9", "Text.", "1", module=name)],
+    }
+    for shelf, exhibits in shelves.items():
+        monkeypatch.setattr(contents, shelf, {one.number: one for one in exhibits})
+    monkeypatch.setattr(contents, "CHAPTERS", (Chapter("9", "Chapter", "What it is."),))
+    monkeypatch.setattr(key, "code_key", lambda module: "sources")
+
+    def so_far():
+        path = home / "made"
+        return sorted(path.read_text("utf-8").splitlines()) if path.exists() else []
+
+    so_far.home = home
+    return so_far
+
+
+ALL = ["claim 9.3", "figure 9.1", "table 9.1", "table 9.2"]
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_run_makes_everything_once_and_the_next_finds_it(tmp_path, made, processes):
+    lines = []
+    first = run(tmp_path, processes=processes)
+    assert [line for line in made() if line != "shared"] == ALL
+    # What several need is made once, before them, where there are processes to share it among.
+    assert made().count("shared") == processes - 1
+    again = run(tmp_path, progress=lines.append)
+    assert [line for line in made() if line != "shared"] == ALL
+    assert sorted(lines) == [f"{name}: there already" for name in ALL]
+    for one, other in zip(
+        (*first.figures, *first.tables), (*again.figures, *again.tables), strict=True
+    ):
+        assert (one.reused, other.reused) == (False, True)
+    assert again.figures[0].how == ("asperity slide table-4.3",)
+    assert again.tables[0].grid.rows == (("m_x1", 1.0 / 3.0), ("gone", ""))
+    assert again.claims == first.claims
+    assert json.loads((tmp_path / "claims.json").read_text())["claims"][0]["id"] == "9.3"
+
+
+def test_one_number_alone_is_made_and_the_rest_stays_on_the_page(tmp_path, made):
+    run(tmp_path, ["9.3"])
+    page = run(tmp_path, ["9.2"]).index.read_text("utf-8")
+    assert made() == ["claim 9.3", "table 9.2"]
+    assert 'id="claim-9.3"' in page
+    assert 'id="table-9.2"' in page
+
+
+def test_a_figure_in_full_serves_where_that_is_not_asked_for(tmp_path, made):
+    run(tmp_path, ["9.1"], processes=1)
+    run(tmp_path, ["9.1"], full=True)
+    assert made() == ["figure 9.1", "figure 9.1 in full", "table 9.1"]
+    run(tmp_path, ["9.1"])
+    run(tmp_path, ["9.1"], full=True)
+    assert len(made()) == 3
+
+
+@pytest.mark.parametrize(
+    "name", ["figure-9.1.png", "figure-9.1.nc", "table-9.1.csv", "table-9.1.json"]
+)
+def test_what_is_damaged_is_made_again(tmp_path, made, name):
+    run(tmp_path, ["9.1"], processes=1)
+    before = made()
+    path = tmp_path / name
+    path.write_bytes(path.read_bytes()[:-3])
+    run(tmp_path, ["9.1"])
+    assert len(made()) == len(before) + 1
+    path.unlink()
+    run(tmp_path, ["9.1"])
+    assert len(made()) == len(before) + 2
+
+
+def test_a_note_of_what_was_made_that_is_damaged_costs_only_the_making(tmp_path, made):
+    run(tmp_path, ["9.3"])
+    for harm in ("", "[1", '[{"name": 1}]'):
+        (tmp_path / "made.json").write_text(harm)
+        assert run(tmp_path, ["9.3"]).claims[0].finding.verdict == "reproduced"
+    assert made() == ["claim 9.3"] * 4
+
+
+def test_what_other_sources_make_is_made_again(tmp_path, made, monkeypatch):
+    run(tmp_path, ["9.3"])
+    monkeypatch.setattr(key, "code_key", lambda module: "other sources")
+    assert run(tmp_path, ["9.2"]).claims == ()
+    run(tmp_path, ["9.3"])
+    assert made().count("claim 9.3") == 2
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_what_fails_is_said_and_keeps_nothing_else_from_being_made(tmp_path, made, processes):
+    (made.home / "harm").touch()
+    lines = []
+    result = run(tmp_path, progress=lines.append, processes=processes)
+    assert result.failed == {"table 9.2": "ZeroDivisionError: nothing to divide by"}
+    assert "table 9.2: failed: ZeroDivisionError: nothing to divide by" in lines
+    assert "Not made: table 9.2. ZeroDivisionError" in result.index.read_text("utf-8")
+    assert [one.number for one in result.tables] == ["9.1"]
+    (made.home / "harm").unlink()
+    assert not run(tmp_path).failed
+    assert [line for line in made() if line != "shared"] == ALL
+
+
+def test_an_interruption_keeps_what_was_made(tmp_path, made):
+    def interrupt(line):
+        raise KeyboardInterrupt
+
+    with pytest.raises(
+        Interrupted, match=r"interrupted: 1 of 4 are kept; the same command goes on"
+    ):
+        run(tmp_path, progress=interrupt, processes=1)
+    assert made() == ["claim 9.3"]
+    run(tmp_path, processes=1)
+    assert made() == ALL
+
+
+def test_the_page_is_there_before_anything_is_made_and_fills(tmp_path, made, monkeypatch):
+    pages = []
+    show = reproduction._Reproduction.show
+
+    def shown(work):
+        show(work)
+        pages.append((work.index.read_text("utf-8"), made()))
+
+    monkeypatch.setattr(reproduction._Reproduction, "show", shown)
+    run(tmp_path, processes=1)
+    first, nothing = pages[0]
+    assert nothing == []
+    assert "Still to come: claim 9.3, figure 9.1, table 9.1, table 9.2." in first
+    to_come = [sum(name in page.partition("Still to come")[2] for name in ALL) for page, _ in pages]
+    assert sorted(to_come, reverse=True) == to_come
+    last, _ = pages[-1]
+    assert "to come" not in last
+    # While something is to come the page loads itself again, and no longer.
+    assert 'http-equiv="refresh"' in first
+    assert 'http-equiv="refresh"' not in last
+
+
+def test_an_unknown_number_is_refused_with_the_nearest():
+    with pytest.raises(InputError, match=r"'4\.177' is neither .*\(did you mean '4\.17'\?\)"):
+        select(["4.177"])
+
+
+def test_a_number_asks_for_all_that_have_it_in_the_order_of_the_page():
+    assert [one.name for one in select(["4.17", "2.7"])] == ["figure 2.7", "figure 4.17"]
+    assert [one.name for one in select(["3.2"])] == ["claim 3.2", "figure 3.2", "table 3.2"]
+    assert len(select([])) == len(CLAIMS) + len(FIGURES) + len(TABLES)
+
+
+def test_everything_has_a_function_that_makes_it_and_cases_that_ship():
+    for exhibit in everything():
+        assert callable(exhibit.function), exhibit.name
+        assert len(key_of(exhibit)) == 32
+
+
+@pytest.fixture
+def follow_from(tmp_path, monkeypatch):
+    """Chapters, and names, of what is made again after a change in a file of the package."""
+    package = Path(closure.__file__).parent
+    copy = tmp_path / "asperity"
+    shutil.copytree(package, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(closure, "_PACKAGE", copy)
+    modules = {exhibit.module for exhibit in everything()}
+
+    def keys():
+        return {module: closure.source_key(module) for module in modules}
+
+    def changed(file):
+        before = keys()
+        with (copy / file).open("a", encoding="utf-8") as source:
+            source.write("# changed\n")
+        after = keys()
+        return {one.name for one in everything() if before[one.module] != after[one.module]}
+
+    return changed
+
+
+def test_a_change_reaches_what_follows_from_it_and_nothing_else(follow_from):
+    again = follow_from("rating/__init__.py")
+    assert {"claim 7.1", "table 3.2"} <= again
+    elsewhere = ("4.", "5.2", "5.5", "5.6", "5.7", "5.8", "5.9", "5.10", "5.11", "7.8", "7.9")
+    assert not {name for name in again if name.split()[1].startswith(elsewhere)}
+    again = follow_from("slider/batch.py")
+    assert {"figure 4.17", "claim 4.6", "figure 5.5", "claim 5.1", "figure 7.8"} <= again
+    assert not {"figure 2.11", "figure 7.11"} & again
+
+
+def part(name, **options):
+    return Task(name, functools.partial(str, name), name, **options)
+
+
+def test_the_dearest_begins_first_and_nothing_before_what_it_needs():
+    tasks = [part("late", after=("small",)), part("small"), part("dear", seconds=9.0)]
+    ended = [(task.name, future.result()) for task, future in done(tasks, 1)]
+    assert ended == [("dear", "dear"), ("small", "small"), ("late", "late")]
+
+
+def test_a_process_that_dies_is_told_in_one_line():
+    dying = Task("dying", functools.partial(os._exit, 3), "room")
+    with pytest.raises(StorageError, match="a process ended"):
+        list(done([dying, part("other")], 1))
+
+
+def test_linear_algebra_in_the_processes_has_one_thread(monkeypatch):
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    asked = Task("asked", functools.partial(os.getenv, "OMP_NUM_THREADS"), "room")
+    ((_, future),) = done([asked], 1)
+    assert future.result() == "1"
+    assert "OMP_NUM_THREADS" not in os.environ
+    assert workers.cores() >= 1
