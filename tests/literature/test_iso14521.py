@@ -297,3 +297,38 @@ def test_worm_deflection_is_nearly_that_of_a_beam_on_two_supports():
     inertia = math.pi * (1.1 * diameter) ** 4 / 64.0
     beam = load * first**2 * second**2 / (3.0 * iso.STEEL * inertia * (first + second))
     assert ours == pytest.approx(beam, rel=0.03)
+
+
+def test_both_widths_that_carry_are_offered_and_the_assumed_one_is_named():
+    # A public report of a commercial program for DIN 3996: ratio 1/30, a 125.125 mm, m 6.4999,
+    # q 8.5; it prints 42.13 mm. BS 721's chord, which is assumed here, is 40.07 mm.
+    gearset = Gearset(
+        starts=1,
+        wheel_teeth=30,
+        axial_module=6.4999e-3,
+        diameter_factor=8.5,
+        centre_distance=125.125e-3,
+        wheel_face_width=50e-3,
+        worm_material="case-hardened steel",
+        wheel_material="CuSn12Ni2-C-GZ",
+    )
+    operation = Operation(
+        worm_speed=2298.0 * math.pi / 30.0,
+        output_torque=1980.0,
+        lubricant="ISO VG 460 polyglycol",
+    )
+    tip, chord = (
+        rate(gearset, operation, RatingOptions(**options), ("iso14521",))
+        for options in ({}, {"iso14521_face_width": "reference_chord"})
+    )
+    assert tip.iso14521["effective_face_width_mm"] == pytest.approx(40.07, abs=0.01)
+    # The report's module has a digit more than it prints.
+    assert chord.iso14521["effective_face_width_mm"] == pytest.approx(42.13, abs=0.01)
+    assert tip.iso14521["tau_F_MPa"] / chord.iso14521["tau_F_MPa"] == pytest.approx(1.051, abs=2e-3)
+    assert "BS 721" in tip.assumed["rating.iso14521_face_width"]
+    assert "rating.iso14521_face_width" not in chord.assumed
+    equation = chord.iso14521.entry("effective_face_width_mm").equation
+    assert equation == "min(b_2, sqrt(6 m_x1 d_m1 - 9 m_x1^2))"
+    for options, rated in (({}, tip), ({"iso14521_face_width": "reference_chord"}, chord)):
+        found = variants(gearset, operation, RatingOptions(**options), starts=[1.0])
+        assert found["iso14521.tau_F_MPa"][0] == pytest.approx(rated.iso14521["tau_F_MPa"])

@@ -381,6 +381,26 @@ def test_violated_limits_of_validity_are_sentences():
     assert any(line.startswith("lead angle is 26.0") for line in steep.agma6034.violations)
 
 
+def test_results_without_a_meaning_are_named_among_the_violations():
+    def said(torque):
+        rated = rate(*minimal(run={"output_torque": torque}))
+        return rated.iso14521.violations, rated.agma6034.violations
+
+    usual = said("300 N m")
+    assert not any(word in text for text in sum(usual, ()) for word in ("sump", "stress", "losses"))
+    idle, _ = said("1e-6 N m")
+    assert any(
+        text.startswith("losses without load over P_2 (eta_ges) is ")
+        and text.endswith("; usual practice is valid from 0 to 1")
+        for text in idle
+    )
+    iso, agma = said("1e9 N m")
+    assert any("temperature of the sump theta_S is " in text for text in iso)
+    assert any("oil temperature is " in text for text in iso)
+    assert any("mean contact stress sigma_Hm is " in text for text in iso)
+    assert any("temperature of the sump t_s is " in text for text in agma)
+
+
 def test_table_pages_and_frames_hold_every_number():
     rated = rate(*minimal())
     page, frame = rated.to_html(), rated.to_frame()

@@ -138,7 +138,7 @@ def _given_entries(given: Inputs, section: str) -> list[Entry]:
     for key in starts_from(section):
         fact = known[key]
         reason = _reason(fact.path, assumed)
-        equation, source = fact.equation, _source(given, fact)
+        equation, source = _equation(given, fact), _source(given, fact)
         if reason:
             source = Source("default of asperity", "one source", reason)
         elif fact.derived and _at(given, fact.path) is None:
@@ -173,6 +173,13 @@ def _reason(path: str, assumed: Mapping[str, str]) -> str:
     parts = path.split(".")
     names = (".".join(parts[:count]) for count in range(len(parts), 1, -1))
     return next((assumed[name] for name in names if name in assumed), "")
+
+
+def _equation(given: Inputs, fact: Fact) -> str:
+    if fact.of == "effective_face_width" and given.options.iso14521_face_width != "tip_chord":
+        chord = "sqrt(6 m_x1 d_m1 - 9 m_x1^2)"
+        return chord if given.gearset.wheel_face_width is None else f"min(b_2, {chord})"
+    return fact.equation
 
 
 def _derived(given: Inputs, fact: Fact) -> str:

@@ -7,7 +7,8 @@ arrays of one shape where variants of a gearset are rated.
 import dataclasses
 import math
 
-from asperity.arrays import Real
+from asperity.arrays import Real, smaller
+from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
 
@@ -42,7 +43,6 @@ GEOMETRY = (
     "wheel_mean_diameter",
     "wheel_root_diameter",
     "wheel_face_width",
-    "effective_face_width",
     "rim_width",
     "rim_thickness",
 )
@@ -160,6 +160,16 @@ class Inputs:
         return total
 
 
+def face_width_that_carries(
+    gearset: Gearset, options: RatingOptions, axial_module: Real, diameter_factor: Real
+) -> Real:
+    """Return b_2H by the rule that is asked for, mm; at most a given width of the wheel."""
+    chord = {"tip_chord": relations.widest_contact, "reference_chord": relations.reference_chord}
+    widest = chord[options.iso14521_face_width](axial_module, diameter_factor)
+    given = gearset.wheel_face_width
+    return widest if given is None else smaller(gearset.geometry.wheel_face_width, widest)
+
+
 def inputs(gearset: Gearset, operation: Operation, options: RatingOptions) -> Inputs:
     """Return what the formulas need for one gearset, as floats."""
     g = gearset.geometry
@@ -170,6 +180,9 @@ def inputs(gearset: Gearset, operation: Operation, options: RatingOptions) -> In
         operation=operation,
         options=options,
         **{name: getattr(g, name) for name in GEOMETRY},
+        effective_face_width=face_width_that_carries(
+            gearset, options, g.axial_module, g.diameter_factor
+        ),
         worm_roughness=scaled(gearset.worm_roughness, 1e6),
         worm_speed=scaled(operation.worm_speed, RPM),
         output_torque=torque,

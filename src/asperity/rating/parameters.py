@@ -195,6 +195,11 @@ class RatingOptions(Table):
     ----------
     iso14521_edition : {'1998', '2010'}
         Family of formulas.
+    iso14521_face_width : {'tip_chord', 'reference_chord'}
+        Face width :math:`b_{2H}` that carries by ISO/TR 14521, at most the wheel's own where that
+        is given: :math:`2 m_{x1} \sqrt{q_1 + 1}`, which is assumed because BS 721 takes it, or
+        :math:`\sqrt{6 m_{x1} d_{m1} - 9 m_{x1}^2}`, which a commercial program prints for DIN 3996
+        and which makes the shear stress at the root some 5 % lower.
     bs721_tables : path, optional
         A TOML file of your own tables of BS 721, in place of those that ship from memory.
     base_friction : float, optional
@@ -213,6 +218,7 @@ class RatingOptions(Table):
         Literal["1998", "2010"],
         BeforeValidator(lambda year: str(year) if isinstance(year, int) else year),
     ] = "2010"
+    iso14521_face_width: Literal["tip_chord", "reference_chord"] = "tip_chord"
     bs721_tables: Path | None = None
     base_friction: (
         Annotated[
@@ -231,7 +237,12 @@ class RatingOptions(Table):
     @property
     def assumed(self) -> Mapping[str, str]:
         """Which keys were left out, and what was assumed for them."""
-        defaults = {"iso14521_edition": "2010", "friction_factor": "1"}
+        defaults = {
+            "iso14521_edition": "2010",
+            "iso14521_face_width": "tip_chord, as BS 721 has it; 'reference_chord' is some 5 % "
+            "wider, and a commercial program takes that",
+            "friction_factor": "1",
+        }
         return MappingProxyType(
             {key: text for key, text in defaults.items() if key not in self.model_fields_set}
         )

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity.arrays import FloatArray, Real, smaller
+from asperity.arrays import FloatArray, Real
 from asperity.errors import InputError, nearest
 from asperity.formulas import (
     Mask,
@@ -29,7 +29,14 @@ from asperity.gearset import relations
 from asperity.gearset.geometry import diameters
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.proportions import RULES
-from asperity.rating.inputs import GEOMETRY, RPM, THROUGH_TRAVEL, Inputs, inputs
+from asperity.rating.inputs import (
+    GEOMETRY,
+    RPM,
+    THROUGH_TRAVEL,
+    Inputs,
+    face_width_that_carries,
+    inputs,
+)
 from asperity.rating.parameters import Operation, RatingOptions
 
 _FROM_SI = {"mm": 1e3, "um": 1e6, "rpm": RPM}
@@ -94,7 +101,7 @@ def varied(
     if "friction" in given and "base_friction" in given:
         raise InputError("friction and base_friction are given; keep one of them")
     numbers = _macro(base, given, mask)
-    numbers |= _derived(gearset, numbers, mask)
+    numbers |= _derived(gearset, options, numbers, mask)
     numbers |= {name: value for name, value in given.items() if name not in numbers}
     if "output_torque" in given and operation.through_travel_torque is None:
         numbers["through_travel_torque"] = THROUGH_TRAVEL * given["output_torque"]
@@ -167,7 +174,9 @@ def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Rea
     }
 
 
-def _derived(gearset: Gearset, numbers: Mapping[str, Real], mask: Mask) -> dict[str, Real]:
+def _derived(
+    gearset: Gearset, options: RatingOptions, numbers: Mapping[str, Real], mask: Mask
+) -> dict[str, Real]:
     """Return the other numbers of `asperity.gearset.Geometry` that the formulas need."""
     a, m, q = (numbers[n] for n in ("centre_distance", "axial_module", "diameter_factor"))
     z1, z2 = numbers["starts"], numbers["wheel_teeth"]
@@ -181,11 +190,11 @@ def _derived(gearset: Gearset, numbers: Mapping[str, Real], mask: Mask) -> dict[
         "lead_angle": lead,
         "axial_pitch": np.pi * m,
         "wheel_face_width": b_2,
-        "effective_face_width": smaller(b_2, widest),
         "rim_width": b_2,
         "rim_thickness": (2.0 * m if gearset.rim_thickness is None else geometry.rim_thickness),
     }
     derived = {name: number for name, number in derived.items() if name in GEOMETRY}
+    derived["effective_face_width"] = face_width_that_carries(gearset, options, m, q)
     for name in ("worm_root_diameter", "wheel_mean_diameter", "wheel_root_diameter"):
         mask.refuse(np.asarray(derived[name]) <= 0.0, f"the {name} is not positive")
     mask.refuse(

@@ -7,6 +7,7 @@ torque itself.
 import math
 
 from asperity.errors import InputError
+from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
 from asperity.rating import agma6034
 from asperity.rating.agma6034.units import VELOCITY
@@ -148,6 +149,9 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     steepest = math.degrees(agma6034.maximum_lead_angle(given.pressure_angle))
     lead = Range("lead angle", 0.0, steepest, "deg", agma6034.SOURCES["maximum_lead_angle"])
     found.append(lead.violation(math.degrees(given.lead_angle)))
+    hottest, oils = oil.TEMPERATURE.upper, oil.TEMPERATURE.source
+    sump = Range("temperature of the sump t_s", oil.TEMPERATURE.lower, hottest, "degC", oils)
+    found.append(sump.violation(values["t_s_degC"]))
     return tuple(sentence for sentence in found if sentence)
 
 

@@ -1,7 +1,9 @@
 """Where ISO/TR 14521 is valid, and what safety it asks for."""
 
+import math
 from collections.abc import Mapping
 
+from asperity.gearset import oil
 from asperity.sources import Range, Source
 
 _STANDARD = "ISO/TR 14521:2010"
@@ -30,6 +32,36 @@ VALIDITY: Mapping[str, Range] = {
     "sump_ratio": Range("ratio u (theta_S)", 10.0, 40.0, "", _FROM_MEMORY),
 }
 """Where the standard's formulas are valid; the symbol in brackets is what rests on it."""
+
+
+_PRACTICE = Source("usual practice", "from memory")
+
+PLAUSIBLE: Mapping[str, Range] = {
+    "theta_S_degC": Range(
+        "temperature of the sump theta_S",
+        oil.TEMPERATURE.lower,
+        oil.TEMPERATURE.upper,
+        "degC",
+        oil.TEMPERATURE.source,
+    ),
+    "sigma_Hm_MPa": Range("mean contact stress sigma_Hm", 0.0, 2000.0, "MPa", _PRACTICE),
+    "idle_share": Range("losses without load over P_2 (eta_ges)", 0.0, 1.0, "", _PRACTICE),
+}
+"""Where a result still has a meaning, by its key in a rating.
+
+``idle_share`` is what is lost without load, idling and in the seals, in parts of the power at the
+wheel: above 1 the efficiencies of the gearbox tell about a gearbox that carries nothing.
+"""
+
+
+def implausible(values: Mapping[str, float]) -> tuple[str, ...]:
+    """Return a sentence for each result of a rating that lies outside `PLAUSIBLE`."""
+    idle = (values["loss_idle_W"] + values["loss_seal_W"]) / values["output_power_W"]
+    found = {**values, "idle_share": idle}
+    sentences = (
+        span.violation(found[key]) for key, span in PLAUSIBLE.items() if not math.isnan(found[key])
+    )
+    return tuple(sentence for sentence in sentences if sentence)
 
 
 def violations(

@@ -3,11 +3,12 @@
 import math
 
 from asperity.formulas import masking
+from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
-from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, violations
+from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, implausible, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
 from asperity.rating.result import Rating
 from asperity.sources import Source
@@ -48,9 +49,12 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
         geometry_factor=values["Y_G"] if given.friction is None else None,
         sump_by_formula=given.oil_temperature is None,
     )
+    own = (*own, *implausible(values))
+    hot = values["theta_M_degC"]
     if math.isnan(values["nu_M_mm2_s"]):
-        return own
-    return (*own, *given.operation.lubricant.violations(values["theta_M_degC"] + 273.15))
+        beyond = None if math.isnan(hot) else oil.TEMPERATURE.violation(hot)
+        return own if beyond is None else (*own, beyond)
+    return (*own, *given.operation.lubricant.violations(hot + 273.15))
 
 
 def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
