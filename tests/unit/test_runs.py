@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from asperity.runs import Interrupted, Run
+from asperity.runs import run as run_module
 from asperity.runs.cache import Cache
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import DamagedError, from_tree, read_tree, to_tree, write_tree
@@ -153,6 +154,36 @@ def test_progress_is_told():
     told = []
     work(Run(progress=lambda done, total: told.append((done, total))), 3)
     assert told == [(1, 3), (2, 3), (3, 3)]
+
+
+def test_a_work_of_more_than_a_minute_is_announced_once(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
+    told = []
+    run = Run(notify=told.append)
+    for done in range(1, 100):
+        now[0] += 1.0
+        run.progress(done, 1000)
+    assert told == ["this will take about 17 minutes"]
+
+
+def test_a_short_work_is_not_announced(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
+    told = []
+    run = Run(notify=told.append)
+    for done in range(1, 50):
+        now[0] += 1.0
+        run.progress(done, 50)
+    assert told == []
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(70.0, "70 seconds"), (600.0, "10 minutes"), (9e4, "25 hours"), (4e8, "4630 days")],
+)
+def test_a_duration_is_told_in_the_unit_that_suits_it(seconds, words):
+    assert run_module.duration(seconds) == words
 
 
 def test_a_key_follows_what_was_asked_and_what_it_is_computed_by():

@@ -1,6 +1,7 @@
 """What goes on around a long work: how far it is, where it stands, whether it is to stop."""
 
 import contextlib
+import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,19 @@ from asperity.runs.tree import Tree
 
 Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
+
+
+# A work that will take longer than that is announced, once it has been looked at for so long.
+_LONG_SECONDS = 60.0
+_LOOK_SECONDS = 2.0
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words, in the unit that suits it."""
+    for size, unit in ((86400.0, "days"), (3600.0, "hours"), (60.0, "minutes")):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} seconds"
 
 
 def _silent(*_: object) -> None:
@@ -50,13 +64,29 @@ class Run:
         folder: Path | None = None,
         stem: str = "run",
     ) -> None:
-        self.progress = progress
         self.notify = notify
+        self._progress = progress
+        self._begun: tuple[float, int] | None = None
+        self._announced = False
         self.folder = folder
         self.detailed = folder is not None
         self._path = None if folder is None else folder / f"{stem}.interrupted.npz"
         self._keeper: Keeper | None = None
         self._ears = Ears()
+
+    def progress(self, done: int, total: int) -> None:
+        """Tell how much is done; once it can be seen, also that it will take long."""
+        self._progress(done, total)
+        now = time.monotonic()
+        if self._begun is None:
+            self._begun = now, done
+        began, first = self._begun
+        if self._announced or now - began < _LOOK_SECONDS or done <= first:
+            return
+        self._announced = True
+        left = (now - began) / (done - first) * (total - done)
+        if left > _LONG_SECONDS:
+            self.notify(f"this will take about {duration(left)}")
 
     def resume(self, key: str) -> Tree | None:
         """Return the state in which this very work was left, None where it begins anew."""
