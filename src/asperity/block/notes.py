@@ -86,7 +86,7 @@ def block_notes(
 
 
 def _unless(problem: BlockProblem, step: float) -> str:
-    """Say what is to be damped for a step to be taken."""
+    """Say that a step which would be better lets the block flutter."""
     if not Stability(problem).flutters_in_steps(step):
         return ""
-    return ", but lets the block flutter: give more block.damping_ratio first"
+    return ", but the block flutters there"

@@ -96,6 +96,8 @@ class Stability:
 
     def _holding(self, worst: Growth) -> float | None:
         """Least damping ratio that holds what grows in any direction, rounded up."""
+        if not self._problem.block.modes:
+            return None
         mechanism = self._problem.system.mechanism
         free = ~mechanism.held
         critical = 2.0 * np.sqrt(np.diag(mechanism.stiffness) * np.diag(mechanism.mass))[free]
@@ -145,10 +147,11 @@ def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
     turn = math.degrees(math.atan2(flutter.direction[1], flutter.direction[0])) + 0.0
     way = "along the drive" if abs(turn) < 1.0 else f"at {turn:.0f} degrees to the drive"
     given, step = problem.block.damping_ratio, problem.timetable.step
-    text = (
-        f"the block flutters as it slides {way}: {_told(growth)}, which a block.damping_ratio of "
-        f"{given:g} does not hold"
-    )
+    text = f"the block flutters as it slides {way}: {_told(growth)}, which "
+    if problem.block.modes:
+        text += f"a block.damping_ratio of {given:g} does not hold"
+    else:
+        text += "nothing damps"
     if stepped is None:
         text += (
             f"; the numerical damping of steps of {step:.3g} s holds it, that of shorter ones may "
@@ -156,9 +159,11 @@ def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
         )
     else:
         text += f"; in steps of {step:.3g} s it grows by {stepped.rate:.4g}/s: mistrust the result"
-    if flutter.holding is None:
-        return f"{text}; none holds it: take other block.modes"
-    return f"{text}; one of {flutter.holding:.2g} does, as may other block.modes"
+    if flutter.holding is not None:
+        text += f"; one of {flutter.holding:.2g} does, as may other block.modes"
+    elif problem.block.modes:
+        text += "; none does"
+    return text
 
 
 def _told(growth: Growth) -> str:

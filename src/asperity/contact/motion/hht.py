@@ -172,28 +172,23 @@ def predict(state, known, carry, compliance, damping, scalars, place, velocity):
     gamma = scalars[GAMMA]
     share = scalars[WEIGHT] / (1.0 + scalars[WEIGHT])
     size = state.shape[1]
+    ahead = np.empty(size)
+    push = np.empty(size)
     for i in range(size):
-        velocity[i] = state[VELOCITY, i] + step * (1.0 - gamma) * state[ACCELERATION, i]
-    for i in range(size):
-        total = 0.0
-        for j in range(size):
-            ahead = (
-                state[PLACE, j]
-                + step * state[VELOCITY, j]
-                + step * step * (0.5 - beta) * state[ACCELERATION, j]
-            )
-            total += carry[i, j] * ahead
-            total += compliance[i, j] * (
-                known[j] + share * state[FORCE, j] - damping[j] * velocity[j]
-            )
-        place[i] = total
-    for i in range(size):
-        ahead = (
+        ahead[i] = (
             state[PLACE, i]
             + step * state[VELOCITY, i]
             + step * step * (0.5 - beta) * state[ACCELERATION, i]
         )
-        velocity[i] += gamma / (beta * step) * (place[i] - ahead)
+        velocity[i] = state[VELOCITY, i] + step * (1.0 - gamma) * state[ACCELERATION, i]
+        push[i] = known[i] + share * state[FORCE, i] - damping[i] * velocity[i]
+    for i in range(size):
+        total = 0.0
+        for j in range(size):
+            total += carry[i, j] * ahead[j]
+            total += compliance[i, j] * push[j]
+        place[i] = total
+        velocity[i] += gamma / (beta * step) * (total - ahead[i])
 
 
 @kernel

@@ -26,6 +26,7 @@ import functools
 
 import numpy as np
 import numpy.typing as npt
+from scipy import sparse
 from scipy.linalg import block_diag
 
 from asperity.contact.interface.friction_point import PointFriction
@@ -188,18 +189,17 @@ def sliding_motion(
     count = len(surface.nodes)
     # The nodal springs of the integrated contact, neighbours coupled as its pressures are.
     give_of_area = np.linalg.inv(surface.to_forces(surface.to_points(np.eye(count))))
-    felt, pushed = (np.zeros((3 * count, count)) for _ in range(2))
-    felt[2::3] = pushed[2::3] = np.eye(count)
-    for axis in range(2):
-        pushed[axis::3] = -friction.mu * way[axis] * np.eye(count)
+    up, along = np.array([0.0, 0.0, 1.0]), np.array([*way, 0.0])
+    across = np.cross(up, along)
+    felt, pushed = _at_nodes(count, up), _at_nodes(count, up - friction.mu * along)
     hard = _HARD if normal.name == "hard" else 1.0
     gives = [hard / normal.slope_at(pressure) * give_of_area]
     if friction.mu > 0.0:
-        across = np.zeros((3 * count, count))
-        across[0::3], across[1::3] = -way[1] * np.eye(count), way[0] * np.eye(count)
-        felt, pushed = np.hstack([felt, across]), np.hstack([pushed, across])
+        felt, pushed = (
+            sparse.hstack([part, _at_nodes(count, across)], format="csr") for part in (felt, pushed)
+        )
         gives.append(friction.limit / (friction.mu * pressure) * give_of_area)
-    give = block_diag(*gives) + felt.T @ mechanism.flexibility @ pushed
+    give = block_diag(*gives) + felt.T @ (mechanism.flexibility @ pushed)
     moved, turned = felt.T @ mechanism.shapes, pushed.T @ mechanism.shapes
     drive = mechanism.drive
     if drive is not None:
@@ -219,3 +219,8 @@ def sliding_motion(
     return SlidingMotion(
         (float(way[0]), float(way[1])), mechanism.mass[free], damping[free], stiffness[free]
     )
+
+
+def _at_nodes(count: int, vector: FloatArray) -> sparse.csr_array:
+    """Return a displacement or force along a vector at each node by itself, shape (3 n, n)."""
+    return sparse.kron(sparse.eye_array(count), vector[:, None], format="csr")
