@@ -210,15 +210,6 @@ def trouble(given):
             return "a minute without a word"
         except BaseException:
             return traceback.format_exc()
-    print(
-        "STAT",
-        given[0],
-        code,
-        round(time.monotonic() - began, 3),
-        given,
-        errors.getvalue().strip()[:200],
-        file=__import__("sys").__stderr__,
-    )
     lines = errors.getvalue().splitlines()
     if code == INTERRUPTED:
         return ""

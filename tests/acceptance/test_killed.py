@@ -1,0 +1,77 @@
+"""A hundred runs killed at any moment: repeated, they end as runs do that nobody disturbed."""
+
+import json
+import random
+import time
+
+import numpy as np
+import pytest
+
+from asperity.store import read_dataset
+
+pytestmark = pytest.mark.slow
+
+KILLS = 10  # of each test
+RUNS = {
+    "slide": ["slide", "table-4.3", "--set", "solve.duration=4 s"],
+    "block": [
+        "block", "block-longitudinal", "--set", "block.elements=[4, 3, 3]",
+        "--set", "block.element=hex8", "--set", "solve.duration=20 ms",
+        "--set", "vibration.start=2 ms",
+    ],
+    "sweep": [
+        "sweep", "table-4.3", "--set", "solve.duration=0.4 s",
+        "--over", "vibration.velocity_ratio=0.02:5:0.02",
+    ],
+}  # fmt: skip
+# What is another in each run: times, and how much was known from before.
+OF_THE_RUN = {"seconds", "ms_per_increment", "cached"}
+
+
+def answer(output):
+    return {key: value for key, value in json.loads(output).items() if key not in OF_THE_RUN}
+
+
+@pytest.fixture(scope="module")
+def undisturbed(asperity, tmp_path_factory):
+    """Return what a command prints and writes when nobody disturbs it, once for each."""
+    known = {}
+
+    def run(name):
+        if name not in known:
+            folder = tmp_path_factory.mktemp(name)
+            code, output, errors = asperity(*RUNS[name], "--json", "--out", folder)
+            assert code == 0, errors
+            known[name] = answer(output), read_dataset(folder / f"{name}.nc"), files(folder)
+        return known[name]
+
+    return run
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.mark.parametrize("part", range(4))
+@pytest.mark.parametrize("name", ["slide", "block", "sweep"])
+def test_a_run_killed_again_and_again_ends_as_one_that_was_not(
+    start, asperity, new_user, undisturbed, tmp_path, name, part
+):
+    expected, dataset, names = undisturbed(name)
+    moments = random.Random(f"{name} {part}")
+    line = [*RUNS[name], "--json", "--out", tmp_path]
+    mine = {"env": new_user()}
+    for _ in range(KILLS):
+        process = start(*line, **mine)
+        time.sleep(moments.uniform(0.0, 4.0))
+        process.kill()
+        process.communicate(timeout=60)
+    code, output, errors = asperity(*line, **mine)
+    assert code == 0, errors
+    assert answer(output) == expected
+    assert files(tmp_path) == names
+    written = read_dataset(tmp_path / f"{name}.nc")
+    assert set(written.variables) == set(dataset.variables)
+    for variable, values in dataset.variables.items():
+        if variable not in OF_THE_RUN:
+            np.testing.assert_array_equal(written[variable].values, values.values, variable)
