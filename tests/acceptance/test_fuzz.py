@@ -23,6 +23,7 @@ from asperity.casefile import names_file, shipped_cases
 from asperity.cli import show
 from asperity.cli.main import main
 from asperity.commands import case_tables
+from asperity.runs import run
 from asperity.units import quantity_of, split_unit
 
 pytestmark = pytest.mark.slow
@@ -227,15 +228,24 @@ def trouble(given):
     return ""
 
 
+@pytest.fixture(scope="module")
+def _compiled():
+    """Compile the kernels, which once takes a while, before the clock runs."""
+    for command in ("slide", "methods", "block", "flank"):
+        (case, *_), small, _ = COMMANDS[command]
+        settings = [part for one in small for part in ("--set", one)]
+        assert not trouble([command, case, *settings, "--json"])
+
+
 @pytest.fixture
-def watched(monkeypatch, new_user, tmp_path):
+def watched(monkeypatch, new_user, tmp_path, _compiled):
     """A folder to work in; a word about a long work ends it, a minute without one as well."""
     for name, value in new_user().items():
         monkeypatch.setenv(name, value)
     monkeypatch.chdir(tmp_path)
 
     def note(line):
-        if "that takes about" in line:
+        if "will take about" in line:
             raise Announced
         show_note(line)
 
@@ -244,6 +254,7 @@ def watched(monkeypatch, new_user, tmp_path):
 
     show_note = show.note
     monkeypatch.setattr(show, "note", note)
+    monkeypatch.setattr(run, "_LOOK_SECONDS", 0.3)
     before = signal.signal(signal.SIGALRM, silent)
     yield tmp_path
     signal.setitimer(signal.ITIMER_REAL, 0)

@@ -11,10 +11,6 @@ from asperity.runs.interrupt import Ears, Interrupted
 from asperity.runs.keeper import Keeper
 from asperity.runs.tree import Tree
 
-# A work of more than so many seconds is announced, once it has been watched for so many.
-_LONG = 60.0
-_WATCHED = 0.5
-
 Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
 
@@ -77,8 +73,6 @@ class Run:
         self._path = None if folder is None else folder / f"{stem}.interrupted.npz"
         self._keeper: Keeper | None = None
         self._ears = Ears()
-        self._began: tuple[float, int] | None = None
-        self._announced = False
 
     def progress(self, done: int, total: int) -> None:
         """Tell how much is done; once it can be seen, also that it will take long."""
@@ -131,7 +125,6 @@ class Run:
             Ctrl-C was pressed; what is kept is said.
         """
         self.progress(done, total)
-        self._announce(done, total, what)
         keeper = self._keeper if state is not None else None
         if self._ears.heard:
             line = f"interrupted after {done} of {total} {what}"
@@ -144,28 +137,7 @@ class Run:
         if keeper is not None and state is not None:
             keeper.now_and_then(state)
 
-    def _announce(self, done: int, total: int, what: str) -> None:
-        """Say once how long a long work is going to take."""
-        now = time.monotonic()
-        if self._began is None:
-            self._began = now, done
-        seconds, steps = now - self._began[0], done - self._began[1]
-        if self._announced or seconds < _WATCHED or not steps:
-            return
-        left = seconds / steps * (total - done)
-        if left > _LONG:
-            self._announced = True
-            self.notify(f"{total - done} {what} are left; that takes about {_spoken(left)}")
-
     def finished(self) -> None:
         """Remove what was kept, when the files of the answer are written."""
         if self._path is not None:
             self._path.unlink(missing_ok=True)
-
-
-def _spoken(seconds: float) -> str:
-    """Return a time as it is said, in the largest unit of which there are two."""
-    for name, length in (("years", 31557600.0), ("days", 86400.0), ("hours", 3600.0)):
-        if seconds >= 2 * length:
-            return f"{seconds / length:.0f} {name}"
-    return f"{seconds / 60.0:.0f} min"
