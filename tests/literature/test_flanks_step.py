@@ -6,13 +6,14 @@ the worm and the point of the wheel at a radius and a place are the package's ow
 
 import numpy as np
 import pytest
+from apparatus.step import read_step
 from OCP.BRep import BRep_Tool
 from OCP.Geom import Geom_BSplineSurface
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-from asperity.flanks.export.step import read_step, write_step
+from asperity.flanks.export.step import write_step
 from asperity.flanks.export.tooth import FLANK_ERROR, tooth_body
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.mesh.tooth import tooth

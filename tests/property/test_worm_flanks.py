@@ -6,10 +6,10 @@ import hypothesis
 import hypothesis.strategies as st
 import numpy as np
 import pytest
+from apparatus.worm_distance import distances_with_derivatives
 
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob, Modification
-from asperity.flanks.worm.distance import distances_with_derivatives
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry

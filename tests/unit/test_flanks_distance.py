@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.worm_distance import distances_with_derivatives
 from scipy.spatial import cKDTree
 
 from asperity.errors import InputError
@@ -14,7 +15,6 @@ from asperity.flanks.worm.distance import (
     distance_each,
     distance_only,
     distances,
-    distances_with_derivatives,
 )
 from asperity.flanks.worm.foot import on_arc, on_flank
 from asperity.flanks.worm.helicoid import Helicoid

@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.worm_distance import distances_with_derivatives
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob, Modification, Mount
-from asperity.flanks.worm.distance import distances, distances_with_derivatives
+from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.setting import Pair, Setting
 from asperity.flanks.worm.types import TYPES

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from apparatus.inp import read_inp
 
-from asperity.errors import InputError, StorageError
+from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
-from asperity.mesh.inp import mesh_lines, read_inp, write_inp
+from asperity.mesh.inp import mesh_lines, write_inp
 
 
 def shaken(order):
@@ -73,71 +74,6 @@ def test_no_line_is_longer_than_the_solvers_allow(tmp_path):
         assert len(line) <= 256
         if not line.startswith("*") and "." in line:
             assert max(len(word.strip()) for word in words) <= 20
-
-
-def test_a_file_of_another_program_is_understood(tmp_path):
-    path = tmp_path / "other.inp"
-    path.write_text(
-        """** made by hand
-*Heading
- one brick
-*Node, nset=ALL
- 10, 0., 0., 0.
- 20, 1, 0, 0
- 30, 1.0E+00, 1., 0.
- 40, 0., 1.
- 50, 0., 0., 1.
- 60, 1., 0., 1.
- 70, 1., 1., 1.
- 80, 0., 1., 1.
-*Element, type=C3D8R,
- elset=Brick
- 7, 10, 20, 30, 40,
- 50, 60, 70, 80
-*Nset, nset=low, generate
- 10, 40, 10
-*Nset, nset=Most
- low, 50,
-*Surface, type=ELEMENT, name=Top
-Brick, S2
-*Material, name=steel
-*Elastic
-209000., 0.3
-"""
-    )
-    read = read_inp(path, "mm")
-    assert read.mesh.volume() == pytest.approx(1)
-    assert read.element == "C3D8R"
-    np.testing.assert_array_equal(read.node_numbers, range(10, 90, 10))
-    np.testing.assert_array_equal(read.element_numbers, [7])
-    np.testing.assert_array_equal(read.mesh.node_set("most"), [0, 1, 2, 3, 4])
-    np.testing.assert_allclose(read.mesh.points[read.mesh.face_nodes("top")[0], 2], 1)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("*NODE\n1, 0, 0, 0\n", "no mesh of hexahedra"),
-        ("*NODE\n1, 0, 0, x\n", "line 2: .NODE cannot be understood"),
-        ("*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n", "line 3: node 1 is given twice"),
-        ("*ELEMENT, TYPE=S4\n1, 1, 2, 3, 4\n", "element type S4; allowed: 'C3D8'"),
-        ("*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n1, 1, 1, 1\n", "not complete"),
-        ("*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", "node 2 is used"),
-        ("*INCLUDE, INPUT=a.inp\n", "put its text in its place"),
-        ("*NSET, NSET=a\nb\n", "'b' is not defined"),
-        ("*SURFACE, NAME=a\n1, S7\n", "allowed: S1 to S6"),
-    ],
-)
-def test_a_file_that_makes_no_sense_is_refused_with_its_line(tmp_path, text, message):
-    path = tmp_path / "bad.inp"
-    path.write_text(text)
-    with pytest.raises(InputError, match=message):
-        read_inp(path)
-
-
-def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(StorageError, match=r"none\.inp cannot be read: no such file"):
-        read_inp(tmp_path / "none.inp")
 
 
 @pytest.mark.parametrize(

@@ -2,15 +2,14 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from asperity.errors import InputError, StorageError, choices
-from asperity.mesh.hexmesh import HexMesh, Unit
+from asperity.errors import InputError, choices
+from asperity.mesh.hexmesh import HexMesh
 from asperity.store import write_text
 
 ELEMENTS = {"C3D8": 8, "C3D8I": 8, "C3D8R": 8, "C3D27": 27, "C3D27R": 27}
@@ -22,29 +21,6 @@ _FACES = np.array([4, 5, 2, 1, 3, 0])
 _ORDER = np.array([*range(20), 26, *(20 + _FACES)])
 _PER_LINE = 16
 _LONGEST_NUMBER = 20
-
-
-@dataclass(frozen=True, eq=False)
-class InpMesh:
-    """What an input file says of its mesh.
-
-    Parameters
-    ----------
-    mesh : HexMesh
-        Nodes and elements in the order of the file; surfaces are its face sets.
-    element : str
-        Element type, such as ``C3D8I``.
-    node_numbers, element_numbers : ndarray of int
-        The file's numbers of the mesh's nodes and cells.
-    element_sets : mapping of str to ndarray of int
-        Named cells of the mesh.
-    """
-
-    mesh: HexMesh
-    element: str
-    node_numbers: NDArray[np.int64]
-    element_numbers: NDArray[np.int64]
-    element_sets: Mapping[str, NDArray[np.int64]] = field(default_factory=dict)
 
 
 def mesh_lines(
@@ -126,42 +102,6 @@ def write_inp(
     return write_text(path, "\n".join(lines))
 
 
-def read_inp(path: str | os.PathLike[str], unit: Unit = "m") -> InpMesh:
-    """Read nodes, hexahedra, sets and element surfaces of an input file; the rest is passed over.
-
-    Parameters
-    ----------
-    path : path
-        A flat file: one part, no ``*INCLUDE``. Names come back in small letters, as the solvers
-        do not tell large from small.
-    unit : {'m', 'mm'}
-        Unit of the file's coordinates, which it does not say.
-
-    Returns
-    -------
-    InpMesh
-
-    Raises
-    ------
-    InputError
-        The file's mesh is not one of 8-node or 27-node hexahedra, or a line makes no sense.
-    StorageError
-        The file cannot be read.
-    """
-    try:
-        text = Path(path).read_text("utf-8", errors="replace")
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise StorageError(f"{path} cannot be read: {reason}") from error
-    reader = _Reader(str(path))
-    for keyword, options, rows in _blocks(text, str(path)):
-        reader.take(keyword, options, rows)
-    return reader.result(unit)
-
-
-Rows = list[tuple[int, list[str]]]
-
-
 def _number(value: float) -> str:
     # The solvers read no more than 20 characters of a number.
     text = repr(value)
@@ -178,158 +118,3 @@ def _wrapped(numbers: list[int]) -> Iterator[str]:
 def _listed(numbers: list[int]) -> Iterator[str]:
     for start in range(0, len(numbers), _PER_LINE):
         yield ", ".join(map(str, numbers[start : start + _PER_LINE]))
-
-
-def _blocks(text: str, path: str) -> Iterator[tuple[str, dict[str, str], Rows]]:
-    keyword, options, rows = "", {}, []  # type: str, dict[str, str], Rows
-    header = False
-    for number, raw in enumerate(text.splitlines(), 1):
-        line = raw.strip()
-        if not line or line.startswith("**"):
-            continue
-        if header or line.startswith("*"):
-            # A keyword line that ends with a comma goes on in the next.
-            parts = [part.strip() for part in line.split(",") if part.strip()]
-            if not header:
-                if keyword:
-                    yield keyword, options, rows
-                keyword, options, rows = parts.pop(0).upper(), {}, []
-            for part in parts:
-                name, _, value = part.partition("=")
-                options[name.strip().upper()] = value.strip().strip('"').lower()
-            header = line.endswith(",")
-            continue
-        rows.append((number, [part.strip() for part in line.split(",")]))
-    if keyword:
-        yield keyword, options, rows
-
-
-@dataclass
-class _Reader:
-    path: str
-    points: dict[int, list[float]] = field(default_factory=dict)
-    cells: dict[int, list[int]] = field(default_factory=dict)
-    element: str = ""
-    node_sets: dict[str, list[int]] = field(default_factory=dict)
-    element_sets: dict[str, list[int]] = field(default_factory=dict)
-    surfaces: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
-
-    def take(self, keyword: str, options: Mapping[str, str], rows: Rows) -> None:
-        """Take what one keyword and its data lines say."""
-        line = rows[0][0] if rows else 0
-        if keyword == "*INCLUDE":
-            raise self._error(line, "*INCLUDE is not followed; put its text in its place")
-        try:
-            if keyword == "*NODE":
-                self._nodes(options, rows)
-            elif keyword == "*ELEMENT":
-                self._elements(options, rows)
-            elif keyword == "*NSET":
-                self._members(self.node_sets, options["NSET"], options, rows)
-            elif keyword == "*ELSET":
-                self._members(self.element_sets, options["ELSET"], options, rows)
-            elif keyword == "*SURFACE" and options.get("TYPE", "element") == "element":
-                self._surface(options["NAME"], rows)
-        except InputError:
-            raise
-        except (KeyError, ValueError, IndexError) as error:
-            raise self._error(line, f"{keyword} cannot be understood ({error})") from error
-
-    def _error(self, line: int, what: str) -> InputError:
-        return InputError(f"{self.path}, line {line}: {what}")
-
-    def _nodes(self, options: Mapping[str, str], rows: Rows) -> None:
-        numbers = []
-        for line, parts in rows:
-            number, *point = int(parts[0]), *map(float, parts[1:4])
-            if number in self.points:
-                raise self._error(line, f"node {number} is given twice; give a file of one part")
-            self.points[number] = [*point, *[0.0] * (3 - len(point))]
-            numbers.append(number)
-        if "NSET" in options:
-            self.node_sets.setdefault(options["NSET"], []).extend(numbers)
-
-    def _elements(self, options: Mapping[str, str], rows: Rows) -> None:
-        element = options["TYPE"].upper()
-        line = rows[0][0] if rows else 0
-        if element not in ELEMENTS:
-            raise self._error(line, f"element type {element}; allowed: {choices(ELEMENTS)}")
-        if self.element and ELEMENTS[element] != ELEMENTS[self.element]:
-            raise self._error(
-                line, f"{element} beside {self.element}; allowed: one number of nodes"
-            )
-        self.element = self.element or element
-        values = [int(part) for _, parts in rows for part in parts if part]
-        width = 1 + ELEMENTS[element]
-        if len(values) % width:
-            raise self._error(line, f"elements of {ELEMENTS[element]} nodes are not complete")
-        for start in range(0, len(values), width):
-            number, *nodes = values[start : start + width]
-            if number in self.cells:
-                raise self._error(line, f"element {number} is given twice; give a file of one part")
-            self.cells[number] = nodes
-        if "ELSET" in options:
-            self.element_sets.setdefault(options["ELSET"], []).extend(values[::width])
-
-    def _members(
-        self, sets: dict[str, list[int]], name: str, options: Mapping[str, str], rows: Rows
-    ) -> None:
-        members = sets.setdefault(name, [])
-        for line, parts in rows:
-            words = [part for part in parts if part]
-            if "GENERATE" in options:
-                first, last, *step = map(int, words)
-                members.extend(range(first, last + 1, *step))
-                continue
-            for word in words:
-                if word.lstrip("-").isdigit():
-                    members.append(int(word))
-                elif word.lower() in sets:
-                    members.extend(sets[word.lower()])
-                else:
-                    raise self._error(line, f"set {word!r} is not defined before it is used")
-
-    def _surface(self, name: str, rows: Rows) -> None:
-        faces = self.surfaces.setdefault(name, [])
-        for line, parts in rows:
-            label = parts[1].upper() if len(parts) > 1 else ""
-            if label not in {f"S{number}" for number in range(1, 7)}:
-                raise self._error(line, f"face {label!r}; allowed: S1 to S6")
-            word = parts[0].lower()
-            elements = [int(word)] if word.isdigit() else self.element_sets.get(word)
-            if elements is None:
-                raise self._error(line, f"element set {word!r} is not defined before it is used")
-            faces.extend((number, int(_FACES[int(label[1]) - 1])) for number in elements)
-
-    def result(self, unit: Unit) -> InpMesh:
-        """Return the mesh with the file's numbers replaced by places."""
-        if not self.points or not self.cells:
-            raise InputError(f"{self.path} holds no mesh of hexahedra")
-        node = {number: place for place, number in enumerate(self.points)}
-        cell = {number: place for place, number in enumerate(self.cells)}
-
-        def places(numbers: Iterable[int], known: dict[int, int], what: str) -> list[int]:
-            try:
-                return [known[number] for number in numbers]
-            except KeyError as error:
-                raise InputError(f"{self.path}: {what} {error} is used but not defined") from None
-
-        cells = np.array([places(nodes, node, "node") for nodes in self.cells.values()])
-        if cells.shape[1] == 27:
-            cells = cells[:, np.argsort(_ORDER)]
-        node_sets = {
-            name: np.unique(np.array(places(members, node, "node"), np.int64))
-            for name, members in self.node_sets.items()
-        }
-        face_sets = {
-            name: np.array(
-                [(places([number], cell, "element")[0], face) for number, face in faces], np.int64
-            ).reshape(-1, 2)
-            for name, faces in self.surfaces.items()
-        }
-        element_sets = {
-            name: np.unique(np.array(places(members, cell, "element"), np.int64))
-            for name, members in self.element_sets.items()
-        }
-        mesh = HexMesh(np.array(list(self.points.values())), cells, node_sets, face_sets, unit)
-        return InpMesh(mesh, self.element, np.array(list(node)), np.array(list(cell)), element_sets)

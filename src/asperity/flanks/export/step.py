@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from asperity.errors import StorageError
-from asperity.flanks.export.brep import Solid, check, require_cad, solid
+from asperity.flanks.export.brep import Solid, require_cad, solid
 from asperity.flanks.export.patch import Body
 from asperity.store import write_atomically
 
@@ -60,35 +60,6 @@ def write_step(path: str | os.PathLike[str], body: Body) -> Solid:
 
     write_atomically(path, put)
     return made
-
-
-def read_step(path: str | os.PathLike[str]) -> Solid:
-    """Return the solid a STEP file holds, in mm.
-
-    Raises
-    ------
-    MissingExtraError
-        The ``cad`` extra is not installed.
-    StorageError
-        The file cannot be read.
-    """
-    require_cad()
-    from OCP.IFSelect import IFSelect_ReturnStatus
-    from OCP.STEPControl import STEPControl_Reader
-
-    try:
-        with Path(path).open("rb"):
-            pass
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise StorageError(f"{path} cannot be read: {reason}") from error
-    with _settings(""):
-        reader = STEPControl_Reader()
-        status = reader.ReadFile(os.fspath(path))
-        if status != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.TransferRoots():
-            raise StorageError(f"{path} cannot be read: not a STEP file, or damaged")
-        shape = reader.OneShape()
-    return Solid(shape, check(shape))
 
 
 @contextlib.contextmanager

@@ -17,7 +17,6 @@ turned by :math:`\varphi` is the same solid moved by :math:`-p\,\varphi` along i
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -257,24 +256,6 @@ def distance_each(points, params, out):
         ) = distance(points[i, 0], points[i, 1], points[i, 2], params)
 
 
-class Distances(NamedTuple):
-    """Distances to a worm with their derivatives.
-
-    Attributes
-    ----------
-    distance : ndarray
-        mm, positive outside.
-    gradient : ndarray
-        ``(..., 3)``, of unit length.
-    hessian : ndarray
-        ``(..., 3, 3)``, 1/mm.
-    """
-
-    distance: FloatArray
-    gradient: FloatArray
-    hessian: FloatArray
-
-
 def _rows(points: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     given = np.asarray(points, dtype=np.float64)
     if given.shape[-1:] != (3,):
@@ -310,14 +291,3 @@ def distances(points: npt.ArrayLike, helicoid: Helicoid, side: int = 0) -> Float
     out = np.empty(rows.shape[0])
     distance_only_each(rows, helicoid.distance_params(side), out)
     return out.reshape(shape)
-
-
-def distances_with_derivatives(
-    points: npt.ArrayLike, helicoid: Helicoid, side: int = 0
-) -> Distances:
-    """Return the distances of points to a worm with gradient and Hessian; see `distances`."""
-    rows, shape = _rows(points)
-    out = np.empty((rows.shape[0], 10))
-    distance_each(rows, helicoid.distance_params(side), out)
-    square = out[:, [4, 7, 8, 7, 5, 9, 8, 9, 6]].reshape(*shape, 3, 3)
-    return Distances(out[:, 0].reshape(shape), out[:, 1:4].reshape(*shape, 3), square)
