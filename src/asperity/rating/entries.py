@@ -6,6 +6,7 @@ it is trusted no more than the least of those.
 """
 
 import functools
+import importlib
 import math
 import re
 from collections.abc import Mapping
@@ -55,19 +56,29 @@ def facts(section: str) -> tuple[Fact, ...]:
     """
     raw = _read()
     sources = {name: Source(**values) for name, values in raw["source"].items()}
-    return tuple(
-        Fact(
-            key=key,
-            symbol=values["symbol"],
-            unit=values.get("unit", ""),
-            meaning=values["meaning"],
-            equation=values.get("equation", "input" if section == "given" else ""),
-            source=sources[values.get("from", "definition")],
-            of=values.get("of", ""),
-            path=values.get("path", values.get("of", "") if "." in values.get("of", "") else ""),
-            derived=values.get("derived", ""),
-        )
-        for key, values in raw[section].items()
+    return tuple(_fact(section, key, values, sources) for key, values in raw[section].items())
+
+
+def _fact(section: str, key: str, values: Mapping[str, Any], sources: Mapping[str, Source]) -> Fact:
+    found = {"symbol": "", "unit": "", "equation": "input" if section == "given" else ""}
+    source = sources[values.get("from", "definition")]
+    if "formula" in values:
+        module, name = values["formula"].split(".")
+        formula = getattr(importlib.import_module(f"asperity.rating.{section}.{module}"), name)
+        given = values.get("given", {})
+        equation = _SYMBOL.sub(lambda word: given.get(word[0], word[0]), formula.equation)
+        found = {"symbol": formula.symbol, "unit": formula.unit, "equation": equation}
+        source = formula.source
+    found |= {name: values[name] for name in found if name in values}
+    of = values.get("of", "")
+    return Fact(
+        key=key,
+        **found,
+        meaning=values["meaning"],
+        source=source,
+        of=of,
+        path=values.get("path", of if "." in of else ""),
+        derived=values.get("derived", ""),
     )
 
 
