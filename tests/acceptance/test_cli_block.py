@@ -237,7 +237,8 @@ def test_what_cannot_be_solved_is_refused_in_a_line(setting, line, ended, tmp_pa
 def test_a_mesh_too_large_for_the_memory_bound_is_refused_with_the_figure(ended):
     code, output, errors = ended(*SHORT, "--set", "block.elements=[200, 200, 200]")
     assert (code, output) == (2, "")
-    assert errors.startswith("block.elements is [200, 200, 200] with 'hex8', 24361803 unknowns; ")
+    assert errors.startswith("--set block.elements=[200, 200, 200]: block.elements is [200, 200")
+    assert "] with 'hex8', 24361803 unknowns; " in errors
     assert f"GB, more than the limit of {MEMORY_LIMIT / 1e9:g} GB: take fewer elements" in errors
     needed = float(errors.split("needs about ")[1].split(" GB")[0])
     assert needed > MEMORY_LIMIT / 1e9

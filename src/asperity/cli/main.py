@@ -183,15 +183,15 @@ def cases(as_json: JsonOption = False) -> None:
     """List the cases that ship; their names work wherever a file does."""
     from asperity.casefile import describe, shipped_cases
     from asperity.cli import show
-    from asperity.results.table import Column, Table
 
     shipped = {name: describe(path) for name, path in shipped_cases().items()}
     if as_json:
         listed = [{"name": name, "description": said} for name, said in shipped.items()]
         show.print_json({"cases": listed})
     else:
-        columns = Column("case"), Column("what it is", weight=1)
-        show.print_tables([Table(columns, tuple(shipped.items()))])
+        # Without the tables of answers, which take numpy.
+        width = max(map(len, shipped)) + 2
+        show.print_text("\n".join(f"{name:{width}}{said}" for name, said in shipped.items()))
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:

@@ -34,9 +34,7 @@ class PowerLedger(Quantities):
     friction: float = quantity("P_f", "W", "power lost to friction")
     damping: float = quantity("P_h", "W", "power lost to damping")
     stored: float = quantity("P_s", "W", "rate of change of stored energy")
-    untransferred: float = quantity(
-        "P_u", "W", "power friction would take from the untransferred vibration"
-    )
+    untransferred: float = quantity("P_u", "W", "friction on the untransferred vibration")
 
     @property
     def residual(self) -> float:

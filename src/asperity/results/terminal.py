@@ -1,11 +1,14 @@
 """Tables as text for a terminal."""
 
 import io
+import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from asperity.results.table import Table
+
+_MOST_READABLE = 79
 
 
 def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
@@ -44,5 +47,11 @@ def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
             if table.columns:
                 console.print(shown)
             for remark in table.remarks:
-                console.print(Text(f"- {remark}"))
+                for line in textwrap.wrap(
+                    f"- {remark}",
+                    min(console.width, _MOST_READABLE),
+                    subsequent_indent="  ",
+                    break_on_hyphens=False,
+                ):
+                    console.print(Text(line))
     return "\n".join(line.rstrip() for line in capture.get().splitlines())

@@ -94,7 +94,7 @@ class SlideResult(Result):
     drive_force: float = quantity("F_dv", "N", "mean drive force", variable="mean_drive_force")
 
     @property
-    @labelled("F_ds", "N", "drive force without vibration, mu F_N")
+    @labelled("mu F_N", "N", "drive force without vibration")
     def static_drive_force(self) -> float:
         r"""Drive force without vibration, :math:`\mu F_N`, N."""
         return self.model.full_friction

@@ -370,7 +370,7 @@ class ContactLedger(PowerLedger):
     loads: float = quantity("P_g", "W", "power of gravity and pressure", default=0.0)
     numerical: float = quantity("P_n", "W", "power dissipated by the time integration", default=0.0)
     transfer: float = quantity(
-        "P_t", "W", "power friction takes from lateral motion the contact does not see",
+        "P_t", "W", "friction on lateral motion the contact does not see",
         default=0.0,
     )  # fmt: skip
 
