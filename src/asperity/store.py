@@ -215,6 +215,21 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
     return write_atomically(path, lambda target: target.write_text(text, "utf-8", newline="\n"))
 
 
+def harmless_cell(value: Any) -> Any:
+    """Return what to write to a cell of CSV, so that a spreadsheet takes no text for a formula.
+
+    A text of some length that begins as a formula does, and is no number, gets an apostrophe in
+    front; everything else is returned as it is.
+    """
+    if not isinstance(value, str) or len(value) < 2 or value[0] not in "=+-@\t\r":
+        return value
+    try:
+        float(value)
+    except ValueError:
+        return f"'{value}"
+    return value
+
+
 def write_dataset(dataset: "xarray.Dataset", path: str | os.PathLike[str]) -> Path:
     """Write a labelled result as netCDF-4, atomically, numbers with a checksum.
 

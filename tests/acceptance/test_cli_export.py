@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+from asperity.casefile import shipped_cases
+
 
 def test_abaqus_gets_a_deck_and_the_friction_subroutine(asperity, tmp_path):
     folder = tmp_path / "to" / "abaqus"
@@ -96,3 +98,12 @@ def test_what_cannot_be_written_is_said_in_one_line(asperity, tmp_path, argument
     code, output, errors = asperity("export", *arguments, cwd=tmp_path)
     assert (code, output, errors) == (2, "", line + "\n")
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
+
+
+def test_a_line_feed_in_the_name_of_a_case_begins_no_line_of_a_deck(asperity, tmp_path):
+    name = "a\n*INCLUDE, INPUT=theirs.inp\n.toml"
+    (tmp_path / name).write_bytes(shipped_cases()["block-longitudinal"].read_bytes())
+    code, _, errors = asperity("export", name, "--to", "abaqus", "--out", "out", cwd=tmp_path)
+    assert (code, errors) == (0, "")
+    lines = (tmp_path / "out" / "block.inp").read_text().splitlines()
+    assert not [line for line in lines if line.startswith("*INCLUDE")]

@@ -2,8 +2,12 @@
 
 import csv
 import json
+import re
+from pathlib import Path
 
 import pytest
+
+from asperity import gearset
 
 KEYS = {
     "geometry": {"lead_angle_deg", "profile_shift", "worm_pitch_diameter_mm"},
@@ -117,6 +121,19 @@ def test_files_hold_the_same_numbers(asperity, own, tmp_path):
             assert float(rows[name, key]["value"]) == answer[name][key]
     assert rows["iso14521", "mu_zm"]["symbol"] == "mu_zm"
     assert "<table" in (folder / "rate.html").read_text("utf-8")
+
+
+def test_a_spreadsheet_takes_no_source_for_a_formula(asperity, environment, own, tmp_path):
+    data = (Path(gearset.__file__).parent / "data" / "materials.toml").read_text("utf-8")
+    evil = re.sub(r'^name = "', 'name = "=HYPERLINK(1) ', data, flags=re.MULTILINE)
+    (tmp_path / "mine.toml").write_text(evil)
+    mine = {**environment, "ASPERITY_MATERIALS": str(tmp_path / "mine.toml")}
+    code, _, errors = asperity("rate", own, "--out", tmp_path, env=mine)
+    assert code == 0, errors
+    text = (tmp_path / "rate.csv").read_text()
+    assert "'=HYPERLINK(1)" in text
+    with (tmp_path / "rate.csv").open(newline="") as file:
+        assert not [cell for row in csv.reader(file) for cell in row if cell[:1] in "=+@" and cell]
 
 
 def test_standard_that_cannot_be_applied_is_null_with_a_note(asperity, own):

@@ -9,6 +9,7 @@ import xarray
 
 from asperity.errors import StorageError
 from asperity.store import (
+    harmless_cell,
     output_folder,
     read_dataset,
     write_atomically,
@@ -201,3 +202,10 @@ write_atomically(Path(sys.argv[1]) / "sweep.png", half)
         other.touch()
     output_folder(tmp_path)
     assert set(tmp_path.iterdir()) == set(others)
+
+
+def test_a_spreadsheet_takes_no_text_for_a_formula():
+    for text in ("=HYPERLINK(1)", "+1+cmd", "-0.3 + x", "@SUM(1)", "\t=1", "\r=1"):
+        assert harmless_cell(text) == f"'{text}"
+    for cell in ("mu", "-", "", "-3.5e-6", "+inf", 3.5, None, True, "a=b"):
+        assert harmless_cell(cell) is cell

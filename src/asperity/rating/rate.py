@@ -23,7 +23,7 @@ from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.results.table import Column, Table
 from asperity.runs import Run
-from asperity.store import write_text
+from asperity.store import harmless_cell, write_text
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
 
@@ -152,7 +152,8 @@ class Rated(Result):
         """Write JSON, netCDF, a page and a table for spreadsheets."""
         names = super().write(folder, pictures=False)
         write_text(folder / "rate.html", self.to_html())
-        write_text(folder / "rate.csv", self.to_frame().to_csv(lineterminator="\n"))
+        table = self.to_frame().map(harmless_cell)
+        write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         return [*names, "rate.html", "rate.csv"]
 
 
