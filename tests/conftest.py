@@ -4,6 +4,8 @@ import os
 import shutil
 
 import hypothesis
+import pytest
+import warm
 
 if "PYTEST_XDIST_WORKER" in os.environ:
     # The workers have the cores among themselves; threads of linear algebra on top of them wait
@@ -28,3 +30,10 @@ collect_ignore = [name for program in _absent for name in _NEEDS[program]]
 
 def pytest_report_header() -> list[str]:
     return [f"{program} is not installed: left out {_NEEDS[program]}" for program in _absent]
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    # Before the workers start, each of which would compile the same kernels at the same time.
+    workers = getattr(session.config.option, "numprocesses", None)
+    if workers and not session.config.option.collectonly:
+        warm.compile_kernels(workers)

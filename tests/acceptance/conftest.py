@@ -1,12 +1,19 @@
-"""The command line as a user runs it: a process of its own, with caches of its own."""
+"""The command line as a user runs it, with caches of its own: in this process or in another.
+
+Most of a short command's time is the start of Python and of the libraries. What a command answers
+is therefore tested in this process; a process of its own is for what is about processes: start,
+signals, pipes, what is imported. That both answer alike is tested in ``test_cli.py``.
+"""
 
 import contextlib
+import io
 import os
 import sqlite3
 import subprocess
 import sys
 import time
 from pathlib import Path
+from unittest import mock
 
 import pytest
 
@@ -69,8 +76,28 @@ def wait_for(kept):
 
 
 @pytest.fixture(scope="module")
+def asperity(environment):
+    """Run the command line in this process: exit code, standard output, standard error."""
+    from asperity.cli.main import main
+
+    def run(*arguments, env=environment, cwd="."):
+        output, errors = io.StringIO(), io.StringIO()
+        with (
+            mock.patch.dict(os.environ, env, clear=True),
+            contextlib.chdir(cwd),
+            contextlib.redirect_stdout(output),
+            contextlib.redirect_stderr(errors),
+            pytest.raises(SystemExit) as ended,
+        ):
+            main(list(map(str, arguments)))
+        return ended.value.code, output.getvalue(), errors.getvalue()
+
+    return run
+
+
+@pytest.fixture(scope="module")
 def start(environment):
-    """Start the command line and return its process."""
+    """Start the command line in a process of its own and return that."""
 
     def begin(*arguments, **options):
         return subprocess.Popen(
@@ -88,8 +115,8 @@ def start(environment):
 
 
 @pytest.fixture(scope="module")
-def asperity(start):
-    """Run the command line to its end: exit code, standard output, standard error."""
+def asperity_process(start):
+    """Run the command line in a process of its own to its end, and return what `asperity` does."""
 
     def run(*arguments, **options):
         process = start(*arguments, **options)

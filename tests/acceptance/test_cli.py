@@ -266,8 +266,22 @@ def test_a_mistake_is_one_line_and_ends_with_2(folder, monkeypatch, capsys, argu
         assert part in errors
 
 
-def test_a_mistake_ends_the_process_with_2(asperity):
-    code, output, errors = asperity("slide", "table-4.3", "--set", "friction.mu=-1", "--json")
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--help"],
+        ["slide", "table-4.3", *SHORT],
+        ["slide", "table-4.3", *STICK_SLIP, "--set", "vibration.velocity_ratio=0.5", "--json"],
+        ["rate", "gearset-3", "--standard", "bs721"],
+    ],
+)
+def test_a_process_of_its_own_answers_what_is_answered_here(asperity, asperity_process, arguments):
+    assert asperity_process(*arguments) == asperity(*arguments)
+
+
+def test_a_mistake_ends_the_process_with_2(asperity_process):
+    mistake = ["slide", "table-4.3", "--set", "friction.mu=-1", "--json"]
+    code, output, errors = asperity_process(*mistake)
     assert (code, output) == (2, "")
     assert errors == "--set friction.mu=-1: friction.mu is -1; it must be above 0 and at most 100\n"
 

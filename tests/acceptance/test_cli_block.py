@@ -8,7 +8,6 @@ import time
 
 import pytest
 
-from asperity.cli.main import main
 from asperity.contact.elastic import MEMORY_LIMIT
 from asperity.store import read_dataset
 
@@ -30,19 +29,6 @@ def uninterrupted(asperity, tmp_path_factory):
     code, _, errors = asperity(*LONG, "--out", folder)
     assert code == 0, errors
     return folder
-
-
-@pytest.fixture
-def ended(capsys):
-    """Run the command line in this process: exit code, standard output, standard error."""
-
-    def run(*arguments):
-        with pytest.raises(SystemExit) as end:
-            main([str(argument) for argument in arguments])
-        output, errors = capsys.readouterr()
-        return end.value.code, output, errors
-
-    return run
 
 
 def outcome(folder):
@@ -225,17 +211,17 @@ TIPPING = (
         ("solve.method=periodic", "an elastic block is solved by 'march' only"),
     ],
 )
-def test_what_cannot_be_solved_is_refused_in_a_line(setting, line, ended, tmp_path):
+def test_what_cannot_be_solved_is_refused_in_a_line(setting, line, asperity, tmp_path):
     folder = tmp_path / "out"
-    code, output, errors = ended(*SHORT, "--set", setting, "--json", "--out", folder)
+    code, output, errors = asperity(*SHORT, "--set", setting, "--json", "--out", folder)
     assert (code, output) == (2, "")
     assert line in errors
     assert errors.count("\n") == 1
     assert not folder.exists()
 
 
-def test_a_mesh_too_large_for_the_memory_bound_is_refused_with_the_figure(ended):
-    code, output, errors = ended(*SHORT, "--set", "block.elements=[200, 200, 200]")
+def test_a_mesh_too_large_for_the_memory_bound_is_refused_with_the_figure(asperity):
+    code, output, errors = asperity(*SHORT, "--set", "block.elements=[200, 200, 200]")
     assert (code, output) == (2, "")
     assert errors.startswith("--set block.elements=[200, 200, 200]: block.elements is [200, 200")
     assert "] with 'hex8', 24361803 unknowns; " in errors
@@ -244,8 +230,8 @@ def test_a_mesh_too_large_for_the_memory_bound_is_refused_with_the_figure(ended)
     assert needed > MEMORY_LIMIT / 1e9
 
 
-def test_a_missing_table_is_named(ended):
-    code, output, errors = ended("block", "table-4.3")
+def test_a_missing_table_is_named(asperity):
+    code, output, errors = asperity("block", "table-4.3")
     assert (code, output) == (2, "")
     assert errors == "table-4.3: the table [block] is missing; add it\n"
 
@@ -255,11 +241,11 @@ def test_a_missing_table_is_named(ended):
     [("taken", "file exists"), ("taken/in", "not a directory"), ("", "empty")],
 )
 def test_a_folder_that_cannot_be_used_is_refused_before_anything_is_solved(
-    out, why, ended, tmp_path, monkeypatch
+    out, why, asperity, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "taken").touch()
-    code, output, errors = ended(*SMALL, "--set", "solve.duration=1 s", "--out", out)
+    code, output, errors = asperity(*SMALL, "--set", "solve.duration=1 s", "--out", out)
     assert (code, output) == (2, "")
     assert why in errors
     assert errors.count("\n") == 1

@@ -59,7 +59,7 @@ def worker(dask, address):
 
 
 def test_a_sweep_outlives_a_worker_and_equals_that_of_this_machine(
-    start, asperity, dask, scheduler, environment, new_user, kept, wait_for
+    start, asperity_process, dask, scheduler, environment, new_user, kept, wait_for
 ):
     victim, _ = worker(dask, scheduler), worker(dask, scheduler)
     process = start(*SWEEP, "--cluster", scheduler)
@@ -70,7 +70,7 @@ def test_a_sweep_outlives_a_worker_and_equals_that_of_this_machine(
     assert (process.returncode, errors) == (0, "")
     there = json.loads(output)
     assert (there["points"], there["cached"]) == (POINTS, 0)
-    here = json.loads(asperity(*SWEEP, env=new_user())[1])
+    here = json.loads(asperity_process(*SWEEP, env=new_user())[1])
     assert here["cached"] == 0
     assert there["ratio"] == here["ratio"]
 
@@ -89,7 +89,7 @@ def test_an_interrupted_cluster_keeps_what_is_done(
 
 
 def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
-    start, asperity, dask, scheduler, processes, new_user, kept, wait_for
+    start, dask, scheduler, processes, new_user, kept, wait_for
 ):
     environment = new_user()
     worker(dask, scheduler)
@@ -104,9 +104,9 @@ def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
 
 
 @pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:1"])
-def test_an_address_where_no_scheduler_answers_is_one_line(asperity, new_user, address):
+def test_an_address_where_no_scheduler_answers_is_one_line(asperity_process, new_user, address):
     began = time.monotonic()
-    code, output, errors = asperity(*SWEEP, "--cluster", address, env=new_user())
+    code, output, errors = asperity_process(*SWEEP, "--cluster", address, env=new_user())
     assert (code, output) == (2, "")
     assert errors.startswith(f"--cluster {address}: no scheduler answers (")
     assert errors.count("\n") == 1

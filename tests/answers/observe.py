@@ -9,6 +9,7 @@ import csv
 import hashlib
 import io
 import json
+import math
 import os
 import re
 import shlex
@@ -19,9 +20,6 @@ from unittest import mock
 import numpy as np
 
 HERE = Path(__file__).parent
-
-# A number among words, with more digits than are compared.
-_LONG = re.compile(r"^-?\d[\d.]{13,}(e[+-]?\d+)?$")
 
 _MOST_KEPT_WHOLE = 24
 _SAMPLES = 16
@@ -128,14 +126,19 @@ def _csv(path):
     with path.open(newline="", encoding="utf-8") as file:
         heads, *rows = csv.reader(file)
     columns = zip(*rows, strict=True)
-    return {head: {"value": digest(_plain(c))} for head, c in zip(heads, columns, strict=True)}
+    return {head: {"value": _cells(column)} for head, column in zip(heads, columns, strict=True)}
 
 
-def _plain(column):
-    """The numbers of a column, or its words where not all of it are numbers."""
-    with contextlib.suppress(ValueError):
-        return np.array([float(cell) if cell else np.nan for cell in column])
-    return np.array(column)
+def _cells(column):
+    """The numbers of a column, not a number where there is none, and the words that are there."""
+    numbers, words = [], []
+    for cell in column:
+        try:
+            numbers.append(float(cell))
+        except ValueError:
+            numbers.append(math.nan)
+            words.append(cell)
+    return digest(np.array(numbers)) | {"words": _hash(words)}
 
 
 def _vtu(path):
@@ -175,7 +178,7 @@ def digest(array):
     """An array as a list where it is short; else samples evenly over it, and moments."""
     array = np.asarray(array)
     if array.dtype.kind not in "biuf":
-        words = [_LONG.sub(_shorter, str(value)) for value in array.ravel()]
+        words = [str(value) for value in array.ravel()]
         kept = words if len(words) <= _MOST_KEPT_WHOLE else _hash(words)
         return {"shape": list(array.shape), "words": kept}
     flat = array.ravel().astype(float)
@@ -199,10 +202,6 @@ def digest(array):
             "weighted": float((there * np.cos(np.arange(flat.size))).mean()),
         }
     return kept
-
-
-def _shorter(number):
-    return f"{float(number[0]):.11g}"
 
 
 def _hash(words):
