@@ -8,32 +8,6 @@ from record import records
 CHANGES = (
     # (command lines, what in their answers, why it is no longer what was recorded)
     *(
-        ("flank *", f"flank.nc:{name}", "scalars stand in the file as well")
-        for name in (
-            "axial_amplitude_max",
-            "axial_clearance",
-            "backlash_normal",
-            "backlash_normal_least",
-            "base_lead_angle",
-            "base_radius",
-            "conjugacy_residual",
-            "contact_ratio",
-            "contact_ratio_marked",
-            "ease_off_max",
-            "ease_off_min",
-            "flank_area",
-            "lead_angle",
-            "marking_thickness",
-            "pattern_area_fraction",
-            "pattern_face",
-            "pattern_radius",
-            "pitch",
-            "pitch_radius",
-            "transmission_error_mean",
-            "transmission_error_range",
-        )
-    ),
-    *(
         ("flank *", f"flank.nc:{name}.units", "what labels a dimension is a number without unit")
         for name in ("axis", "direction", "part")
     ),
