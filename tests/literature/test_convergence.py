@@ -123,3 +123,12 @@ def test_two_phase_converges_with_order_one_to_the_split_law():
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders == pytest.approx(1.0, abs=0.05)
     assert errors[-1] < 1e-3
+
+
+def test_vector_with_exponent_0_converges_with_order_one():
+    # The asperity is at its limit at once, in the direction of the step: half a step late.
+    steps = np.array([400, 800, 1600, 3200])
+    truth = reached(400_000, walk, 0.0, VECTOR)
+    errors = [np.abs(reached(n, walk, 0.0, VECTOR) - truth).max() for n in steps]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders == pytest.approx(1.0, abs=0.02)

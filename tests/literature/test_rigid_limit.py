@@ -65,7 +65,7 @@ def test_rigid_friction_under_a_sine_is_the_closed_form(k, theta, method):
 @pytest.mark.parametrize(("k", "theta"), [(2.0, 0), (6.0, 0), (6.0, 45), (6.0, 90)])
 def test_rigid_friction_converges_with_order_two(k, theta):
     exact = directed_ratio(k, math.radians(theta))
-    steps = (300, 600, 1200, 2400)
+    steps = (400, 800, 1600, 3200)
     errors = [
         guided("friction.model=coulomb", *along(k, theta), solve__step=1.0 / (3000.0 * n)).ratio
         - exact
@@ -198,3 +198,11 @@ def test_friction_of_a_body_with_mass_is_the_limit_of_a_stiff_asperity():
     ]
     assert np.log(np.divide(errors[:-1], errors[1:])) / np.log(4.0) == pytest.approx(1.0, abs=0.25)
     assert abs(errors[-1]) < 2e-3
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("k", [20.0, 100.0, 1000.0])
+def test_a_slip_that_turns_fast_is_resolved_without_being_asked(k, method):
+    answer = guided("friction.model=coulomb", *along(k, 90), f"solve.method={method}")
+    assert answer.substeps > 1
+    assert answer.ratio == pytest.approx(directed_ratio(k, 0.5 * math.pi), rel=2e-4)

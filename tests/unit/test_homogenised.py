@@ -451,3 +451,16 @@ def test_a_body_the_vibration_keeps_from_full_friction_never_breaks_away():
     marched, answer = both("table-4.3", "vibration.velocity_ratio=6", "vibration.start=0 s")
     assert marched.breakaway_time is None
     assert answer.breakaway_time is None
+
+
+def test_on_a_rigid_drive_and_without_vibration_there_is_a_history_to_draw():
+    rigid = {"slider.drive_stiffness": None, "slider.drive_damping": None}
+    for settings, values in ((), rigid), (("vibration.velocity_ratio=0",), {}):
+        model = body("table-4.3", "solve.method=homogenised", *settings, **values)
+        answer = solve(model)
+        history = answer.history
+        assert history.drive_force == pytest.approx(answer.drive_force)
+        assert history.friction_max[:, 0] == pytest.approx(answer.friction_max[0])
+        assert history.friction_min[:, 0] == pytest.approx(answer.friction_min[0])
+        assert history.time[-1] == model.duration
+        assert len(answer.plot().axes) == 2

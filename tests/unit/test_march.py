@@ -1,6 +1,7 @@
 import contextlib
 import dataclasses
 import math
+import signal
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from asperity.casefile import read_case
 from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Interrupted, Run
 from asperity.runs.tree import read_tree, write_tree
-from asperity.slider import TABLES, Model, Stopped, solve
+from asperity.slider import TABLES, Model, Stopped, solve, solve_many
 from asperity.slider.march import March, march
 
 LAWS = ["split", "unsplit", "vector"]
@@ -390,3 +391,72 @@ def test_a_march_that_is_kept_goes_on_bit_for_bit(settings, tmp_path, monkeypatc
     for field in dataclasses.fields(whole.history):
         here, there = (getattr(one.history, field.name) for one in (answer, whole))
         assert np.array_equal(here, there), field.name
+
+
+def test_the_window_of_a_slow_vibration_holds_two_of_its_cycles():
+    answer = solved(
+        "table-4.3", "vibration.frequency=1 Hz", "solve.duration=6 s", "solve.step=20 us",
+        "friction.max_deflection=100 um",
+    )  # fmt: skip
+    assert answer.cycles == 2
+    assert answer.ledger.residual < 1e-9
+
+
+def test_a_damper_that_drowns_the_friction_in_its_rounding_is_refused():
+    text = refusal("slider.drive_damping=1e20 N s/m")
+    assert "must be at most 1.1e+11 N s/m" in text
+    assert "leave slider.drive_stiffness out" in text
+    assert "must be at most" in refusal("slider.drive_damping=1e165 N s/m")
+
+
+def test_up_to_that_bound_a_stronger_damper_comes_nearer_to_a_rigid_drive():
+    settings = "slider.lateral=guided", "vibration.start=0.1 s", "solve.duration=0.2 s"
+    rigid = solved("table-4.3", *settings, **RIGID)
+    for damping in ("1e9", "1.1e11"):
+        damped = solved("table-4.3", *settings, f"slider.drive_damping={damping} N s/m")
+        assert damped.ratio == pytest.approx(rigid.ratio, rel=1e-5)
+        assert damped.ledger.residual < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (["solve.duration=1e308 s"], "a march takes at most"),
+        (["solve.step=1e-320 s"], "a march takes at most"),
+        (
+            ["friction.tangential_stiffness=3.3e165 MN/m", "friction.mu=3.3e-156"],
+            "friction.tangential_stiffness is 3.3e+171 N/m",
+        ),
+    ],
+)
+def test_numbers_out_of_all_proportion_are_refused_in_one_line(settings, message):
+    assert message in refusal(*settings)
+
+
+def test_ctrl_c_keeps_a_march_and_the_same_call_goes_on_from_there(tmp_path, monkeypatch):
+    monkeypatch.setattr("asperity.slider.march._STRETCH", 20_000)
+    model = body("table-4.3", "solve.duration=0.2 s")
+    whole = march(model)
+
+    def press(done, total):
+        if 0.4 * total < done < 0.6 * total:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Interrupted, match="the same command goes on from"):
+        march(model, run=Run(progress=press, folder=tmp_path, stem="slide"))
+    seen = []
+    again = march(
+        model, run=Run(progress=lambda done, _: seen.append(done), folder=tmp_path, stem="slide")
+    )
+    assert min(seen) > 0.4 * whole.steps
+    assert again.to_json() | {"seconds": 0.0} == whole.to_json() | {"seconds": 0.0}
+    assert np.array_equal(again.history.friction, whole.history.friction)
+
+
+def test_a_batch_whose_powers_do_not_balance_leaves_the_error_in_its_place(monkeypatch):
+    monkeypatch.setattr("asperity.results.ledger.REFUSED", -1.0)
+    monkeypatch.setattr("asperity.results.ledger._ROUNDING", -1.0)
+    model = body("table-4.3", "solve.duration=0.15 s")
+    for answer in solve_many([model, model]):
+        assert isinstance(answer, ConvergenceError)
+        assert answer.reached["ratio"] > 0.0

@@ -45,3 +45,11 @@ def test_a_drive_that_does_nothing_is_measured_by_a_thousandth_of_frictions_work
 def test_where_nothing_happens_nothing_is_missing():
     nothing = {field.name: 0.0 for field in dataclasses.fields(PowerLedger)}
     assert PowerLedger(**nothing).residual == 0.0
+
+
+def test_rounding_of_powers_that_go_in_circles_is_not_charged_to_a_drive_that_does_nothing():
+    rung = PowerLedger(
+        drive=1e-10, vibration=1.0, friction=0.0, damping=0.0, stored=1.0 - 1e-10, untransferred=0.0
+    )
+    assert rung.residual > 1e-2
+    assert guard(rung, ADVICE) == ()

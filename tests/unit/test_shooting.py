@@ -187,3 +187,24 @@ def test_the_untransferred_motion_of_a_free_vibrated_body_is_no_obstacle():
     guided = solved("table-4.4", *settings, "slider.lateral=guided")
     assert answer.ratio == pytest.approx(guided.ratio, rel=1e-9)
     assert math.isfinite(answer.ledger.untransferred)
+
+
+def test_a_body_without_a_state_that_is_found_to_repeat_is_marched_and_told():
+    settings = (
+        "friction.law=split", "friction.exponent=0.5", "vibration.direction=90 deg",
+        "slider.lateral=guided",
+    )  # fmt: skip
+    answer = solved("table-4.3", *settings)
+    marched = solved("table-4.3", *settings, "solve.method=march")
+    assert answer.method == "march"
+    assert answer.notes[0].endswith("this is a march")
+    assert answer.ratio == marched.ratio
+
+
+def test_where_that_march_cannot_be_the_first_trouble_is_told():
+    settings = (
+        "friction.law=split", "friction.exponent=0.5", "vibration.direction=90 deg",
+        "slider.lateral=guided", "solve.duration=1 ms",
+    )  # fmt: skip
+    with pytest.raises(ConvergenceError, match="no periodic state found"):
+        solved("table-4.3", *settings)

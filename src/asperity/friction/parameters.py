@@ -113,7 +113,14 @@ class Friction(Table):
             return self.max_deflection
         if self.tangential_stiffness is None:
             raise InputError("Coulomb friction has no deflection")
-        return self.mu * normal_force / self.tangential_stiffness
+        limit = self.mu * normal_force / self.tangential_stiffness
+        if limit <= 0.0:
+            raise InputError(
+                f"friction.tangential_stiffness is {self.tangential_stiffness:g} N/m, so stiff that"
+                f" the friction force of {self.mu * normal_force:.3g} N deflects nothing; look for "
+                "a wrong unit or exponent"
+            )
+        return limit
 
     def stiffness(self, normal_force: float) -> float:
         r""":math:`k_t`, N/m, under a normal force in N; thesis (18)."""

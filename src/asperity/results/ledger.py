@@ -7,6 +7,7 @@ from asperity.results.quantity import Quantities, quantity
 
 NOTED = 1e-3
 REFUSED = 1e-2
+_ROUNDING = 1e-9
 
 
 class PowerLedger(Quantities):
@@ -42,9 +43,18 @@ class PowerLedger(Quantities):
 
         Where the drive does less than a thousandth of friction's work, over that much.
         """
-        missing = self.drive + self.vibration - self.friction - self.damping - self.stored
         scale = max(abs(self.drive), 1e-3 * abs(self.friction)) or 1.0
-        return abs(missing) / scale
+        return abs(self._missing) / scale
+
+    @property
+    def _missing(self) -> float:
+        return self.drive + self.vibration - self.friction - self.damping - self.stored
+
+    @property
+    def closes(self) -> bool:
+        """Whether what is missing is no more than rounding, however little the drive does."""
+        powers = self.drive, self.vibration, self.friction, self.damping, self.stored
+        return abs(self._missing) <= _ROUNDING * max(map(abs, powers))
 
 
 def guard(
@@ -75,6 +85,8 @@ def guard(
         The residual is above `REFUSED`.
     """
     residual = ledger.residual
+    if ledger.closes:
+        return ()
     if not residual <= REFUSED:
         raise ConvergenceError(
             f"the powers do not balance: {residual:.2g} of the drive's is missing, at most "

@@ -13,7 +13,7 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
-from asperity.results.ledger import PowerLedger
+from asperity.results.ledger import PowerLedger, guard
 from asperity.slider import homogenised_law as hl
 from asperity.slider.homogenised_law import (
     HomogenisedLaw,
@@ -32,6 +32,7 @@ _RECORDS = 2000
 _BLOCK = 1024
 _RING_SHARE = 0.02
 _FAST_STEPS = 200_000
+_ADVICE = "solve.method 'march' shows what the body does"
 # Alexander's diagonally implicit Runge-Kutta method of order 3, three stages, L-stable.
 _G = 0.43586652150845967
 _A21 = 0.5 * (1.0 - _G)
@@ -129,13 +130,13 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     began = time.perf_counter()
     law = homogenise(model)
     if model.slider.rigid:
-        return _steady(model, law, began)
+        return _steady(model, law, began, history=history)
     walk = March(model)
     table = walk.table
     if not model.vibrates:
         walk.to(table.steps, _BLOCK)
         broke = walk.breakaway
-        answer = _steady(model, law, began, broke, table.steps)
+        answer = _steady(model, law, began, broke, table.steps, history=history)
         notes = march_notes(model, table, 0.0, broke=broke is not None)
         return dataclasses.replace(answer, notes=(*answer.notes, *notes))
     begin = min(round(model.start / table.step), table.window_start)
@@ -171,7 +172,10 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         at, row = end, rows[-1]
     # The window starts at the last row of what was before it.
     window = np.concatenate([parts[-2][-1:], parts[-1]])
-    record = _history(model, law, np.concatenate(parts[1:])) if history else None
+    record = None
+    if history:
+        rows = np.concatenate(parts[1:])
+        record = _history(model, law, rows, _pull(model, rows))
     answer = _marched(model, law, window, began, breakaway, taken)
     first, second = (
         np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
@@ -201,12 +205,21 @@ def _steady(
     began: float,
     breakaway: float | None = None,
     steps: int = 0,
+    *,
+    history: bool,
 ) -> SlideResult:
     """Steady sliding at the drive velocity."""
-    drive = model.slider.drive_velocity
-    row = np.array([[0.0, law(drive) / (model.slider.drive_stiffness or 1.0), drive, 0.0]])
-    row[0, 3] = law(drive) / law.full_friction
-    return _result(model, law, row, began, breakaway, steps, pull=row[:, 3] * law.full_friction)
+    slider = model.slider
+    force = law(slider.drive_velocity)
+    stretch = 0.0 if slider.rigid else force / (slider.drive_stiffness or 1.0)
+    row = np.array([[0.0, stretch, slider.drive_velocity, force / law.full_friction]])
+    pull = row[:, 3] * law.full_friction
+    answer = _result(model, law, row, began, breakaway, steps, pull=pull)
+    if not history:
+        return answer
+    ends = np.repeat(row, 2, axis=0)
+    ends[1, 0] = model.duration
+    return dataclasses.replace(answer, history=_history(model, law, ends, np.repeat(pull, 2)))
 
 
 def _marched(
@@ -258,6 +271,14 @@ def _result(
         return mean(law.column(column, rows[:, 2]))
 
     drive_force = mean(pull)
+    ledger = PowerLedger(
+        drive=drive_force * model.slider.drive_velocity,
+        vibration=column(hl.POWER_IN),
+        friction=column(hl.POWER_LOST),
+        damping=mean(damping) + column(hl.POWER_DAMPED),
+        stored=stored,
+        untransferred=column(hl.UNTRANSFERRED) + 0.0,  # no -0.0
+    )
     answer = SlideResult(
         model=model,
         ratio=drive_force / force,
@@ -266,14 +287,7 @@ def _result(
         friction_max=(column(hl.HIGHEST_X) * force, column(hl.HIGHEST_Y) * force),
         friction_min=(column(hl.LOWEST_X) * force, column(hl.LOWEST_Y) * force),
         breakaway_time=breakaway,
-        ledger=PowerLedger(
-            drive=drive_force * model.slider.drive_velocity,
-            vibration=column(hl.POWER_IN),
-            friction=column(hl.POWER_LOST),
-            damping=mean(damping) + column(hl.POWER_DAMPED),
-            stored=stored,
-            untransferred=column(hl.UNTRANSFERRED),
-        ),
+        ledger=ledger,
         residual=law.residual,
         steps=steps,
         cycles=0,
@@ -284,10 +298,10 @@ def _result(
     numbers = [entry.value for entry in answer.entries() if isinstance(entry.value, float)]
     if not np.all(np.isfinite(numbers)):
         raise ConvergenceError(
-            "the march with the cycle-mean law left the finite numbers; solve.method 'march' shows "
-            "what the body does"
+            f"the march with the cycle-mean law left the finite numbers; {_ADVICE}"
         )
-    return answer
+    noted = guard(ledger, _ADVICE, reached={"ratio": answer.ratio})
+    return dataclasses.replace(answer, notes=(*answer.notes, *noted))
 
 
 def _what_it_is(model: Model, law: HomogenisedLaw) -> str:
@@ -302,15 +316,22 @@ def _what_it_is(model: Model, law: HomogenisedLaw) -> str:
     )
 
 
-def _history(model: Model, law: HomogenisedLaw, rows: FloatArray) -> History:
+def _history(model: Model, law: HomogenisedLaw, rows: FloatArray, pull: FloatArray) -> History:
     at, stretch, velocity, along = rows.T
     none = np.zeros_like(at)
     limit = model.length(1.0) if model.friction.model != "coulomb" else 0.0
     share = np.column_stack([along, law.column(hl.FORCE_Y, velocity)])
+
+    def of_a_cycle(*columns: int) -> FloatArray:
+        shares = [law.column(column, velocity) for column in columns]
+        return law.full_friction * np.column_stack(shares)
+
     return History(
         time=at,
-        drive_force=_pull(model, rows),
+        drive_force=pull,
         friction=share * law.full_friction,
+        friction_min=of_a_cycle(hl.LOWEST_X, hl.LOWEST_Y),
+        friction_max=of_a_cycle(hl.HIGHEST_X, hl.HIGHEST_Y),
         deflection=share * limit,
         position=np.column_stack([model.slider.drive_velocity * at - stretch, none]),
         velocity=np.column_stack([velocity, none]),

@@ -1,10 +1,15 @@
 """One call for one body: `march`, `periodic` or `homogenised`, as the case says."""
 
+import dataclasses
+import math
+
 import numpy as np
 import numpy.typing as npt
 
 from asperity.casefile import Case
+from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Run
+from asperity.slider.cost import ANNOUNCED, announcement, estimate
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.march import march
 from asperity.slider.model import Model
@@ -22,6 +27,8 @@ def solve(
 ) -> SlideResult:
     """Solve a sliding body by the method its case names.
 
+    A body for which no periodic state is found is marched, and its answer says so.
+
     Parameters
     ----------
     model : Model
@@ -38,13 +45,31 @@ def solve(
     InputError
         The case cannot be solved this way.
     ConvergenceError
-        No periodic state was found, or the march became unstable.
+        The march became unstable, the powers do not balance, or there is no homogenised law.
     """
     if model.solve.method == "periodic":
-        return solve_periodic(model, history=history)
+        try:
+            return solve_periodic(model, history=history)
+        except ConvergenceError as error:
+            model = _to_march(model, error)
+            left = error.reached.get("residual", math.nan)
+        answer = march(model, history=history, stop=stop, run=run)
+        note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
+        return dataclasses.replace(answer, notes=(note, *answer.notes))
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
     return march(model, history=history, stop=stop, run=run)
+
+
+def _to_march(model: Model, error: ConvergenceError) -> Model:
+    """Return a model without a periodic state as one to march; raises if it cannot be."""
+    plain = model.solve.model_copy(update={"method": "march"})
+    marched = dataclasses.replace(model, solve=plain)
+    try:
+        Timetable(marched)
+    except InputError:
+        raise error from None
+    return marched
 
 
 def prepare(case: Case) -> Model:
@@ -65,4 +90,8 @@ def prepare(case: Case) -> Model:
 
 def answer(model: Model, run: Run) -> SlideResult:
     """Solve a sliding body as `solve`, with its history where files are written."""
+    seconds = estimate(model)
+    if seconds > ANNOUNCED:
+        steps = Timetable(model).steps if model.solve.method == "march" else 0
+        run.notify(announcement(seconds, f"{steps:.3g} steps" if steps else "periodic states"))
     return solve(model, history=run.detailed, run=run)

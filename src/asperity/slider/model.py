@@ -1,15 +1,17 @@
 """A sliding body made ready to be solved: one object with everything in SI, and its scaled form."""
 
+import contextlib
 import dataclasses
 import functools
 import math
+from collections.abc import Iterator
 from typing import Self
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.casefile import Case
-from asperity.errors import InputError
+from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.slider.parameters import Slider, Solve
 from asperity.slider.scaled import MODELS, Parameters
@@ -20,17 +22,30 @@ FloatArray = npt.NDArray[np.float64]
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4
 _WINDOW_RINGS = 20
+_WINDOW_CYCLES = 2
 WINDOW_SHARE = 0.75
 SLIP_BOUND = 0.5
 CHANGE_BOUND = 1.2e-3
 RING_BOUND = 0.25
 COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
+_DRAG_BOUND = 1e7
 _MOST_SUBSTEPS = 1000
 _FAR_APART = (
     "the numbers of this case are too far apart to calculate with; look for a value with a wrong "
     "unit or exponent"
 )
+
+
+@contextlib.contextmanager
+def in_proportion() -> Iterator[None]:
+    """Refuse numbers that overflow or vanish when they are put together."""
+    try:
+        yield
+    except AsperityError:
+        raise
+    except (ArithmeticError, ValueError):
+        raise InputError(_FAR_APART) from None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -143,7 +158,8 @@ class Model:
     @property
     def window(self) -> float:
         """Length the means are taken over, s, before it is cut to whole cycles."""
-        return max(_WINDOW, _WINDOW_RINGS * self.ring_period)
+        least = _WINDOW_CYCLES / self.frequency if self.vibrates else 0.0
+        return max(_WINDOW, _WINDOW_RINGS * self.ring_period, least)
 
     @property
     def duration(self) -> float:
@@ -153,6 +169,7 @@ class Model:
         return self.start + 2.0 * self.window
 
     @functools.cached_property
+    @in_proportion()
     def step(self) -> float:
         """Time step as asked for, s; refused if it is too coarse for the waveform."""
         given = self.solve.step
@@ -169,6 +186,7 @@ class Model:
         return given
 
     @functools.cached_property
+    @in_proportion()
     def substeps(self) -> int:
         """Parts each step is divided into so that `march` stays below its own bounds.
 
@@ -178,14 +196,23 @@ class Model:
         the body's angular frequency on asperities and drive. The two-phase scheme is not divided,
         but refused where it is unstable. Coulomb friction has no deflection: there the vibration's
         velocity changes by at most a tenth of the drive velocity from part to part, unless the
-        slip is prescribed (rigid drive, guided body).
+        slip is prescribed (rigid drive, guided body) and keeps to a line.
         """
+        drag = self.slider.drive_damping * self.slider.drive_velocity / self.full_friction
+        if drag > _DRAG_BOUND:
+            most = self.slider.drive_damping * _DRAG_BOUND / drag
+            raise InputError(
+                f"slider.drive_damping is {self.slider.drive_damping:g} N s/m, which resists the "
+                f"drive velocity with {drag:.3g} times the friction force, too much to tell the "
+                f"two apart; it must be at most {most:.3g} N s/m (for a rigid drive leave "
+                "slider.drive_stiffness out)"
+            )
         if self.friction.model == "coulomb":
             # Nothing elastic in the contact: the drive's own ring bounds the step, and the turn
             # of the slip where the vibration passes the drive velocity.
             ring = 2.0 * math.pi / self.ring_period if self.ring_period > 0.0 else 0.0
             turn = self._sharpness * self.peak_velocity / self.slider.drive_velocity
-            if self.slider.rigid and not self.slider.free:
+            if self.slider.rigid and not self.slider.free and not self._turns:
                 turn = 0.0
             return self._parts(self.step * max(ring / RING_BOUND, turn / COULOMB_BOUND))
         limit = self.friction.deflection_limit(self.slider.normal_force)
@@ -209,6 +236,12 @@ class Model:
         return self._parts(needed)
 
     @property
+    def _turns(self) -> bool:
+        """Whether a prescribed slip changes its direction steadily, and not only its sign."""
+        smooth = self.shape is not None and self.shape.code in (SINE, SAMPLED)
+        return smooth and self.unit_direction[1] * self.friction.transfer != 0.0
+
+    @property
     def _sharpness(self) -> float:
         """Rate at which the vibration's velocity changes, 1/s: 2 pi f for a sine, or more."""
         least = self.shape.least_steps if self.shape is not None else STEPS_A_TURN
@@ -229,6 +262,7 @@ class Model:
             return self.slider.drive_velocity * step
         return self.friction.deflection_limit(self.slider.normal_force)
 
+    @in_proportion()
     def parameters(self, step: float) -> Parameters:
         """Return what the kernels are given for a time step in s, see `asperity.slider.scaled`."""
         slider, friction = self.slider, self.friction

@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import FloatArray, Model, in_proportion
 from asperity.slider.result import History, SlideResult
 from asperity.slider.scaled import NODE, STATE, SUMS, Parameters
 from asperity.slider.shooting import ACCEPTED, MOST_UNKNOWNS, SETTLING, shoot
@@ -19,6 +19,7 @@ _MOST_STEPS = 1e6
 _UNSTABLE = 1.0 + 1e-3
 
 
+@in_proportion()
 def cycle_steps(model: Model) -> int:
     """Steps a cycle is divided into: at least 256, a multiple of 4 to meet the waveform's kinks."""
     if not model.vibrates:

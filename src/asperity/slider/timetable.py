@@ -10,6 +10,7 @@ from asperity.slider.model import (
     SLIP_BOUND,
     WINDOW_SHARE,
     Model,
+    in_proportion,
 )
 
 _TAIL_CYCLES = 4
@@ -21,10 +22,18 @@ _UNSTEADY = 1e-3
 class Timetable:
     """Steps of a march: how many, and where its window and its finely recorded tail begin."""
 
+    @in_proportion()
     def __init__(self, model: Model) -> None:
         # Counted in the steps asked for, so that rows stand at the same times however they are
         # divided.
-        whole = round(model.duration / model.step)
+        asked = model.duration / model.step
+        if not asked * model.substeps <= _MOST_STEPS:
+            raise InputError(
+                f"solve.duration is {model.duration:g} s, {asked * model.substeps:.3g} steps of "
+                f"{model.step / model.substeps:.3g} s; a march takes at most {_MOST_STEPS:g}: give "
+                "a shorter duration or a larger step, or solve.method 'periodic'"
+            )
+        whole = round(asked)
         if model.vibrates:
             span = WINDOW_SHARE * max(whole * model.step - model.start, 0.0)
             self.cycles = math.floor(min(model.window, span) * model.frequency + 1e-9)
@@ -44,12 +53,6 @@ class Timetable:
             raise InputError(
                 f"solve.duration is {model.duration:g} s; it must be at least 8 steps of "
                 f"{model.step:g} s"
-            )
-        if whole * model.substeps > _MOST_STEPS:
-            raise InputError(
-                f"solve.duration is {model.duration:g} s, {whole * model.substeps:.3g} steps of "
-                f"{model.step / model.substeps:.3g} s; a march takes at most {_MOST_STEPS:g}: give "
-                "a shorter duration or a larger step, or solve.method 'periodic'"
             )
         window = min(window, whole)
         tail = min(tail, window // 2, _TAIL_RECORDS)
