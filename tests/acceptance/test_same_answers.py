@@ -5,7 +5,19 @@ from compare import differences
 from observe import command_lines, observe
 from record import records
 
+_STRETCHES = "a row of a march's history is the mean of a stretch, with what it swings through"
+_MARCHED = ("slide table-4.[34] --out OUT", "slide table-4.1-L4 * --out OUT")
+_OF_MARCHES = (
+    *((line, f"slide.nc:{name}", _STRETCHES)
+      for line in _MARCHED
+      for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")),
+    *(("slide * --out OUT", f"slide.nc:{name}", _STRETCHES)
+      for name in ("span", "drive_force_m*", "friction_m*", "deflection_m*", "position_m*",
+                   "velocity_m*")),
+)  # fmt: skip
+
 CHANGES = (
+    *_OF_MARCHES,
     # (command lines, what in their answers, why it is no longer what was recorded)
     *(
         ("flank *", f"flank.nc:{name}.units", "what labels a dimension is a number without unit")

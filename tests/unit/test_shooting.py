@@ -7,7 +7,7 @@ from asperity.casefile import read_case
 from asperity.errors import ConvergenceError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, solve
-from asperity.slider.periodic import cycle_steps
+from asperity.slider.periodic import cycle_steps, solve_periodic
 from asperity.slider.shooting import ACCEPTED
 from asperity.vibration import Vibration
 
@@ -173,7 +173,7 @@ def test_an_unstable_state_is_told():
 
 def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_periodic_state():
     with pytest.raises(ConvergenceError) as raised:
-        solve(falling(stribeck_velocity=1e-3, static_mu=0.2))
+        solve_periodic(falling(stribeck_velocity=1e-3, static_mu=0.2))
     error = raised.value
     assert len(str(error).splitlines()) == 1
     assert "solve.method 'march' shows what it does" in str(error)

@@ -18,12 +18,11 @@ from asperity.sweep.grid import Grid
 from asperity.sweep.tasks import solve_remote, versions
 
 SHORT = ["solve.duration=20 ms", "vibration.start=2 ms"]
-STICK_SLIP = [
-    "solve.method=periodic",
-    "friction.model=lugre",
-    "friction.static_mu=0.2",
-    "friction.stribeck_velocity=1 mm/s",
-]
+# An overshoot of the limit that grows, below the bound of the linear stability.
+OVERSHOT = [
+    "solve.scheme=two-phase", "friction.exponent=2", "solve.step=9.7 us",
+    "vibration.direction=0 deg",
+]  # fmt: skip
 
 
 @pytest.fixture(autouse=True)
@@ -98,22 +97,22 @@ def test_a_point_that_is_refused_while_solving_is_named():
 
 
 def test_a_point_without_convergence_is_masked_with_its_reason_and_remembered(tmp_path):
-    axes = ["vibration.velocity_ratio=0.5,2"]
+    axes = ["vibration.velocity_ratio=30,2"]
     for cached in (0, 2):
-        result = run(case(*STICK_SLIP), axes)
+        result = run(case(*OVERSHOT, name="table-4.4"), axes)
         assert result.cached == cached
         assert result.failed == 1
         assert result.status.tolist() == [1, 0]
         assert all(np.isnan(array[0]) for array in result.arrays.values())
         assert np.isfinite(result.arrays["ratio"][1])
         (point,) = result.failures
-        assert point == "vibration.velocity_ratio=0.5"
-        assert "no periodic state found" in result.failures[point]
+        assert point == "vibration.velocity_ratio=30"
+        assert "left the finite numbers" in result.failures[point]
     answer = json.loads(json.dumps(result.to_json(), allow_nan=False))
     assert answer["ratio"][0] is None
     dataset = read_dataset(result.save(tmp_path / "sweep.nc"))
     assert dataset["status"].attrs["flag_meanings"] == "solved not_converged"
-    assert "velocity_ratio=0.5: no periodic state" in dataset.attrs["failures"]
+    assert "velocity_ratio=30: the march left" in dataset.attrs["failures"]
 
 
 def test_an_interrupt_keeps_what_is_done_and_the_next_run_goes_on():
@@ -246,3 +245,22 @@ def test_a_worker_with_another_version_refuses_the_work_and_names_it(name):
     assert row["ratio"] == pytest.approx(0.137, rel=1e-3)
     with pytest.raises(InputError, match=f"^a worker runs another version of {name}; install"):
         solve_remote(models, {**versions(), name: "another"})
+
+
+def test_a_large_grid_is_announced_before_it_is_looked_at(monkeypatch):
+    def halted(_):
+        raise InputError("halted")
+
+    monkeypatch.setattr(sys.modules["asperity.sweep.run"]._Sweep, "look_up", halted)
+    told = []
+    for count in (10, 200_000):
+        axis = f"friction.mu=0.1:{0.1 + (count - 1) * 1e-6:.6f}:1e-6"
+        with pytest.raises(InputError, match="halted"):
+            run(case("solve.method=periodic"), [axis], cache=False, notify=told.append)
+    (line,) = told
+    assert line.startswith("200000 points take about")
+
+
+def test_a_grid_of_more_than_a_million_points_is_refused_at_once():
+    with pytest.raises(InputError, match=r"9.09e\+6 values; at most 1000000 are allowed"):
+        run(case(), ["friction.mu=0.1:0.2:1.1e-8"])

@@ -62,6 +62,7 @@ def guard(
     advice: str,
     *,
     reached: Mapping[str, float] | None = None,
+    most: float = REFUSED,
 ) -> tuple[str, ...]:
     """Refuse an answer whose powers do not balance, and note one whose nearly do not.
 
@@ -74,6 +75,9 @@ def guard(
     reached : mapping of str to float, optional
         What else was reached, for the exception; the residual is added as ``power_residual``.
 
+    most : float
+        The residual above which there is no answer; infinite where a note alone will do.
+
     Returns
     -------
     tuple of str
@@ -82,15 +86,15 @@ def guard(
     Raises
     ------
     ConvergenceError
-        The residual is above `REFUSED`.
+        The residual is above ``most``.
     """
     residual = ledger.residual
     if ledger.closes:
         return ()
-    if not residual <= REFUSED:
+    if not residual <= most:
         raise ConvergenceError(
             f"the powers do not balance: {residual:.2g} of the drive's is missing, at most "
-            f"{REFUSED:g} may be: {advice}",
+            f"{most:g} may be: {advice}",
             reached={**(reached or {}), "power_residual": residual},
         )
     if residual > NOTED:

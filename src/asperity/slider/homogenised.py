@@ -13,7 +13,7 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
-from asperity.results.ledger import PowerLedger, guard
+from asperity.results.ledger import REFUSED, PowerLedger, guard
 from asperity.slider import homogenised_law as hl
 from asperity.slider.homogenised_law import (
     HomogenisedLaw,
@@ -300,7 +300,9 @@ def _result(
         raise ConvergenceError(
             f"the march with the cycle-mean law left the finite numbers; {_ADVICE}"
         )
-    noted = guard(ledger, _ADVICE, reached={"ratio": answer.ratio})
+    # Between states next to the drive velocity a balance is as good as the interpolation.
+    most = math.inf if model.slider.drive_velocity in law.missing else REFUSED
+    noted = guard(ledger, _ADVICE, reached={"ratio": answer.ratio}, most=most)
     return dataclasses.replace(answer, notes=(*answer.notes, *noted))
 
 

@@ -14,7 +14,7 @@ from asperity.errors import InputError, choices, nearest
 from asperity.slider.tables import TABLES as SWEPT
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
-MOST_POINTS = 10_000_000
+MOST_POINTS = 1_000_000  # some 300 MB, and a quarter of an hour where each takes a millisecond
 _PATH = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
 _FORMS = "1,2,3 or start:stop:step"
 _GRAIN = Decimal("1e-9")

@@ -2,6 +2,7 @@
 
 import concurrent.futures as cf
 import dataclasses
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -11,6 +12,8 @@ import numpy as np
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
+from asperity.slider.batch import fits_batch
+from asperity.slider.cost import ANNOUNCED, announcement, estimate
 from asperity.slider.result import inputs
 from asperity.sweep.axes import Axis, parse_axes
 from asperity.sweep.cache import Cache, Row
@@ -21,6 +24,8 @@ from asperity.sweep.tasks import FAILED, REFUSED, task_size
 
 _CHUNK = 1024
 _LOOK_SECONDS = 5.0
+_LOOK = 3e-4  # to validate a point and look for it, s
+_BATCHED = 10.0  # bodies a batch marches in the time of one
 
 Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
@@ -67,6 +72,7 @@ def run(
     notify = notify or _to_standard_error
     kept = Cache.of_this_user(notify) if cache else None
     sweep = _Sweep(grid, kept, progress or _silent)
+    _announce(grid, cluster is not None, notify)
     try:
         sweep.look_up()
         if sweep.missing:
@@ -234,6 +240,19 @@ class _Sweep:
         failed = row.get(FAILED)
         self._known[index] = True
         self.answers.put(index, row, None if failed is None else str(failed))
+
+
+def _announce(grid: Grid, distributed: bool, notify: Notify) -> None:
+    """Say how long a large grid may take; on a cluster, whose size is not known, that of one core.
+
+    As if all points were like the first and none known.
+    """
+    first = next(grid.points([0])).model
+    each = estimate(first) / (_BATCHED if fits_batch(first) else 1.0)
+    cores = 1 if distributed else os.cpu_count() or 1
+    seconds = grid.size * (_LOOK + each / cores)
+    if seconds > ANNOUNCED:
+        notify(announcement(seconds, f"{grid.size} points"))
 
 
 def _parsed(axes: Sequence[Axis | str], case: Case) -> Iterator[Axis]:
