@@ -5,10 +5,10 @@ import re
 
 import pytest
 
-from asperity.cli import studies
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
 from asperity.store import read_dataset
+from asperity.studies import methods
 
 COMMANDS = ["sensitivity", "methods", "optimise"]
 
@@ -88,8 +88,8 @@ def test_the_settings_of_an_optimum_make_it(asperity):
     ("arguments", "message"),
     [
         (["sensitivity", "table-4.3"], r"^table-4\.3: the table \[gearset\] is missing; add it$"),
-        (["optimise", "gearset-2", "--set", "gearset.axial_module=2.4 mm"], r"^h\* is -0\.00411;"),
-        (["methods", "gearset-2", "--set", "rating.friction=0.1"], r"^rating\.friction is 0\.1,"),
+        (["optimise", "gearset-2", "--set", "gearset.axial_module=2.4 mm"], r"^gearset-2: h\* is -0\.00411;"),
+        (["methods", "gearset-2", "--set", "rating.friction=0.1"], r"^--set .*: rating\.friction is 0\.1,"),
         (["methods", "gearset-2", "--set", "vibration.frequency=20 kHz"],
          r"^gearset-2: vibration\.velocity_ratio is missing; give one of"),
         (["sensitivity", "gearset-22"], r"did you mean 'gearset-2'"),
@@ -108,7 +108,7 @@ def test_a_contact_that_does_not_converge_ends_with_3_and_tells_what_was_reached
     def fails(case):
         raise ConvergenceError("no periodic state found", reached={"residual": 0.5})
 
-    monkeypatch.setattr(studies, "compare_case", fails)
+    monkeypatch.setattr(methods, "compare_case", fails)
     with pytest.raises(SystemExit) as end:
         main(["methods", "gearset-2", "--json"])
     assert end.value.code == 3
