@@ -88,8 +88,10 @@ def test_the_settings_of_an_optimum_make_it(asperity):
     ("arguments", "message"),
     [
         (["sensitivity", "table-4.3"], r"^table-4\.3: the table \[gearset\] is missing; add it$"),
-        (["optimise", "gearset-2", "--set", "gearset.axial_module=2.4 mm"], r"^gearset-2: h\* is -0\.00411;"),
-        (["methods", "gearset-2", "--set", "rating.friction=0.1"], r"^--set .*: rating\.friction is 0\.1,"),
+        (["optimise", "gearset-2", "--set", "gearset.axial_module=2.4 mm"],
+         r"^gearset-2: h\* is -0\.00411;"),
+        (["methods", "gearset-2", "--set", "rating.friction=0.1"],
+         r"^--set .*: rating\.friction is 0\.1,"),
         (["methods", "gearset-2", "--set", "vibration.frequency=20 kHz"],
          r"^gearset-2: vibration\.velocity_ratio is missing; give one of"),
         (["sensitivity", "gearset-22"], r"did you mean 'gearset-2'"),
