@@ -27,7 +27,7 @@ from asperity.commands import case_tables
 from asperity.contact.elastic import Pressure, Traction, cache, condense, elastic_body
 from asperity.contact.elastic.solver import installed_solver
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 
 MESHES = {
     "8x6x6 hex27": ("block.elements=[8,6,6]", "block.element=hex27"),
@@ -87,15 +87,15 @@ def condensing(figures, mesh):
 def marching(figures, mesh, march):
     """Milliseconds an increment with the body condensed, the median of some pieces of the march."""
     system = problem_of(mesh, march).system
-    walker = Walker(system, rest_under_load(system, problem_of(mesh, march).loads))
+    stepper = Stepper(system, rest_under_load(system, problem_of(mesh, march).loads))
     for number in range(1, WARM + 1):
-        walker.step_to(number * STEP, STEP)
+        stepper.step_to(number * STEP, STEP)
     iterations, pieces = 0, []
     for first in range(WARM + 1, WARM + COUNTED + 1, PIECE):
         began = time.thread_time()
         for number in range(first, first + PIECE):
-            walker.step_to(number * STEP, STEP)
-            iterations += walker.state.contact.iterations
+            stepper.step_to(number * STEP, STEP)
+            iterations += stepper.state.contact.iterations
         pieces.append((time.thread_time() - began) / PIECE * 1e3)
     figures[f"{march}_ms"] = float(np.median(pieces))
     figures[f"{march}_iterations"] = iterations / COUNTED
@@ -120,24 +120,24 @@ def uncondensed(figures, mesh):
     gravity = -STANDARD_GRAVITY * body.inertia[:, 2]
     loads = (gravity, problem.nodal_loads)
     state = whole.step_to(whole.rest_under_load(loads), STEP, STEP, loads[-1])
-    walker = Walker(problem.system, rest_under_load(problem.system, problem.loads))
-    walker.step_to(STEP, STEP)
-    first, times, same = walker.snapshot(), [], []
+    stepper = Stepper(problem.system, rest_under_load(problem.system, problem.loads))
+    stepper.step_to(STEP, STEP)
+    first, times, same = stepper.snapshot(), [], []
     taken = {"uncondensed": 0, "condensed": 0}
     for _ in range(REPEATS):
-        walker.restore(first)
+        stepper.restore(first)
         began = time.thread_time()
         for number in range(2, 2 + WHOLE):
-            walker.step_to(number * STEP, STEP)
+            stepper.step_to(number * STEP, STEP)
         same.append((time.thread_time() - began) / WHOLE * 1e3)
-    walker.restore(first)
+    stepper.restore(first)
     for number in range(2, 2 + WHOLE):
         began = time.thread_time()
         state = whole.step_to(state, number * STEP, STEP, loads[-1])
         times.append((time.thread_time() - began) * 1e3)
-        walker.step_to(number * STEP, STEP)
+        stepper.step_to(number * STEP, STEP)
         taken["uncondensed"] += state.iterations
-        taken["condensed"] += walker.state.contact.iterations
+        taken["condensed"] += stepper.state.contact.iterations
     figures["unknowns"] = 3 * len(problem.mesh.points)
     figures["uncondensed_ms"] = float(np.median(times))
     figures["condensed_same_increments_ms"] = float(np.median(same))

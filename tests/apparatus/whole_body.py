@@ -19,14 +19,9 @@ from scipy import sparse
 
 from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.elastic.solver import GeneralSolver
-from asperity.contact.increment.problem import SurfaceMotion
-from asperity.contact.interface.tractions import (
-    NORMAL,
-    POINT,
-    PRESSURE,
-    TRACTION,
-    tractions,
-)
+from asperity.contact.interface.counter_motion import SurfaceMotion
+from asperity.contact.interface.records import Committed, ContactPoints, Interface
+from asperity.contact.interface.tractions import tractions
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion.system import System
 from asperity.errors import ConvergenceError, InputError
@@ -59,10 +54,8 @@ class WholeState:
         Place of the drive's far end, m.
     drive_force : float
         N.
-    deflection, size : ndarray, shapes (q, 3), (q,)
-        History of the contact's points.
-    points : ndarray, shape (q, POINT)
-        Record of the contact's points, see `asperity.contact.interface.tractions`.
+    points : ContactPoints
+        The contact at its points.
     force : ndarray, shape (3n,)
         Contact forces on the contact nodes, N.
     iterations : int
@@ -78,9 +71,7 @@ class WholeState:
     resistance: Floats
     reach: float
     drive_force: float
-    deflection: Floats
-    size: Floats
-    points: Floats
+    points: ContactPoints
     force: Floats
     iterations: int = 0
     residual: float = 0.0
@@ -88,7 +79,7 @@ class WholeState:
     @property
     def pressure(self) -> Floats:
         """At the contact's points, shape (q,), Pa."""
-        return self.points[:, PRESSURE]
+        return self.points.pressure
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -154,8 +145,9 @@ class WholeSystem:
         """Undeformed, at rest, without loads."""
         none, points = np.zeros(len(self.body.rigid)), self.system.weights.size
         return WholeState(
-            0.0, none, none, none, none, 0.0, 0.0, np.zeros((points, 3)), np.zeros(points),
-            np.zeros((points, POINT)), np.zeros(len(self._contact)),
+            0.0, none, none, none, none, 0.0, 0.0,
+            ContactPoints(*(np.zeros_like(part) for part in ContactPoints.empty(points))),
+            np.zeros(len(self._contact)),
         )  # fmt: skip
 
     def resultants(self, state: WholeState) -> Floats:
@@ -163,8 +155,8 @@ class WholeSystem:
         forces = np.zeros(ledger.FORCES)
         points = state.points
         ledger.resultants(
-            points[:, PRESSURE], points[:, TRACTION : TRACTION + 3],
-            points[:, NORMAL : NORMAL + 3], state.deflection, self.system.weights, forces,
+            points.pressure, points.traction, points.normal, points.deflection,
+            self.system.weights, forces,
         )  # fmt: skip
         return forces
 
@@ -289,19 +281,22 @@ class WholeSystem:
     ) -> tuple[WholeState, Floats, Floats]:
         """Return the state at given places, the points' tangent, and what the equations leave."""
         system, surface = self.system, self.system.surface
-        points = system.weights.size
+        count = system.weights.size
         force = np.empty(len(self._contact))
-        deflection, size = np.empty((points, 3)), np.empty(points)
-        record, tangent = np.empty((points, POINT)), np.empty((points, 3, 3))
-        tractions(
-            np.ascontiguousarray(place[self._contact]),
-            np.ascontiguousarray(state.place[self._contact]),
-            state.deflection, state.size, np.zeros(len(surface.nodes)),
+        points, tangent = ContactPoints.empty(count), np.empty((count, 3, 3))
+        before = Committed(
+            np.ascontiguousarray(state.place[self._contact]), state.points.deflection,
+            state.points.size, np.zeros(len(surface.nodes)),
+        )  # fmt: skip
+        interface = Interface(
             np.ascontiguousarray(surface.faces), np.ascontiguousarray(surface.shapes),
             system.weights, np.ascontiguousarray(surface.points.reshape(-1, 3)),
-            system.counter.parameters, system.normal.parameters,
-            system.friction.parameters(step.length or 0.0), step.motion.parameters(),
-            force, deflection, size, record, tangent, True,
+            system.counter.parameters, system.normal.numbers,
+            system.friction.numbers(step.length or 0.0),
+        )  # fmt: skip
+        tractions(
+            np.ascontiguousarray(place[self._contact]), before, interface, step.motion.numbers(),
+            force, points, tangent, True,
         )  # fmt: skip
         velocity, acceleration = np.zeros_like(place), np.zeros_like(place)
         if step.length is not None:
@@ -324,8 +319,8 @@ class WholeSystem:
         scale = float(np.linalg.norm(force)) or float(np.linalg.norm(outside)) or 1.0
         residual = float(np.linalg.norm(left[self._unknowns])) / scale
         after = WholeState(
-            end, place, velocity, acceleration, resistance, step.far, drive_force, deflection,
-            size, record, force, 0, residual,
+            end, place, velocity, acceleration, resistance, step.far, drive_force, points,
+            force, 0, residual,
         )  # fmt: skip
         return after, tangent, left
 

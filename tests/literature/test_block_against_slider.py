@@ -16,7 +16,7 @@ from asperity.commands import case_tables
 from asperity.contact.motion import ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 from asperity.slider.march import march
 from asperity.thesis.contact.blocks import LIGHT, Block, in_series
 
@@ -104,15 +104,15 @@ def test_from_rest_the_block_goes_the_way_of_the_sliding_body_with_its_complianc
     step = 1.0 / (3000.0 * 160)
     means = []
     for system, loads in ((problem.system, problem.loads), (springy, (springy.mechanism.load,))):
-        walker = Walker(system, rest_under_load(system, loads))
+        stepper = Stepper(system, rest_under_load(system, loads))
         rows = []
         for number in range(1, 20 * 160 + 1):
-            walker.step_to(number * step, step)
+            stepper.step_to(number * step, step)
             if number % 160 == 0:
-                time = walker.sums[ledger.TIME]
-                friction = walker.sums[[ledger.FRICTION_X, ledger.FRICTION_Y]] / time
-                rows.append([*friction, walker.state.drive[mo.FORCE]])
-                walker.clear()
+                time = stepper.sums[ledger.TIME]
+                friction = stepper.sums[[ledger.FRICTION_X, ledger.FRICTION_Y]] / time
+                rows.append([*friction, stepper.state.drive[mo.FORCE]])
+                stepper.clear()
         means.append(rows)
     block_, body = np.array(means) / problem.model.full_friction
     assert body[-1, 2] > 0.05

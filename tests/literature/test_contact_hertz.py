@@ -25,7 +25,7 @@ from apparatus.halfspace import half_plane
 from scipy.spatial.transform import Rotation
 
 from asperity.contact.elastic import ElasticMaterial, Force, condense
-from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
@@ -57,7 +57,7 @@ def pressed(flexibility, surface, counter, force, law, step):
     turn = np.eye(3) if counter.name == "sphere" else ALONG_Y
     problem = IncrementProblem(flexibility, surface, counter, law)
     guide = Guide(np.array([0.0, 0.0, 1.0]), Pose(turn, np.array([0.0, 0.0, -RADIUS])))
-    return load_to(problem, guide, force, step=step)
+    return load_to(IncrementSolver(problem), guide, force, step=step)
 
 
 def law_of(name, element_size):

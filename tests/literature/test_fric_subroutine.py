@@ -15,7 +15,7 @@ import pytest
 from asperity.block.deck import fric_subroutine
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.interface.friction_point import PointFriction, share_and_tangent
+from asperity.contact.interface.friction import PointFriction, share_and_tangent
 from asperity.friction import update
 from asperity.slider.march import march
 from asperity.slider.model import Model
@@ -181,7 +181,7 @@ def own_update(model, committed, part_1, part_2, exponent, one_sided):
     law = PointFriction.of(
         model.friction, model.slider.normal_force, two_phase=model.solve.scheme == "two-phase"
     )
-    p = dataclasses.replace(law, exponent=exponent).parameters(1e-6)
+    p = dataclasses.replace(law, exponent=exponent).numbers(1e-6)
     limit = model.friction.max_deflection
     _, _, size, *share = share_and_tangent(
         committed[0] * limit, committed[1] * limit, committed[2], *part_1, *part_2, one_sided, p

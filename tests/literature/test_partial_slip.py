@@ -26,8 +26,8 @@ import numpy as np
 import pytest
 from apparatus.halfspace import half_plane
 
-from asperity.contact.increment.solver import IncrementProblem
-from asperity.contact.interface.friction_point import COULOMB, DAHL, PointFriction
+from asperity.contact.increment import IncrementProblem, IncrementSolver
+from asperity.contact.interface.friction import COULOMB, DAHL, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import contact_surface
@@ -59,13 +59,14 @@ class Pair:
         return PointFriction(model, MU, limit * self.slides, VECTOR, exponent)
 
     def pressed(self, friction):
-        """The problem, the way along, and the state pressed together by the normal force."""
+        """The solver, the way along, and the state pressed together by the normal force."""
         plane = RigidSurface.plane()
         problem = IncrementProblem(self.flexibility, self.surface, plane, self.law, friction)
+        solver = IncrementSolver(problem)
         down = Guide(DOWN)
-        state = load_to(problem, down, self.share * self.normal, step=A**2 / RADIUS)
+        state = load_to(solver, down, self.share * self.normal, step=A**2 / RADIUS)
         along = Guide(ALONG, down.at(state.place))
-        return problem, along, on_guide(problem, along, state)
+        return solver, along, on_guide(solver, along, state)
 
     def way(self, share):
         """Displacement under a share of the full friction."""
@@ -102,9 +103,9 @@ STIFF = 3e-4
 @pytest.mark.parametrize("nu", [0.0, 0.3])
 def test_spheres_stick_within_cattaneo_s_circle_and_give_as_mindlin_says(quarter_of_half_space, nu):
     pair = spheres(quarter_of_half_space, 12, nu)
-    problem, along, state = pair.pressed(pair.friction(STIFF))
+    solver, along, state = pair.pressed(pair.friction(STIFF))
     for share in SHARES:
-        (state,) = follow(problem, along, [pair.way(share)], start=state, increments=4)
+        (state,) = follow(solver, along, [pair.way(share)], start=state, increments=4)
         assert pair.load(state) == pytest.approx(share, rel=0.01)
         radius = sticking(pair.surface, state.contact, 0.4)
         assert radius / A == pytest.approx((1.0 - share) ** (1.0 / 3.0), rel=0.02)
@@ -114,9 +115,9 @@ def test_spheres_stick_within_cattaneo_s_circle_and_give_as_mindlin_says(quarter
 
 def test_the_stick_radius_under_a_given_force_is_cattaneo_s(quarter_of_half_space):
     pair = spheres(quarter_of_half_space, 12, 0.0)
-    problem, along, state = pair.pressed(pair.friction(STIFF))
+    solver, along, state = pair.pressed(pair.friction(STIFF))
     state = load_to(
-        problem, along, 0.6 * pair.share * pair.full, start=state, increments=3,
+        solver, along, 0.6 * pair.share * pair.full, start=state, increments=3,
         step=0.2 * pair.slides,
     )  # fmt: skip
     assert pair.load(state) == pytest.approx(0.6, rel=1e-8)
@@ -130,8 +131,8 @@ def test_the_friction_under_partial_slip_converges_to_its_closed_form(quarter_of
     c = A * (1.0 - share) ** (1.0 / 3.0)
     for per_width in (4, 8, 16):
         pair = spheres(quarter_of_half_space, per_width, 0.0)
-        problem, along, state = pair.pressed(pair.friction(STIFF))
-        (state,) = follow(problem, along, [pair.way(share)], start=state, increments=4)
+        solver, along, state = pair.pressed(pair.friction(STIFF))
+        (state,) = follow(solver, along, [pair.way(share)], start=state, increments=4)
         surface, friction = pair.surface, state.contact.traction[:, 0]
         mean = surface.to_nodes(friction.reshape(surface.weights.shape))
         off.append(
@@ -161,20 +162,20 @@ class Cycle:
     """Rubbing to and fro between the displacements under a share of full friction."""
 
     def __init__(self, pair, friction, share):
-        problem, along, state = pair.pressed(friction)
+        solver, along, state = pair.pressed(friction)
         ends = pair.way(share)
         way = ends * np.linspace(1.0, -1.0, 17)
         to_and_fro = [*way[1:], *way[-2::-1]]
-        (first,) = follow(problem, along, [ends], start=state, increments=8)
+        (first,) = follow(solver, along, [ends], start=state, increments=8)
         # The first cycle leaves behind what the first rubbing has put out of the way.
-        (*_, begin) = follow(problem, along, to_and_fro, start=first)
-        self.states = [begin, *follow(problem, along, to_and_fro, start=begin)]
+        (*_, begin) = follow(solver, along, to_and_fro, start=first)
+        self.states = [begin, *follow(solver, along, to_and_fro, start=begin)]
         self.loads = np.array([pair.load(state) for state in self.states])
         loads = [state.load for state in self.states]
         # Of all four quarters.
         self.work = np.trapezoid(loads, [state.place for state in self.states]) / pair.share
         self.friction_work = sum(state.friction_work for state in self.states[1:]) / pair.share
-        elastic = [0.5 * float(at.contact.force @ problem.flexibility @ at.contact.force)
+        elastic = [0.5 * float(at.contact.force @ solver.problem.flexibility @ at.contact.force)
                    for at in (self.states[0], self.states[-1])]  # fmt: skip
         self.stored = (elastic[1] - elastic[0]) / pair.share
 
@@ -198,15 +199,15 @@ def test_dahl_friction_of_exponent_nought_is_coulomb_friction_with_elastic_slip(
     pair = spheres(quarter_of_half_space, 8, 0.0)
     tractions = []
     for model in (COULOMB, DAHL):
-        problem, along, state = pair.pressed(pair.friction(0.01, model, 0.0))
-        *_, state = follow(problem, along, [pair.way(0.8), pair.way(0.1)], start=state)
+        solver, along, state = pair.pressed(pair.friction(0.01, model, 0.0))
+        *_, state = follow(solver, along, [pair.way(0.8), pair.way(0.1)], start=state)
         tractions.append(state.contact.traction)
     assert tractions[1] == pytest.approx(tractions[0], abs=1e-6 * np.abs(tractions[0]).max())
 
 
 def rubbed(pair, friction):
-    problem, along, state = pair.pressed(friction)
-    (state,) = follow(problem, along, [pair.way(0.7)], start=state, increments=8)
+    solver, along, state = pair.pressed(friction)
+    (state,) = follow(solver, along, [pair.way(0.7)], start=state, increments=8)
     return pair.load(state)
 
 
@@ -254,10 +255,10 @@ def test_cylinders_stick_within_cattaneo_s_strip():
     pair = Pair(surface, flexibility, 0.3, size, 1.0)
     pair.normal = np.pi * E / (2.0 * (1.0 - 0.3**2)) * A**2 / (4.0 * RADIUS) * size
     pair.full = MU * pair.normal
-    problem, along, state = pair.pressed(pair.friction(STIFF))
+    solver, along, state = pair.pressed(pair.friction(STIFF))
     for share in SHARES:
         state = load_to(
-            problem, along, share * pair.full, start=state, increments=4, step=0.3 * pair.slides
+            solver, along, share * pair.full, start=state, increments=4, step=0.3 * pair.slides
         )
         x = np.abs(surface.points.reshape(-1, 3)[:, 0])
         rest = surface.weights.ravel() * (
@@ -276,9 +277,9 @@ def test_spheres_of_finite_elements_slip_as_cattaneo_and_mindlin_say(quarter_pat
     ball = HexMesh(points, body.mesh.cells, face_sets=body.mesh.face_sets)
     surface = contact_surface(ball, "patch")
     pair = Pair(surface, body.flexibility_of_pair(), 0.3, half / count)
-    problem, along, state = pair.pressed(pair.friction(STIFF))
+    solver, along, state = pair.pressed(pair.friction(STIFF))
     for share in SHARES:
-        (state,) = follow(problem, along, [pair.way(share)], start=state, increments=4)
+        (state,) = follow(solver, along, [pair.way(share)], start=state, increments=4)
         radius = sticking(surface, state.contact, 0.4)
         assert pair.load(state) == pytest.approx(share, rel=0.02)
         assert radius / A == pytest.approx((1.0 - share) ** (1.0 / 3.0), rel=0.02)

@@ -20,14 +20,14 @@ from asperity.block.problem import BlockProblem
 from asperity.block.stability import Stability
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import contact_surface
 from asperity.contact.motion import hht
 from asperity.contact.motion.mechanism import Mechanism
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.stability import sliding_motion
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 from asperity.mesh import box
 
 MASS, ALONG, COUPLING, NORMAL, CONTACT = 2.0, 60.0, 14.0, 30.0, 24.0
@@ -108,11 +108,11 @@ def test_a_marched_block_flutters_as_fast_as_its_eigenvalues_say():
     rest = rest_under_load(problem.system, problem.loads)
     thrown = rest.coordinates.copy()
     thrown[hht.VELOCITY, 0] = 0.05
-    walker = Walker(problem.system, dataclasses.replace(rest, coordinates=thrown))
+    stepper = Stepper(problem.system, dataclasses.replace(rest, coordinates=thrown))
     read = []
     for number in range(1, 3001):
-        walker.step_to(number * step, step)
-        read.append(reader @ walker.state.coordinates[hht.PLACE])
+        stepper.step_to(number * step, step)
+        read.append(reader @ stepper.state.coordinates[hht.PLACE])
     # From step to step, so that what stays has no share.
     size = np.log(np.abs(np.diff(read)))
     time = step * np.arange(len(size))

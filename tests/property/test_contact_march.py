@@ -10,11 +10,13 @@ from hypothesis import strategies as st
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.increment.newton import evaluate
-from asperity.contact.increment.solver import ContactState, SurfaceMotion, solve_increment
+from asperity.contact.increment.equations import Increment
+from asperity.contact.increment.problem import ContactState
+from asperity.contact.increment.solver import IncrementSolver
+from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion.rest import released, rest_under_load
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 from asperity.errors import ConvergenceError
 
 MESHES = {"hex8": "[2, 2, 2]", "hex8i": "[2, 2, 2]", "hex27": "[1, 1, 1]"}
@@ -55,7 +57,7 @@ def thrown(system, lift, tilt, velocity, spin):
     pace[:3], pace[3:6] = velocity, spin
     place[~free] = pace[~free] = 0.0
     place[2] = lift - (system.mechanism.shapes @ place)[2::3].min()
-    return Walker(system, released(system, place, pace))
+    return Stepper(system, released(system, place, pace))
 
 
 def powers(balance):
@@ -108,16 +110,16 @@ def test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_
         f"slider.normal_force={force} N", element=element,
     )  # fmt: skip
     system = problem.system
-    walker = thrown(
+    stepper = thrown(
         system, lift, 10.0 ** tilt[2] * np.array(tilt[:2]),
         np.array([2e-3, 2e-3, 10.0 ** velocity[3]]) * velocity[:3], 0.2 * np.array(spin),
     )  # fmt: skip
-    before = walker.state.energies(system)
+    before = stepper.state.energies(system)
     for number in range(1, INCREMENTS + 1):
-        walker.step_to(number * SECONDS, SECONDS)
-        check_contact(system, walker.state.contact, bounded=law not in LOOSE)
-        assert walker.state.contact.residual <= 1e-9
-    balance = ledger.power_ledger(walker.sums, before, walker.state.energies(system))
+        stepper.step_to(number * SECONDS, SECONDS)
+        check_contact(system, stepper.state.contact, bounded=law not in LOOSE)
+        assert stepper.state.contact.residual <= 1e-9
+    balance = ledger.power_ledger(stepper.sums, before, stepper.state.energies(system))
     sums = powers(balance)
     assert np.isfinite(sums).all()
     off = balance.drive + balance.vibration + balance.loads
@@ -149,16 +151,16 @@ DROPS = {
 def test_a_dropped_block_never_has_more_energy_than_it_fell_with(name, element, step):
     problem = block(*DROPS[name], "vibration.velocity_ratio=0", element=element)
     system = dataclasses.replace(problem.system, drive_velocity=0.0)
-    walker = thrown(system, 2e-6, (2e-5, -3e-5), (0.0, 0.0, -2e-3), (0.0, 0.0, 0.0))
-    start = mechanical_energy(system, walker.state)
+    stepper = thrown(system, 2e-6, (2e-5, -3e-5), (0.0, 0.0, -2e-3), (0.0, 0.0, 0.0))
+    start = mechanical_energy(system, stepper.state)
     touched = parted = 0
     energies = []
     for number in range(1, 501):
-        touching = walker.state.contact.active > 0
-        walker.step_to(number * step, step)
-        now = walker.state.contact.active > 0
+        touching = stepper.state.contact.active > 0
+        stepper.step_to(number * step, step)
+        now = stepper.state.contact.active > 0
         touched, parted = touched + (now and not touching), parted + (touching and not now)
-        energies.append(mechanical_energy(system, walker.state))
+        energies.append(mechanical_energy(system, stepper.state))
     assert touched >= 2
     assert parted >= 1
     assert max(energies) <= 1.02 * start
@@ -169,13 +171,13 @@ def test_a_block_at_rest_that_is_let_go_stays_where_it_is():
     still = dataclasses.replace(system, drive_velocity=0.0)
     at_rest = rest_under_load(still, block().loads)
     place = at_rest.coordinates[hht.PLACE]
-    walker = Walker(still, released(still, place, np.zeros_like(place)))
+    stepper = Stepper(still, released(still, place, np.zeros_like(place)))
     weight = at_rest.forces[ledger.FN]
     for number in range(1, 41):
-        walker.step_to(number * SECONDS, SECONDS)
+        stepper.step_to(number * SECONDS, SECONDS)
         # The asperities bend anew, which leaves the block a little to do.
-        assert walker.state.forces[ledger.FN] == pytest.approx(weight, rel=1e-3)
-    assert walker.state.coordinates[hht.PLACE] == pytest.approx(place, abs=1e-3 * abs(place[2]))
+        assert stepper.state.forces[ledger.FN] == pytest.approx(weight, rel=1e-3)
+    assert stepper.state.coordinates[hht.PLACE] == pytest.approx(place, abs=1e-3 * abs(place[2]))
 
 
 @settings(max_examples=40)
@@ -187,18 +189,18 @@ def test_a_block_at_rest_that_is_let_go_stays_where_it_is():
 )
 def test_an_active_set_that_settles_is_an_equilibrium(seed, normal, depth, roughness):
     problem = block(f"contact.normal={normal}", "contact.stiffness=1e17 Pa/m")
-    increments = problem.system.stepping(SECONDS)[1]
+    increments = increments_of(problem.system)
     rng = np.random.default_rng(seed)
     free = np.zeros((increments.nodes, 3))
     free[:, 2] = depth * (roughness * rng.normal(size=increments.nodes) - 1.0)
     free[:, :2] = 1e-7 * rng.normal(size=(increments.nodes, 2))
     state, motion = ContactState.rest(increments), SurfaceMotion()
-    result = solve_increment(increments, free.ravel(), motion, state)
+    result = IncrementSolver(increments).solve(free.ravel(), motion, state)
     way = result.displacement - free.ravel()
-    again = evaluate(
-        increments, free.ravel(), motion.parameters(), state, result.state.multiplier,
-        result.force, way,
-    )  # fmt: skip
+    equations = Increment(
+        increments, free.ravel(), motion.numbers(), state.committed(result.state.multiplier)
+    )
+    again = equations.evaluate(result.force, way)
     assert again.force == pytest.approx(
         result.force, rel=1e-6, abs=1e-7 * np.abs(result.force).max()
     )
@@ -209,21 +211,27 @@ def test_an_active_set_that_settles_is_an_equilibrium(seed, normal, depth, rough
 
 def test_an_active_set_that_does_not_settle_in_time_is_an_error_with_its_residual():
     problem = block("contact.stiffness=1e17 Pa/m")
-    increments = dataclasses.replace(problem.system.stepping(SECONDS)[1], most_iterations=1)
+    increments = dataclasses.replace(increments_of(problem.system), most_iterations=1)
     rng = np.random.default_rng(1)
     free = np.zeros((increments.nodes, 3))
     free[:, 2] = 1e-7 * (rng.normal(size=increments.nodes) - 0.5)
     with pytest.raises(ConvergenceError, match=r"found no equilibrium in \d+ iterations") as error:
-        solve_increment(increments, free.ravel(), SurfaceMotion(), ContactState.rest(increments))
+        IncrementSolver(increments).solve(
+            free.ravel(), SurfaceMotion(), ContactState.rest(increments)
+        )
     assert error.value.reached["residual"] > 1e-9
     assert error.value.reached["active"] >= 0.0
 
 
 def test_a_motion_that_is_not_finite_is_an_error():
-    increments = block().system.stepping(SECONDS)[1]
+    increments = increments_of(block().system)
     free = np.full(3 * increments.nodes, np.nan)
     with pytest.raises(ConvergenceError, match="left the finite numbers"):
-        solve_increment(increments, free, SurfaceMotion(), ContactState.rest(increments))
+        IncrementSolver(increments).solve(free, SurfaceMotion(), ContactState.rest(increments))
+
+
+def increments_of(system):
+    return system.increments(system.motion_step(SECONDS).compliance, SECONDS)
 
 
 def leaving_speed(height, *, impact):

@@ -11,21 +11,40 @@ from asperity.block import march as block_march
 from asperity.block.check import check
 from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import BlockProblem
-from asperity.block.resume import key_of, restore, state
+from asperity.block.resume import march_key
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.increment import newton
+from asperity.contact.increment import IncrementSolver
+from asperity.contact.increment.equations import Increment
 from asperity.contact.interface.normal import NormalLaw, pressure
-from asperity.contact.motion import hht, ledger, steps
+from asperity.contact.motion import hht, ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.system import System
 from asperity.errors import ConvergenceError, InputError
+from asperity.runs import Run
+from asperity.runs.keeper import Keeper
 from asperity.runs.tree import read_tree, write_tree
 from asperity.slider.march import march as slide
 
 SMALL = ("block.elements=[2, 2, 2]", "block.element=hex8")
 SHAKEN = ("vibration.start=0 s", "solve.step=5 us", "solve.duration=1.5 ms")
 STIFF = ("slider.drive_stiffness=1e7 N/m", "slider.drive_damping=2000 N s/m")
+
+
+@pytest.fixture(autouse=True)
+def _told_of_every_increment(monkeypatch):
+    monkeypatch.setattr(block_march, "_REPORTS", 0.0)
+
+
+class Told(Run):
+    """Calls a function between increments."""
+
+    def __init__(self, between):
+        super().__init__()
+        self.between = between
+
+    def checkpoint(self, *_):
+        self.between()
 
 
 def problem(*settings, case="block-longitudinal"):
@@ -61,7 +80,7 @@ def test_a_block_pulled_at_half_its_height_leans_on_its_leading_edge():
     block = problem(*STIFF, "vibration.velocity_ratio=0", "solve.duration=8 ms")
     march = BlockMarch(block)
     result = march.run()
-    state = march.walker.state
+    state = march.stepper.state
     body = slide(block.model)
     assert result.ratio == pytest.approx(1.0, rel=1e-3)
     assert result.ratio == pytest.approx(body.ratio, rel=1e-4)
@@ -109,7 +128,7 @@ def test_the_power_ledger_closes(name):
 def test_increments_solved_poorly_leave_the_ledger_open(monkeypatch):
     exact = solve_block(problem(), history=False).ledger
     march = BlockMarch(problem(), history=False)
-    assert march.walker.state.time == 0.0
+    assert march.stepper.state.time == 0.0
     prepare = System.increments
 
     def poorly(system, compliance, step):
@@ -130,7 +149,7 @@ def test_increments_that_end_above_their_tolerance_are_counted_also_over_an_inte
         return dataclasses.replace(prepare(system, compliance, step), tolerance=1e-17)
 
     monkeypatch.setattr(System, "increments", beyond_the_digits)
-    monkeypatch.setattr(newton, "_rounding", lambda *_: 1e-8)
+    monkeypatch.setattr(Increment, "rounding", lambda *_: 1e-8)
     kept = "solve.duration=0.8 ms"
     whole = solve_block(problem(kept), history=False)
     assert whole.unconverged == whole.increments == 160
@@ -142,8 +161,8 @@ def test_increments_that_end_above_their_tolerance_are_counted_also_over_an_inte
     assert whole.to_dataset().attrs["unconverged"] == 160
     stopped(problem(kept), 70, tmp_path / "kept.npz")
     second = BlockMarch(problem(kept), history=False)
-    restore(second, read_tree(tmp_path / "kept.npz"))
-    assert second.walker.unconverged == 70
+    second.restore(read_tree(tmp_path / "kept.npz"))
+    assert second.stepper.unconverged == 70
     result = second.run()
     assert (result.unconverged, result.residual_increment_max) == (
         160, whole.residual_increment_max,
@@ -185,11 +204,11 @@ def test_the_time_of_an_increment_is_its_own_also_after_an_interruption(monkeypa
     fake = types.SimpleNamespace(perf_counter=lambda: float(next(clock)))
     monkeypatch.setattr(block_march, "time", fake)
     # Reading the clock is all that takes time here, a second each; writing takes ten.
-    writing = BlockMarch(problem(), between=lambda: [next(clock) for _ in range(10)])
+    writing = BlockMarch(problem(), run=Told(lambda: [next(clock) for _ in range(10)]))
     assert writing.run().to_json()["ms_per_increment"] == 1000.0
     stopped(problem(), 20, tmp_path / "kept.npz")
     second = BlockMarch(problem())
-    restore(second, read_tree(tmp_path / "kept.npz"))
+    second.restore(read_tree(tmp_path / "kept.npz"))
     result = second.run()
     assert result.timed == result.increments - 2
     assert result.to_json()["ms_per_increment"] == 1000.0
@@ -226,7 +245,7 @@ def test_a_guided_block_neither_shifts_sideways_nor_turns():
     block = problem("slider.lateral=guided", "vibration.direction=60 deg")
     march = BlockMarch(block)
     result = march.run()
-    place = march.walker.state.coordinates[0]
+    place = march.stepper.state.coordinates[0]
     assert place[[1, 3, 4, 5]] == pytest.approx(np.zeros(4), abs=1e-16)
     assert np.abs(result.history.friction[:, 1]).max() > 1.0
 
@@ -254,16 +273,16 @@ def test_a_mirrored_vibration_mirrors_the_lateral_friction():
 def test_an_increment_that_fails_is_taken_in_halves(monkeypatch):
     block = problem()
     whole = solve_block(block, history=False)
-    solve, full = steps.solve_increment, block.timetable.step
+    solve, full = IncrementSolver.solve, block.timetable.step
     failed = []
 
     def stumbles(given, *arguments):
-        if given.step == full and len(failed) < 3:
-            failed.append(given.step)
+        if given.problem.step == full and len(failed) < 3:
+            failed.append(given.problem.step)
             raise ConvergenceError("no equilibrium")
         return solve(given, *arguments)
 
-    monkeypatch.setattr(steps, "solve_increment", stumbles)
+    monkeypatch.setattr(IncrementSolver, "solve", stumbles)
     cut = solve_block(problem(), history=False)
     assert cut.cuts == len(failed) == 3
     assert "3 increments did not converge at once" in " ".join(cut.notes)
@@ -273,7 +292,7 @@ def test_an_increment_that_fails_is_taken_in_halves(monkeypatch):
 
 def test_an_increment_that_fails_however_small_says_where_and_keeps_what_was_done(monkeypatch):
     march = BlockMarch(problem())
-    solve, calls = steps.solve_increment, []
+    solve, calls = IncrementSolver.solve, []
 
     def fails(*arguments):
         calls.append(1)
@@ -281,7 +300,7 @@ def test_an_increment_that_fails_however_small_says_where_and_keeps_what_was_don
             raise ConvergenceError("no equilibrium", reached={"residual": 0.5, "active": 16.0})
         return solve(*arguments)
 
-    monkeypatch.setattr(steps, "solve_increment", fails)
+    monkeypatch.setattr(IncrementSolver, "solve", fails)
     with pytest.raises(ConvergenceError, match=r"at 0\.000\d+ s.*cut in half 8 times") as failure:
         march.run()
     reached = failure.value.reached
@@ -303,10 +322,10 @@ TIMES = {"ms_per_increment", "seconds", "condense_seconds", "condensed_from_cach
 def stopped(block, after, path):
     def stop():
         if march.done == after:
-            write_tree(path, state(march))
+            write_tree(path, march.state())
             raise KeyboardInterrupt
 
-    march = BlockMarch(block, between=stop)
+    march = BlockMarch(block, run=Told(stop))
     with pytest.raises(KeyboardInterrupt):
         march.run()
     assert march.done == after
@@ -319,7 +338,7 @@ def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path)
     whole = solve_block(problem(*RESUMED[name]))
     stopped(problem(*RESUMED[name]), stop, tmp_path / "kept.npz")
     second = BlockMarch(problem(*RESUMED[name]))
-    restore(second, read_tree(tmp_path / "kept.npz"))
+    second.restore(read_tree(tmp_path / "kept.npz"))
     assert second.done == stop
     result = second.run()
     answers = [
@@ -341,7 +360,7 @@ def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_
 ):
     whole = solve_block(problem("vibration.direction=45 deg"))
     march = BlockMarch(problem("vibration.direction=45 deg"))
-    solve, calls = steps.solve_increment, []
+    solve, calls = IncrementSolver.solve, []
 
     def breaks(*arguments):
         calls.append(1)
@@ -355,7 +374,7 @@ def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_
             seen.append(number)
             raise error
 
-    monkeypatch.setattr(steps, "solve_increment", breaks)
+    monkeypatch.setattr(IncrementSolver, "solve", breaks)
     record, seen = march._record, []
     monkeypatch.setattr(march, "_record", recording)
     result, breaks_off = None, 0
@@ -364,7 +383,7 @@ def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_
             result = march.run()
         except error:
             breaks_off += 1
-            assert march.walker.state.time == pytest.approx(march.done * 5e-6)
+            assert march.stepper.state.time == pytest.approx(march.done * 5e-6)
             assert len(march.history.time) == march.done + 1
     assert breaks_off > 5
     assert result.ratio == pytest.approx(whole.ratio, rel=1e-7)
@@ -372,10 +391,37 @@ def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_
     assert result.history.drive_force == pytest.approx(whole.history.drive_force, rel=1e-6)
 
 
-def test_a_march_is_kept_under_the_key_of_its_problem():
-    assert key_of(problem()) == key_of(problem())
-    assert key_of(problem()) != key_of(problem("friction.mu=0.2"))
-    assert key_of(problem()) != key_of(problem("vibration.waveform=triangle"))
+def test_a_march_goes_on_from_what_is_kept_of_it_and_of_nothing_else(tmp_path):
+    told = []
+
+    def march(*settings):
+        return BlockMarch(problem(*settings), run=Run(notify=told.append, folder=tmp_path))
+
+    path = tmp_path / "run.interrupted.npz"
+    assert not march().resume()
+    first = march()
+    Keeper(path, march_key(first.problem), told.append).keep(first.state())
+    again = march()
+    assert again.resume()
+    assert np.array_equal(again.stepper.state.coordinates, first.stepper.state.coordinates)
+    assert told == []
+    assert not march("friction.mu=0.2").resume()
+    assert told == [f"{path} is of another case or version; begins anew"]
+
+
+def test_a_flipped_bit_in_what_is_kept_is_found_told_and_gone_on_without(tmp_path):
+    path, told = tmp_path / "run.interrupted.npz", []
+    march = stopped(problem(), 20, tmp_path / "kept.npz")
+    Keeper(path, march_key(march.problem), told.append).keep(march.state())
+    whole = bytearray(path.read_bytes())
+    whole[whole.find(march.stepper.state.coordinates.tobytes())] ^= 1
+    path.write_bytes(whole)
+    again = BlockMarch(problem(), run=Run(notify=told.append, folder=tmp_path))
+    assert not again.resume()
+    (line,) = told
+    assert line.startswith(f"{path} is damaged")
+    assert line.endswith("set aside as run.interrupted.npz.damaged; begins anew")
+    assert again.run().steps == march.problem.timetable.steps
 
 
 def test_the_frames_of_an_animation_deform_as_the_contact_does():
@@ -385,9 +431,9 @@ def test_the_frames_of_an_animation_deform_as_the_contact_does():
     march = BlockMarch(block)
     result = march.run()
     time, field = list(fields(block, result.frames))[-1]
-    assert time == pytest.approx(march.walker.state.time)
+    assert time == pytest.approx(march.stepper.state.time)
     nodes = block.body.nodes
-    at_contact = march.walker.state.contact.displacement.reshape(-1, 3)
+    at_contact = march.stepper.state.contact.displacement.reshape(-1, 3)
     size = np.abs(at_contact).max()
     # The contact does not ask what the loads do to the drive's own place.
     assert field["displacement"][nodes] == pytest.approx(at_contact, abs=1e-9 * size)
@@ -414,7 +460,7 @@ BENT = (
 def test_a_shaken_block_goes_to_and_fro_over_the_bend_between_two_stages():
     block = problem(*BENT, "vibration.direction=45 deg")
     law = block.normal
-    bends = [float(pressure(over, 0.0, law.parameters)[0]) for over in (law.start, law.end)]
+    bends = [float(pressure(over, 0.0, law.numbers)[0]) for over in (law.start, law.end)]
     result = solve_block(block)
     pressures = np.array([frame.pressure for frame in result.frames])
     assert (pressures.min(axis=0) < bends[0]).any()

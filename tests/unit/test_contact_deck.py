@@ -349,7 +349,7 @@ def test_two_stages_are_written_point_by_point():
     table = np.array(setup.pressure_table())
     assert np.all(np.diff(table, axis=0) > 0.0)
     for over in np.linspace(0.0, setup.normal.end, 40):
-        exact = pressure(over, 0.0, setup.normal.parameters)[0]
+        exact = pressure(over, 0.0, setup.normal.numbers)[0]
         read = np.interp(over, table[:, 1], table[:, 0])
         assert read == pytest.approx(exact, rel=5e-3, abs=1e-6)
     abaqus, calculix = decks(["contact.normal=two-stage"])
@@ -376,7 +376,7 @@ def test_the_block_stands_in_the_base_as_deep_as_its_mean_pressure_presses_it():
     for settings in ([], ["contact.normal=two-stage"], beyond):
         setup = setup_of(*settings)
         depth = overclosure(setup)
-        assert pressure(depth, 0.0, setup.normal.parameters)[0] == pytest.approx(
+        assert pressure(depth, 0.0, setup.normal.numbers)[0] == pytest.approx(
             setup.mean_pressure, rel=1e-9
         )
 

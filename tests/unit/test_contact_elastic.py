@@ -1,5 +1,7 @@
 """Condensing a body: its cache, solvers, bounds and refusals."""
 
+import importlib
+import os
 import subprocess
 import sys
 from dataclasses import fields, replace
@@ -15,11 +17,14 @@ from asperity.contact.elastic import (
     cache,
     condense,
     elastic_body,
+    machine_memory,
     memory_needed,
 )
 from asperity.contact.elastic.solver import factorise, installed_solver
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
+
+condensing = importlib.import_module("asperity.contact.elastic.condense")
 
 STEEL = ElasticMaterial(209e9, 0.3, 7850.0)
 SIZE = (0.04, 0.03, 0.03)
@@ -109,6 +114,34 @@ def test_without_pypardiso_superlu_is_taken(monkeypatch):
     assert installed_solver() == "superlu"
     with pytest.raises(ImportError, match="'pypardiso' is not installed"):
         installed_solver("pypardiso")
+
+
+def test_a_pypardiso_that_finds_no_library_is_none(monkeypatch, tmp_path):
+    (tmp_path / "pypardiso.py").write_text("None.split()")
+    monkeypatch.delitem(sys.modules, "pypardiso", raising=False)
+    monkeypatch.syspath_prepend(tmp_path)
+    assert installed_solver() == "superlu"
+    with pytest.raises(ImportError, match="'pypardiso' finds no MKL library; install it, or use"):
+        installed_solver("pypardiso")
+
+
+@pytest.mark.parametrize("said", ["max", "1000000000", ""])
+def test_the_memory_is_the_machine_s_or_less_of_it_in_a_container(said, monkeypatch, tmp_path):
+    whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    (tmp_path / "memory.max").write_text(f"{said}\n")
+    limits = (str(tmp_path / "memory.max"), str(tmp_path / "nothing"))
+    monkeypatch.setattr(condensing, "_CONTAINER_LIMITS", limits)
+    assert machine_memory() == (min(1e9, whole) if said.isdigit() else whole)
+    monkeypatch.delattr(os, "sysconf")
+    assert machine_memory() == (1e9 if said.isdigit() else np.inf)
+
+
+def test_a_mesh_that_does_not_fit_this_machine_is_refused_and_one_that_does_is_not(monkeypatch):
+    mesh = box(SIZE, (20, 20, 20), 1)
+    needed = memory_needed(mesh, 21 * 21, solver=installed_solver())
+    monkeypatch.setattr(condensing, "machine_memory", lambda: 0.9 * needed)
+    with pytest.raises(InputError, match=r"needs about \S+ GB, more than the limit of \S+ GB"):
+        condense(mesh, STEEL, "bottom", use_cache=False)
 
 
 def test_a_mesh_too_large_for_the_memory_is_refused_with_the_figure_before_any_work():

@@ -6,14 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from asperity.contact.increment.solver import (
-    ContactState,
-    Drift,
-    IncrementProblem,
-    SurfaceMotion,
-)
-from asperity.contact.interface.assembly import stiffness_forces
-from asperity.contact.interface.friction_point import (
+from asperity.contact.increment import ContactState, IncrementProblem, IncrementSolver
+from asperity.contact.interface.active_set import stiffness_forces
+from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
+from asperity.contact.interface.friction import (
     COULOMB,
     DAHL,
     LUGRE,
@@ -22,9 +18,10 @@ from asperity.contact.interface.friction_point import (
     share_and_tangent,
 )
 from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.records import ContactPoints
 from asperity.contact.interface.rigid import Pose, RigidSurface, distance
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.interface.tractions import POINT, tractions
+from asperity.contact.interface.tractions import tractions
 from asperity.friction import SPLIT, UNSPLIT, VECTOR
 from asperity.friction.two_phase import phases
 from asperity.mesh import box
@@ -68,14 +65,13 @@ def problem_of(surface=FACE, counter=None, normal=STIFF, friction="dahl-vector",
 
 
 def evaluated(problem, u, state, motion, tangent):
-    n, q = problem.nodes, problem.points
-    force, deflection, size = np.empty(3 * n), np.empty((q, 3)), np.empty(q)
-    points, stiffness = np.empty((q, POINT)), np.empty((q, 3, 3))
+    force, points = np.empty(3 * problem.nodes), ContactPoints.empty(problem.points)
+    stiffness = np.empty((problem.points, 3, 3))
     tractions(
-        u, state.displacement, state.deflection, state.size, state.multiplier, *problem.arrays,
-        motion.parameters(), force, deflection, size, points, stiffness, tangent,
+        u, state.committed(state.multiplier), problem.interface, motion.numbers(), force, points,
+        stiffness, tangent,
     )  # fmt: skip
-    return force, deflection, size, points, stiffness
+    return force, points, stiffness
 
 
 def pushed(z, across=(0.0, 0.0)):
@@ -133,9 +129,9 @@ def test_the_tangent_is_the_derivative_of_the_nodal_forces(friction, kind):
     flat = laid_on(problem, pose, -5e-6 if kind == "bore" else 0.0)
     u = flat + rng.normal(size=3 * problem.nodes) * 1e-8
     state = dataclasses.replace(state, displacement=state.displacement + flat)
-    _, _, _, points, stiffness = evaluated(problem, u, state, motion, True)
-    assert np.count_nonzero(points[:, 0] > 0.0) > 10
-    faces, shapes, weights = problem.arrays[:3]
+    _, points, stiffness = evaluated(problem, u, state, motion, True)
+    assert np.count_nonzero(points.pressure > 0.0) > 10
+    faces, shapes, weights = problem.interface[:3]
     way = rng.normal(size=u.shape)
     predicted = np.empty_like(u)
     stiffness_forces(stiffness, faces, shapes, weights, way, predicted)
@@ -153,7 +149,7 @@ def test_a_deflection_beyond_its_limit_stays_there_under_further_slip(exponent, 
     size, slip = 1.0 + over, 0.2
     assert phases(size, 1.0, 0.0, slip, 0.0, slip, 0.0, exponent, False) == (size, 1.0, 0.0)
     found = share_and_tangent(
-        size * LIMIT, 0.0, size, slip * LIMIT, 0.0, slip * LIMIT, 0.0, False, law.parameters(0.0)
+        size * LIMIT, 0.0, size, slip * LIMIT, 0.0, slip * LIMIT, 0.0, False, law.numbers(0.0)
     )
     assert found[:5] == pytest.approx((size * LIMIT, 0.0, size, size, 0.0), rel=1e-15)
     assert np.isfinite(found[5] + found[6]).all()
@@ -167,3 +163,35 @@ def test_exponents_below_one_overshoot_the_limit_and_stay_numbers():
         size, *direction = phases(size, *direction, 0.5, 0.0, 0.0, 0.0, 0.5, False)
     assert 1.0 < size < 1.2
     assert direction == [1.0, 0.0]
+
+
+@pytest.mark.parametrize("normal", ["linear", "stiff", "hard"])
+@pytest.mark.parametrize("seed", range(8))
+def test_a_body_that_just_touches_is_an_ordinary_increment(seed, normal):
+    law = {
+        "linear": STIFF, "stiff": NormalLaw("linear", 4e17), "hard": NormalLaw("hard", 4e14)
+    }[normal]  # fmt: skip
+    rng = np.random.default_rng(seed)
+    pose = Pose(
+        Rotation.from_rotvec(0.3 * rng.normal(size=3)).as_matrix(), 1e-3 * rng.normal(size=3)
+    )
+    problem = problem_of(normal=law, friction="dahl-vector" if seed % 2 else "none")
+    # On the plane but for the last digits, by which some points are over it and some are not.
+    u, normals = np.zeros((problem.nodes, 3)), pose.rotation[:, 2]
+    for _ in range(3):
+        off = (problem.surface.positions + u - pose.translation) @ normals
+        u -= off[:, None] * normals
+    solver, state = IncrementSolver(problem), ContactState.rest(problem)
+    touching = solver.solve(u.ravel(), SurfaceMotion(pose), state)
+    assert touching.residual == 0.0
+    assert np.linalg.norm(touching.force) < 1e-12 * problem.normal.stiffness * problem.area_norm
+    # From there on it is pressed, and lifted off again.
+    pressed = solver.solve(
+        u.ravel() - np.tile(1e-7 * normals, problem.nodes), SurfaceMotion(pose), touching.state
+    )
+    assert pressed.active > 0
+    assert 0.0 < pressed.residual < 1e-6
+    lifted = solver.solve(
+        u.ravel() + np.tile(1e-7 * normals, problem.nodes), SurfaceMotion(pose), pressed.state
+    )
+    assert (lifted.active, lifted.residual) == (0, 0.0)

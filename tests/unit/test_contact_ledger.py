@@ -12,7 +12,7 @@ from asperity.commands import case_tables
 from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import ledger
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 
 LINEAR = NormalLaw(stiffness=4e13)
 TWO_STAGE = NormalLaw("two-stage", 4e13, 4e12, 1e-7, 3e-7)
@@ -36,7 +36,7 @@ def pressures(distance, law):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law):
-    parameters = LAWS[law].parameters
+    parameters = LAWS[law].numbers
     distance, deflection, weights = steps_of()
     pressed = pressures(distance, parameters)
     deflection[pressed == 0.0] = 0.0
@@ -66,7 +66,7 @@ def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_the_work_of_a_pressure_is_its_integral_and_its_potential(law):
-    parameters = LAWS[law].parameters
+    parameters = LAWS[law].numbers
     for begin, end in [(-2e-7, 5e-8), (5e-8, 2e-7), (4e-7, 2e-7), (6e-7, -1e-7), (5e-7, 9e-7)]:
         low, high = sorted((begin, end))
         inside = [kink for kink in KINKS if low < kink < high]
@@ -80,7 +80,7 @@ def test_the_work_of_a_pressure_is_its_integral_and_its_potential(law):
 
 
 def test_hard_contact_stores_nothing():
-    assert ledger.overclosure_work(0.0, 1e-7, NormalLaw("hard", 4e13).parameters) == 0.0
+    assert ledger.overclosure_work(0.0, 1e-7, NormalLaw("hard", 4e13).numbers) == 0.0
 
 
 def marched(steps, cycles=4.25, rise=0.0, settings=()):
@@ -92,18 +92,18 @@ def marched(steps, cycles=4.25, rise=0.0, settings=()):
     ]  # fmt: skip
     problem = BlockProblem.from_case(read_case("block-longitudinal", case_tables(), case))
     system, start = problem.system, problem.system.shaking
-    shaking = dataclasses.replace(start, way=(start.way[0], start.way[1], rise))
+    shaking = dataclasses.replace(start, amplitude=(*start.amplitude[:2], rise))
     system = dataclasses.replace(system, shaking=shaking)
-    walker = Walker(system, rest_under_load(system, problem.loads))
-    before = walker.state
+    stepper = Stepper(system, rest_under_load(system, problem.loads))
+    before = stepper.state
     for number in range(1, round(cycles * steps) + 1):
-        walker.step_to(number * step, step)
-    return walker, before
+        stepper.step_to(number * step, step)
+    return stepper, before
 
 
-def balance(walker, before):
-    start, end = (state.energies(walker.system) for state in (before, walker.state))
-    return ledger.power_ledger(walker.sums, start, end)
+def balance(stepper, before):
+    start, end = (state.energies(stepper.system) for state in (before, stepper.state))
+    return ledger.power_ledger(stepper.sums, start, end)
 
 
 SHAKEN = {"rise": 2e-9}
@@ -113,9 +113,9 @@ CLOSED = 5e-6
 
 
 def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypatch):
-    walker, before = marched(160, **SHAKEN)
+    stepper, before = marched(160, **SHAKEN)
     right = ledger.surface_energies
-    assert balance(walker, before).residual < CLOSED
+    assert balance(stepper, before).residual < CLOSED
     for over, asperities in [(1.01, 1.0), (1.0, 1.01), (0.0, 1.0), (1.0, 0.0)]:
 
         def wrong(*contact, over=over, asperities=asperities):
@@ -123,14 +123,14 @@ def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypat
             return over * energies[0], asperities * energies[1]
 
         monkeypatch.setattr(ledger, "surface_energies", wrong)
-        assert balance(walker, before).residual > 3.0 * CLOSED
+        assert balance(stepper, before).residual > 3.0 * CLOSED
 
 
 def test_friction_is_what_it_is_whatever_is_said_to_be_stored(monkeypatch):
-    walker, before = marched(160, **SHAKEN)
-    friction = balance(walker, before).friction
+    stepper, before = marched(160, **SHAKEN)
+    friction = balance(stepper, before).friction
     monkeypatch.setattr(ledger, "surface_energies", lambda *contact: (1.0, 1.0))
-    assert balance(walker, before).friction == friction
+    assert balance(stepper, before).friction == friction
 
 
 def test_what_the_steps_take_is_small_and_goes_with_them():

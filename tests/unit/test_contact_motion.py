@@ -248,7 +248,7 @@ def test_a_drive_without_stiffness_is_refused():
 )
 def test_the_energy_of_the_overclosure_is_the_integral_of_the_pressure(law, over):
     at = np.linspace(0.0, over, 20_001)
-    pressures = np.array([pressure(x, 0.0, law.parameters)[0] for x in at])
-    assert ledger.potential(over, law.parameters) == pytest.approx(
+    pressures = np.array([pressure(x, 0.0, law.numbers)[0] for x in at])
+    assert ledger.potential(over, law.numbers) == pytest.approx(
         np.trapezoid(pressures, at), rel=1e-6
     )

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from asperity.contact.elastic import ElasticMaterial, condense
-from asperity.contact.increment.solver import IncrementProblem
-from asperity.contact.interface.normal import NormalLaw, aimed_overclosure, pressure
+from asperity.contact.increment import IncrementProblem, IncrementSolver
+from asperity.contact.interface.normal import NormalLaw, augmented_overclosure, pressure
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
 from asperity.contact.motion.static import Guide, move_to
@@ -25,7 +25,7 @@ LAWS = {
 def test_pressure_is_never_negative_grows_and_has_the_slope_it_says(name):
     law, multiplier = LAWS[name]
     overs = np.linspace(-5e-9, 2e-8, 401)
-    values = np.array([pressure(over, multiplier, law.parameters) for over in overs])
+    values = np.array([pressure(over, multiplier, law.numbers) for over in overs])
     assert (values[:, 0] >= 0.0).all()
     assert (np.diff(values[:, 0]) >= 0.0).all()
     between = np.diff(values[:, 0]) / np.diff(overs)
@@ -36,13 +36,13 @@ def test_pressure_is_never_negative_grows_and_has_the_slope_it_says(name):
 
 
 def test_the_linear_law_is_proportional_to_the_overclosure_and_opens():
-    law = NormalLaw("linear", STIFF).parameters
+    law = NormalLaw("linear", STIFF).numbers
     assert pressure(3e-9, 0.0, law) == pytest.approx((STIFF * 3e-9, STIFF))
     assert pressure(-1e-12, 0.0, law) == (0.0, 0.0)
 
 
 def test_the_two_stage_law_is_soft_first_stiff_last_and_smooth_between():
-    law = TWO.parameters
+    law = TWO.numbers
     assert pressure(1e-9, 0.0, law) == pytest.approx((0.1 * STIFF * 1e-9, 0.1 * STIFF))
     assert pressure(2e-8, 0.0, law)[1] == STIFF
     # In the transition the stiffness rises linearly: the pressure grows by its mean.
@@ -56,7 +56,7 @@ def test_the_two_stage_law_is_soft_first_stiff_last_and_smooth_between():
 def test_past_its_transition_the_two_stage_law_is_a_line_that_starts_later():
     late = (1.0 - TWO.initial / STIFF) * 0.5 * (TWO.start + TWO.end)
     for over in (6e-9, 2e-8, 1e-6):
-        value, slope = pressure(over, 0.0, TWO.parameters)
+        value, slope = pressure(over, 0.0, TWO.numbers)
         assert value == pytest.approx(STIFF * (over - late), rel=1e-12)
         assert slope == STIFF
 
@@ -64,25 +64,25 @@ def test_past_its_transition_the_two_stage_law_is_a_line_that_starts_later():
 @pytest.mark.parametrize("over", [5e-10, 3e-9, 5.9e-9, 1e-7])
 def test_the_slope_of_the_two_stage_law_is_the_derivative_of_its_pressure(over):
     step = 1e-4 * over
-    ahead, behind = (pressure(over + way, 0.0, TWO.parameters)[0] for way in (step, -step))
+    ahead, behind = (pressure(over + way, 0.0, TWO.numbers)[0] for way in (step, -step))
     assert (ahead - behind) / (2.0 * step) == pytest.approx(
-        pressure(over, 0.0, TWO.parameters)[1], rel=1e-9
+        pressure(over, 0.0, TWO.numbers)[1], rel=1e-9
     )
 
 
 def test_the_hard_law_bears_its_multiplier_without_overclosure():
-    law = NormalLaw("hard", STIFF).parameters
+    law = NormalLaw("hard", STIFF).numbers
     assert pressure(0.0, 3e5, law) == (3e5, STIFF)
     assert pressure(-3e5 / STIFF * 1.001, 3e5, law) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("give", [1e12, 4e14, 1e17])
-def test_an_aimed_overclosure_meets_its_aim(name, give):
+def test_an_augmented_overclosure_meets_its_aim(name, give):
     law, multiplier = LAWS[name]
     for aim in np.concatenate([-np.logspace(2, 9, 15), np.logspace(2, 9, 15)]):
-        over = aimed_overclosure(aim, give, multiplier, law.parameters)
-        value, _ = pressure(over, multiplier, law.parameters)
+        over = augmented_overclosure(aim, give, multiplier, law.numbers)
+        value, _ = pressure(over, multiplier, law.numbers)
         assert value + give * over == pytest.approx(aim, rel=1e-9)
 
 
@@ -131,7 +131,7 @@ def block(request):
 def pressed(block, law, guide, place):
     counter = RigidSurface.plane() if guide is UP else RigidSurface.sphere(RADIUS)
     problem = IncrementProblem(*block, counter, law)
-    return problem, move_to(problem, guide, place).contact
+    return problem, move_to(IncrementSolver(problem), guide, place).contact
 
 
 @pytest.mark.parametrize("stiffness", [E / SIZE, 10 * E / SIZE, 100 * E / SIZE])
@@ -199,7 +199,7 @@ def test_a_body_on_a_two_stage_contact_gives_more_than_on_its_last_and_less_than
 def test_two_stages_give_each_pressure_at_one_overclosure_with_the_slope_there(start):
     law = NormalLaw("two-stage", 1e14, 2e13, start, 3e-9)
     for over in (1e-10, 1e-9, 1.7e-9, 3e-9, 8e-9):
-        value, slope = pressure(over, 0.0, law.parameters)
+        value, slope = pressure(over, 0.0, law.numbers)
         assert law.overclosure(value) == pytest.approx(over, rel=1e-12)
         assert law.slope_at(value) == pytest.approx(slope, rel=1e-9)
     assert law.overclosure(0.0) == law.overclosure(-1.0) == 0.0

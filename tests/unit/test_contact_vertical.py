@@ -10,7 +10,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 
 STEP = 5e-6
 STIFFNESS = 1e10  # Pa/m
@@ -26,21 +26,21 @@ def shaken(amplitude, *changes):
     )  # fmt: skip
     problem = BlockProblem.from_case(read_case("block-longitudinal", case_tables(), settings))
     system = problem.system
-    shaking = dataclasses.replace(system.shaking, way=(0.0, 0.0, amplitude))
+    shaking = dataclasses.replace(system.shaking, amplitude=(0.0, 0.0, amplitude))
     system = dataclasses.replace(system, shaking=shaking, drive_velocity=0.0)
-    return problem, Walker(system, rest_under_load(system, problem.loads))
+    return problem, Stepper(system, rest_under_load(system, problem.loads))
 
 
 def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
     amplitude = 1e-7
-    problem, walker = shaken(amplitude)
+    problem, stepper = shaken(amplitude)
     spring = STIFFNESS * problem.block.area
     own, imposed = np.sqrt(spring / problem.mass), 2.0 * np.pi * FREQUENCY
     times = STEP * np.arange(1, 1001)
     forces = []
     for time in times:
-        walker.step_to(time, STEP)
-        forces.append(walker.state.forces[ledger.FN])
+        stepper.step_to(time, STEP)
+        forces.append(stepper.state.forces[ledger.FN])
     # z'' + own^2 (z - z_base) = 0 from rest, with z_base = amplitude sin(imposed t).
     share = own / (own**2 - imposed**2)
     z = amplitude * share * (own * np.sin(imposed * times) - imposed * np.sin(own * times))
@@ -58,21 +58,21 @@ def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
     ],
 )
 def test_a_block_that_is_thrown_up_keeps_its_momentum_and_its_ledger(contact):
-    problem, walker = shaken(2e-5, *contact)
+    problem, stepper = shaken(2e-5, *contact)
     mass = problem.mass
-    before = walker.state.energies(walker.system)
+    before = stepper.state.energies(stepper.system)
     touching, landings = True, 0
     for number in range(1, 4001):
-        walker.step_to(number * STEP, STEP)
-        before_it, touching = touching, walker.state.contact.active > 0
+        stepper.step_to(number * STEP, STEP)
+        before_it, touching = touching, stepper.state.contact.active > 0
         landings += touching and not before_it
     assert landings >= 2
-    sums = walker.sums
+    sums = stepper.sums
     push = sums[ledger.NORMAL_FORCE] - 55.0 * sums[ledger.TIME]
     assert push == pytest.approx(
-        mass * walker.state.coordinates[hht.VELOCITY, 2], abs=0.02 * 55.0 * sums[ledger.TIME]
+        mass * stepper.state.coordinates[hht.VELOCITY, 2], abs=0.02 * 55.0 * sums[ledger.TIME]
     )
-    balance = ledger.power_ledger(sums, before, walker.state.energies(walker.system))
+    balance = ledger.power_ledger(sums, before, stepper.state.energies(stepper.system))
     assert balance.vibration > 0.0
     missing = balance.drive + balance.vibration + balance.loads - balance.friction
     missing -= balance.damping + balance.numerical + balance.stored

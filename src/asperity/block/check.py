@@ -3,7 +3,7 @@
 import math
 
 from asperity.block.problem import BlockProblem
-from asperity.contact.elastic import MEMORY_LIMIT, memory_for
+from asperity.contact.elastic import machine_memory, memory_for
 from asperity.contact.elastic.solver import installed_solver
 from asperity.errors import InputError
 
@@ -32,7 +32,7 @@ def check(problem: BlockProblem) -> None:
     ------
     InputError
         Steps that miss the vibration, forces or stiffnesses beyond small deformations, more
-        modes than the mesh has, or a mesh too large for the memory bound.
+        modes than the mesh has, or a mesh too large for the machine's memory.
     """
     check_ranges(problem)
     block, unknowns = problem.block, 3 * problem.nodes
@@ -49,11 +49,12 @@ def check(problem: BlockProblem) -> None:
         modes=block.modes,
         solver=installed_solver(),
     )
-    if needed > MEMORY_LIMIT:
+    there = machine_memory()
+    if needed > there:
         raise InputError(
             f"block.elements is {list(block.elements)} with '{block.element}', {unknowns} "
-            f"unknowns; condensing them needs about {needed / 1e9:.3g} GB, more than the limit "
-            f"of {MEMORY_LIMIT / 1e9:.3g} GB: take fewer elements"
+            f"unknowns; condensing them needs about {needed / 1e9:.3g} GB, more than the "
+            f"{there / 1e9:.3g} GB of this machine: take fewer elements"
         )
 
 

@@ -3,28 +3,32 @@
 import functools
 import math
 import time
-from collections.abc import Callable
 
 import numpy as np
 
 from asperity.block.notes import block_notes
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult
+from asperity.block.resume import MarchState, march_key
 from asperity.block.series import Frame
 from asperity.block.stability import Flutter, Stability
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Snapshot, Walker
+from asperity.contact.motion.steps import Snapshot, Stepper
 from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
+from asperity.runs import Run
+from asperity.runs.tree import Tree, from_tree, to_tree
 from asperity.slider.model import FloatArray
 from asperity.slider.result import History
 
 _RECORDS = 4000
-_REPORTS = 1000
 _FRAMES = 48
 _FRAME_CYCLES = 2
+
+# Seconds between two times of telling how far it is.
+_REPORTS = 0.1
 
 _NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
 
@@ -47,10 +51,8 @@ class BlockMarch:
     history : bool
         Whether to keep motion and forces over time (a few thousand rows at any length) and frames
         of the last cycles.
-    progress : callable, optional
-        Told, now and then, how many increments are done, and of how many.
-    between : callable, optional
-        Called after every increment, when the march is whole: to keep it, or to end it by raising.
+    run : Run, optional
+        Told how far the march is; it may keep it between increments, or end it by raising.
 
     Attributes
     ----------
@@ -63,8 +65,7 @@ class BlockMarch:
         problem: BlockProblem,
         *,
         history: bool = True,
-        progress: Callable[[int, int], None] | None = None,
-        between: Callable[[], None] | None = None,
+        run: Run | None = None,
     ) -> None:
         self.problem = problem
         self.done = 0
@@ -75,30 +76,55 @@ class BlockMarch:
         self.first_pressure: FloatArray | None = None
         self.seconds = self.march_seconds = 0.0
         self.timed = 0
-        self._progress, self._between = progress, between
+        self._run = run or Run()
         table = problem.timetable
         self._stride = max(1, table.steps // _RECORDS) if history else 0
-        self._told = max(1, table.steps // _REPORTS)
         self._frame_steps = _frame_steps(problem) if history else frozenset()
-        self._walker: Walker | None = None
+        self._stepper: Stepper | None = None
 
     @property
-    def walker(self) -> Walker:
-        """The walking system, at rest under its load before the first increment."""
-        if self._walker is None:
+    def stepper(self) -> Stepper:
+        """The system on its way, at rest under its load before the first increment."""
+        if self._stepper is None:
             system = self.problem.system
-            self._walker = Walker(system, rest_under_load(system, self.problem.loads))
+            self._stepper = Stepper(system, rest_under_load(system, self.problem.loads))
             self._record(0)
-        return self._walker
+        return self._stepper
 
     @functools.cached_property
     def flutter(self) -> Flutter | None:
         """What grows as the block slides; known before the first increment."""
         return Stability(self.problem).flutter()
 
-    def begin_from(self, state: SystemState) -> None:
-        """Begin from a state instead of at rest under the load."""
-        self._walker = Walker(self.problem.system, state)
+    def state(self) -> Tree:
+        """Return where the march stands, to be kept."""
+        stepper = self.stepper
+        tree: Tree = to_tree(
+            MarchState(
+                self.done, self.seconds, self.march_seconds, self.timed, np.array(self.rows),
+                self.frames, self.window_energies, self.first_half, self.first_pressure,
+                stepper.snapshot(), stepper.memories(),
+            )
+        )  # fmt: skip
+        return tree
+
+    def restore(self, tree: Tree) -> None:
+        """Go on from where a march of the same problem stood."""
+        state = from_tree(MarchState, tree)
+        self._stepper = Stepper(self.problem.system, state.snapshot.state)
+        self._stepper.restore(state.snapshot)
+        self._stepper.recall(state.memories)
+        self.done, self.rows, self.frames = state.done, list(state.rows), state.frames
+        self.seconds, self.march_seconds = state.seconds, state.march_seconds
+        self.timed, self.window_energies = state.timed, state.window_energies
+        self.first_half, self.first_pressure = state.first_half, state.first_pressure
+
+    def resume(self) -> bool:
+        """Go on from where the run has kept a march of this problem; returns whether it has."""
+        tree = self._run.resume(march_key(self.problem))
+        if tree is not None:
+            self.restore(tree)
+        return tree is not None
 
     def run(self) -> BlockResult:
         """March to the end.
@@ -112,8 +138,8 @@ class BlockMarch:
             An increment did not converge however small; with time, residual, points in contact
             and the increments done.
         """
-        last = time.perf_counter()
-        table, walker = self.problem.timetable, self.walker
+        last = told = time.perf_counter()
+        table, stepper = self.problem.timetable, self.stepper
         first = self.done
         whole = self._place()
         try:
@@ -123,7 +149,7 @@ class BlockMarch:
                 elif self.done == table.middle and self.first_half is None:
                     self._close_first_half()
                 begin = time.perf_counter()
-                walker.step_to((self.done + 1) * table.step, table.step)
+                stepper.step_to((self.done + 1) * table.step, table.step)
                 self.done += 1
                 self._record(self.done)
                 now = time.perf_counter()
@@ -134,7 +160,9 @@ class BlockMarch:
                     self.timed += 1
                 last = now
                 whole = self._place()
-                self._tell()
+                if now - told >= _REPORTS or self.done == table.steps:
+                    told = now
+                    self._run.checkpoint(self.done, table.steps, self.state, "increments")
         except ConvergenceError as error:
             self._go_back(whole)
             raise ConvergenceError(
@@ -152,37 +180,31 @@ class BlockMarch:
     def _place(self) -> _Place:
         """Return all that an increment changes, in one piece: no interruption can split it."""
         return (
-            self.done, self.walker.snapshot(), len(self.rows), len(self.frames),
+            self.done, self.stepper.snapshot(), len(self.rows), len(self.frames),
             self.window_energies, self.first_half, self.first_pressure,
         )  # fmt: skip
 
     def _go_back(self, place: _Place) -> None:
         self.done, snapshot, rows, frames, energies, half, pressure = place
-        self.walker.restore(snapshot)
+        self.stepper.restore(snapshot)
         del self.rows[rows:], self.frames[frames:]
         self.window_energies, self.first_half, self.first_pressure = energies, half, pressure
 
-    def _tell(self) -> None:
-        if self._progress is not None and self.done % self._told == 0:
-            self._progress(self.done, self.problem.timetable.steps)
-        if self._between is not None:
-            self._between()
-
     def _open_window(self) -> None:
-        walker = self.walker
-        self.window_energies = walker.state.energies(walker.system)
-        walker.clear()
+        stepper = self.stepper
+        self.window_energies = stepper.state.energies(stepper.system)
+        stepper.clear()
 
     def _close_first_half(self) -> None:
-        self.first_half = self.walker.sums.copy()
-        self.first_pressure = self.walker.mean_pressure.copy()
-        self.walker.clear()
+        self.first_half = self.stepper.sums.copy()
+        self.first_pressure = self.stepper.mean_pressure.copy()
+        self.stepper.clear()
 
     def _record(self, number: int) -> None:
         table = self.problem.timetable
-        if not self._stride or self._walker is None:
+        if not self._stride or self._stepper is None:
             return
-        state = self._walker.state
+        state = self._stepper.state
         in_tail = number > table.steps - table.tail
         if number % self._stride == 0 or in_tail or number == table.steps:
             self.rows.append(_row(state))
@@ -203,14 +225,14 @@ class BlockMarch:
         )
 
     def _result(self) -> BlockResult:
-        problem, walker = self.problem, self.walker
+        problem, stepper = self.problem, self.stepper
         model, table = problem.model, problem.timetable
         first, start = self.first_half, self.window_energies
         if first is None or start is None or self.first_pressure is None:
             raise ConvergenceError(f"the march is at {self.done} of {table.steps} increments")
-        second = walker.sums
+        second = stepper.sums
         sums = _joined(first, second)
-        end = walker.state.energies(walker.system)
+        end = stepper.state.energies(stepper.system)
         span = float(sums[ledger.TIME])
         force = model.full_friction
         halves = [float(s[ledger.DRIVE_FORCE] / s[ledger.TIME]) for s in (first, second)]
@@ -234,27 +256,24 @@ class BlockMarch:
             seconds=self.seconds,
             history=self.history if self._stride else None,
             notes=block_notes(
-                problem, walker, powers, residual, self.flutter, broke=breakaway >= 0.0
+                problem, stepper, powers, residual, self.flutter, broke=breakaway >= 0.0
             ),
             normal_force=float(sums[ledger.NORMAL_FORCE]) / span,
             iterations_mean=float(sums[ledger.ITERATIONS] / sums[ledger.INCREMENTS]),
             iterations_max=int(sums[ledger.MOST_ITERATIONS]),
-            cuts=walker.cuts,
-            unconverged=walker.unconverged,
-            residual_increment_max=walker.residual_max,
+            cuts=stepper.cuts,
+            unconverged=stepper.unconverged,
+            residual_increment_max=stepper.residual_max,
             march_seconds=self.march_seconds,
             timed=self.timed,
-            point_pressure=(self.first_pressure + walker.mean_pressure) / span,
+            point_pressure=(self.first_pressure + stepper.mean_pressure) / span,
             peak_pressure=float(sums[ledger.MAX_PRESSURE]),
             frames=tuple(self.frames),
         )
 
 
 def solve_block(
-    problem: BlockProblem,
-    *,
-    history: bool = True,
-    progress: Callable[[int, int], None] | None = None,
+    problem: BlockProblem, *, history: bool = True, run: Run | None = None
 ) -> BlockResult:
     """Solve an elastic block on a vibrating base.
 
@@ -264,8 +283,8 @@ def solve_block(
         The block.
     history : bool
         Whether to keep motion and forces over time, and frames of the last cycles.
-    progress : callable, optional
-        Told, now and then, how many increments are done, and of how many.
+    run : Run, optional
+        Told, now and then, how far it is.
 
     Raises
     ------
@@ -274,7 +293,7 @@ def solve_block(
     ConvergenceError
         An increment did not converge however small.
     """
-    return BlockMarch(problem, history=history, progress=progress).run()
+    return BlockMarch(problem, history=history, run=run).run()
 
 
 def _frame_steps(problem: BlockProblem) -> frozenset[int]:

@@ -5,7 +5,7 @@ import math
 from asperity.block.problem import BlockProblem
 from asperity.block.stability import Flutter, Stability, flutter_note
 from asperity.contact.motion.ledger import ContactLedger
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 from asperity.slider.timetable import march_notes
 
 _MOST_SLIP = 0.5
@@ -17,7 +17,7 @@ _MOST_NUMERICAL = 3e-4
 
 def block_notes(
     problem: BlockProblem,
-    walker: Walker,
+    stepper: Stepper,
     powers: ContactLedger,
     residual: float,
     flutter: Flutter | None,
@@ -30,7 +30,7 @@ def block_notes(
     ----------
     problem : BlockProblem
         The block.
-    walker : Walker
+    stepper : Stepper
         Which has marched it.
     powers : ContactLedger
         Means over the window.
@@ -74,14 +74,14 @@ def block_notes(
             f"{system.newmark_beta(table.step):.3g}, for impacts; a solve.step of "
             f"{finer:.2g} s resolves it{_unless(problem, finer)}"
         )
-    if walker.unconverged:
+    if stepper.unconverged:
         notes.append(
-            f"{walker.unconverged} increments ended above the tolerance, at a relative "
-            f"residual of up to {walker.residual_max:.2g}, for want of digits: a softer "
+            f"{stepper.unconverged} increments ended above the tolerance, at a relative "
+            f"residual of up to {stepper.residual_max:.2g}, for want of digits: a softer "
             "contact does better"
         )
-    if walker.cuts:
-        notes.append(f"{walker.cuts} increments did not converge at once and were taken in halves")
+    if stepper.cuts:
+        notes.append(f"{stepper.cuts} increments did not converge at once and were taken in halves")
     return tuple(notes)
 
 

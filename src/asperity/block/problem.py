@@ -32,7 +32,7 @@ from asperity.contact.elastic import (
     condense,
     elastic_body,
 )
-from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import ContactSurface, contact_surface

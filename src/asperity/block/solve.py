@@ -4,7 +4,6 @@ from asperity.block.check import check
 from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, UnfinishedBlock
-from asperity.block.resume import key_of, restore, state
 from asperity.block.stability import flutter_note
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError
@@ -34,18 +33,12 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult:
     Interrupted
         Ctrl-C; what is kept is said.
     """
-
-    def between() -> None:
-        run.checkpoint(march.done, problem.timetable.steps, lambda: state(march), "increments")
-
-    march = BlockMarch(problem, history=run.detailed, between=between)
-    kept = run.resume(key_of(problem)) if run.detailed else None
-    if kept is not None:
-        restore(march, kept)
+    march = BlockMarch(problem, history=run.detailed, run=run)
+    if run.detailed and march.resume():
         run.notify(f"goes on after {march.done} increments")
     try:
         # Everything before the first increment, that Ctrl-C ends at once.
-        _ = march.walker
+        _ = march.stepper
         if march.flutter is not None:
             run.notify(flutter_note(problem, march.flutter))
         with run.going_on():

@@ -105,7 +105,7 @@ class BlockSetup:
         rise = (law.end - law.start) / (_POINTS_OF_RISE - 1)
         overs = [law.start + rise * i for i in range(_POINTS_OF_RISE)]
         overs = [*([0.0] if law.start > 0.0 else []), *overs, most]
-        return [(float(pressure(over, 0.0, law.parameters)[0]), over) for over in overs]
+        return [(float(pressure(over, 0.0, law.numbers)[0]), over) for over in overs]
 
     def eight_node_mesh(self) -> HexMesh:
         """Return the block's mesh, of each 27-node element eight 8-node ones on the same nodes."""

@@ -1,13 +1,12 @@
 """Linear elastic bodies on hexahedral meshes, condensed to the nodes that may touch."""
 
 from asperity.contact.elastic.body import ElasticBody, elastic_body
-from asperity.contact.elastic.condense import MEMORY_LIMIT, condense, memory_for, memory_needed
+from asperity.contact.elastic.condense import condense, machine_memory, memory_for, memory_needed
 from asperity.contact.elastic.condensed import CondensedBody, LoadResponse
 from asperity.contact.elastic.loads import Force, Load, Pressure, Traction
 from asperity.contact.elastic.material import ElasticMaterial
 
 __all__ = [
-    "MEMORY_LIMIT",
     "CondensedBody",
     "ElasticBody",
     "ElasticMaterial",
@@ -18,6 +17,7 @@ __all__ = [
     "Traction",
     "condense",
     "elastic_body",
+    "machine_memory",
     "memory_for",
     "memory_needed",
 ]

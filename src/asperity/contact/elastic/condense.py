@@ -1,8 +1,12 @@
 """Condensing an elastic body to its contact nodes: factorised once, kept on disk by content."""
 
+import contextlib
 import dataclasses
+import math
+import os
 import time
 from collections.abc import Mapping
+from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
@@ -22,11 +26,14 @@ from asperity.mesh import HexMesh
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-MEMORY_LIMIT = 8e9
-"""Default bound of the memory that condensing may need, bytes."""
-
 GRAVITY = ("gravity_x", "gravity_y", "gravity_z")
 """The loads every body has: its mass times 1 m/s^2 along an axis."""
+
+# Where Linux says how much a container may have; without a limit a word stands there.
+_CONTAINER_LIMITS = (
+    "/sys/fs/cgroup/memory.max",
+    "/sys/fs/cgroup/memory/memory.limit_in_bytes",
+)
 
 _NO_LOADS: Mapping[str, Load] = MappingProxyType({})
 
@@ -42,7 +49,7 @@ def condense(
     loads: Mapping[str, Load] = _NO_LOADS,
     modes: int = 0,
     solver: str = "auto",
-    memory_limit: float = MEMORY_LIMIT,
+    memory_limit: float | None = None,
     use_cache: bool = True,
 ) -> CondensedBody:
     """Condense an elastic body to the nodes of its contact faces.
@@ -69,8 +76,9 @@ def condense(
         contact have, see `asperity.contact.elastic.modes`. With 0 the body deforms as in statics.
     solver : {'auto', 'pypardiso', 'superlu'}
         Direct solver.
-    memory_limit : float
-        Most memory this may need, bytes; estimated before anything is done.
+    memory_limit : float, optional
+        Most memory this may need, bytes; estimated before anything is done. Left out: what this
+        machine has.
     use_cache : bool
         Whether to look for, and keep, the result on disk. Its key is the content of everything
         above and of the sources of this room.
@@ -110,10 +118,11 @@ def condense(
 
     name = installed_solver(solver)
     expected = memory_needed(mesh, len(surface.nodes), modes=modes, solver=name)
-    if expected > memory_limit:
+    limit = machine_memory() if memory_limit is None else memory_limit
+    if expected > limit:
         raise InputError(
             f"condensing {unknowns} unknowns to {len(surface.nodes)} contact nodes needs about "
-            f"{expected / 1e9:.2g} GB, more than the limit of {memory_limit / 1e9:.2g} GB; take "
+            f"{expected / 1e9:.2g} GB, more than the limit of {limit / 1e9:.2g} GB; take "
             "fewer elements, or raise memory_limit"
         )
     began = time.perf_counter()
@@ -123,6 +132,20 @@ def condense(
     if folder is not None:
         cache.save(folder, key, condensed)
     return condensed
+
+
+def machine_memory() -> float:
+    """Return the memory this process may have: the machine's, or less of it in a container, bytes.
+
+    Where neither says, there is no bound.
+    """
+    found = [math.inf]
+    with contextlib.suppress(AttributeError, OSError, ValueError):
+        found.append(float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")))
+    for file in _CONTAINER_LIMITS:
+        with contextlib.suppress(OSError, ValueError):
+            found.append(float(Path(file).read_text()))
+    return min(size for size in found if size > 0.0)
 
 
 def memory_needed(

@@ -54,14 +54,16 @@ def installed_solver(wanted: str = "auto") -> str:
     if wanted == "superlu":
         return wanted
     try:
-        # Installed is not enough: it looks for the MKL library when it is imported.
+        # Installed is not enough: it looks for the MKL library when it is imported, and what it
+        # raises where it finds none depends on its release.
         import pypardiso  # noqa: F401
-    except ImportError:
+    except Exception as error:
         if wanted == "auto":
             return "superlu"
+        missing = "is not installed" if isinstance(error, ImportError) else "finds no MKL library"
         raise MissingExtraError(
-            "solver 'pypardiso' is not installed; install it, or use 'superlu'"
-        ) from None
+            f"solver 'pypardiso' {missing}; install it, or use 'superlu'"
+        ) from error
     return "pypardiso"
 
 

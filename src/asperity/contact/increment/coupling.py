@@ -20,15 +20,8 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.interface.friction_point import MU, share_and_tangent
-from asperity.contact.interface.tractions import (
-    NORMAL,
-    ONE_SIDED,
-    PRESSURE,
-    SLIP_1,
-    SLIP_2,
-    first_tangent,
-)
+from asperity.contact.interface.friction import share_and_tangent
+from asperity.contact.interface.tractions import first_tangent
 
 # Insertions: with one, a fourth evaluation of the contact in an increment is the rule.
 PASSES = 2
@@ -77,12 +70,12 @@ def ratios(force, dofs, normals, smooth, out, load):
 
 
 @kernel
-def mean_tangent(points, deflection0, size0, weights, friction, motion, out):
+def mean_tangent(points, committed, interface, motion, out):
     """Write the tangential stiffness of a point with the mean of all points in contact, 3 x 3.
 
     Parameters
     ----------
-    points, deflection0, size0, weights, friction, motion : ndarray
+    points, committed, interface, motion : ContactPoints, Committed, Interface, MotionNumbers
         As `asperity.contact.interface.tractions.tractions` takes and writes them.
     out : ndarray, shape (3, 3)
         Written: derivative of the traction by the slip, Pa/m.
@@ -92,6 +85,10 @@ def mean_tangent(points, deflection0, size0, weights, friction, motion, out):
     float
         Area in contact, m^2.
     """
+    weights, friction = interface.weights, interface.friction
+    deflection0, size0 = committed.deflection, committed.size
+    pressures, normals = points.pressure, points.normal
+    slips_1, slips_2 = points.slip_1, points.slip_2
     out[:] = 0.0
     area = 0.0
     p = 0.0
@@ -100,20 +97,20 @@ def mean_tangent(points, deflection0, size0, weights, friction, motion, out):
     slip_1 = np.zeros(3)
     slip_2 = np.zeros(3)
     bent = np.zeros(3)
-    for q in range(points.shape[0]):
-        if points[q, PRESSURE] <= 0.0:
+    for q in range(pressures.shape[0]):
+        if pressures[q] <= 0.0:
             continue
         weight = weights[q]
         area += weight
-        p += weight * points[q, PRESSURE]
+        p += weight * pressures[q]
         size += weight * size0[q]
         for c in range(3):
-            normal[c] += weight * points[q, NORMAL + c]
-            slip_1[c] += weight * points[q, SLIP_1 + c]
-            slip_2[c] += weight * points[q, SLIP_2 + c]
+            normal[c] += weight * normals[q, c]
+            slip_1[c] += weight * slips_1[q, c]
+            slip_2[c] += weight * slips_2[q, c]
             bent[c] += weight * deflection0[q, c]
     length = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
-    if friction[MU] == 0.0 or length <= 0.5 * area:
+    if friction.mu == 0.0 or length <= 0.5 * area:
         return area
     nx = normal[0] / length
     ny = normal[1] / length
@@ -130,10 +127,10 @@ def mean_tangent(points, deflection0, size0, weights, friction, motion, out):
         (slip_1[0] * fx + slip_1[1] * fy + slip_1[2] * fz) / area,
         (slip_2[0] * ex + slip_2[1] * ey + slip_2[2] * ez) / area,
         (slip_2[0] * fx + slip_2[1] * fy + slip_2[2] * fz) / area,
-        motion[ONE_SIDED] > 0.0,
+        motion.one_sided,
         friction,
     )
-    scale = -friction[MU] * p / area
+    scale = -friction.mu * p / area
     e = (ex, ey, ez)
     f = (fx, fy, fz)
     for i in range(3):
@@ -154,9 +151,7 @@ def mean_correction(tangent, spread, out):
 
 
 @kernel
-def couple(
-    rest, shares, pressing, smooth, moving, tangent, correction, load, single, pressed, moved, out
-):
+def couple(rest, shares, pressing, smooth, moving, tangent, correction, load, out):
     """Write the correction of ``h`` for a residual.
 
     Parameters
@@ -171,11 +166,12 @@ def couple(
         T and ``T (I - F T)^-1``, Pa/m.
     load : ndarray, shape (k,)
         Pressure over its mean.
-    single, pressed, moved : ndarray, shapes (3k,), (k,), (3r,)
-        Room of single precision.
     out : ndarray, shape (3k,)
         Written, N.
     """
+    single = np.empty(rest.shape[0], dtype=np.float32)
+    pressed = np.empty(shares.shape[0], dtype=np.float32)
+    moved = np.empty(moving.shape[0], dtype=np.float32)
     for c in range(rest.shape[0]):
         out[c] = rest[c]
     for _ in range(PASSES):

@@ -1,6 +1,6 @@
-r"""Iterations with a frozen tangent: one product with a dense inverse each.
+r"""Modified Newton iterations: one product with a dense inverse each.
 
-With a frozen stiffness :math:`K` of the contact (negative where contact resists) put
+With a tangent :math:`K` of the contact that is not renewed (negative where contact resists) put
 :math:`h = f(u) - K (u - u^*)`. Then
 
 .. math:: u = u^* + G h, \qquad G = (I - A K)^{-1} A ,
@@ -13,18 +13,25 @@ the difference between the forces of the tractions and those the body answers to
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.compiled import kernel
 from asperity.contact.increment.coupling import couple, mean_correction, mean_tangent, ratios
-from asperity.contact.interface.assembly import stiffness_forces
+from asperity.contact.interface.active_set import stiffness_forces
 from asperity.contact.interface.tractions import tractions
 from asperity.elimination import eliminate
 
-CONVERGED = 0
-SLOW = 1
-OUTSIDE = 2
+FloatArray = npt.NDArray[np.float64]
+
+GOING = 0
+CONVERGED = 1
+SLOW = 2
+OUTSIDE = 3
+"""How iterations stand: going on; at the solution; not converging fast enough to be worth while;
+in contact at nodes that the tangent does not know."""
 
 # Steps that Anderson's method looks back.
 DEPTH = 4
@@ -34,7 +41,7 @@ _SLOW = 0.5
 
 
 @kernel
-def answer(flexibility, force, out):
+def product(flexibility, force, out):
     """Write ``A f``; sums over the forces there are when few are."""
     count = 0
     for j in range(force.shape[0]):
@@ -80,133 +87,153 @@ def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
                 h[c] -= right[i] * (steps_h[i, c] + steps_change[i, c])
 
 
+class Room(NamedTuple):
+    """What the iterations work with, m unknowns of k nodes; of it `_accelerate` has a memory."""
+
+    response: FloatArray
+    carried: FloatArray
+    rest: FloatArray
+    change: FloatArray
+    shares: FloatArray
+    load: FloatArray
+    tangent: FloatArray
+    correction: FloatArray
+    last_h: FloatArray
+    last_change: FloatArray
+    steps_h: FloatArray
+    steps_change: FloatArray
+
+
 @kernel
-def frozen_iterations(
-    free, h, inverse, frozen, dofs, pressing, smooth, moving, spread, own, normals,
-    rounding, tolerance, most,
-    u0, deflection0, size0, multiplier,
-    faces, shapes, weights, places, surface, law, friction, motion,
-    u, force, deflection, size, points,
-):  # fmt: skip
-    """Solve an increment with a frozen tangent.
+def _init(nodes, unknowns, contact_nodes):
+    """Return the room for iterations."""
+    return Room(
+        np.empty(nodes), np.empty(nodes), np.empty(unknowns), np.empty(unknowns),
+        np.empty((contact_nodes, 3)), np.empty(contact_nodes), np.empty((3, 3)), np.empty((3, 3)),
+        np.empty(unknowns), np.empty(unknowns), np.empty((DEPTH, unknowns)),
+        np.empty((DEPTH, unknowns)),
+    )  # fmt: skip
+
+
+@kernel
+def _evaluate(free, h, tangent, committed, interface, motion, room, u, force, points):
+    """Write the contact that ``h`` leads to, and the residual of the nodal forces.
+
+    Returns the squares of the norms of the residual, of the forces and of ``h``, and whether there
+    are forces at nodes the tangent does not know.
+    """
+    response, carried, rest, dofs = room.response, room.carried, room.rest, tangent.dofs
+    np.dot(tangent.inverse, h, response)
+    for i in range(u.shape[0]):
+        u[i] = free[i] + response[i]
+    tractions(u, committed, interface, motion, force, points, np.empty((0, 3, 3)), False)
+    stiffness_forces(
+        tangent.stiffness, interface.faces, interface.shapes, interface.weights, response, carried
+    )
+    whole = 0.0
+    norm = 0.0
+    asked = 0.0
+    touched = 0
+    within = 0
+    for i in range(u.shape[0]):
+        if force[i] != 0.0:
+            touched += 1
+            whole += force[i] * force[i]
+    for c in range(dofs.shape[0]):
+        i = dofs[c]
+        assumed = h[c] + carried[i]
+        rest[c] = force[i] - assumed
+        norm += rest[c] * rest[c]
+        asked += h[c] * h[c]
+        if force[i] != 0.0:
+            within += 1
+    return norm, whole, asked, touched > within
+
+
+@kernel
+def _terminate(norm, whole, asked, outside, rounding, tolerance, floor, last, slow):
+    """How the iterations stand, the relative residual, and how many in a row were slow."""
+    if not math.isfinite(norm):
+        return SLOW, np.inf, slow
+    residual = math.sqrt(norm / whole) if whole > 0.0 else (np.inf if norm > 0.0 else 0.0)
+    if outside:
+        return OUTSIDE, residual, slow
+    only_touching = max(norm, whole) <= floor * floor
+    too_few_digits = rounding * math.sqrt(asked) > tolerance * math.sqrt(whole)
+    if only_touching:
+        return CONVERGED, 0.0, slow
+    if too_few_digits:
+        return SLOW, residual, slow
+    if residual <= tolerance:
+        return CONVERGED, residual, slow
+    slow = slow + 1 if residual > _SLOW * last else 0
+    return SLOW if slow >= 2 else GOING, residual, slow
+
+
+@kernel
+def modified_newton(
+    free, h, tangent, committed, interface, motion, tolerance, floor, most, u, force, points
+):
+    """Solve an increment with one tangent.
 
     Parameters
     ----------
     free : ndarray, shape (3n,)
         Displacement without contact, m.
     h : ndarray, shape (m,)
-        Foretold on entry, see the module; changed.
-    inverse : ndarray, shape (3n, m)
-        :math:`G` for the unknowns the frozen stiffness lives on.
-    frozen : ndarray, shape (q, 3, 3)
-        The frozen stiffness of the points, Pa/m.
-    dofs : ndarray of int, shape (m,)
-        Those unknowns.
-    pressing, smooth, moving, spread, own, normals, rounding : ndarray, float
-        As `asperity.contact.increment.modified_newton.Frozen` has them.
-    tolerance : float
-        Relative residual to be reached.
+        Predicted on entry, see the module; changed.
+    tangent : Tangent
+        Of `asperity.contact.increment.tangents`.
+    committed, interface, motion : Committed, Interface, MotionNumbers
+        As `asperity.contact.interface.tractions.tractions` takes them.
+    tolerance, floor : float
+        Relative residual to be reached, and forces that are those of touching alone, N.
     most : int
         Iterations that are made at most.
-    u0, deflection0, size0, multiplier, faces, ..., motion
-        As `asperity.contact.interface.tractions.tractions` takes them.
-    u, force, deflection, size, points
+    u, force, points : ndarray, ndarray, ContactPoints
         Written: the last iterate.
 
     Returns
     -------
     status : int
-        `CONVERGED`, `SLOW` (not converging fast enough to be worth while) or `OUTSIDE` (contact
-        has spread to nodes that the frozen tangent does not know).
+        `CONVERGED`, `SLOW` or `OUTSIDE`.
     iterations : int
         Evaluations of the contact.
     residual : float
         Relative residual.
     """
-    count = dofs.shape[0]
-    way = np.empty_like(u)
-    carried = np.empty_like(u)
-    rest = np.empty(count)
-    change = np.empty(count)
-    shares = np.empty_like(normals)
-    load = np.empty(normals.shape[0])
-    single = np.empty(count, dtype=np.float32)
-    pressed = np.empty(normals.shape[0], dtype=np.float32)
-    moved = np.empty(moving.shape[0], dtype=np.float32)
-    tangent = np.empty((3, 3))
-    correction = np.empty((3, 3))
-    last_h = np.empty(count)
-    last_change = np.empty(count)
-    steps_h = np.empty((DEPTH, count))
-    steps_change = np.empty((DEPTH, count))
-    no_stiffness = np.empty((0, 3, 3))
+    room = _init(u.shape[0], h.shape[0], tangent.normals.shape[0])
+    count = h.shape[0]
     kept = 0
     place = 0
     slow = 0
     last = np.inf
     for iteration in range(1, most + 1):
-        np.dot(inverse, h, way)
-        for i in range(u.shape[0]):
-            u[i] = free[i] + way[i]
-        tractions(
-            u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
-            surface, law, friction, motion, force, deflection, size, points, no_stiffness, False,
-        )  # fmt: skip
-        stiffness_forces(frozen, faces, shapes, weights, way, carried)
-        whole = 0.0
-        norm = 0.0
-        asked = 0.0
-        touched = 0
-        within = 0
-        for i in range(u.shape[0]):
-            if force[i] != 0.0:
-                touched += 1
-                whole += force[i] * force[i]
-        for c in range(count):
-            i = dofs[c]
-            assumed = h[c] + carried[i]
-            rest[c] = force[i] - assumed
-            norm += rest[c] * rest[c]
-            asked += h[c] * h[c]
-            if force[i] != 0.0:
-                within += 1
-        if not math.isfinite(norm):
-            return SLOW, iteration, np.inf
-        residual = math.sqrt(norm / whole) if whole > 0.0 else (np.inf if norm > 0.0 else 0.0)
-        if touched > within:
-            return OUTSIDE, iteration, residual
-        if rounding * math.sqrt(asked) > tolerance * math.sqrt(whole):
-            return SLOW, iteration, residual
-        if residual <= tolerance:
-            return CONVERGED, iteration, residual
-        slow = slow + 1 if residual > _SLOW * last else 0
-        if slow >= 2:
-            return SLOW, iteration, residual
+        norm, whole, asked, outside = _evaluate(
+            free, h, tangent, committed, interface, motion, room, u, force, points
+        )
+        status, residual, slow = _terminate(
+            norm, whole, asked, outside, tangent.rounding, tolerance, floor, last, slow
+        )
+        if status != GOING:
+            return status, iteration, residual
         last = min(last, residual)
         if iteration == 1:
-            ratios(force, dofs, normals, smooth, shares, load)
-            mean_tangent(points, deflection0, size0, weights, friction, motion, tangent)
-            tangent -= own
-            mean_correction(tangent, spread, correction)
+            ratios(force, tangent.dofs, tangent.normals, tangent.smooth, room.shares, room.load)
+            mean_tangent(points, committed, interface, motion, room.tangent)
+            room.tangent[:] -= tangent.own
+            mean_correction(room.tangent, tangent.spread, room.correction)
         couple(
-            rest,
-            shares,
-            pressing,
-            smooth,
-            moving,
-            tangent,
-            correction,
-            load,
-            single,
-            pressed,
-            moved,
-            change,
-        )
+            room.rest, room.shares, tangent.pressing, tangent.smooth, tangent.moving,
+            room.tangent, room.correction, room.load, room.change,
+        )  # fmt: skip
         if iteration > 1:
             for c in range(count):
-                steps_h[place, c] = h[c] - last_h[c]
-                steps_change[place, c] = change[c] - last_change[c]
+                room.steps_h[place, c] = h[c] - room.last_h[c]
+                room.steps_change[place, c] = room.change[c] - room.last_change[c]
             place = (place + 1) % DEPTH
             kept = min(kept + 1, DEPTH)
-        _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept)
+        _accelerate(
+            h, room.change, room.last_h, room.last_change, room.steps_h, room.steps_change, kept
+        )
     return SLOW, most, last

@@ -1,162 +1,202 @@
-r"""Inverses kept from increment to increment, for contact whose extent does not change.
+r"""Modified Newton: tangents kept from increment to increment while the contact's extent stays.
 
 While the same points touch, only the tangential stiffness :math:`\mu p/s_{max}\,\partial s/\partial
-D` changes, with the asperities' deflection. A frozen tangent with the mean of it is then enough to
+D` changes, with the asperities' deflection. A tangent with the mean of it is then enough to
 converge fast (`asperity.contact.increment.iterations`), and the few levels of the mean that matter,
-against the body's own tangential flexibility, are kept with their inverses.
+against the body's own tangential flexibility, are kept factored.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-from scipy import sparse
 
-from asperity.contact.increment.active_set import Touched
-from asperity.contact.interface.tractions import NORMAL
-
-if TYPE_CHECKING:
-    from asperity.contact.increment.multipliers import Gain
-    from asperity.contact.increment.newton import Trial
-    from asperity.contact.increment.problem import IncrementProblem
+from asperity.contact.increment.equations import Increment, Trial
+from asperity.contact.increment.iterations import CONVERGED, modified_newton
+from asperity.contact.increment.problem import IncrementProblem
+from asperity.contact.increment.tangents import Tangent, factored, outer
+from asperity.contact.interface.active_set import stiffness_forces
+from asperity.contact.interface.records import ContactPoints
 
 FloatArray = npt.NDArray[np.float64]
-SingleArray = npt.NDArray[np.float32]
+IntArray = npt.NDArray[np.int64]
 
-# Mean stiffness times mean flexibility below which a direction needs no frozen stiffness, and the
-# factor between levels above it.
+# Mean stiffness times mean flexibility below which a direction needs no stiffness, and the factor
+# between levels above it.
 _WEAK = 0.1
 _FACTOR = 4.0
 
-_MOST_INVERSES = 24
+# Iterations with one tangent, and how many make it worth while to look for a better one.
+_MOST = 20
+_MANY = 8
+
+_MOST_TANGENTS = 24
 _MOST_BYTES = 256e6
 _MOST_SETS = 64
 
-# Part of a polynomial that the others leave, at which it counts.
-_NEW = 1e-3
-
 
 @dataclass(eq=False)
-class Frozen:
-    """A frozen tangent with its inverse; the arrays are as `frozen_iterations` takes them.
+class KeptTangent:
+    """A tangent and what it was made for.
 
     Attributes
     ----------
-    touching : bytes
-        The points it was made for.
-    inverse : ndarray, shape (3n, m)
-        G.
-    stiffness : ndarray, shape (q, 3, 3)
-        Pa/m.
-    dofs : ndarray of int, shape (m,)
-        Unknowns of the nodes about those points.
-    pressing : ndarray, shape (k, 3k)
-        Normal forces that forces along the surface call up at those nodes.
-    smooth : ndarray, shape (r, k)
-        Smooth fields over those nodes, times the nodes' areas; the first is constant.
-    moving : ndarray, shape (3r, 3k)
-        Share of the smooth fields in the displacement by forces on those nodes.
-    spread : ndarray, shape (3, 3)
-        Of the constant one by a traction that is it, m/Pa.
-    own : ndarray, shape (3, 3)
-        Mean tangential part of the stiffness, Pa/m.
-    normals : ndarray, shape (k, 3)
-        Of the nodes.
-    rounding : float
-        Norm of the forces that the inverse's own error stands for, over that of ``h``.
+    active : bytes
+        The points in contact.
+    tangent : Tangent
+        Of them.
     stale : bool
         It converged slowly the last time.
     """
 
-    touching: bytes
-    inverse: FloatArray
-    stiffness: FloatArray
-    dofs: npt.NDArray[np.int64]
-    pressing: SingleArray
-    smooth: FloatArray
-    moving: SingleArray
-    spread: FloatArray
-    own: FloatArray
-    normals: FloatArray
-    rounding: float
+    active: bytes
+    tangent: Tangent
     stale: bool = False
 
 
+@dataclass(frozen=True, eq=False)
+class TangentMemory:
+    """What a `TangentCache` has learnt, as plain arrays: what its tangents were made from.
+
+    Attributes
+    ----------
+    active : ndarray of bool, shape (k, q)
+        Points in contact of the kept tangents.
+    levels : ndarray of int, shape (k, 3)
+        Their levels of stiffness.
+    stiffness : ndarray, shape (k, q, 3, 3)
+        Pa/m.
+    stale : bool
+        Whether the one used last converged slowly.
+    seen : ndarray of bool, shape (s, q)
+        Points in contact at the ends of increments.
+    seen_count, seen_flexibility : ndarray, shape (s,)
+        How many increments ended so, and the mean flexibility of those points.
+    """
+
+    active: npt.NDArray[np.bool_]
+    levels: IntArray
+    stiffness: FloatArray
+    stale: bool
+    seen: npt.NDArray[np.bool_]
+    seen_count: IntArray
+    seen_flexibility: FloatArray
+
+
+Key = tuple[bytes, int, int, int]
+"""Points in contact and levels of stiffness: normal, along the drive, across it."""
+
+
 @dataclass(eq=False)
-class Inverses:
-    """The inverses of one problem, the latest used at the end.
+class TangentCache:
+    """Tangents of one problem. They change the time taken and, in the last digits, the answer.
 
     Attributes
     ----------
     kept : dict
-        By points in contact and levels of stiffness.
+        The latest used at the end.
     seen : dict
         How many increments ended with a set of points in contact, and its mean flexibility.
-    last : Frozen or None
+    last : KeptTangent or None
         Used last.
-    gain : Gain or None
-        Hard contact: of the multipliers, used last.
     """
 
-    kept: dict[tuple[bytes, int, int, int], Frozen] = field(default_factory=dict)
+    kept: dict[Key, KeptTangent] = field(default_factory=dict)
     seen: dict[bytes, tuple[int, float]] = field(default_factory=dict)
-    last: Frozen | None = None
-    gain: Gain | None = None
+    last: KeptTangent | None = None
 
-    def ended_with(self, touching: bytes) -> None:
+    def ended_with(self, active: bytes) -> None:
         """Count an increment that ended with these points in contact."""
-        count, flexibility = self.seen.pop(touching, (0, 0.0))
+        count, flexibility = self.seen.pop(active, (0, 0.0))
         if len(self.seen) >= _MOST_SETS:
             del self.seen[next(iter(self.seen))]
-        self.seen[touching] = (count + 1, flexibility)
+        self.seen[active] = (count + 1, flexibility)
 
-    def fitting(self, touching: bytes) -> Frozen | None:
-        """Inverse used last, if it is for these points and converged fast."""
+    def fitting(self, active: bytes) -> KeptTangent | None:
+        """Tangent used last, if it is for these points and converged fast."""
         last = self.last
-        if last is None or last.stale or last.touching != touching:
+        if last is None or last.stale or last.active != active:
             return None
         return last
 
-    def chosen(self, problem: IncrementProblem, trial: Trial) -> Frozen | None:
-        """Inverse for the stiffness at a trial; None for a contact seen the first time."""
+    def chosen(self, problem: IncrementProblem, trial: Trial) -> KeptTangent | None:
+        """Tangent for the stiffness at a trial; None for a contact seen the first time."""
         touching = trial.touching
-        name = touching.tobytes()
-        count, flexibility = self.seen.get(name, (0, 0.0))
+        active = touching.tobytes()
+        count, flexibility = self.seen.get(active, (0, 0.0))
         if count < 2 or not touching.any():
             return None
-        normals, tangents = _frames(trial.points[:, NORMAL : NORMAL + 3])
+        normals, tangents = _frames(trial.points.normal)
         axes = np.concatenate([normals[:, None], tangents], axis=1)
         along = -np.einsum("qai,qij,qaj->qa", axes, trial.stiffness, axes)
         if flexibility == 0.0:
             flexibility = _mean_flexibility(problem, touching)
-            self.seen[name] = (count, flexibility)
+            self.seen[active] = (count, flexibility)
         mean = np.maximum(along[touching].mean(axis=0), 0.0)
         levels = _level(float(mean[1]) * flexibility), _level(float(mean[2]) * flexibility)
         steepness = round(2.0 * math.log2(float(mean[0]))) if mean[0] > 0.0 else 0
-        key = (name, steepness, levels[0], levels[1])
-        frozen = self.kept.pop(key, None)
-        if frozen is None:
+        key = (active, steepness, levels[0], levels[1])
+        entry = self.kept.pop(key, None)
+        if entry is None:
             k1, k2 = (_representative(level) / flexibility for level in levels)
             stiffness = -(
-                np.maximum(along[:, 0, None, None], 0.0) * _outer(normals)
-                + k1 * _outer(tangents[:, 0])
-                + k2 * _outer(tangents[:, 1])
+                np.maximum(along[:, 0, None, None], 0.0) * outer(normals)
+                + k1 * outer(tangents[:, 0])
+                + k2 * outer(tangents[:, 1])
             )
             stiffness[~touching] = 0.0
-            frozen = inverted(problem, touching, stiffness)
-            used = sum(entry.inverse.nbytes for entry in self.kept.values())
-            while self.kept and (
-                len(self.kept) >= _MOST_INVERSES or used + frozen.inverse.nbytes > _MOST_BYTES
-            ):
-                used -= self.kept.pop(next(iter(self.kept))).inverse.nbytes
-        self.kept[key] = frozen
-        self.last = frozen
-        frozen.stale = False
-        return frozen
+            entry = KeptTangent(active, factored(problem, touching, stiffness))
+            self._make_room(entry)
+        self.kept[key] = entry
+        self.last = entry
+        entry.stale = False
+        return entry
+
+    def memory(self, points: int) -> TangentMemory:
+        """Return what was learnt of a contact with so many points."""
+        counts = np.array(list(self.seen.values()), dtype=float).reshape(-1, 2)
+        stiffness = [entry.tangent.stiffness for entry in self.kept.values()]
+        return TangentMemory(
+            _sets((key[0] for key in self.kept), points),
+            np.array([key[1:] for key in self.kept], dtype=np.int64).reshape(-1, 3),
+            np.array(stiffness).reshape(-1, points, 3, 3),
+            self.last is None or self.last.stale,
+            _sets(self.seen, points),
+            counts[:, 0].astype(np.int64),
+            counts[:, 1],
+        )
+
+    @classmethod
+    def recalled(cls, problem: IncrementProblem, memory: TangentMemory) -> TangentCache:
+        """Return a cache that has learnt what another has."""
+        cache = cls()
+        for touching, levels, stiffness in zip(
+            memory.active, memory.levels.tolist(), memory.stiffness, strict=True
+        ):
+            active = touching.tobytes()
+            cache.last = KeptTangent(active, factored(problem, touching, stiffness))
+            cache.kept[(active, *levels)] = cache.last
+        if cache.last is not None:
+            cache.last.stale = memory.stale
+        counts = zip(memory.seen_count.tolist(), memory.seen_flexibility.tolist(), strict=True)
+        cache.seen = {
+            touching.tobytes(): count for touching, count in zip(memory.seen, counts, strict=True)
+        }
+        return cache
+
+    def _make_room(self, entry: KeptTangent) -> None:
+        size = entry.tangent.inverse.nbytes
+        used = sum(other.tangent.inverse.nbytes for other in self.kept.values())
+        while self.kept and (len(self.kept) >= _MOST_TANGENTS or used + size > _MOST_BYTES):
+            used -= self.kept.pop(next(iter(self.kept))).tangent.inverse.nbytes
+
+
+def _sets(active: Iterable[bytes], points: int) -> npt.NDArray[np.bool_]:
+    return np.array([np.frombuffer(one, np.bool_) for one in active], np.bool_).reshape(-1, points)
 
 
 def _level(coupling: float) -> int:
@@ -166,11 +206,6 @@ def _level(coupling: float) -> int:
 def _representative(level: int) -> float:
     # Too stiff converges slower, too soft (by more than two) not at all.
     return 0.0 if level == 0 else 0.6 * _WEAK * _FACTOR**level
-
-
-def _outer(vectors: FloatArray) -> FloatArray:
-    product: FloatArray = vectors[:, :, None] * vectors[:, None, :]
-    return product
 
 
 def _frames(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -190,59 +225,81 @@ def _mean_flexibility(problem: IncrementProblem, touching: npt.NDArray[np.bool_]
     return float(max(parts))
 
 
-def inverted(
-    problem: IncrementProblem, touching: npt.NDArray[np.bool_], stiffness: FloatArray
-) -> Frozen:
-    """Return a frozen tangent with its inverse for the points in contact and their stiffness."""
-    weights = problem.arrays[2]
-    about = Touched.by(problem, touching)
-    touched, dofs = about.nodes, about.dofs
-    k, part = about.stiffness(problem, stiffness), about.flexibility(problem)
-    matrix = np.eye(len(dofs)) - part @ k
-    among = np.linalg.solve(matrix, part)
-    called = sparse.csr_array(k) @ among
-    inverse = among
-    if len(dofs) < 3 * problem.nodes:
-        inverse = problem.flexibility[:, dofs] @ (np.eye(len(dofs)) + called)
-    areas = problem.surface.nodal_area[touched]
-    normals = problem.surface.nodal_normals[touched]
-    across = np.eye(3) - _outer(normals)
-    pressed = np.einsum("ai,aim->am", normals, called.reshape(-1, 3, len(dofs)))
-    pressing = np.einsum("abi,bij->abj", pressed.reshape(len(touched), -1, 3), across)
-    smooth = _smooth_fields(problem.surface.positions[touched], areas)
-    moving = np.einsum("ra,aim->rim", smooth, among.reshape(-1, 3, len(dofs)))
-    moving = moving.reshape(-1, len(dofs))
-    # G h is to be A (h + K G h); a contact far stiffer than the body leaves few digits of that.
-    off = sparse.csr_array(k) @ (part + part @ called - among)
-    own = np.einsum("q,qij->ij", weights * touching, stiffness) / (weights @ touching)
-    mean = normals.T @ areas
-    mean /= np.linalg.norm(mean) or 1.0
-    across = np.eye(3) - np.outer(mean, mean)
-    return Frozen(
-        touching.tobytes(),
-        np.ascontiguousarray(inverse),
-        stiffness,
-        dofs,
-        pressing.reshape(len(touched), -1).astype(np.float32),
-        smooth,
-        moving.astype(np.float32),
-        moving[:3] @ np.kron(smooth[0][:, None], np.eye(3)),
-        across @ own @ across,
-        np.ascontiguousarray(normals),
-        float(np.linalg.norm(off)),
-    )
+def solve(
+    increment: Increment,
+    tangents: TangentCache,
+    active: bytes,
+    assumed: FloatArray,
+    displacement: FloatArray | None,
+    committed: FloatArray,
+) -> tuple[Trial | None, float, int]:
+    """Solve an increment for given multipliers by kept tangents, where they serve.
+
+    Parameters
+    ----------
+    increment : Increment
+        Its equations.
+    tangents : TangentCache
+        Changed.
+    active : bytes
+        Points in contact at the start.
+    assumed, displacement : ndarray, shape (3n,)
+        Predicted forces, N, and displacement, m, where there is a prediction of it.
+    committed : ndarray, shape (3n,)
+        Displacement at the start, m.
+
+    Returns
+    -------
+    trial : Trial or None
+        The solution; None where a consistent Newton step is needed.
+    residual : float
+        Relative.
+    evaluations : int
+        Evaluations of the contact.
+    """
+    evaluations = 0
+    entry = tangents.fitting(active)
+    if entry is None:
+        trial = increment.evaluate(assumed, increment.response(assumed))
+        evaluations += 1
+        if trial.residual <= increment.problem.tolerance:
+            return trial, trial.residual, evaluations
+        start = trial.u if displacement is None else displacement
+    else:
+        start = committed if displacement is None else displacement
+    tried: KeptTangent | None = None
+    for _ in range(2):
+        if entry is None:
+            trial = increment.evaluate(assumed, start - increment.free)
+            evaluations += 1
+            entry = tangents.chosen(increment.problem, trial)
+            if entry is None or entry is tried:
+                break
+        trial, residual, status, count = _iterate(increment, assumed, start, entry.tangent)
+        evaluations += count
+        entry.stale = status != CONVERGED or count > _MANY
+        if status == CONVERGED:
+            tangents.ended_with(trial.touching.tobytes())
+            return trial, residual, evaluations
+        entry, tried = None, entry
+    return None, np.inf, evaluations
 
 
-def _smooth_fields(places: FloatArray, areas: FloatArray) -> FloatArray:
-    """Polynomials up to the second degree, orthonormal over the areas and times them."""
-    x = places - areas @ places / areas.sum()
-    x /= np.abs(x).max() or 1.0
-    fields = np.column_stack([x, x[:, [0, 1, 2, 0, 0, 1]] * x[:, [0, 1, 2, 1, 2, 2]]])
-    root = np.sqrt(areas)
-    constant = root / np.linalg.norm(root)
-    rest = root[:, None] * fields
-    rest -= np.outer(constant, constant @ rest)
-    left, sizes, _ = np.linalg.svd(rest, full_matrices=False)
-    new = left[:, sizes > _NEW * np.linalg.norm(root)]
-    product: FloatArray = np.ascontiguousarray(root * np.vstack([constant, new.T]))
-    return product
+def _iterate(
+    increment: Increment, assumed: FloatArray, start: FloatArray, tangent: Tangent
+) -> tuple[Trial, float, int, int]:
+    problem, free = increment.problem, increment.free
+    interface = problem.interface
+    force, u = np.empty_like(free), np.empty_like(free)
+    stiffness_forces(
+        tangent.stiffness, interface.faces, interface.shapes, interface.weights, start - free,
+        force,
+    )  # fmt: skip
+    h = (assumed - force)[tangent.dofs]
+    points = ContactPoints.empty(problem.points)
+    status, took, residual = modified_newton(
+        free, h, tangent, increment.committed, interface, increment.motion, problem.tolerance,
+        increment.floor, _MOST, u, force, points,
+    )  # fmt: skip
+    trial = Trial(force, u - free, u, force, points, increment.floor)
+    return trial, residual, status, took

@@ -21,10 +21,10 @@ import numpy as np
 import numpy.typing as npt
 import scipy.linalg
 
-from asperity.contact.increment.active_set import Touched
-from asperity.contact.increment.newton import Trial, tangent_matrix
+from asperity.contact.increment.equations import Trial
+from asperity.contact.increment.newton import tangent_matrix
 from asperity.contact.increment.problem import IncrementProblem
-from asperity.contact.interface.tractions import DISTANCE, NORMAL, PRESSURE, TRACTION
+from asperity.contact.interface.active_set import ActiveSet
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -47,20 +47,15 @@ def classical(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -
         Pa.
     """
     surface = problem.surface
-    over = -trial.points[:, DISTANCE].reshape(surface.weights.shape)
-    mean = problem.from_corners.T @ surface.to_forces(over) / _areas(problem)
+    over = -trial.points.distance.reshape(surface.weights.shape)
+    mean = problem.from_corners.T @ surface.to_forces(over) / problem.corner_area
     updated: FloatArray = np.maximum(multiplier + problem.normal.stiffness * mean, 0.0)
     return updated
 
 
-def _areas(problem: IncrementProblem) -> FloatArray:
-    areas: FloatArray = problem.from_corners.T @ problem.surface.nodal_area
-    return areas
-
-
 @dataclass(frozen=True, eq=False)
-class Gain:
-    """How the multipliers must change to undo the overclosures about their nodes.
+class MultiplierTangent:
+    """Newton's step of the multipliers, which undoes the overclosures about their nodes.
 
     Attributes
     ----------
@@ -94,16 +89,16 @@ class Gain:
     ) -> FloatArray:
         """Multipliers after a Newton step, Pa."""
         mean = (updated - multiplier)[self.bearing] / problem.normal.stiffness
-        step = self.ended - self.inverse @ (mean * _areas(problem)[self.bearing])
+        step = self.ended - self.inverse @ (mean * problem.corner_area[self.bearing])
         result = np.zeros_like(multiplier)
         result[self.bearing] = np.maximum(multiplier[self.bearing] + step, 0.0)
         return result
 
 
-def gain_of(
+def multiplier_tangent(
     problem: IncrementProblem, trial: Trial, multiplier: FloatArray, updated: FloatArray
-) -> Gain | None:
-    """Return the gain at a solution for the present multipliers.
+) -> MultiplierTangent | None:
+    """Return the tangent at a solution for the present multipliers.
 
     Parameters
     ----------
@@ -116,27 +111,27 @@ def gain_of(
 
     Returns
     -------
-    Gain or None
+    MultiplierTangent or None
         None where a corner wants pressure about which nothing touches yet.
     """
-    touched = Touched.by(problem, trial.touching)
+    active = ActiveSet.about(problem.interface, problem.nodes, trial.touching)
     keep = updated > 0.0
     bearing = np.flatnonzero(keep)
-    reached = np.isin(problem.corners[bearing], touched.nodes)
+    reached = np.isin(problem.corners[bearing], active.nodes)
     if not len(bearing) or not reached.all():
         return None
-    k = touched.stiffness(problem, trial.stiffness)
-    a = touched.flexibility(problem)
-    normals = trial.points[:, NORMAL : NORMAL + 3]
-    pressures = trial.points[:, PRESSURE, None]
+    k = active.stiffness(problem.interface, trial.stiffness)
+    a = active.among(problem.flexibility)
+    normals = trial.points.normal
+    pressures = trial.points.pressure[:, None]
     # Force by a multiplier acts along the traction, of which the pressure is a factor.
-    ways = np.divide(
-        trial.points[:, TRACTION : TRACTION + 3], pressures,
+    directions = np.divide(
+        trial.points.traction, pressures,
         out=np.zeros_like(normals), where=pressures > 0.0,
     )  # fmt: skip
-    basis = problem.from_corners[touched.nodes]
-    forces = _spread(problem, ways, touched) @ basis
-    gaps = _spread(problem, normals, touched) @ basis[:, bearing]
+    basis = problem.from_corners[active.nodes]
+    forces = _spread(problem, directions, active) @ basis
+    gaps = _spread(problem, normals, active) @ basis[:, bearing]
     ending = np.where(keep, 0.0, -multiplier)
     columns = np.column_stack([forces[:, bearing], forces @ ending])
     moved = scipy.linalg.solve(
@@ -144,20 +139,20 @@ def gain_of(
     )
     grown = -(gaps.T @ moved)
     inverse = np.linalg.pinv(grown[:, :-1], rcond=1e-12)
-    return Gain(trial.touching, keep, bearing, inverse, -inverse @ grown[:, -1])
+    return MultiplierTangent(trial.touching, keep, bearing, inverse, -inverse @ grown[:, -1])
 
 
-def _spread(problem: IncrementProblem, ways: FloatArray, touched: Touched) -> FloatArray:
-    """``sum of w N_i N_j way`` as a matrix (3t, t) on the touched nodes."""
-    faces, shapes, _ = problem.arrays[:3]
+def _spread(problem: IncrementProblem, directions: FloatArray, active: ActiveSet) -> FloatArray:
+    """``sum of w N_i N_j direction`` as a matrix (3t, t) on the active nodes."""
+    faces, shapes = problem.interface.faces, problem.interface.shapes
     surface = problem.surface
     parts = np.einsum(
         "qa,kq,qb,kqc->kacb", shapes, surface.weights, shapes,
-        ways.reshape(*surface.weights.shape, 3), optimize=True,
+        directions.reshape(*surface.weights.shape, 3), optimize=True,
     )  # fmt: skip
-    count = len(touched.nodes)
+    count = len(active.nodes)
     matrix = np.zeros((count, 3, count))
-    here = touched.local[faces]
+    here = active.local[faces]
     inside = (here >= 0).all(axis=1)
     rows = here[inside][:, :, None, None]
     columns = here[inside][:, None, None, :]

@@ -12,27 +12,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from asperity.contact.increment.modified_newton import Inverses
-from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
-from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.contact.interface.records import Committed, Interface
+from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import ContactSurface
-from asperity.contact.interface.tractions import (
-    BASE_1,
-    BASE_2,
-    BODY_1,
-    BODY_2,
-    MOTION,
-    ONE_SIDED,
-    ROTATION,
-    TRANSLATION,
-)
 from asperity.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]
@@ -98,13 +87,23 @@ class IncrementProblem:
         return self.surface.weights.size
 
     @cached_property
-    def inverses(self) -> Inverses:
-        """Inverses kept from increment to increment; they change the time taken, not the answer."""
-        return Inverses()
+    def mark(self) -> tuple[float, float]:
+        """Numbers that tell increments of one flexibility from those of another."""
+        return self.step, float(np.trace(self.flexibility))
 
     @cached_property
-    def give(self) -> float:
-        """Stiffness of the body against a traction about one node, Pa/m: the mean over all."""
+    def reach(self) -> float:
+        """Greatest coordinate of a point of the surface, m."""
+        return float(np.abs(self.surface.points).max())
+
+    @cached_property
+    def area_norm(self) -> float:
+        """Norm of the areas that belong to the nodes, m^2."""
+        return float(np.linalg.norm(self.surface.nodal_area))
+
+    @cached_property
+    def body_stiffness(self) -> float:
+        """Of the body against a traction about one node, Pa/m: the mean over all."""
         area = self.surface.nodal_area
         own = np.diagonal(self.flexibility).reshape(-1, 3).mean(axis=1)
         return float(area.sum() / (area**2 * own).sum())
@@ -132,21 +131,31 @@ class IncrementProblem:
         return sparse.csr_array(sparse.coo_array(entries, shape=(self.nodes, len(self.corners))))
 
     @cached_property
-    def arrays(self) -> tuple[Any, ...]:
-        """Faces, shapes, weights, places and parameter vectors in the order kernels take them."""
-        return (
+    def corner_area(self) -> FloatArray:
+        """Area that belongs to each corner, m^2."""
+        areas: FloatArray = self.from_corners.T @ self.surface.nodal_area
+        return areas
+
+    @cached_property
+    def interface(self) -> Interface:
+        """Surfaces and laws as kernels take them."""
+        return Interface(
             np.ascontiguousarray(self.surface.faces),
             np.ascontiguousarray(self.surface.shapes),
             np.ascontiguousarray(self.surface.weights.ravel()),
             np.ascontiguousarray(self.surface.points.reshape(-1, 3)),
             self.counter.parameters,
-            self.normal.parameters,
-            self.friction.parameters(self.step),
+            self.normal.numbers,
+            self.friction.numbers(self.step),
         )
 
 
+# Weights of the last increments, the latest first: constant, linear, quadratic.
+_WEIGHTS = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0))
+
+
 @dataclass(frozen=True, eq=False)
-class Trend:
+class Predictor:
     """Forces and displacements of the last increments, the latest first.
 
     Attributes
@@ -154,40 +163,36 @@ class Trend:
     forces, displacements : tuple of ndarray, shape (3n,)
         Contact forces, N, and displacement of the contact nodes, m.
     order : int
-        Order of the extrapolation that would have foretold the latest forces best.
-    flexibility : ndarray or None
-        The `A` of those increments.
+        Order of the extrapolation that would have met the latest forces best.
+    mark : tuple of 2 floats
+        `IncrementProblem.mark` of those increments: others begin anew.
     """
 
     forces: tuple[FloatArray, ...] = ()
     displacements: tuple[FloatArray, ...] = ()
     order: int = 0
-    flexibility: FloatArray | None = None
+    mark: tuple[float, float] = (0.0, 0.0)
 
     def followed_by(
-        self, force: FloatArray, displacement: FloatArray, flexibility: FloatArray
-    ) -> Trend:
-        """Return the trend with one more increment; another flexibility begins it anew."""
-        if flexibility is not self.flexibility:
-            return Trend((force,), (displacement,), 0, flexibility)
+        self, force: FloatArray, displacement: FloatArray, mark: tuple[float, float]
+    ) -> Predictor:
+        """Return the predictor with one more increment."""
+        if mark != self.mark or not self.forces:
+            return Predictor((force,), (displacement,), 0, mark)
         forces = (force, *self.forces[: len(_WEIGHTS)])
         displacements = (displacement, *self.displacements[: len(_WEIGHTS) - 1])
         errors = [
             float(np.linalg.norm(force - _combined(weights, forces[1:])))
             for weights in _WEIGHTS[: len(forces) - 1]
         ]
-        return Trend(forces[: len(_WEIGHTS)], displacements, int(np.argmin(errors)), flexibility)
+        return Predictor(forces[: len(_WEIGHTS)], displacements, int(np.argmin(errors)), mark)
 
-    def foretold(self, flexibility: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+    def predicted(self, mark: tuple[float, float]) -> tuple[FloatArray, FloatArray] | None:
         """Forces and displacement of the coming increment; None without a past."""
-        if flexibility is not self.flexibility:
+        if mark != self.mark or not self.forces:
             return None
         weights = _WEIGHTS[min(self.order, len(self.forces) - 1)]
         return _combined(weights, self.forces), _combined(weights, self.displacements)
-
-
-# Extrapolation from equal steps: constant, linear, quadratic.
-_WEIGHTS = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0))
 
 
 def _combined(weights: tuple[float, ...], vectors: tuple[FloatArray, ...]) -> FloatArray:
@@ -217,9 +222,9 @@ class ContactState:
         At the points, Pa.
     traction : ndarray, shape (q, 3)
         On the body at the points, Pa.
-    trend : Trend
-        Forces of the last increments, from which those of the next are foretold. The solution
-        does not depend on it, the number of iterations does.
+    predictor : Predictor
+        What the next increment begins with. The solution does not depend on it, the number of
+        iterations does.
     """
 
     displacement: FloatArray
@@ -229,13 +234,17 @@ class ContactState:
     multiplier: FloatArray
     pressure: FloatArray
     traction: FloatArray
-    trend: Trend
+    predictor: Predictor
 
     @property
     def touching(self) -> npt.NDArray[np.bool_]:
         """Points in contact, shape (q,)."""
         touching: npt.NDArray[np.bool_] = self.pressure > 0.0
         return touching
+
+    def committed(self, multiplier: FloatArray) -> Committed:
+        """The history as kernels take it, for given multipliers."""
+        return Committed(self.displacement, self.deflection, self.size, multiplier)
 
     @classmethod
     def rest(cls, problem: IncrementProblem) -> ContactState:
@@ -249,73 +258,8 @@ class ContactState:
             np.zeros(n),
             np.zeros(q),
             np.zeros((q, 3)),
-            Trend(),
+            Predictor(),
         )
-
-
-@dataclass(frozen=True, eq=False)
-class Drift:
-    """Displacement of the counter-surface's material over an increment, ``shift + turn @ x``.
-
-    Attributes
-    ----------
-    shift : ndarray, shape (3,)
-        m.
-    turn : ndarray, shape (3, 3)
-        On the position at the increment's end; of a rotation ``I - R_0 R_1^T``.
-    """
-
-    shift: FloatArray = field(default_factory=lambda: np.zeros(3))
-    turn: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
-
-    @classmethod
-    def between(cls, before: Pose, after: Pose) -> Drift:
-        """Whole displacement from one pose to another."""
-        back = before.rotation @ after.rotation.T
-        shift = back @ after.translation - before.translation
-        return cls(shift, np.eye(3) - back)
-
-
-@dataclass(frozen=True, eq=False)
-class SurfaceMotion:
-    """Where the counter-surface stands at the end of an increment, and what slip it makes.
-
-    The slip of the body on the surface is ``v_j = body_j @ (u - u_committed) - base_j(x)`` in its
-    two parts j = 1, 2, brought into the tangent plane. Usually the body moves in the first part
-    alone, the base's x motion stands in the first and its transferred y motion in the second.
-
-    Attributes
-    ----------
-    pose : Pose
-        At the end.
-    base_1, base_2 : Drift
-        The two parts of the surface's displacement, as the contact sees them (transferred).
-    body_1, body_2 : ndarray, shape (3, 3)
-        What each part sees of the body's own displacement.
-    one_sided : bool
-        Two-phase scheme: the increment ends no later than the vibration starts.
-    """
-
-    pose: Pose = field(default_factory=Pose)
-    base_1: Drift = field(default_factory=Drift)
-    base_2: Drift = field(default_factory=Drift)
-    body_1: FloatArray = field(default_factory=lambda: np.eye(3))
-    body_2: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
-    one_sided: bool = False
-
-    def parameters(self) -> FloatArray:
-        """Numbers as the kernels take them."""
-        m = np.empty(MOTION)
-        m[ROTATION:TRANSLATION] = self.pose.rotation.ravel()
-        m[TRANSLATION:BASE_1] = self.pose.translation
-        m[BASE_1 : BASE_1 + 3] = self.base_1.shift
-        m[BASE_1 + 3 : BASE_2] = self.base_1.turn.ravel()
-        m[BASE_2 : BASE_2 + 3] = self.base_2.shift
-        m[BASE_2 + 3 : BODY_1] = self.base_2.turn.ravel()
-        m[BODY_1:BODY_2] = self.body_1.ravel()
-        m[BODY_2:ONE_SIDED] = self.body_2.ravel()
-        m[ONE_SIDED] = 1.0 if self.one_sided else 0.0
-        return m
 
 
 @dataclass(frozen=True, eq=False)

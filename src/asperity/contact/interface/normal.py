@@ -13,15 +13,12 @@ r"""Pressure against overclosure: linear, two-stage, hard.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.compiled import kernel
 from asperity.errors import InputError, choices
-
-FloatArray = npt.NDArray[np.float64]
 
 # A first stage softer than that is none, and what the last one needs is lost in its digits.
 _LEAST_INITIAL = 1e-6
@@ -30,6 +27,16 @@ LINEAR = 0
 TWO_STAGE = 1
 HARD = 2
 NORMALS = {"linear": LINEAR, "two-stage": TWO_STAGE, "hard": HARD}
+
+
+class PressureLaw(NamedTuple):
+    """What the kernels know of a `NormalLaw`; the attributes are its, and ``code`` its name."""
+
+    code: int
+    stiffness: float
+    initial: float
+    start: float
+    end: float
 
 
 @kernel
@@ -42,21 +49,21 @@ def pressure(over, multiplier, law):
         Overclosure (minus the distance), m.
     multiplier : float
         The augmented Lagrangian's pressure at the point, Pa; 0 for the other laws.
-    law : ndarray
-        `NormalLaw.parameters`.
+    law : PressureLaw
+        The law.
 
     Returns
     -------
     pressure, slope : float
         Pa and Pa/m; both 0 where the contact is open.
     """
-    stiffness = law[1]
-    if law[0] == TWO_STAGE:
+    stiffness = law.stiffness
+    if law.code == TWO_STAGE:
         if over <= 0.0:
             return 0.0, 0.0
-        soft = law[2]
-        first = law[3]
-        last = law[4]
+        soft = law.initial
+        first = law.start
+        last = law.end
         if over <= first:
             return soft * over, soft
         rise = (stiffness - soft) / (last - first)
@@ -72,26 +79,26 @@ def pressure(over, multiplier, law):
 
 
 @kernel
-def aimed_overclosure(aim, give, multiplier, law):
-    """Overclosure at which pressure plus ``give`` times it is ``aim``, m.
+def augmented_overclosure(aim, augmentation, multiplier, law):
+    """Overclosure at which pressure plus r times it is ``aim``, m.
 
-    The law is monotone, so there is one for any stiffness ``give > 0``, Pa/m.
+    The law is monotone, so there is one for any augmentation r > 0, Pa/m.
     """
-    if law[0] == TWO_STAGE:
+    if law.code == TWO_STAGE:
         if aim <= 0.0:
-            return aim / give
+            return aim / augmentation
         # Convex: Newton's method comes down from above without overshoot.
-        over = aim / (give + law[2])
+        over = aim / (augmentation + law.initial)
         for _ in range(50):
             value, slope = pressure(over, 0.0, law)
-            change = (value + give * over - aim) / (slope + give)
+            change = (value + augmentation * over - aim) / (slope + augmentation)
             over -= change
             if abs(change) <= 1e-15 * over:
                 break
         return over
-    if aim <= -give * multiplier / law[1]:
-        return aim / give
-    return (aim - multiplier) / (law[1] + give)
+    if aim <= -augmentation * multiplier / law.stiffness:
+        return aim / augmentation
+    return (aim - multiplier) / (law.stiffness + augmentation)
 
 
 @dataclass(frozen=True)
@@ -158,7 +165,7 @@ class NormalLaw:
             return 0.0
         if self.name == "linear":
             return value / self.stiffness
-        bends = [float(pressure(over, 0.0, self.parameters)[0]) for over in (self.start, self.end)]
+        bends = [float(pressure(over, 0.0, self.numbers)[0]) for over in (self.start, self.end)]
         if value <= bends[0]:
             return value / self.initial
         if value >= bends[1]:
@@ -175,10 +182,10 @@ class NormalLaw:
         """
         if self.name != "two-stage":
             return self.stiffness
-        return float(pressure(self.overclosure(value), 0.0, self.parameters)[1]) or self.initial
+        return float(pressure(self.overclosure(value), 0.0, self.numbers)[1]) or self.initial
 
     @property
-    def parameters(self) -> FloatArray:
-        """Code and numbers, as `pressure` takes them."""
-        code = float(NORMALS[self.name])
-        return np.array([code, self.stiffness, self.initial, self.start, self.end])
+    def numbers(self) -> PressureLaw:
+        """The law as kernels take it."""
+        sizes = self.stiffness, self.initial, self.start, self.end
+        return PressureLaw(NORMALS[self.name], *map(float, sizes))

@@ -19,67 +19,51 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.interface.friction_point import MU, aimed_slip, share_and_tangent, share_of
-from asperity.contact.interface.normal import aimed_overclosure, pressure
+from asperity.contact.interface.friction import (
+    augmented_slip,
+    share_and_tangent,
+    share_of,
+)
+from asperity.contact.interface.normal import augmented_overclosure, pressure
 from asperity.contact.interface.rigid import distance
 
-# Places in the vector that describes the motion of the counter-surface.
-ROTATION = 0
-TRANSLATION = 9
-BASE_1 = 12  # displacement c + M x of the first part: c, then M by rows
-BASE_2 = 24
-BODY_1 = 36  # matrix on the body's displacement increment
-BODY_2 = 45
-ONE_SIDED = 54
-MOTION = 55
-
-# Places in the record of a point.
-PRESSURE = 0
-DISTANCE = 1
-NORMAL = 2
-TRACTION = 5
-SLIP_1 = 8
-SLIP_2 = 11
-POINT = 14
-
 
 @kernel
-def _apply(m, at, x, y, z):
+def _apply(m, x, y, z):
     return (
-        m[at] * x + m[at + 1] * y + m[at + 2] * z,
-        m[at + 3] * x + m[at + 4] * y + m[at + 5] * z,
-        m[at + 6] * x + m[at + 7] * y + m[at + 8] * z,
+        m[0, 0] * x + m[0, 1] * y + m[0, 2] * z,
+        m[1, 0] * x + m[1, 1] * y + m[1, 2] * z,
+        m[2, 0] * x + m[2, 1] * y + m[2, 2] * z,
     )
 
 
 @kernel
-def _place(x, y, z, surface, m):
+def _place(x, y, z, surface, r, translation):
     """Distance, normal and Hessian of a surface where it stands."""
-    x -= m[TRANSLATION]
-    y -= m[TRANSLATION + 1]
-    z -= m[TRANSLATION + 2]
-    r = m[:9]
+    x -= translation[0]
+    y -= translation[1]
+    z -= translation[2]
     d, gx, gy, gz, hxx, hyy, hzz, hxy, hxz, hyz = distance(
-        r[0] * x + r[3] * y + r[6] * z,
-        r[1] * x + r[4] * y + r[7] * z,
-        r[2] * x + r[5] * y + r[8] * z,
+        r[0, 0] * x + r[1, 0] * y + r[2, 0] * z,
+        r[0, 1] * x + r[1, 1] * y + r[2, 1] * z,
+        r[0, 2] * x + r[1, 2] * y + r[2, 2] * z,
         surface,
     )
-    nx, ny, nz = _apply(r, 0, gx, gy, gz)
+    nx, ny, nz = _apply(r, gx, gy, gz)
     if hxx == 0.0 and hyy == 0.0 and hzz == 0.0:
         return d, nx, ny, nz, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     # H in space: R H R^T.
-    ax, bx, cx = _apply(r, 0, hxx, hxy, hxz)
-    ay, by, cy = _apply(r, 0, hxy, hyy, hyz)
-    az, bz, cz = _apply(r, 0, hxz, hyz, hzz)
+    ax, bx, cx = _apply(r, hxx, hxy, hxz)
+    ay, by, cy = _apply(r, hxy, hyy, hyz)
+    az, bz, cz = _apply(r, hxz, hyz, hzz)
     return (
         d, nx, ny, nz,
-        ax * r[0] + ay * r[1] + az * r[2],
-        bx * r[3] + by * r[4] + bz * r[5],
-        cx * r[6] + cy * r[7] + cz * r[8],
-        ax * r[3] + ay * r[4] + az * r[5],
-        ax * r[6] + ay * r[7] + az * r[8],
-        bx * r[6] + by * r[7] + bz * r[8],
+        ax * r[0, 0] + ay * r[0, 1] + az * r[0, 2],
+        bx * r[1, 0] + by * r[1, 1] + bz * r[1, 2],
+        cx * r[2, 0] + cy * r[2, 1] + cz * r[2, 2],
+        ax * r[1, 0] + ay * r[1, 1] + az * r[1, 2],
+        ax * r[2, 0] + ay * r[2, 1] + az * r[2, 2],
+        bx * r[2, 0] + by * r[2, 1] + bz * r[2, 2],
     )  # fmt: skip
 
 
@@ -94,64 +78,48 @@ def first_tangent(nx, ny, nz):
 
 
 @kernel
-def tractions(
-    u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
-    surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
-):  # fmt: skip
-    """Evaluate the contact for a displacement of its nodes; see `aimed_tractions`."""
-    touching, _ = aimed_tractions(
-        u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
-        surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
+def tractions(u, committed, interface, motion, force, points, stiffness, with_tangent):
+    """Evaluate the contact for a displacement of its nodes; see `augmented_tractions`."""
+    touching, _ = augmented_tractions(
+        u, committed, interface, motion, force, points, stiffness, with_tangent,
         np.empty((0, 3)), 0.0,
     )  # fmt: skip
     return touching
 
 
 @kernel
-def aimed_tractions(
-    u, u0, deflection0, size0, multiplier, faces, shapes, weights, places,
-    surface, law, friction, motion, force, deflection, size, points, stiffness, with_tangent,
-    assumed, give,
-):  # fmt: skip
+def augmented_tractions(
+    u, committed, interface, motion, force, points, stiffness, with_tangent, assumed, augmentation
+):
     r"""Evaluate the contact for a displacement of its nodes, or near it.
 
-    With a stiffness ``give`` :math:`r > 0` the laws are taken not at the slip and overclosure
-    :math:`D` of the displacement, where a law much stiffer than the body says little, but at the
+    With an augmentation :math:`r > 0` the laws are taken not at the slip and overclosure :math:`D`
+    of the displacement, where a law much stiffer than the body says little, but at the
     :math:`\hat D` with :math:`t(\hat D) + r \hat D = t_a + r D`, from the tractions :math:`t_a`
     assumed at the points; what is written is then the tangent there, continued to :math:`D`. Both
     meet in the solution.
 
     Parameters
     ----------
-    u, u0 : ndarray, shape (3n,)
-        Trial and committed displacement, m.
-    deflection0 : ndarray, shape (q, 3)
-        Committed deflection of the asperities, m.
-    size0 : ndarray, shape (q,)
-        Its signed size (two-phase scheme).
-    multiplier : ndarray, shape (n,)
-        Of the hard law, Pa.
-    faces : ndarray of int, shape (k, m)
-        Nodes of each face.
-    shapes : ndarray, shape (r, m)
-        Shape values at the quadrature points of a face; q = k r in all.
-    weights : ndarray, shape (q,)
-        Area of each point, m^2.
-    places : ndarray, shape (q, 3)
-        Undeformed positions, m.
-    surface, law, friction, motion : ndarray
-        Parameter vectors.
+    u : ndarray, shape (3n,)
+        Trial displacement, m.
+    committed : Committed
+        Where the increment starts from.
+    interface : Interface
+        What stays the same.
+    motion : MotionNumbers
+        Of the counter-surface.
     force : ndarray, shape (3n,)
         Written: nodal forces on the body, N.
-    deflection, size, points : ndarray, shapes (q, 3), (q,), (q, POINT)
-        Written: trial history and record of each point.
+    points : ContactPoints
+        Written.
     stiffness : ndarray, shape (q, 3, 3)
         Written with ``with_tangent``: derivative of the traction by the displacement, Pa/m.
     with_tangent : bool
         Whether to write it.
     assumed : ndarray, shape (q, 3)
         Tractions assumed, Pa.
-    give : float
+    augmentation : float
         r, Pa/m; 0: at the displacement itself.
 
     Returns
@@ -161,11 +129,23 @@ def aimed_tractions(
     off : float
         Integral of the squared difference between the laws' tractions and those assumed, N^2/m^2.
     """
+    # Taken out of their tuples once: in the loop each would be counted as one more owner.
+    faces, shapes, weights = interface.faces, interface.shapes, interface.weights
+    places, surface = interface.places, interface.counter
+    law, friction = interface.law, interface.friction
+    u0, deflection0 = committed.displacement, committed.deflection
+    size0, multiplier = committed.size, committed.multiplier
+    rotation, translation = motion.rotation, motion.translation
+    shift_1, turn_1, body_1 = motion.shift_1, motion.turn_1, motion.body_1
+    shift_2, turn_2, body_2 = motion.shift_2, motion.turn_2, motion.body_2
+    traction, deflection, size = points.traction, points.deflection, points.size
+    pressures, distances, normals = points.pressure, points.distance, points.normal
+    slip_1, slip_2 = points.slip_1, points.slip_2
     force[:] = 0.0
-    mu = friction[MU]
+    mu = friction.mu
     touching = 0
     off = 0.0
-    aimed = give > 0.0
+    aimed = augmentation > 0.0
     px = 0.0
     py = 0.0
     pz = 0.0
@@ -179,7 +159,7 @@ def aimed_tractions(
     fx = 0.0
     fy = 0.0
     fz = 0.0
-    one_sided = motion[ONE_SIDED] > 0.0
+    one_sided = motion.one_sided
     width = faces.shape[1]
     rule = shapes.shape[0]
     for q in range(faces.shape[0] * rule):
@@ -206,43 +186,47 @@ def aimed_tractions(
         x = places[q, 0] + ux
         y = places[q, 1] + uy
         z = places[q, 2] + uz
-        d, nx, ny, nz, hxx, hyy, hzz, hxy, hxz, hyz = _place(x, y, z, surface, motion)
+        d, nx, ny, nz, hxx, hyy, hzz, hxy, hxz, hyz = _place(
+            x, y, z, surface, rotation, translation
+        )
         if aimed:
             px = assumed[q, 0]
             py = assumed[q, 1]
             pz = assumed[q, 2]
-            over = aimed_overclosure(px * nx + py * ny + pz * nz - give * d, give, lam, law)
+            over = augmented_overclosure(
+                px * nx + py * ny + pz * nz - augmentation * d, augmentation, lam, law
+            )
             far = over + d
             p, slope = pressure(over, lam, law)
         else:
             p, slope = pressure(-d, lam, law)
-        points[q, PRESSURE] = p
-        points[q, DISTANCE] = d
-        points[q, NORMAL] = nx
-        points[q, NORMAL + 1] = ny
-        points[q, NORMAL + 2] = nz
-        bx, by, bz = _apply(motion, BASE_1 + 3, x, y, z)
-        ax, ay, az = _apply(motion, BODY_1, dx, dy, dz)
-        v1x = ax - bx - motion[BASE_1]
-        v1y = ay - by - motion[BASE_1 + 1]
-        v1z = az - bz - motion[BASE_1 + 2]
-        bx, by, bz = _apply(motion, BASE_2 + 3, x, y, z)
-        ax, ay, az = _apply(motion, BODY_2, dx, dy, dz)
-        v2x = ax - bx - motion[BASE_2]
-        v2y = ay - by - motion[BASE_2 + 1]
-        v2z = az - bz - motion[BASE_2 + 2]
+        pressures[q] = p
+        distances[q] = d
+        normals[q, 0] = nx
+        normals[q, 1] = ny
+        normals[q, 2] = nz
+        bx, by, bz = _apply(turn_1, x, y, z)
+        ax, ay, az = _apply(body_1, dx, dy, dz)
+        v1x = ax - bx - shift_1[0]
+        v1y = ay - by - shift_1[1]
+        v1z = az - bz - shift_1[2]
+        bx, by, bz = _apply(turn_2, x, y, z)
+        ax, ay, az = _apply(body_2, dx, dy, dz)
+        v2x = ax - bx - shift_2[0]
+        v2y = ay - by - shift_2[1]
+        v2z = az - bz - shift_2[2]
         along_1 = v1x * nx + v1y * ny + v1z * nz
         along_2 = v2x * nx + v2y * ny + v2z * nz
-        points[q, SLIP_1] = v1x - along_1 * nx
-        points[q, SLIP_1 + 1] = v1y - along_1 * ny
-        points[q, SLIP_1 + 2] = v1z - along_1 * nz
-        points[q, SLIP_2] = v2x - along_2 * nx
-        points[q, SLIP_2 + 1] = v2y - along_2 * ny
-        points[q, SLIP_2 + 2] = v2z - along_2 * nz
+        slip_1[q, 0] = v1x - along_1 * nx
+        slip_1[q, 1] = v1y - along_1 * ny
+        slip_1[q, 2] = v1z - along_1 * nz
+        slip_2[q, 0] = v2x - along_2 * nx
+        slip_2[q, 1] = v2y - along_2 * ny
+        slip_2[q, 2] = v2z - along_2 * nz
         if p <= 0.0:
             # An asperity that touches nothing stands straight.
             for c in range(3):
-                points[q, TRACTION + c] = 0.0
+                traction[q, c] = 0.0
                 deflection[q, c] = 0.0
             size[q] = 0.0
             if with_tangent:
@@ -285,10 +269,10 @@ def aimed_tractions(
             m1 = 0.0
             m2 = 0.0
             if aimed:
-                m1, m2 = aimed_slip(
-                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction, mu * p, give,
-                    give * (a1 + b1) - (px * ex + py * ey + pz * ez),
-                    give * (a2 + b2) - (px * fx + py * fy + pz * fz),
+                m1, m2 = augmented_slip(
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction, mu * p, augmentation,
+                    augmentation * (a1 + b1) - (px * ex + py * ey + pz * ez),
+                    augmentation * (a2 + b2) - (px * fx + py * fy + pz * fz),
                 )  # fmt: skip
                 a1 += m1
                 a2 += m2
@@ -298,7 +282,8 @@ def aimed_tractions(
                 )
                 _tangent(
                     stiffness[q], mu * p, t1, t2, along_1, along_2,
-                    ex, ey, ez, fx, fy, fz, hxx, hyy, hzz, hxy, hxz, hyz, motion,
+                    ex, ey, ez, fx, fy, fz, hxx, hyy, hzz, hxy, hxz, hyz,
+                    turn_1, body_1, turn_2, body_2,
                 )  # fmt: skip
             else:
                 t1 = (0.0, 0.0, 0.0, 0.0)
@@ -347,9 +332,9 @@ def aimed_tractions(
             k[2, 0] += nz * gx + p * hxz + slope * sz * nx
             k[2, 1] += nz * gy + p * hyz + slope * sz * ny
             k[2, 2] += nz * gz + p * hzz + slope * sz * nz
-        points[q, TRACTION] = tx
-        points[q, TRACTION + 1] = ty
-        points[q, TRACTION + 2] = tz
+        traction[q, 0] = tx
+        traction[q, 1] = ty
+        traction[q, 2] = tz
         weight = weights[q]
         for a in range(width):
             j = 3 * faces[face, a]
@@ -363,7 +348,7 @@ def aimed_tractions(
 @kernel
 def _tangent(
     k, scale, t1, t2, along_1, along_2, ex, ey, ez, fx, fy, fz,
-    hxx, hyy, hzz, hxy, hxz, hyz, m,
+    hxx, hyy, hzz, hxy, hxz, hyz, turn_1, body_1, turn_2, body_2,
 ):  # fmt: skip
     """Write the share's part of a point's tangent."""
     for c in range(3):
@@ -374,12 +359,12 @@ def _tangent(
         else:
             gx, gy, gz = hxz, hyz, hzz
         # Column c of dv_j/du - (n.v_j) H, in the tangent plane.
-        ax = m[BODY_1 + c] - m[BASE_1 + 3 + c] - along_1 * gx
-        ay = m[BODY_1 + 3 + c] - m[BASE_1 + 6 + c] - along_1 * gy
-        az = m[BODY_1 + 6 + c] - m[BASE_1 + 9 + c] - along_1 * gz
-        bx = m[BODY_2 + c] - m[BASE_2 + 3 + c] - along_2 * gx
-        by = m[BODY_2 + 3 + c] - m[BASE_2 + 6 + c] - along_2 * gy
-        bz = m[BODY_2 + 6 + c] - m[BASE_2 + 9 + c] - along_2 * gz
+        ax = body_1[0, c] - turn_1[0, c] - along_1 * gx
+        ay = body_1[1, c] - turn_1[1, c] - along_1 * gy
+        az = body_1[2, c] - turn_1[2, c] - along_1 * gz
+        bx = body_2[0, c] - turn_2[0, c] - along_2 * gx
+        by = body_2[1, c] - turn_2[1, c] - along_2 * gy
+        bz = body_2[2, c] - turn_2[2, c] - along_2 * gz
         a1 = ax * ex + ay * ey + az * ez
         a2 = ax * fx + ay * fy + az * fz
         b1 = bx * ex + by * ey + bz * ez

@@ -122,14 +122,14 @@ def overclosure_work(begin, end, law):
     By Simpson's rule between the kinks of the law's pressure, which is exact: it is at most
     quadratic there. The hard law stores nothing, see `potential`.
     """
-    if law[0] == HARD:
+    if law.code == HARD:
         return 0.0
     work = 0.0
     least = 0.0
     for part in range(3):
         most = np.inf
-        if law[0] == TWO_STAGE and part < 2:
-            most = law[3 + part]
+        if law.code == TWO_STAGE and part < 2:
+            most = law.start if part == 0 else law.end
         low = min(max(begin, least), most)
         high = min(max(end, least), most)
         if low != high:
@@ -170,8 +170,8 @@ def account(
         Of the points of the surface at both ends, and the slip between.
     weights : ndarray, shape (q,)
         Area of each.
-    law : ndarray
-        `asperity.contact.interface.normal.NormalLaw.parameters`.
+    law : PressureLaw
+        Of `asperity.contact.interface.normal`.
     mean_pressure : ndarray, shape (q,)
         Changed: pressure times time.
     """
@@ -250,14 +250,14 @@ def potential(over, law):
 
     The multipliers of the hard law make it depend on its history: it stores nothing.
     """
-    if over <= 0.0 or law[0] == HARD:
+    if over <= 0.0 or law.code == HARD:
         return 0.0
-    stiffness = law[1]
-    if law[0] != TWO_STAGE:
+    stiffness = law.stiffness
+    if law.code != TWO_STAGE:
         return 0.5 * stiffness * over * over
-    soft = law[2]
-    first = law[3]
-    last = law[4]
+    soft = law.initial
+    first = law.start
+    last = law.end
     if over <= first:
         return 0.5 * soft * over * over
     rise = (stiffness - soft) / (last - first)

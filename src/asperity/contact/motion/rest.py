@@ -5,12 +5,9 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
-from asperity.contact.increment.solver import (
-    ContactState,
-    IncrementResult,
-    SurfaceMotion,
-    solve_increment,
-)
+from asperity.contact.increment.problem import ContactState, IncrementResult
+from asperity.contact.increment.solver import IncrementSolver
+from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.motion import hht
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.steps import resultants, take_step
@@ -50,8 +47,8 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
     long, accuracy = _loading(system)
     waiting = dataclasses.replace(mechanism, drive=None, load=None, damping=None)
     first = mo.motion_step(waiting, long, alpha=0.0)
-    problem = system.increments(first.compliance, long)
-    contact = ContactState.rest(problem)
+    solver = IncrementSolver(system.increments(first.compliance, long))
+    contact = ContactState.rest(solver.problem)
     coordinates = hht.rest(mechanism.size)
     drive = np.zeros(mo.DRIVE_STATE)
     still = SurfaceMotion(pose=system.pose)
@@ -61,7 +58,7 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
         for _ in range(_MOST_STATIC):
             try:
                 result, coordinates, drive, _ = take_step(
-                    moving, problem, still, contact, coordinates, drive, (0.0, 0.0, 1.0)
+                    moving, solver, still, contact, coordinates, drive, (0.0, 0.0, 1.0)
                 )
             except ConvergenceError as error:
                 raise ConvergenceError(
@@ -130,7 +127,7 @@ def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemS
         free, forces = free + load.response, forces - load.generalised
     problem = system.increments(mechanism.flexibility, _loading(system)[0])
     untouched = dataclasses.replace(ContactState.rest(problem), displacement=free)
-    result = solve_increment(problem, free, SurfaceMotion(pose=system.pose), untouched)
+    result = IncrementSolver(problem).solve(free, SurfaceMotion(pose=system.pose), untouched)
     coordinates = hht.rest(mechanism.size)
     coordinates[: hht.VELOCITY + 1] = start
     forces -= mechanism.shapes.T @ result.force

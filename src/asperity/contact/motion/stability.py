@@ -29,7 +29,7 @@ import numpy.typing as npt
 from scipy import sparse
 from scipy.linalg import block_diag
 
-from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion import hht

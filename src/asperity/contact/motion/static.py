@@ -18,14 +18,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
-from asperity.contact.increment.solver import (
-    ContactState,
-    Drift,
-    IncrementProblem,
-    IncrementResult,
-    SurfaceMotion,
-    solve_increment,
-)
+from asperity.contact.increment.problem import ContactState, IncrementProblem, IncrementResult
+from asperity.contact.increment.solver import IncrementSolver
+from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
 from asperity.contact.interface.rigid import Pose
 from asperity.errors import ConvergenceError, InputError
 
@@ -111,13 +106,13 @@ class StaticState:
 
 
 def on_guide(
-    problem: IncrementProblem, guide: Guide, state: StaticState, place: float = 0.0
+    solver: IncrementSolver, guide: Guide, state: StaticState, place: float = 0.0
 ) -> StaticState:
     """Count the place of a state on another guide, to go on along it.
 
     Parameters
     ----------
-    problem : IncrementProblem
+    solver : IncrementSolver
         Of the way to come; friction may differ from that of the way before.
     guide : Guide
         The next one; at ``place`` the counter-surface has to stand where it stands.
@@ -131,11 +126,11 @@ def on_guide(
     StaticState
         The same contact with its load along the next guide.
     """
-    return StaticState(place, guide.load(problem, state.contact), state.contact, 0)
+    return StaticState(place, guide.load(solver.problem, state.contact), state.contact, 0)
 
 
 def follow(
-    problem: IncrementProblem,
+    solver: IncrementSolver,
     guide: Guide,
     places: Sequence[float],
     *,
@@ -146,7 +141,7 @@ def follow(
 
     Parameters
     ----------
-    problem, guide, start
+    solver, guide, start
         As `move_to`.
     places : sequence of float
         Where to, m or rad, one after the other.
@@ -165,7 +160,7 @@ def follow(
     """
     states: list[StaticState] = []
     for place in places:
-        start = move_to(problem, guide, place, start=start, increments=increments)
+        start = move_to(solver, guide, place, start=start, increments=increments)
         states.append(start)
     return tuple(states)
 
@@ -181,7 +176,7 @@ def _friction_work(
 
 
 def move_to(
-    problem: IncrementProblem,
+    solver: IncrementSolver,
     guide: Guide,
     place: float,
     *,
@@ -193,8 +188,8 @@ def move_to(
 
     Parameters
     ----------
-    problem : IncrementProblem
-        Body, surface and laws; `flexibility` that of the held body.
+    solver : IncrementSolver
+        Of body, surface and laws; `flexibility` is that of the held body.
     guide : Guide
         How the surface moves.
     place : float
@@ -218,6 +213,7 @@ def move_to(
     """
     if increments < 1:
         raise InputError(f"increments is {increments}; it must be at least 1")
+    problem = solver.problem
     state, at, load_free = _begin(problem, start)
     last_free = np.zeros(3 * problem.nodes) if free is None else free
     begin, done, count, work = at, 0.0, 0, 0.0
@@ -231,7 +227,7 @@ def move_to(
         to = begin + ahead * (place - begin)
         loads = load_free + ahead * (last_free - load_free)
         try:
-            result = solve_increment(problem, loads, _motion(guide, at, to), state)
+            result = solver.solve(loads, _motion(guide, at, to), state)
         except ConvergenceError as error:
             share *= 0.5
             if share * increments < 0.5**_MOST_CUTS:
@@ -247,7 +243,7 @@ def move_to(
 
 
 def load_to(
-    problem: IncrementProblem,
+    solver: IncrementSolver,
     guide: Guide,
     load: float,
     *,
@@ -261,7 +257,7 @@ def load_to(
 
     Parameters
     ----------
-    problem, guide, start, increments, free
+    solver, guide, start, increments, free
         As `move_to`; ``free`` is there from the first increment on.
     load : float
         Force along the guide's axis or moment about it, on the body, N or N m. It has to grow
@@ -287,7 +283,7 @@ def load_to(
     work = 0.0
     for part in range(1, increments + 1):
         target = first + part / increments * (load - first)
-        now, way = _one_load(problem, guide, target, now, step, free, tolerance, abs(load))
+        now, way = _one_load(solver, guide, target, now, step, free, tolerance, abs(load))
         step = way or step
         work += now.friction_work
     assert isinstance(now, StaticState)
@@ -295,7 +291,7 @@ def load_to(
 
 
 def _one_load(
-    problem: IncrementProblem,
+    solver: IncrementSolver,
     guide: Guide,
     target: float,
     start: StaticState | float,
@@ -305,11 +301,12 @@ def _one_load(
     scale: float,
 ) -> tuple[StaticState, float]:
     """One increment to a load: bracketed regula falsi (Illinois) on the place."""
+    problem = solver.problem
     state, at, _ = _begin(problem, start)
     loads = np.zeros(3 * problem.nodes) if free is None else free
 
     def tried(way: float) -> StaticState:
-        result = solve_increment(problem, loads, _motion(guide, at, at + way), state)
+        result = solver.solve(loads, _motion(guide, at, at + way), state)
         work = _friction_work(problem, state, result)
         return StaticState(at + way, guide.load(problem, result), result, 1, work)
 

@@ -4,16 +4,14 @@ A step changes no state: it makes a new one. One that finds no equilibrium is ta
 halves, and those in halves if need be.
 """
 
+import dataclasses
+
 import numpy as np
 import numpy.typing as npt
 
-from asperity.contact.increment.solver import (
-    ContactState,
-    IncrementProblem,
-    IncrementResult,
-    SurfaceMotion,
-    solve_increment,
-)
+from asperity.contact.increment.problem import ContactState, IncrementResult
+from asperity.contact.increment.solver import IncrementSolver, SolverMemory
+from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.system import System, SystemState
@@ -23,12 +21,22 @@ FloatArray = npt.NDArray[np.float64]
 
 MOST_CUTS = 8
 
-Snapshot = tuple[SystemState, FloatArray, FloatArray, int, int, float]
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Snapshot:
+    """All that changes on the way of a `Stepper`, whose attributes these are."""
+
+    state: SystemState
+    sums: FloatArray
+    mean_pressure: FloatArray
+    cuts: int
+    unconverged: int
+    residual_max: float
 
 
 def take_step(
     moving: mo.MotionStep,
-    problem: IncrementProblem,
+    solver: IncrementSolver,
     surface_motion: SurfaceMotion,
     contact: ContactState,
     coordinates: FloatArray,
@@ -39,7 +47,7 @@ def take_step(
 
     Parameters
     ----------
-    moving, problem : MotionStep, IncrementProblem
+    moving, solver : MotionStep, IncrementSolver
         What the length of the step makes of body and contact.
     surface_motion : SurfaceMotion
         Of the base over the step.
@@ -75,7 +83,7 @@ def take_step(
         operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive,
         moving.drive_shape, moving.load_force, moving.load_response, place, velocity, room, free,
     )  # fmt: skip
-    result = solve_increment(problem, free, surface_motion, contact)
+    result = solver.solve(free, surface_motion, contact)
     after, drive_after = np.empty_like(coordinates), np.empty_like(drive)
     taken = mo.settle(
         coordinates, after, drive, drive_after, far, speed, load, free_force, result.force,
@@ -103,7 +111,7 @@ def resultants(
     return forces
 
 
-class Walker:
+class Stepper:
     """Takes a system from state to state and keeps the sums of what happens on the way.
 
     Attributes
@@ -132,19 +140,37 @@ class Walker:
         self.mean_pressure = np.zeros(system.weights.size)
         self.cuts = self.unconverged = 0
         self.residual_max = 0.0
+        self._by_length: dict[float, tuple[mo.MotionStep, IncrementSolver]] = {}
         ledger.clear(self.sums)
 
+    def stepping(self, step: float) -> tuple[mo.MotionStep, IncrementSolver]:
+        """What a length of the step makes of body and contact; made once for each."""
+        if step not in self._by_length:
+            moving = self.system.motion_step(step)
+            problem = self.system.increments(moving.compliance, step)
+            self._by_length[step] = moving, IncrementSolver(problem)
+        return self._by_length[step]
+
     def snapshot(self) -> Snapshot:
-        """Return all that changes: state, sums, pressures, cuts, unconverged, residual."""
-        return (
+        """Return all that changes."""
+        return Snapshot(
             self.state, self.sums, self.mean_pressure, self.cuts, self.unconverged,
             self.residual_max,
         )  # fmt: skip
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
-        self.state, self.sums, self.mean_pressure, self.cuts = snapshot[:4]
-        self.unconverged, self.residual_max = snapshot[4:]
+        for field in dataclasses.fields(Snapshot):
+            setattr(self, field.name, getattr(snapshot, field.name))
+
+    def memories(self) -> dict[str, SolverMemory]:
+        """Return what the solvers have learnt, by the length of their step."""
+        return {repr(step): solver.memory() for step, (_, solver) in self._by_length.items()}
+
+    def recall(self, memories: dict[str, SolverMemory]) -> None:
+        """Make solvers that have learnt what others have."""
+        for step, memory in memories.items():
+            self.stepping(float(step))[1].recall(memory)
 
     def clear(self) -> None:
         """Begin the sums anew."""
@@ -186,11 +212,11 @@ class Walker:
 
     def _take(self, end: float, step: float) -> None:
         system, state = self.system, self.state
-        moving, problem = system.stepping(step)
+        moving, solver = self.stepping(step)
         surface_motion, base = system.surface_motion(state.time, end)
         far = state.drive[mo.REACH] + system.drive_velocity * step
         result, coordinates, drive, (lost, damped) = take_step(
-            moving, problem, surface_motion, state.contact.state, state.coordinates,
+            moving, solver, surface_motion, state.contact.state, state.coordinates,
             state.drive, (far, system.drive_velocity, state.load),
         )  # fmt: skip
         if system.mechanism.drive is None and system.mechanism.held[0]:
@@ -214,9 +240,9 @@ class Walker:
             before.state.deflection,
             result.pressure, result.traction, result.normal, result.distance,
             result.state.deflection,
-            result.slip_1, result.slip_2, system.weights, system.normal.parameters, mean_pressure,
+            result.slip_1, result.slip_2, system.weights, system.normal.numbers, mean_pressure,
         )  # fmt: skip
         self.sums, self.mean_pressure = sums, mean_pressure
-        self.unconverged += result.residual > problem.tolerance
+        self.unconverged += result.residual > solver.problem.tolerance
         self.residual_max = max(self.residual_max, float(result.residual))
         self.state = SystemState(end, coordinates, drive, result, forces, state.load)

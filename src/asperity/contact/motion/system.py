@@ -6,13 +6,9 @@ import functools
 import numpy as np
 import numpy.typing as npt
 
-from asperity.contact.increment.solver import (
-    Drift,
-    IncrementProblem,
-    IncrementResult,
-    SurfaceMotion,
-)
-from asperity.contact.interface.friction_point import PointFriction
+from asperity.contact.increment.problem import IncrementProblem, IncrementResult
+from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
+from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface
@@ -35,7 +31,7 @@ class Shaking:
     ----------
     shape : Shape
         Waveform.
-    way : tuple of 3 floats
+    amplitude : tuple of 3 floats
         Displacement amplitude along x, y, and z (up, against the pressure), m.
     start : float
         When it begins, s.
@@ -46,7 +42,7 @@ class Shaking:
     """
 
     shape: Shape
-    way: tuple[float, float, float]
+    amplitude: tuple[float, float, float]
     start: float = 0.0
     transfer: float = 1.0
     on_body: bool = False
@@ -104,18 +100,9 @@ class System:
         """Area of each point of the surface, m^2."""
         return np.ascontiguousarray(self.surface.weights.ravel())
 
-    @functools.cached_property
-    def _moving(self) -> dict[float, tuple[mo.MotionStep, IncrementProblem]]:
-        return {}
-
-    def stepping(self, step: float) -> tuple[mo.MotionStep, IncrementProblem]:
-        """What a length of the step makes of body and contact; made once for each."""
-        if step not in self._moving:
-            moving = mo.motion_step(
-                self.mechanism, step, alpha=self.alpha, impact=self.impact(step)
-            )
-            self._moving[step] = moving, self.increments(moving.compliance, step)
-        return self._moving[step]
+    def motion_step(self, step: float) -> mo.MotionStep:
+        """What a length of the step makes of the body."""
+        return mo.motion_step(self.mechanism, step, alpha=self.alpha, impact=self.impact(step))
 
     @functools.cached_property
     def bounce(self) -> float:
@@ -151,11 +138,6 @@ class System:
         """Return the parameter the time integration takes for a length of the step."""
         return hht.coefficients(self.alpha, impact=self.impact(step))[0]
 
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """Lengths of the steps taken so far, s."""
-        return tuple(self._moving)
-
     def increments(self, compliance: FloatArray, step: float) -> IncrementProblem:
         """Return what the increments of a contact with this flexibility have in common."""
         return IncrementProblem(
@@ -171,7 +153,7 @@ class System:
         shaking = self.shaking
         if shaking is None:
             return SurfaceMotion(pose=self.pose), np.zeros(4)
-        way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.way)
+        way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.amplitude)
         x, y, z = shaking.increment(begin, end) * way
         pose = self.pose
         if way[2] != 0.0:
@@ -221,7 +203,7 @@ class SystemState:
         contact = self.contact
         over, asperities = ledger.surface_energies(
             contact.pressure, contact.distance, contact.state.deflection, system.weights,
-            system.normal.parameters, system.friction.mu, system.friction.limit,
+            system.normal.numbers, system.friction.mu, system.friction.limit,
         )  # fmt: skip
         kinetic, elastic, spring = ledger.body_energies(
             system.mechanism, self.coordinates, self.drive, contact.force, self.load

@@ -27,7 +27,7 @@ from asperity.contact.interface.surface import contact_surface
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Walker
+from asperity.contact.motion.steps import Stepper
 from asperity.contact.motion.system import Shaking, System, SystemState
 from asperity.mesh import box
 from asperity.slider import Model, SlideResult
@@ -176,11 +176,11 @@ def _settled(block: Block) -> Settled:
     slider = solve_periodic(block.model())
     slope = _slope(block)
     bodies = (resting.block, resting.in_series, resting.rocking)
-    walkers = [_calmed(*body, slider) for body in bodies]
+    steppers = [_calmed(*body, slider) for body in bodies]
     length = _SHORTEST
     while True:
         # All over the same cycles: the drive force has not settled, but it stands alike for all.
-        windows, late = zip(*(_read(w, slider.model, slope, length) for w in walkers), strict=True)
+        windows, late = zip(*(_read(w, slider.model, slope, length) for w in steppers), strict=True)
         apart = max(float(np.ptp(ratios)) for ratios in windows)
         if apart <= STEADY * abs(slider.ratio) or length >= _LONGEST:
             break
@@ -197,23 +197,23 @@ def _settled(block: Block) -> Settled:
     )
 
 
-def _calmed(system: System, rest: SystemState, slider: SlideResult) -> Walker:
+def _calmed(system: System, rest: SystemState, slider: SlideResult) -> Stepper:
     """A body on its way from the sliding body's periodic state, most of its rocking gone."""
     model = slider.model
     shaken = dataclasses.replace(system, shaking=_from_the_start(model))
-    calm = Walker(dataclasses.replace(shaken, alpha=_CALM_ALPHA), _begin(system, rest, slider))
+    calm = Stepper(dataclasses.replace(shaken, alpha=_CALM_ALPHA), _begin(system, rest, slider))
     _cycles(calm, model, _CALM_CYCLES, _CALM_STEPS)
-    walker = Walker(shaken, calm.state)
-    _cycles(walker, model, _SETTLE_CYCLES, STEPS)
-    return walker
+    stepper = Stepper(shaken, calm.state)
+    _cycles(stepper, model, _SETTLE_CYCLES, STEPS)
+    return stepper
 
 
-def _read(walker: Walker, model: Model, slope: float, length: int) -> tuple[FloatArray, float]:
+def _read(stepper: Stepper, model: Model, slope: float, length: int) -> tuple[FloatArray, float]:
     """Ratio in each window, brought to the drive's velocity, and how much slower the body was."""
     # The rocking comes round in other than whole cycles. Weights that fade in and out let it
     # cancel within a window, where equal ones would leave what is cut off at its ends.
     weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    cycles = np.array([_cycle(walker, model) for _ in range(_WINDOWS * length)])
+    cycles = np.array([_cycle(stepper, model) for _ in range(_WINDOWS * length)])
     means = np.average(cycles.reshape(_WINDOWS, length, 2), axis=1, weights=weights)
     late = 1.0 - means[:, 1] / model.slider.drive_velocity
     return means[:, 0] / model.full_friction + slope * late, float(late.mean())
@@ -243,21 +243,21 @@ def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemStat
     return dataclasses.replace(rest, coordinates=coordinates, drive=drive, contact=contact)
 
 
-def _cycles(walker: Walker, model: Model, count: int, steps: int) -> None:
+def _cycles(stepper: Stepper, model: Model, count: int, steps: int) -> None:
     step = 1.0 / (model.frequency * steps)
-    first = round(walker.state.time / step)
+    first = round(stepper.state.time / step)
     for n in range(first + 1, first + count * steps + 1):
-        walker.step_to(n * step, step)
+        stepper.step_to(n * step, step)
 
 
-def _cycle(walker: Walker, model: Model) -> tuple[float, float]:
+def _cycle(stepper: Stepper, model: Model) -> tuple[float, float]:
     """Friction along the drive and velocity, averaged over a cycle."""
-    walker.clear()
-    begin, place = walker.state.time, walker.state.coordinates[hht.PLACE, 0]
-    _cycles(walker, model, 1, STEPS)
-    way = walker.state.coordinates[hht.PLACE, 0] - place
-    friction = walker.sums[ledger.FRICTION_X] / walker.sums[ledger.TIME]
-    return float(friction), float(way / (walker.state.time - begin))
+    stepper.clear()
+    begin, place = stepper.state.time, stepper.state.coordinates[hht.PLACE, 0]
+    _cycles(stepper, model, 1, STEPS)
+    way = stepper.state.coordinates[hht.PLACE, 0] - place
+    friction = stepper.sums[ledger.FRICTION_X] / stepper.sums[ledger.TIME]
+    return float(friction), float(way / (stepper.state.time - begin))
 
 
 def _slope(block: Block) -> float:

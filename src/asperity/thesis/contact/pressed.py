@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
-from asperity.contact.increment.solver import IncrementProblem
+from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface, contact_surface
@@ -81,7 +81,7 @@ def press(kind: Kind, shift: float) -> Pressed:
         body.flexibility, surface, RigidSurface.cylinder(RADIUS), NormalLaw("linear", stiffness)
     )
     guide = Guide(np.array([0.0, 0.0, 1.0]), Pose(across, middle))
-    state = load_to(problem, guide, LOAD, step=_FIRST)
+    state = load_to(IncrementSolver(problem), guide, LOAD, step=_FIRST)
     contact = state.contact
     x = np.round(surface.points[..., 0] - middle[0], 12).ravel()
     places, which = np.unique(x, return_inverse=True)

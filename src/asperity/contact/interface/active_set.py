@@ -1,8 +1,16 @@
-"""Stiffness of the points brought to the nodes: as a matrix, and times a displacement."""
+"""The active set: unknowns about the points in contact, and the contact's stiffness among them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.compiled import kernel
+from asperity.contact.interface.records import Interface
+
+FloatArray = npt.NDArray[np.float64]
 
 
 @kernel
@@ -62,3 +70,43 @@ def stiffness_forces(stiffness, faces, shapes, weights, w, out):
             out[j] += shape * tx
             out[j + 1] += shape * ty
             out[j + 2] += shape * tz
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveSet:
+    """The active set: nodes of the faces that have a point in contact.
+
+    Attributes
+    ----------
+    nodes : ndarray of int, shape (t,)
+        Ascending.
+    local : ndarray of int, shape (n,)
+        Number of each node among them, -1 for the others.
+    dofs : ndarray of int, shape (3t,)
+        Their unknowns.
+    """
+
+    nodes: npt.NDArray[np.int64]
+    local: npt.NDArray[np.int64]
+    dofs: npt.NDArray[np.int64]
+
+    @classmethod
+    def about(cls, interface: Interface, count: int, touching: npt.NDArray[np.bool_]) -> ActiveSet:
+        """Return the nodes, of so many, about the points in contact, shape (q,)."""
+        nodes = np.unique(interface.faces[np.flatnonzero(touching) // len(interface.shapes)])
+        local = np.full(count, -1, dtype=np.int64)
+        local[nodes] = np.arange(len(nodes))
+        return cls(nodes, local, (3 * nodes[:, None] + np.arange(3)).ravel())
+
+    def stiffness(self, interface: Interface, points: FloatArray) -> FloatArray:
+        """Return the stiffness of the points, shape (q, 3, 3), brought to the unknowns, N/m."""
+        matrix = np.zeros((len(self.dofs), len(self.dofs)))
+        add_stiffness(
+            points, interface.faces, interface.shapes, interface.weights, self.local, matrix
+        )
+        return matrix
+
+    def among(self, flexibility: FloatArray) -> FloatArray:
+        """Return the body's flexibility among the unknowns, m/N."""
+        part: FloatArray = flexibility[np.ix_(self.dofs, self.dofs)]
+        return part

@@ -1,0 +1,178 @@
+r"""The equations of one increment for given multipliers, and what they leave.
+
+The residual is the difference between the nodal forces the body answers to and those of the
+tractions, over the norm of the forces. Positions are known to so many digits, and a stiff contact
+makes forces of the last of them: forces below that floor are those of touching and no more, and
+nothing is asked of them, so that a contact may begin and end in any increment.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.contact.increment.iterations import product
+from asperity.contact.increment.problem import IncrementProblem
+from asperity.contact.interface.counter_motion import MotionNumbers
+from asperity.contact.interface.records import Committed, ContactPoints
+from asperity.contact.interface.tractions import augmented_tractions, tractions
+
+FloatArray = npt.NDArray[np.float64]
+
+_ROUNDING = 16.0 * np.finfo(float).eps
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """The contact at one displacement of its nodes.
+
+    Attributes
+    ----------
+    assumed : ndarray, shape (3n,)
+        Forces the body answers to, N.
+    response : ndarray, shape (3n,)
+        Its answer to them, ``A assumed``, m.
+    u : ndarray, shape (3n,)
+        Displacement, m.
+    force : ndarray, shape (3n,)
+        Forces of the tractions, N.
+    points : ContactPoints
+        The contact at its points.
+    floor : float
+        `Increment.floor`, N.
+    stiffness : ndarray, shape (q, 3, 3)
+        Derivative of the tractions by the displacement, Pa/m; empty without a tangent.
+    """
+
+    assumed: FloatArray
+    response: FloatArray
+    u: FloatArray
+    force: FloatArray
+    points: ContactPoints
+    floor: float
+    stiffness: FloatArray = field(default_factory=lambda: np.empty((0, 3, 3)))
+
+    @property
+    def touching(self) -> npt.NDArray[np.bool_]:
+        """Points in contact."""
+        touching: npt.NDArray[np.bool_] = self.points.pressure > 0.0
+        return touching
+
+    @property
+    def only_touches(self) -> bool:
+        """Whether all forces are below the floor."""
+        return self._scale <= self.floor
+
+    @property
+    def _scale(self) -> float:
+        return max(float(np.linalg.norm(self.force)), float(np.linalg.norm(self.assumed)))
+
+    @property
+    def residual(self) -> float:
+        """Relative difference between the forces assumed and those of the tractions."""
+        if self.only_touches:
+            return 0.0
+        return float(np.linalg.norm(self.assumed - self.force)) / self._scale
+
+
+@dataclass(frozen=True, eq=False)
+class AugmentedTrial:
+    """Tractions assumed at the points, what the body makes of them, and what the laws say to it.
+
+    Attributes
+    ----------
+    assumed : ndarray, shape (q, 3)
+        Pa.
+    response, force, points, stiffness : ndarray, ContactPoints
+        As in `Trial`.
+    off : float
+        Root of the integral of the squared difference between the laws' tractions and those
+        assumed, N/m.
+    """
+
+    assumed: FloatArray
+    response: FloatArray
+    force: FloatArray
+    points: ContactPoints
+    stiffness: FloatArray
+    off: float
+
+
+@dataclass(frozen=True, eq=False)
+class Increment:
+    """What is given of one increment.
+
+    Attributes
+    ----------
+    problem : IncrementProblem
+        What stays the same.
+    free : ndarray, shape (3n,)
+        :math:`u^*`, displacement without contact, m.
+    motion : MotionNumbers
+        Of the counter-surface.
+    committed : Committed
+        Where it starts from, and the multipliers of hard contact.
+    """
+
+    problem: IncrementProblem
+    free: FloatArray
+    motion: MotionNumbers
+    committed: Committed
+
+    def evaluate(self, assumed: FloatArray, response: FloatArray) -> Trial:
+        """Evaluate the contact where nodal forces lead to, with its tangent."""
+        count = self.problem.points
+        trial = Trial(
+            assumed, response, self.free + response, np.empty_like(self.free),
+            ContactPoints.empty(count), self.floor, np.empty((count, 3, 3)),
+        )  # fmt: skip
+        tractions(
+            trial.u, self.committed, self.problem.interface, self.motion, trial.force,
+            trial.points, trial.stiffness, True,
+        )  # fmt: skip
+        return trial
+
+    def augmented(
+        self, assumed: FloatArray, response: FloatArray, augmentation: float
+    ) -> AugmentedTrial:
+        """Evaluate the augmented contact where tractions at the points lead to."""
+        count = self.problem.points
+        points, stiffness = ContactPoints.empty(count), np.empty((count, 3, 3))
+        force = np.empty_like(self.free)
+        _, off = augmented_tractions(
+            self.free + response, self.committed, self.problem.interface, self.motion, force,
+            points, stiffness, True, assumed, augmentation,
+        )  # fmt: skip
+        return AugmentedTrial(assumed, response, force, points, stiffness, float(np.sqrt(off)))
+
+    def response(self, force: FloatArray) -> FloatArray:
+        """Return what the body answers to nodal forces, ``A f``, m."""
+        out = np.empty_like(force)
+        product(self.problem.flexibility, force, out)
+        return out
+
+    def nodal(self, tractions: FloatArray) -> FloatArray:
+        """Return the nodal forces of tractions at the points, N."""
+        surface = self.problem.surface
+        by_face = tractions.reshape(*surface.weights.shape, 3)
+        forces: FloatArray = surface.to_forces(by_face).ravel()
+        return forces
+
+    @cached_property
+    def floor(self) -> float:
+        """Forces that the last digits of the positions make, N."""
+        return self._last_digits(self.free)
+
+    def rounding(self, trial: Trial) -> float:
+        """Relative residual that the arithmetic itself makes."""
+        scale = float(np.linalg.norm(trial.force))
+        return self._last_digits(trial.u) / scale if scale > 0.0 else 0.0
+
+    def _last_digits(self, u: FloatArray) -> float:
+        problem = self.problem
+        reach = problem.reach + float(np.abs(u).max())
+        reach += float(np.linalg.norm(self.motion.translation))
+        return _ROUNDING * reach * problem.normal.stiffness * problem.area_norm
