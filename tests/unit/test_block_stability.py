@@ -5,13 +5,13 @@ import re
 
 import numpy as np
 import pytest
-from asperity.contact.interface.friction import PointFriction
 
 from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import BlockProblem
 from asperity.block.stability import Flutter, Stability, flutter_note, slip_directions
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.contact.interface.friction import PointFriction
 from asperity.contact.motion import hht
 from asperity.contact.motion.stability import Growth, sliding_motion
 from asperity.errors import InputError
