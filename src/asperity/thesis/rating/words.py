@@ -1,0 +1,283 @@
+"""Claims 1.1, 2.6, 3.9 to 3.14 and 7.9: what the thesis says of gearsets besides their numbers."""
+
+import math
+from typing import Any
+
+from asperity.rating import Rated
+from asperity.thesis.ledger import Finding
+from asperity.thesis.rating.rated import GEARSET_2, GEARSET_3, GEARSETS, RatedGear, optimum_of
+
+_LOW, _HIGH = 0.05, 0.10
+
+
+def claim_1_1() -> Finding:
+    """Torque that an efficient gearset saves."""
+    output, ratio = 150.0, 15.0
+    before, after = (output / (ratio * efficiency) for efficiency in (0.5, 0.8))
+    saved = after / before - 1.0
+    return Finding.judged(
+        {
+            "20 N m to 12.5 N m": math.isclose(before, 20.0) and math.isclose(after, 12.5),
+            "37 % less power": math.floor(-100.0 * saved) == 37,
+        },
+        f"{before:g} N m to {after:g} N m, {saved:.1%}",
+        "Arithmetic: T_1 = T_2/(U eta). The thesis drops the half percent.",
+        {"torque_before_Nm": before, "torque_after_Nm": after, "saving": -saved},
+        ["output_torque / (gear_ratio * efficiency)"],
+    )
+
+
+def claim_2_6() -> Finding:
+    """Friction of bronze on steel."""
+    keys = {
+        "BS 721": ("bs721", "mu"),
+        "AGMA 6034": ("agma6034", "mu"),
+        "mu_0T of ISO/TR 14521": ("iso14521", "mu_0T"),
+        "mu_zm of ISO/TR 14521": ("iso14521", "mu_zm"),
+    }
+    found = {
+        name: [gear.number(standard, key) for gear in GEARSETS.values()]
+        for name, (standard, key) in keys.items()
+    }
+    velocities = [gear.number("iso14521", "sliding_velocity_m_s") for gear in GEARSETS.values()]
+    second, third = found["mu_0T of ISO/TR 14521"]
+    return Finding.judged(
+        {
+            f"by {name}": all(_LOW <= mu <= _HIGH for mu in both)
+            for name, both in found.items()
+            if not name.startswith("mu_0T")
+        },
+        "; ".join(f"{name} {' and '.join(f'{mu:.3f}' for mu in both)}"
+                  for name, both in found.items()),
+        "Gearsets 2 and 3 at their sliding velocities, "
+        f"{' and '.join(f'{velocity:.2f}' for velocity in velocities)} m/s. The range that is "
+        "quoted lies between the standards: friction by BS 721 and AGMA 6034 is lower; ISO/TR "
+        f"14521 has its base friction in the range, {second:.3f} and {third:.3f}, and raises it "
+        "for size, geometry, material and roughness.",
+        {
+            f"{gear.replace(' ', '_')}_{name.partition(' of ')[0].replace(' ', '_')}": mu
+            for name, both in found.items()
+            for gear, mu in zip(GEARSETS, both, strict=True)
+        },
+        [gear.command() for gear in GEARSETS.values()],
+    )  # fmt: skip
+
+
+def claim_3_9() -> Finding:
+    """The order of efficiencies and of torques."""
+    parts: dict[str, bool] = {}
+    numbers: dict[str, float] = {}
+    shown = []
+    for name, gear in GEARSETS.items():
+        iso, bs = (gear.ratings()[standard] for standard in ("iso14521", "bs721"))
+        keys = ("M_26k_Nm", "M_w_Nm", "M_s_Nm", "output_torque_Nm", "through_travel_torque_Nm")
+        long, wear, strength, rated, peak = (float(bs[key]) for key in keys)
+        mesh, gearbox = float(iso["eta_z1_2"]), float(iso["eta_ges"])
+        parts |= {
+            f"{name}: eta_ges < eta_z": gearbox < mesh,
+            f"{name}: M_w, M_s > M_26k": min(wear, strength) > long,
+            f"{name}: M_w > T_2": wear > peak,
+            f"{name}: M_s > T_R": strength > rated,
+        }
+        shown.append(f"{name}: {gearbox:.1%} < {mesh:.1%}; {wear:.0f}, {strength:.0f} > {long:.0f}")
+        numbers |= {
+            f"{name.replace(' ', '_')}_{key}": value
+            for key, value in (("eta_ges", gearbox), ("eta_z", mesh), ("M_26k_Nm", long),
+                               ("M_w_Nm", wear), ("M_s_Nm", strength))
+        }  # fmt: skip
+    return Finding.judged(
+        parts,
+        "; ".join(shown) + " N m",
+        "T_2 is the torque of through travel, a third of T_R as 3.2.1 has it. Of gearsets 2 and 3, "
+        "which are reconstructed; 1 and 4 are lost.",
+        numbers,
+        [gear.command() for gear in GEARSETS.values()],
+    )  # fmt: skip
+
+
+def claim_3_10() -> Finding:
+    """What the optimum does besides."""
+    before, after = (
+        {
+            name: {
+                "q_1": _number(rated, "iso14521", "diameter_factor"),
+                "eta_AGMA": _number(rated, "agma6034", "eta"),
+                "M_w": _number(rated, "bs721", "M_w_Nm"),
+                "M_s": _number(rated, "bs721", "M_s_Nm"),
+                "sigma_a": _number(rated, "agma6034", "bending_stress_MPa"),
+            }
+            for name, rated in designs.items()
+        }
+        for designs in (
+            {name: optimum_of(gear).before for name, gear in GEARSETS.items()},
+            {name: optimum_of(gear).after for name, gear in GEARSETS.items()},
+        )
+    )
+    change = {
+        name: {key: after[name][key] / value - 1.0 for key, value in own.items()}
+        for name, own in before.items()
+    }
+    second, third = change.values()
+    return Finding.judged(
+        {
+            "M_w rises a little": all(0.0 < own["M_w"] < 0.1 for own in change.values()),
+            "M_s stays": all(abs(own["M_s"]) < 1e-6 for own in change.values()),
+            "eta_AGMA does not rise in all": min(own["eta_AGMA"] for own in change.values()) <= 0.0,
+            "q_1 rises for gearset 3 only": second["q_1"] <= 0.0 < third["q_1"],
+            "sigma_a rises for gearset 3 only": second["sigma_a"] <= 0.0 < third["sigma_a"],
+        },
+        "; ".join(
+            f"{name}: " + ", ".join(f"{key} {share:+.1%}" for key, share in own.items())
+            for name, own in change.items()
+        ),
+        "The bounds of the optimum are assumed, Table 3.6 is lost, and where it lies within them "
+        "hangs on them. Gearsets 2 and 3 only.",
+        {
+            f"{name.replace(' ', '_')}_{key}_change": share
+            for name, own in change.items()
+            for key, share in own.items()
+        },
+        [gear.command("optimise") for gear in GEARSETS.values()],
+    )
+
+
+def claim_3_11() -> Finding:
+    """Efficiency of gearset 2 at its optimum."""
+    efficiency = _number(optimum_of(GEARSET_2).after, "iso14521", "eta_z1_2")
+    return Finding.judged(
+        {"45 %, within one": abs(100.0 * efficiency - 45.0) < 1.0},
+        f"{efficiency:.1%}",
+        "The same optimum as in claim 3.6; the bounds are assumed.",
+        {"eta_z": efficiency},
+        [GEARSET_2.command("optimise")],
+    )
+
+
+def claim_3_12() -> Finding:
+    """Sliding velocity over size."""
+    sizes = [gear.number("iso14521", "centre_distance_mm") for gear in GEARSETS.values()]
+    second, third = (gear.number("iso14521", "sliding_velocity_m_s") for gear in GEARSETS.values())
+    return Finding.judged(
+        {
+            "it rises from gearset 2 to 3, as size does": second < third and sizes[0] < sizes[1],
+            "both within 1.05 to 2.40 m/s": second > 1.05 and third < 2.40,
+        },
+        f"{second:.3f} m/s at a = {sizes[0]:.1f} mm, {third:.3f} m/s at {sizes[1]:.1f} mm",
+        "Gearsets 1 and 4, the ends of the range, are lost. The velocity of gearset 3 is stated in "
+        "7.2.4; that of gearset 2 follows from its friction.",
+        {"gearset_2_v_g_m_s": second, "gearset_3_v_g_m_s": third},
+        [gear.command() for gear in GEARSETS.values()],
+    )
+
+
+def claim_3_13() -> Finding:
+    """Where the order of two permissible torques turns as a gearset grows."""
+    from scipy.optimize import brentq
+
+    def excess(scale: float) -> float:
+        gear = _grown(scale)
+        return gear.number("agma6034", "allowable_torque_Nm") / gear.number("bs721", "M_26k_Nm") - 1
+
+    scales = (1.0, 1.25, 1.5, 2.0, 3.0, 4.0)
+    values = [excess(scale) for scale in scales]
+    turned = next((n for n, value in enumerate(values) if value < 0.0), None)
+    numbers = {f"excess_at_scale_{scale:g}": v for scale, v in zip(scales, values, strict=True)}
+    if turned:
+        scale = float(brentq(excess, scales[turned - 1], scales[turned], xtol=1e-3))
+        velocity = _grown(scale).number("iso14521", "sliding_velocity_m_s")
+        size = _grown(scale).number("iso14521", "centre_distance_mm")
+        numbers |= {"turns_at_v_g_m_s": velocity, "turns_at_centre_distance_mm": size}
+        ours = f"turns at a = {size:.0f} mm and v_g = {velocity:.2f} m/s"
+    else:
+        velocity, ours = math.inf, f"does not turn up to {scales[-1]:g} times the size"
+    return Finding.judged(
+        {
+            "T_G,all > M_26k for gearsets 2 and 3": values[0] > 0.0
+            and GEARSET_2.number("agma6034", "allowable_torque_Nm")
+            > GEARSET_2.number("bs721", "M_26k_Nm"),
+            "the order turns for a larger gearset": turned is not None,
+            "it does so within gearset 4's 2.40 m/s": velocity <= 2.40,
+        },
+        ours,
+        "Gearset 4 is lost; gearset 3 stands in, grown with all its lengths at 1440 rpm. What the "
+        "thesis's gearset 4 has beside its size, its ratio above all, is not known.",
+        numbers,
+        [_grown(scale).command() for scale in scales],
+    )
+
+
+def claim_3_14() -> Finding:
+    """The diameter factor that self-locking wants."""
+    gears = {q: _thick(q) for q in (6, 12)}
+    angles, back = (
+        {q: gear.number("iso14521", key) for q, gear in gears.items()}
+        for key in ("lead_angle_deg", "eta_z2_1")
+    )
+    return Finding.judged(
+        {"the lower q_1, the nearer to self-locking": back[6] < back[12]},
+        ", ".join(f"q_1 {q}: {angles[q]:.2f} deg, eta_z2_1 {back[q]:+.2f}" for q in gears),
+        "tan gamma = z_1/q_1: a low diameter factor makes the lead steep, and the wheel drives the "
+        "worm the more easily. Self-locking wants q_1 as high as may be. Gearset 2, its centre "
+        "distance moved so that the profile shift stays.",
+        {f"lead_angle_q_{q}_deg": angle for q, angle in angles.items()}
+        | {f"eta_z2_1_q_{q}": efficiency for q, efficiency in back.items()},
+        [gear.command() for gear in gears.values()],
+    )
+
+
+def claim_7_9() -> Finding:
+    """Contact pressure at two torques."""
+    gears = [RatedGear("gearset-3", _peak(torque)) for torque in (23, 366)]
+    low, high = (gear.number("iso14521", "sigma_line_MPa") for gear in gears)
+    return Finding.judged(
+        {
+            "194.3 N/mm2 at 23 N m, within 1 %": abs(low / 194.3 - 1.0) < 0.01,
+            "778 N/mm2 at 366 N m, within 1 %": abs(high / 778.0 - 1.0) < 0.01,
+        },
+        f"{low:.0f} and {high:.0f} N/mm2",
+        "As a Hertz line contact, though the thesis does not say that it is one; the pressure goes "
+        "with the root of the torque. Not used to reconstruct gearset 3.",
+        {"sigma_line_23_Nm_MPa": low, "sigma_line_366_Nm_MPa": high},
+        [gear.command() for gear in gears],
+    )
+
+
+def _peak(torque: float) -> tuple[str, str]:
+    return (
+        f"operation.output_torque={torque:g} N m",
+        f"operation.through_travel_torque={torque / 3.0:.6g} N m",
+    )
+
+
+def _thick(diameter_factor: float) -> RatedGear:
+    module, distance, before = (
+        GEARSET_2.number("iso14521", key)
+        for key in ("axial_module_mm", "centre_distance_mm", "diameter_factor")
+    )
+    distance += 0.5 * module * (diameter_factor - before)
+    return RatedGear(
+        GEARSET_2.case,
+        (
+            f"gearset.diameter_factor={diameter_factor:g}",
+            f"gearset.centre_distance={distance:.6f} mm",
+        ),
+    )
+
+
+def _grown(scale: float) -> RatedGear:
+    distance, module = (
+        scale * GEARSET_3.number("iso14521", key)
+        for key in ("centre_distance_mm", "axial_module_mm")
+    )
+    return RatedGear(
+        GEARSET_3.case,
+        (
+            f"gearset.centre_distance={distance:.6f} mm",
+            f"gearset.axial_module={module:.8f} mm",
+        ),
+    )
+
+
+def _number(rated: Rated, standard: str, key: str) -> float:
+    value: Any = rated.found[standard][key]
+    return float(value)
