@@ -31,7 +31,8 @@ _SLIDING = (
 )
 
 CHAPTERS = (
-    Chapter("2", "Friction laws and gear flanks", f"Sections 2.2.2, 2.6 and 2.7. {_SLIDING}"),
+    Chapter("1", "Introduction", "What a more efficient gearset is worth."),
+    Chapter("2", "Friction laws and gear flanks", f"Sections 2.2.2, 2.4, 2.6 and 2.7. {_SLIDING}"),
     Chapter(
         "3", "Efficiency and load capacity of worm gearsets",
         "The thesis's calculation sheet (its Appendix C), its Tables 3.1 to 3.7 and the oil's "
@@ -75,11 +76,13 @@ def chapter_of(number: str) -> str:
     return number.partition(".")[0]
 
 
-CLAIMS: Mapping[str, Claim] = _by_number((*sliding.CLAIMS, *rating.CLAIMS, *contact.CLAIMS))
+CLAIMS: Mapping[str, Claim] = _by_number(
+    (*sliding.CLAIMS, *rating.CLAIMS, *flanks.CLAIMS, *contact.CLAIMS)
+)
 FIGURES: Mapping[str, FigureOf] = _by_number(
     (*sliding.FIGURES, *rating.FIGURES, *flanks.FIGURES, *contact.FIGURES)
 )
-TABLES: Mapping[str, TableOf] = _by_number(rating.TABLES)
+TABLES: Mapping[str, TableOf] = _by_number((*sliding.TABLES, *rating.TABLES))
 
 
 def everything() -> list[Exhibit]:

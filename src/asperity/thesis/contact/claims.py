@@ -1,9 +1,12 @@
-"""Claims 5.1 and 7.8: the elastic block against the sliding body."""
+"""Claims 5.1, 5.3 and 7.8: the elastic block against the sliding body."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
+from asperity.block.problem import BlockProblem
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.thesis.contact.blocks import Settled
 from asperity.thesis.contact.elastic import (
     ACROSS,
@@ -91,6 +94,28 @@ def claim_5_1() -> Finding:
             block.command,
             body.command,
         ],
+    )
+
+
+def claim_5_3() -> Finding:
+    """Height of a block of steel of half a kilogram."""
+    mass, density = 0.5, 7850.0
+    length, width, height = BlockProblem.from_case(
+        read_case(LONGITUDINAL, case_tables())
+    ).block.size
+    steel = mass / (density * length * width)
+    needed = mass / (length * width * height)
+    return Finding.judged(
+        {
+            "0.053 m high (Appendix A)": round(steel, 3) == 0.053,
+            "0.03 m high (5.3.1)": round(steel, 3) == 0.030,
+        },
+        f"{steel:.4f} m of steel",
+        f"{length:g} m by {width:g} m at {density:g} kg/m3. At 0.03 m the density would have to be "
+        f"{needed:.0f} kg/m3, and for the 2 kg of Table 4.4 four times that; 5.3.1 sets the mass by "
+        "the density and keeps the dimensions. So do the blocks here, which are 0.03 m high.",
+        {"height_m": steel, "density_at_0.03_m_kg_per_m3": needed},
+        ["mass / (density * length * width)", f"asperity block {LONGITUDINAL}"],
     )
 
 

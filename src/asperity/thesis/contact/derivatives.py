@@ -128,9 +128,9 @@ def printed(at: Before, x: float, y: float, p: float) -> dict[str, tuple[float, 
         below = k * (q[b] * over["s_1"] + s_1 * over[b])
         found[f"{number}"] = (below, over[f"tau_{axis}"])
         found[f"{number}, sliding"] = (_MU * p * over[b], over[f"full tau_{axis}"])
-    for axis, number, b in (("x", 138, cos_b), ("y", 141, sin_b)):
-        found[f"{number}"] = (s_1 * b * _MU / _S_MAX, dp[f"tau_{axis}"])
-        found[f"{number}, sliding"] = (_MU * b, dp[f"full tau_{axis}"])
+    for axis, number, factor in (("x", 138, cos_b), ("y", 141, sin_b)):
+        found[f"{number}"] = (s_1 * factor * _MU / _S_MAX, dp[f"tau_{axis}"])
+        found[f"{number}, sliding"] = (_MU * factor, dp[f"full tau_{axis}"])
     vanish = {
         "99": dy["mn"], "101": dy["v_1"], "103": dy["gain"], "106": dy["s"], "109": dy["cos_a"],
         "112": dy["sin_a"], "115": dp["mn_2"], "118": dp["v_2"], "121": dp["gain_2"],

@@ -117,3 +117,24 @@ def pressure(dataset: "xr.Dataset") -> "Figure":
     lower.margins(y=0.15)
     legend(lower, loc="best")
     return figure
+
+
+def normal_laws(dataset: "xr.Dataset") -> "Figure":
+    """Draw pressure over overclosure above, and its slope below."""
+    figure, (upper, lower) = panels(2, height=5.6)
+    over = 1e6 * dataset["overclosure"].values
+    for index, law in enumerate(str(one) for one in dataset["law"].values):
+        style: dict[str, Any] = {
+            "color": _COLOURS[index], "dashes": ((1, 0), (4, 1.5))[index], "label": law,
+        }  # fmt: skip
+        upper.plot(over, 1e-6 * dataset["pressure"].sel(law=law), **style)
+        lower.plot(over, 1e-12 * dataset["slope"].sel(law=law), **style)
+    upper.set_ylabel("pressure (MPa)")
+    lower.set_ylabel("stiffness (MPa/µm)")
+    for axes in (upper, lower):
+        for edge in ("start", "end"):
+            axes.axvline(1e6 * float(dataset[edge]), color=BLACK, linewidth=0.8, dashes=(1, 1.5))
+        axes.set_xlabel("overclosure (µm)")
+        axes.margins(x=0.0)
+    legend(upper, loc="upper left")
+    return figure

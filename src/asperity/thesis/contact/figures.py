@@ -5,6 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from asperity.block.problem import BlockProblem
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
 from asperity.thesis.contact import drawings, pressed
 from asperity.thesis.contact.elastic import (
@@ -29,6 +33,7 @@ from asperity.thesis.sliding.claims import PLOTTED
 from asperity.thesis.sliding.figures import side_by_side, two_cycles
 
 _DENSE = "0.1:20:0.1"
+_EDGE = 5e-3  # m, of an element of the shipped block
 _NAMES = ("sliding body", "elastic block")
 _CLOSED = "asperity.slider.closed_forms"
 
@@ -104,6 +109,31 @@ def figure_5_11(*, full: bool = False) -> Drawn:
     )
     how = [settled.command, *(block.how for block in blocks)]
     return Drawn(drawings.over_direction(dataset), dataset, how)
+
+
+def figure_5_3() -> Drawn:
+    """Pressure over overclosure by two laws."""
+    case = read_case(LONGITUDINAL, case_tables())
+    stiffness = BlockProblem.from_case(case).normal.stiffness
+    laws = {
+        "linear": NormalLaw("linear", stiffness),
+        "two-stage": NormalLaw.two_stage(stiffness, _EDGE),
+    }
+    start, end = laws["two-stage"].start, laws["two-stage"].end
+    over = np.linspace(-0.2 * end, 1.6 * end, 361)
+    found = np.array([[pressure(x, 0.0, law.parameters) for x in over] for law in laws.values()])
+    dataset = labelled(
+        law=(("law",), _objects([*laws]), "1", "law of pressure"),
+        overclosure=(("overclosure",), over, "m", "overclosure"),
+        pressure=(("law", "overclosure"), found[..., 0], "Pa", "pressure"),
+        slope=(("law", "overclosure"), found[..., 1], "Pa/m", "rise of pressure over overclosure"),
+        start=((), start, "m", "overclosure from which the stiffness rises"),
+        end=((), end, "m", "overclosure up to which it rises"),
+    )
+    how = [
+        f"asperity.contact.interface.normal.NormalLaw, a final stiffness of {stiffness:.4g} Pa/m"
+    ]
+    return Drawn(drawings.normal_laws(dataset), dataset, how)
 
 
 def _drive(case: str, full: bool) -> Drawn:

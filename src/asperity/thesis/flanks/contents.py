@@ -3,10 +3,12 @@
 import functools
 
 from asperity.thesis.exhibits import FigureOf
+from asperity.thesis.ledger import Claim
 
 _PLACE = "asperity.thesis.flanks"
 _CASES = ("gearset-3b",)
 _figure = functools.partial(FigureOf, module=f"{_PLACE}.figures", cases=_CASES)
+_claim = functools.partial(Claim, module=f"{_PLACE}.claims", cases=_CASES)
 _solid = functools.partial(FigureOf, module=f"{_PLACE}.solids", cases=_CASES)
 
 _OTHERS = (
@@ -39,6 +41,13 @@ _FLANKS = (
         "Gearset 3 with a centre distance of 2.9 in instead of the gearset photographed, which is "
         "not named; dye 6 um thick, unloaded. Without tilt the wheel bears near a face edge; with "
         "2 deg in the middle, as the thesis found.",
+    ),
+    _figure(
+        "2.12", "Contact near the wheel's addendum at low and at high torque",
+        "The steering gear's worm of steel and wheel of polymer are not at hand; this is gearset 3 "
+        "with a centre distance of 2.9 in and the worm of figure 2.13, relieved by 30 um towards "
+        "its tip. Lines of contact at 24 angles of the worm that carry, with one stiffness per "
+        "length of line.",
     ),
     _figure(
         "2.13", "Worm profile modified between pitch line and tip",
@@ -81,3 +90,14 @@ _SOLIDS = (
 )  # fmt: skip
 
 FIGURES = (*_FLANKS, *_SOLIDS)
+
+CLAIMS = (
+    _claim(
+        "2.1", "2.6", "A wheel cut by a hob 12 % oversized bears at the edge; with the hob tilted "
+        "by 2 deg in the middle.", "edge, middle",
+    ),
+    _claim("2.2", "2.6", "An oversized hob makes misalignment matter less.", "yes"),
+    _claim(
+        "2.3", "2.6", "Oversize alone leaves contact at the edge at higher lead angles.", "yes",
+    ),
+)  # fmt: skip

@@ -1,5 +1,6 @@
 """The pictures of chapter 2 about flanks, each drawn from its dataset alone."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,18 +25,30 @@ _PRESSURES = (
     ("relieved", "relief 10 µm, outer half"),
 )
 
+_LOADS = (("low", "(a) a twentieth of the torque"), ("high", "(b) the rated torque"))
+
 
 def pressures(dataset: "xr.Dataset") -> "Figure":
     """Draw contact lines coloured by the pressure on them, a panel each design."""
+    return _pressures(dataset, _PRESSURES)
+
+
+def loads(dataset: "xr.Dataset") -> "Figure":
+    """Draw contact lines coloured by the pressure on them, a panel each torque."""
+    return _pressures(dataset, _LOADS)
+
+
+def _pressures(dataset: "xr.Dataset", designs: Sequence[tuple[str, str]]) -> "Figure":
     import matplotlib as mpl
     from matplotlib.collections import LineCollection
     from matplotlib.colors import Normalize
 
-    figure, axes = panels(2, 2, width=8.6, height=6.4)
-    highest = max(float(dataset[f"{name}_pressure"].max()) for name, _ in _PRESSURES)
+    rows = len(designs) // 2
+    figure, axes = panels(rows, 2, width=8.6, height=0.6 + 2.9 * rows)
+    highest = max(float(dataset[f"{name}_pressure"].max()) for name, _ in designs)
     scale = Normalize(0.0, np.ceil(highest / 200.0) * 200.0)
     drawn: Any = None
-    for place, (panel, (name, title)) in enumerate(zip(axes, _PRESSURES, strict=True)):
+    for place, (panel, (name, title)) in enumerate(zip(axes, designs, strict=True)):
         pressure = dataset[f"{name}_pressure"].values
         _ground(panel, *dataset[f"{name}_outline"].values.T)
         order = np.argsort(pressure)
@@ -48,7 +61,7 @@ def pressures(dataset: "xr.Dataset") -> "Figure":
         length = float(dataset[f"{name}_length"])
         panel.set_title(f"{title}\nup to {pressure.max():.0f} MPa, lines of {length:.0f} mm carry",
                         loc="left")  # fmt: skip
-        _labels(panel, bottom=place > 1, left=place % 2 == 0)
+        _labels(panel, bottom=place > len(designs) - 3, left=place % 2 == 0)
     with mpl.rc_context(STYLE):
         bar = figure.colorbar(drawn, ax=axes, location="right", shrink=0.7, aspect=30.0)
         bar.set_label("Hertzian pressure (MPa)")

@@ -2,7 +2,8 @@
 
 import dataclasses
 import math
-from typing import Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from asperity.thesis.flanks import drawings
 from asperity.thesis.flanks.meshing import Meshing, meshing, pair_of
 from asperity.thesis.flanks.shapes import Shape, joined
 from asperity.thesis.gearsets import Gear
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _CASE = "gearset-3b"
 _IDENTICAL = ("hob.oversize=1", "hob.tilt=0 deg")
@@ -49,14 +53,42 @@ EPS = Gear(_CASE, ("modification.tip_relief=30 um", "modification.tip_relief_sta
 """The worm of figure 2.13."""
 
 
+LOADS = {
+    name: dataclasses.replace(
+        EPS,
+        settings=(
+            *EPS.settings,
+            f"operation.output_torque={torque:g} N m",
+            f"operation.through_travel_torque={torque / 3.0:g} N m",
+        ),
+    )
+    for name, torque in (("low", 18.3), ("high", 366.0))
+}
+"""What figure 2.12 compares."""
+
+
 def _commands(*gears: Gear) -> list[str]:
     return [gear.command("flank") for gear in gears]
 
 
 def figure_2_9() -> Drawn:
     """Pressure on a flank before and after a correction."""
+    dataset = _lines(DESIGNS)
+    how = [*_commands(*DESIGNS.values()), "asperity.flanks.meshing.lubrication.loaded_lines"]
+    return Drawn(drawings.pressures(dataset), dataset, how)
+
+
+def figure_2_12() -> Drawn:
+    """Contact of a modified worm at low and at high torque."""
+    dataset = _lines(LOADS)
+    how = [*_commands(*LOADS.values()), "asperity.flanks.meshing.lubrication.loaded_lines"]
+    return Drawn(drawings.loads(dataset), dataset, how)
+
+
+def _lines(gears: Mapping[str, Gear]) -> "xr.Dataset":
+    """Contact lines of some gearsets under their torque."""
     variables: dict[str, Any] = {}
-    for name, gear in DESIGNS.items():
+    for name, gear in gears.items():
         found = meshing(gear)
         lines = found.loaded(_ANGLES)
         grid = found.grid
@@ -84,9 +116,7 @@ def figure_2_9() -> Drawn:
                 "mean length of the lines that carry",
             ),
         }  # fmt: skip
-    dataset = labelled(**variables)
-    how = [*_commands(*DESIGNS.values()), "asperity.flanks.meshing.lubrication.loaded_lines"]
-    return Drawn(drawings.pressures(dataset), dataset, how)
+    return labelled(**variables)
 
 
 def _outline(found: Meshing) -> Any:

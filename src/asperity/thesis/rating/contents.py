@@ -10,6 +10,7 @@ _CASES = ("gearset-2", "gearset-3")
 _figure = functools.partial(FigureOf, module=f"{_PLACE}.figures", cases=_CASES)
 _table = functools.partial(TableOf, module=f"{_PLACE}.tables", cases=_CASES)
 _claim = functools.partial(Claim, module=f"{_PLACE}.claims", cases=_CASES)
+_word = functools.partial(_claim, module=f"{_PLACE}.words")
 
 FIGURES = (
     _figure(
@@ -96,4 +97,19 @@ CLAIMS = (
           "eta_z.", "order"),
     _claim("3.8", "7.2.4, 7.4", "Gearset 3: mu_zm, eta_z, v_g.", "0.1344, 73 %, 1510.8 mm/s"),
     _claim("7.1", "7.2.2", "Torsional stiffness of the worm shaft.", "4394 N m/rad"),
+    _word("1.1", "1.1", "15:1, 150 N m: 80 % instead of 50 % efficiency saves torque and power.",
+          "20 to 12.5 N m, 37 %", cases=()),
+    _word("2.6", "2.4", "Friction of bronze on hardened steel at the most common sliding speeds.",
+          "0.05 to 0.10"),
+    _word("3.9", "3.3.4", "eta_ges < eta_z; M_w and M_s > M_26k; M_w > T_2; M_s > T_R.", "order"),
+    _word("3.10", "3.3.5", "At the optimum M_w rises a little, M_s stays; eta_AGMA does not rise "
+          "in all cases; q_1 and sigma_a rise for gearset 3 only.", "in words"),
+    _word("3.11", "3.4", "Efficiency of gearset 2 at its optimum.", "45 %"),
+    _word("3.12", "6.4.7, 3.3.4", "The sliding velocity of gearsets 1 to 4 rises with their size.",
+          "1.05 to 2.40 m/s"),
+    _word("3.13", "3.3.4", "Of gearset 4, the largest, M_26k > T_G,all, other than of 1 to 3.",
+          "the order turns"),
+    _word("3.14", "3.2.1", "Self-locking wants q_1 as low as possible.", "yes"),
+    _word("7.9", "7.2.4", "Contact pressure of gearset 3 at 23 N m and 366 N m.",
+          "194.3, 778 N/mm2"),
 )  # fmt: skip

@@ -96,6 +96,29 @@ def cycle(dataset: "xr.Dataset") -> "Figure":
     return figure
 
 
+def transverse_cycle(dataset: "xr.Dataset") -> "Figure":
+    """Draw velocities, friction along and across, and the path of the friction vector."""
+    figure, (upper, lower) = panels(2, height=6.4)
+    time = 1e3 * dataset["time"].values
+    upper.plot(time, 1e3 * dataset["base_velocity"], color=BLUE, label="base, across")
+    upper.axhline(
+        1e3 * float(dataset["drive_velocity"]), color=BLACK, dashes=(5, 2), label="drive, along"
+    )
+    full = float(dataset["full_force"])
+    for index, (axis, label) in enumerate((("x", "along the drive"), ("y", "across it"))):
+        _line(lower, index, time, dataset["friction"].sel(axis=axis).values, label)
+    mean = float(dataset["mean_friction"])
+    lower.axhline(mean, color=BLACK, dashes=(1, 1.5), label=f"mean along, {mean:.2f} N")
+    _limit(lower, full, both=True)
+    upper.set_ylabel("velocity (mm/s)")
+    lower.set_ylabel("friction (N)")
+    for axes in (upper, lower):
+        axes.set_xlabel("time (ms)")
+        axes.margins(x=0.0)
+        legend(axes, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    return figure
+
+
 def stacked(dataset: "xr.Dataset") -> "Figure":
     """Draw a panel for each body, on the same scale."""
     histories = list(_histories(dataset, "drive_force"))

@@ -113,6 +113,29 @@ def figure_2_15() -> Drawn:
     return _cycle(bodies, ["compliant drive", "rigid drive"])
 
 
+def figure_2_16() -> Drawn:
+    """Coulomb friction over a cycle of transverse vibration."""
+    body = Body("table-4.1-L2", (PERIODIC, f"{DIRECTION}=90 deg"))
+    result = body.solve()
+    model, history = result.model, result.history
+    if history is None:
+        raise ValueError("solved without a history")
+    time = history.time
+    dataset = labelled(
+        time=(("time",), time, "s", "time"),
+        axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "along and across the drive"),
+        base_velocity=(
+            ("time",), model.peak_velocity * np.cos(2.0 * np.pi * model.frequency * time), "m/s",
+            "velocity of the base across the drive",
+        ),
+        drive_velocity=((), model.slider.drive_velocity, "m/s", "drive velocity"),
+        friction=(("time", "axis"), history.friction, "N", "friction on the body"),
+        mean_friction=((), result.friction_mean[0], "N", "mean friction along the drive"),
+        full_force=((), result.static_drive_force, "N", "full friction force"),
+    )  # fmt: skip
+    return Drawn(drawings.transverse_cycle(dataset), dataset, [body.command])
+
+
 def _basic(names: Sequence[str]) -> Drawn:
     bodies = [Body(f"table-4.1-{name}", ("solve.duration=30 ms",)) for name in names]
     dataset = _solved(names, [body.solve() for body in bodies], "drive_force")
