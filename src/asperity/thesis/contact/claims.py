@@ -112,8 +112,8 @@ def claim_5_3() -> Finding:
         },
         f"{steel:.4f} m of steel",
         f"{length:g} m by {width:g} m at {density:g} kg/m3. At 0.03 m the density would have to be "
-        f"{needed:.0f} kg/m3, and for the 2 kg of Table 4.4 four times that; 5.3.1 sets the mass by "
-        "the density and keeps the dimensions. So do the blocks here, which are 0.03 m high.",
+        f"{needed:.0f} kg/m3, and for the 2 kg of Table 4.4 four times that; 5.3.1 sets the mass "
+        "by the density and keeps the dimensions. So do the blocks here, which are 0.03 m high.",
         {"height_m": steel, "density_at_0.03_m_kg_per_m3": needed},
         ["mass / (density * length * width)", f"asperity block {LONGITUDINAL}"],
     )

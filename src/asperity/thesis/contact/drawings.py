@@ -127,10 +127,10 @@ def normal_laws(dataset: "xr.Dataset") -> "Figure":
         style: dict[str, Any] = {
             "color": _COLOURS[index], "dashes": ((1, 0), (4, 1.5))[index], "label": law,
         }  # fmt: skip
-        upper.plot(over, 1e-6 * dataset["pressure"].sel(law=law), **style)
-        lower.plot(over, 1e-12 * dataset["slope"].sel(law=law), **style)
-    upper.set_ylabel("pressure (MPa)")
-    lower.set_ylabel("stiffness (MPa/µm)")
+        upper.plot(over, 1e-9 * dataset["pressure"].sel(law=law), **style)
+        lower.plot(over, 1e-15 * dataset["slope"].sel(law=law), **style)
+    upper.set_ylabel("pressure (GPa)")
+    lower.set_ylabel("stiffness (GPa/µm)")
     for axes in (upper, lower):
         for edge in ("start", "end"):
             axes.axvline(1e6 * float(dataset[edge]), color=BLACK, linewidth=0.8, dashes=(1, 1.5))

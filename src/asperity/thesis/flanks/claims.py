@@ -16,10 +16,7 @@ _NO_TILT = "hob.tilt=0 deg"
 _IDENTICAL = ("hob.oversize=1", _NO_TILT)
 _ASKEW = 0.1  # deg
 _EDGE, _MIDDLE = 0.9, 1.0 / 3.0
-_NOT_NAMED = (
-    "The gearset photographed is not named; gearset 3 with a centre distance of 2.9 in stands in. "
-    f"Dye {1e3 * MARKING:g} um thick, unloaded."
-)
+_HERE = f"Gearset 3 with a centre distance of 2.9 in; dye {1e3 * MARKING:g} um thick, unloaded."
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,8 +56,8 @@ def claim_2_1() -> Finding:
         },
         f"middle of the mark at {straight.centre:.2f} of half the face width without, "
         f"{tilted.centre:.2f} with tilt",
-        f"{_NOT_NAMED} The mark goes from {straight.low:.2f} to {straight.high:.2f} and from "
-        f"{tilted.low:.2f} to {tilted.high:.2f}.",
+        f"{_HERE} The gearset photographed is not named. The mark goes from {straight.low:.2f} to "
+        f"{straight.high:.2f} and from {tilted.low:.2f} to {tilted.high:.2f}.",
         {
             "centre_without_tilt": straight.centre,
             "centre_with_tilt": tilted.centre,
@@ -99,7 +96,7 @@ def claim_2_2() -> Finding:
         "the mark moves by "
         + ", ".join(f"{move:.2f} ({name})" for name, move in moves.items())
         + " of half the face width",
-        f"{_NOT_NAMED} While the shaft angle goes from -{_ASKEW:g} to {_ASKEW:g} deg. What the "
+        f"{_HERE} While the shaft angle goes from -{_ASKEW:g} to {_ASKEW:g} deg. What the "
         "thesis adds, that contact in the middle lowers the pressure, does not follow: the "
         "greatest on the lines of contact at rated torque and true angle is "
         + ", ".join(f"{pressure:.0f} MPa ({name})" for name, pressure in pressures.items())
@@ -123,7 +120,7 @@ def claim_2_3() -> Finding:
         "its end at "
         + ", ".join(f"{mark.reach:.2f} ({mark.lead_angle:.0f} deg)" for mark in marks)
         + " of half the face width",
-        f"{_NOT_NAMED} The lead angle grows with the worm's starts, 1 to 6; the wheel keeps its "
+        f"{_HERE} The lead angle grows with the worm's starts, 1 to 6; the wheel keeps its "
         "sixty teeth.",
         {f"end_at_{mark.lead_angle:.1f}_deg": mark.reach for mark in marks},
         [gear.command("flank") for gear in gears],

@@ -158,11 +158,12 @@ CLAIMS = (
     ),
     _reading("4.9", "4.5.4", "eta_y has no influence on longitudinal vibration.", "none"),
     _reading(
-        "4.10", "4.5.5", "F_x and F_y of the coupled model, theta = 270 deg, match the pre-existing "
-        "transverse model.", "exact",
+        "4.10", "4.5.5", "F_x and F_y of the coupled model, theta = 270 deg, match the "
+        "pre-existing transverse model.", "exact",
     ),
     _reading(
-        "4.11", "4.5.4, App. B", "F_d undulates in longitudinal vibration; less towards transverse.",
+        "4.11", "4.5.4, App. B",
+        "F_d undulates in longitudinal vibration; less towards transverse.",
         "yes",
     ),
     _reading(
