@@ -11,7 +11,7 @@ import typer
 from asperity.cli.main import app
 from asperity.store import read_dataset
 from asperity.thesis import run
-from asperity.thesis.contents import CLAIMS, FIGURES, TABLES
+from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything
 
 # Where a method is no vibration, and where an input is raised too far, there is no such number.
 GAPS = {"3.1": ("velocity_ratio", "velocity_amplitude"), "3.2": ("eta_z1_2", "fails_above")}
@@ -21,13 +21,36 @@ GAPS = {"3.1": ("velocity_ratio", "velocity_amplitude"), "3.2": ("eta_z1_2", "fa
 pytestmark = pytest.mark.xdist_group("thesis")
 
 
+# What elastic blocks are settled or marched for takes minutes; the rest is made without it.
+OF_BLOCKS = {exhibit.number for exhibit in everything() if exhibit.parts(False)}
+
+
 @pytest.fixture(scope="module")
 def result(tmp_path_factory):
-    return run(tmp_path_factory.mktemp("thesis"))
+    numbers = {exhibit.number for exhibit in everything()} - OF_BLOCKS
+    return run(tmp_path_factory.mktemp("thesis"), sorted(numbers), processes=1)
+
+
+@pytest.fixture(scope="module")
+def whole(result):
+    return run(result.index.parent)
 
 
 def test_every_figure_has_a_picture_and_its_numbers(result):
-    assert [figure.number for figure in result.figures] == list(FIGURES)
+    assert not result.failed
+    assert [figure.number for figure in result.figures] == [
+        n for n in FIGURES if n not in OF_BLOCKS
+    ]
+    check_figures(result)
+
+
+@pytest.mark.slow
+def test_every_figure_of_elastic_blocks_has_a_picture_and_its_numbers(whole):
+    assert [figure.number for figure in whole.figures] == list(FIGURES)
+    check_figures(whole)
+
+
+def check_figures(result):
     for figure in result.figures:
         assert figure.picture.read_bytes().startswith(b"\x89PNG")
         dataset = read_dataset(figure.dataset)
@@ -48,33 +71,60 @@ def test_every_table_has_its_rows_and_no_empty_number(result):
         assert "nan" not in table.path.read_text("utf-8").replace("nanoparticles", "")
 
 
-@pytest.mark.parametrize(
-    ("claim", "verdict"),
-    [
-        ("3.1", "reproduced"),
-        ("3.2", "reproduced"),
-        ("3.3", "reproduced"),
-        ("3.4", "reproduced"),
-        ("3.5", "reproduced"),
-        ("3.6", "reproduced"),
-        ("3.7", "reproduced"),
-        ("3.8", "reproduced"),
-        ("4.1", "reproduced"),
-        ("4.2", "reproduced"),
-        ("4.3", "reproduced"),
-        ("4.4", "reproduced"),
-        ("4.5", "reproduced"),
-        ("4.6", "differs"),
-        ("4.7", "reproduced"),
-        ("4.8", "differs"),
-        ("5.1", "reproduced"),
-        ("7.1", "reproduced"),
-        ("7.8", "differs"),
-    ],
-)
-def test_each_claim_has_its_verdict(result, claim, verdict):
-    (entry,) = [entry for entry in result.claims if entry.number == claim]
-    assert entry.finding.verdict == verdict, entry.finding.reason
+VERDICTS = {
+    "1.1": "reproduced",
+    "2.1": "reproduced",
+    "2.2": "reproduced",
+    "2.3": "reproduced",
+    "2.4": "reproduced",
+    "2.6": "differs",
+    "3.1": "reproduced",
+    "3.2": "reproduced",
+    "3.3": "reproduced",
+    "3.4": "reproduced",
+    "3.5": "reproduced",
+    "3.6": "reproduced",
+    "3.7": "reproduced",
+    "3.8": "reproduced",
+    "3.9": "reproduced",
+    "3.10": "differs",
+    "3.11": "reproduced",
+    "3.12": "reproduced",
+    "3.13": "differs",
+    "3.14": "differs",
+    "4.1": "reproduced",
+    "4.2": "reproduced",
+    "4.3": "reproduced",
+    "4.4": "reproduced",
+    "4.5": "reproduced",
+    "4.6": "differs",
+    "4.7": "reproduced",
+    "4.8": "differs",
+    "4.9": "reproduced",
+    "4.10": "differs",
+    "4.11": "reproduced",
+    "4.12": "reproduced",
+    "5.2": "differs",
+    "5.3": "differs",
+    "7.1": "reproduced",
+    "7.14": "differs",
+}
+VERDICTS_OF_BLOCKS = {
+    "5.1": "reproduced",
+    "7.8": "differs",
+    "7.9": "reproduced",
+}
+
+
+def test_each_claim_has_its_verdict(result):
+    assert {entry.number: entry.finding.verdict for entry in result.claims} == VERDICTS
+
+
+@pytest.mark.slow
+def test_each_claim_of_elastic_blocks_has_its_verdict(whole):
+    assert not whole.failed
+    verdicts = {entry.number: entry.finding.verdict for entry in whole.claims}
+    assert verdicts == VERDICTS | VERDICTS_OF_BLOCKS
 
 
 @pytest.mark.parametrize(
@@ -109,6 +159,18 @@ def test_each_claim_has_its_verdict(result, claim, verdict):
         ("4.6", "crossing_k", 1.204, 1e-3),
         ("4.8", "ratio_90deg", 0.13968, 1e-3),
         ("4.8", "ratio_0deg", 0.03333, 1e-3),
+        ("1.1", "saving", 0.375, 1e-12),
+        ("2.4", "ratio", 0.761, 1e-3),
+        ("2.4", "friction_x_min_N", 2.85, 2e-3),
+        ("3.11", "eta_z", 0.455, 2e-3),
+        ("4.10", "friction_y_difference_N", 2.0 * 5.0625, 1e-3),
+        ("4.11", "two_phase_0deg_N", 0.0256, 5e-3),
+        ("4.11", "exponential_0deg_N", 0.0034, 2e-2),
+        ("5.2", "relative_error_k_2", 0.009, 2e-2),
+        ("5.2", "relative_error_k_6", -0.044, 2e-2),
+        ("5.2", "relative_error_k_20", -0.52, 2e-2),
+        ("5.3", "height_m", 0.0531, 1e-3),
+        ("5.3", "density_at_0.03_m_kg_per_m3", 13889.0, 1e-4),
     ],
 )
 def test_the_ledger_has_the_reference_numbers(result, claim, name, value, tolerance):
@@ -275,7 +337,7 @@ def test_the_page_shows_pictures_beside_it_when_they_are_seen_and_fetches_nothin
     assert "http" not in page
     assert not re.search(r"<link|@import|url\(", page)
     pictures = re.findall(r'<img [^>]*src="([^"]*)" loading="lazy">', page)
-    assert len(pictures) == page.count("<img") == len(FIGURES)
+    assert len(pictures) == page.count("<img") == len(result.figures)
     assert all((result.index.parent / picture).is_file() for picture in pictures)
 
 
@@ -285,7 +347,7 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
         assert f'id="claim-{entry.number}"' in page
     holds = sum(entry.finding.verdict == "reproduced" for entry in result.claims)
     assert page.count("✓ reproduced") == holds
-    assert page.count("≠ differs") == len(CLAIMS) - holds
+    assert page.count("≠ differs") == len(result.claims) - holds
     assert "asperity slide table-4.3 --set solve.method=periodic" in page
     assert "asperity sensitivity gearset-2" in page
 
@@ -311,17 +373,44 @@ def test_the_page_goes_chapter_by_chapter_with_claims_figures_and_tables(result)
     assert places == sorted(places)
 
 
-def test_a_second_run_finds_everything_and_says_so(result):
+@pytest.mark.slow
+def test_a_second_run_finds_everything_says_so_and_takes_seconds(whole):
     lines = []
-    again = run(result.index.parent, progress=lines.append)
+    again = run(whole.index.parent, progress=lines.append)
     assert all(files.reused for files in (*again.figures, *again.tables))
-    assert [entry.to_json() for entry in again.claims] == [e.to_json() for e in result.claims]
+    assert [entry.to_json() for entry in again.claims] == [e.to_json() for e in whole.claims]
     assert len(lines) == len(FIGURES) + len(TABLES) + len(CLAIMS)
     assert all(line.endswith("there already") for line in lines)
+    assert again.seconds < 5.0
+
+
+def test_a_wheel_bears_as_the_dye_shows_it(result):
+    edge, askew, steep = (
+        next(entry.finding.numbers for entry in result.claims if entry.number == number)
+        for number in ("2.1", "2.2", "2.3")
+    )
+    assert edge["end_without_tilt"] > 0.9 > edge["end_with_tilt"]
+    assert askew["move_oversized"] < 0.05 * askew["move_identical"]
+    ends = [*steep.values()]
+    assert ends == sorted(ends)
+    assert ends[-1] > 0.95
+
+
+def test_the_inputs_of_the_thesis_are_those_of_the_shipped_cases(result):
+    for table in result.tables:
+        if table.number in ("4.3", "4.4"):
+            for _, quantity, _, thesis, here in table.grid.rows:
+                if thesis != "":
+                    assert here == pytest.approx(thesis, rel=1e-4), (table.number, quantity)
+
+
+def test_bodies_on_a_rigid_drive_have_their_reference_forces(result):
+    means = cells(result, "4.1", "mean F_d, N").values()
+    assert [*means] == pytest.approx([5.080, 1.693, 5.080, 1.809, 3.187, 3.533], rel=1e-3)
 
 
 def test_the_result_is_plain_json(result):
     plain = json.loads(json.dumps(result.to_json(), allow_nan=False))
     assert plain["index"] == str(result.index)
-    assert len(plain["claims"]) == len(CLAIMS)
+    assert len(plain["claims"]) == len(VERDICTS)
     assert plain["figures"][0]["number"] == "2.7"

@@ -2,14 +2,15 @@ import numpy as np
 import pytest
 
 from asperity.thesis.contents import FIGURES
-from asperity.thesis.sliding.figures import figure_2_7, figure_2_14, figure_2_15
+from asperity.thesis.sliding.figures import figure_2_7, figure_2_14, figure_2_15, figure_2_16
 
 
 def test_every_figure_asked_for_is_there():
     assert list(FIGURES) == [
-        "2.7", "2.9", "2.10", "2.11", "2.13", "2.14", "2.15", "3.1", "3.2", "3.3", "3.4", "3.5",
-        "4.3", "4.4", "4.17", "4.18", "4.19", "4.20", "4.21", "4.22", "4.23", "5.2", "5.5", "5.6",
-        "5.7", "5.8", "5.9", "5.10", "5.11", "7.1", "7.2", "7.3", "7.4", "7.8", "7.9", "7.11",
+        "2.7", "2.9", "2.10", "2.11", "2.12", "2.13", "2.14", "2.15", "2.16", "3.1", "3.2", "3.3",
+        "3.4", "3.5", "4.3", "4.4", "4.17", "4.18", "4.19", "4.20", "4.21", "4.22", "4.23", "5.2",
+        "5.3", "5.5", "5.6", "5.7", "5.8", "5.9", "5.10", "5.11", "7.1", "7.2", "7.3", "7.4",
+        "7.8", "7.9", "7.11",
     ]  # fmt: skip
 
 
@@ -32,3 +33,19 @@ def test_dahl_friction_falls_and_keeps_its_sign_just_above_k_1():
     for drive in ("compliant", "rigid"):
         least = float(dataset[f"friction_{drive}_drive"].sel(axis="x").min())
         assert 0.0 < least < 0.8 * float(dataset["full_force"])
+
+
+def test_rigid_friction_keeps_its_size_under_transverse_vibration():
+    dataset = figure_2_16().dataset
+    size = np.hypot(*(dataset["friction"].sel(axis=axis).values for axis in ("x", "y")))
+    assert size == pytest.approx(np.full(size.shape, 5.08), rel=1e-6)
+    # (2/pi) K(m)/sqrt(1 + k^2) at k = 2.
+    assert float(dataset["mean_friction"]) / 5.08 == pytest.approx(0.6425, abs=1e-3)
+
+
+def test_both_laws_of_pressure_end_with_the_same_stiffness_and_begin_with_a_tenth():
+    dataset = FIGURES["5.3"].make().dataset
+    slope = {law: dataset["slope"].sel(law=law).values for law in ("linear", "two-stage")}
+    assert slope["two-stage"][-1] == slope["linear"][-1]
+    first = dataset["overclosure"].values.searchsorted(1e-9)
+    assert slope["two-stage"][first] == pytest.approx(0.1 * slope["linear"][first])
