@@ -123,12 +123,12 @@ def kinematics(
     own = np.ascontiguousarray(grid.phase.reshape(-1))
     cut = cut_params(pair.ratio, pair.cutting)
     mount = cut_params(pair.ratio, pair.mounting)
-    made = np.empty((own.size, rows.WIDTH))
+    made = np.empty(own.size, rows.MEETING)
     rows.meet_each(points, own, 0.0, cut, pair.hob.distance_params(side), made)
     met = np.empty_like(made)
     guess = own - pair.ratio * ahead
     rows.approach_each(points, guess, ahead, mount, pair.worm.distance_params(side), met)
-    lost = int(np.count_nonzero((met[:, rows.CONVERGED] == 0.0) & (met[:, rows.REACH] > 0.0)))
+    lost = int(np.count_nonzero(~met["converged"] & (met["reach"] > 0.0)))
     if lost:
         raise ConvergenceError(
             f"{lost} of {own.size} points of the flank have no phase at which the worm is nearest; "
@@ -137,16 +137,16 @@ def kinematics(
         )
 
     axes = pair.mounting.axes
-    g = met[:, rows.GRADIENT : rows.GRADIENT + 3]
-    w = met[:, rows.VELOCITY : rows.VELOCITY + 3]
-    change = _tangential(met[:, rows.CHANGE : rows.CHANGE + 3], g)
+    g = met["gradient"]
+    w = met["velocity"]
+    change = _tangential(met["change"], g)
     steep = np.linalg.norm(change, axis=1)
     a = change / steep[:, None]
     b = np.cross(g, a)
-    turn = met[:, rows.PHASE] / pair.ratio + ahead - own / pair.ratio
-    worm = _in_plane(_square(met[:, rows.HESSIAN : rows.HESSIAN + 6]), a, b)
+    turn = met["phase"] / pair.ratio + ahead - own / pair.ratio
+    worm = _in_plane(_square(met["hessian"]), a, b)
     wheel = _in_plane(_carried(_enveloped(made), pair.cutting.axes, turn, axes), a, b)
-    wheel_rolls = worm_speed * met[:, rows.SECOND] / steep
+    wheel_rolls = worm_speed * met["second"] / steep
     worm_rolls = wheel_rolls - worm_speed * np.sum(w * a, axis=1)
     relative = worm - wheel
 
@@ -155,10 +155,10 @@ def kinematics(
 
     return Kinematics(
         worm_speed=worm_speed,
-        phase=out(met[:, rows.PHASE]),
-        gap=out(met[:, rows.DISTANCE]),
-        reach=out(met[:, rows.REACH]),
-        position=out(pair.mounting.to_wheel(met[:, rows.PLACE : rows.PLACE + 3])),
+        phase=out(met["phase"]),
+        gap=out(met["distance"]),
+        reach=out(met["reach"]),
+        position=out(pair.mounting.to_wheel(met["place"])),
         normal=out(g @ axes),
         sliding=out(-worm_speed * (w @ axes)),
         across=out(a @ axes),
@@ -180,12 +180,12 @@ def _square(six: FloatArray) -> FloatArray:
     return six[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
 
 
-def _enveloped(made: FloatArray) -> FloatArray:
+def _enveloped(made: npt.NDArray[np.void]) -> FloatArray:
     """Second fundamental form that the hob leaves, in its own axes, its tangent plane only."""
-    g = made[:, rows.GRADIENT : rows.GRADIENT + 3]
-    f = made[:, rows.CHANGE : rows.CHANGE + 3]
-    form = _square(made[:, rows.HESSIAN : rows.HESSIAN + 6])
-    form = form - f[:, :, None] * f[:, None, :] / made[:, rows.SECOND, None, None]
+    g = made["gradient"]
+    f = made["change"]
+    form = _square(made["hessian"])
+    form = form - f[:, :, None] * f[:, None, :] / made["second"][:, None, None]
     plane = np.eye(3) - g[:, :, None] * g[:, None, :]
     return np.asarray(plane @ form @ plane)
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import transmission as kernels
+from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
 from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import RESOLVED, FlankGrid, WheelFlank
 from asperity.flanks.worm.profiles import FloatArray
@@ -89,7 +90,7 @@ class ToothSearch:
             cut_params(pair.ratio, pair.cutting),
             worm,
             cut_params(pair.ratio, pair.mounting),
-            np.array([blank.centre_distance, blank.throat_radius, blank.outside_radius]),
+            blank.numbers,
             near,
             out,
         )
@@ -311,9 +312,9 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
         for _ in range(_STEPS):
             if c - a <= 2.5 * narrow:
                 break
-            t = kernels.next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+            t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
             older, old = old, c - a
-            a, fa, b, fb, c, fc = kernels.narrowed(a, fa, b, fb, c, fc, t, at(t, sign))
+            a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, at(t, sign))
         return float(fb)
 
     return -extreme(-1.0) - extreme(1.0)

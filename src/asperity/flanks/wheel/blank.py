@@ -7,12 +7,21 @@ in mm.
 
 import dataclasses
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.gearset import Geometry
+
+
+class Turned(NamedTuple):
+    """The blank's profile as the kernels take it, mm."""
+
+    centre_distance: float
+    throat_radius: float
+    outside_radius: float
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -54,6 +63,11 @@ class Blank:
         depth2 = self.throat_radius**2 - np.square(np.asarray(z, dtype=np.float64))
         throat = self.centre_distance - np.sqrt(np.maximum(depth2, 0.0))
         return np.minimum(throat, self.outside_radius)
+
+    @property
+    def numbers(self) -> Turned:
+        """What the kernels take of it."""
+        return Turned(self.centre_distance, self.throat_radius, self.outside_radius)
 
     @property
     def kink(self) -> float | None:

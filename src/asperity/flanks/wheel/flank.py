@@ -13,7 +13,7 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting import areas as wheel_section
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
-from asperity.flanks.wheel.cutting.conjugate import conjugate_each, cut_params
+from asperity.flanks.wheel.cutting.conjugate import Stand, conjugate_each, cut_params
 from asperity.flanks.wheel.refusal import refusal, widest_face
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
@@ -122,7 +122,7 @@ class WheelFlank:
         return Blank.of(self.pair.geometry)
 
     @functools.cached_property
-    def _hob(self) -> tuple[float, FloatArray, FloatArray]:
+    def _hob(self) -> tuple[float, FloatArray, Stand]:
         cutting = cut_params(self.pair.ratio, self.pair.cutting)
         return float(self.side), self.pair.hob.params, cutting
 

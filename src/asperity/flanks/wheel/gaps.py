@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.conjugate import CENTRE, COSINE, OFFSET, RATIO, SINE, cut_params
+from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
+from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import FlankGrid
 from asperity.flanks.worm.distance import distance_only
 from asperity.flanks.worm.helicoid import Helicoid
@@ -13,7 +14,8 @@ from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Setting
 
 LONGEST_STEP = 0.07
-GOLDEN = 0.5 * (3.0 - math.sqrt(5.0))
+STEPS = 40
+NARROW = 1e-6
 
 _WINDOW = 6.4
 _LEAST_WINDOW = 1.6
@@ -22,13 +24,13 @@ _LEAST_WINDOW = 1.6
 @kernel
 def gap_at(phase, x, y, z, worm, stand):
     """Distance to the worm of a point of the wheel when the worm has turned by ``phase``."""
-    turn = phase / stand[RATIO]
+    turn = phase / stand.ratio
     c, s = math.cos(turn), math.sin(turn)
     px = x * c - y * s
-    py = y * c + x * s - stand[CENTRE]
-    pz = z - stand[OFFSET]
-    ey = stand[SINE] * px - stand[COSINE] * pz
-    ez = stand[COSINE] * px + stand[SINE] * pz
+    py = y * c + x * s - stand.centre_distance
+    pz = z - stand.axial_offset
+    ey = stand.sine * px - stand.cosine * pz
+    ez = stand.cosine * px + stand.sine * pz
     c, s = math.cos(phase), math.sin(phase)
     return distance_only(s * ey - c * py, c * ey + s * py, ez, worm)
 
@@ -46,21 +48,17 @@ def least_gaps(points, phases, window, worm, stand, out):
             gap = gap_at(phase, x, y, z, worm, stand)
             if gap < least:
                 best, least = phase, gap
-        low, high = best - step, best + step
-        a = low + GOLDEN * (high - low)
-        b = high - GOLDEN * (high - low)
-        at_a = gap_at(a, x, y, z, worm, stand)
-        at_b = gap_at(b, x, y, z, worm, stand)
-        for _ in range(22):
-            if at_a < at_b:
-                high, b, at_b = b, a, at_a
-                a = low + GOLDEN * (high - low)
-                at_a = gap_at(a, x, y, z, worm, stand)
-            else:
-                low, a, at_a = a, b, at_b
-                b = high - GOLDEN * (high - low)
-                at_b = gap_at(b, x, y, z, worm, stand)
-        out[k] = min(least, at_a, at_b)
+        a, b, c = best - step, best, best + step
+        fa, fc = gap_at(a, x, y, z, worm, stand), gap_at(c, x, y, z, worm, stand)
+        older = old = math.inf
+        for _ in range(STEPS):
+            if c - a <= 2.5 * NARROW:
+                break
+            phase = next_place(a, fa, b, least, c, fc, NARROW, c - a > 0.5 * older)
+            older, old = old, c - a
+            gap = gap_at(phase, x, y, z, worm, stand)
+            a, fa, b, least, c, fc = narrowed(a, fa, b, least, c, fc, phase, gap)
+        out[k] = least
 
 
 def gaps(grid: FlankGrid, helicoid: Helicoid, setting: Setting, ratio: float) -> FloatArray:

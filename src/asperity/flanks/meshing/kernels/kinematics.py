@@ -21,22 +21,28 @@ Lengths are in mm, angles in rad; the frame is that of the right-handed gearset.
 
 import math
 
+import numpy as np
+
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.conjugate import CENTRE, COSINE, OFFSET, RATIO, SINE
 from asperity.flanks.worm.curve import FLANK_END, LEAD
 from asperity.flanks.worm.distance import distance
 
-PHASE = 0
-DISTANCE = 1
-GRADIENT = 2
-HESSIAN = 5
-VELOCITY = 11
-CHANGE = 14
-SECOND = 17
-PLACE = 18
-CONVERGED = 21
-REACH = 22
-WIDTH = 23
+MEETING = np.dtype(
+    [
+        ("phase", np.float64),
+        ("distance", np.float64),
+        ("gradient", np.float64, 3),
+        ("hessian", np.float64, 6),
+        ("velocity", np.float64, 3),
+        ("change", np.float64, 3),
+        ("second", np.float64),
+        ("place", np.float64, 3),
+        ("converged", np.bool_),
+        ("reach", np.float64),
+    ],
+    align=True,
+)
+"""What holds where a point is nearest, in the order of the equations above, and where that is."""
 
 _STEPS = 80
 _NEWTON = 12
@@ -47,11 +53,11 @@ _LARGEST_STEP = 0.1
 @kernel
 def to_axes(x, y, z, mount):
     """Coordinates of a point of the wheel's standing frame in the helicoid's standing axes."""
-    dz = z - mount[OFFSET]
+    dz = z - mount.axial_offset
     return (
-        mount[CENTRE] - y,
-        x * mount[SINE] - dz * mount[COSINE],
-        x * mount[COSINE] + dz * mount[SINE],
+        mount.centre_distance - y,
+        x * mount.sine - dz * mount.cosine,
+        x * mount.cosine + dz * mount.sine,
     )
 
 
@@ -63,17 +69,23 @@ def turned(point, beta):
 
 
 @kernel
+def fill(three, a, b, c):
+    """Write three numbers."""
+    three[0], three[1], three[2] = a, b, c
+
+
+@kernel
 def meet(point, phase, ahead, mount, params, row):
-    """Fill ``row`` with what holds at a phase; the indices above say where."""
-    ratio = mount[RATIO]
+    """Fill a `MEETING` with what holds at a phase."""
+    ratio = mount.ratio
     x, y, z = turned(point, phase / ratio + ahead)
     a, b, c = to_axes(x, y, z, mount)
     d, ga, gb, gc, haa, hbb, hcc, hab, hac, hbc = distance(a, b, c + params[LEAD] * phase, params)
-    ce, se = mount[COSINE] / ratio, mount[SINE] / ratio
+    ce, se = mount.cosine / ratio, mount.sine / ratio
     # The wheel's own turning and the place seen from its axis, in the helicoid's axes.
-    wheel_a = a - mount[CENTRE]
-    wheel_b = b - mount[COSINE] * mount[OFFSET]
-    wheel_c = c + mount[SINE] * mount[OFFSET]
+    wheel_a = a - mount.centre_distance
+    wheel_b = b - mount.cosine * mount.axial_offset
+    wheel_c = c + mount.sine * mount.axial_offset
     va = -ce * wheel_c - se * wheel_b
     vb = se * wheel_a
     vc = ce * wheel_a
@@ -86,20 +98,18 @@ def meet(point, phase, ahead, mount, params, row):
     hb = hab * wa + hbb * wb + hbc * wc
     hc = hac * wa + hbc * wb + hcc * wc
     oc = se - 1.0
-    row[PHASE] = phase
-    row[DISTANCE] = d
-    row[GRADIENT], row[GRADIENT + 1], row[GRADIENT + 2] = ga, gb, gc
-    row[HESSIAN], row[HESSIAN + 1], row[HESSIAN + 2] = haa, hbb, hcc
-    row[HESSIAN + 3], row[HESSIAN + 4], row[HESSIAN + 5] = hab, hac, hbc
-    row[VELOCITY], row[VELOCITY + 1], row[VELOCITY + 2] = wa, wb, wc
-    row[CHANGE] = ha + gb * oc + gc * ce
-    row[CHANGE + 1] = hb - ga * oc
-    row[CHANGE + 2] = hc - ga * ce
-    row[SECOND] = wa * ha + wb * hb + wc * hc + ga * aa + gb * ab + gc * ac
-    row[PLACE], row[PLACE + 1], row[PLACE + 2] = a, b, c
+    row.phase = phase
+    row.distance = d
+    fill(row.gradient, ga, gb, gc)
+    fill(row.hessian, haa, hbb, hcc)
+    fill(row.hessian[3:], hab, hac, hbc)
+    fill(row.velocity, wa, wb, wc)
+    fill(row.change, ha + gb * oc + gc * ce, hb - ga * oc, hc - ga * ce)
+    row.second = wa * ha + wb * hb + wc * hc + ga * aa + gb * ab + gc * ac
+    fill(row.place, a, b, c)
     foot = math.hypot(a - d * ga, b - d * gb)
-    row[REACH] = params[FLANK_END] - foot
-    return ga * wa + gb * wb + gc * wc, row[SECOND]
+    row.reach = params[FLANK_END] - foot
+    return ga * wa + gb * wb + gc * wc, row.second
 
 
 @kernel
@@ -107,7 +117,7 @@ def meet_each(points, phases, ahead, mount, params, rows):
     """`meet` of points each at its own phase."""
     for k in range(points.shape[0]):
         meet(points[k], phases[k], ahead, mount, params, rows[k])
-        rows[k, CONVERGED] = 1.0
+        rows[k].converged = True
 
 
 @kernel
@@ -119,7 +129,7 @@ def approach_each(points, phases, ahead, mount, params, rows):
     for k in range(points.shape[0]):
         phase = phases[k]
         low, high = -math.inf, math.inf
-        rows[k, CONVERGED] = 0.0
+        rows[k].converged = False
         for n in range(_STEPS):
             rate, second = meet(points[k], phase, ahead, mount, params, rows[k])
             if rate < 0.0:
@@ -134,6 +144,6 @@ def approach_each(points, phases, ahead, mount, params, rows):
                 following = 0.5 * (low + high)
             # At the minimum, what is left counts with its square.
             if abs(following - phase) <= _SMALL:
-                rows[k, CONVERGED] = 1.0
+                rows[k].converged = True
                 break
             phase = following

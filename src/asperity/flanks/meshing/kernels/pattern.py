@@ -6,7 +6,7 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.flanks.meshing.kernels.kinematics import to_axes
-from asperity.flanks.meshing.kernels.transmission import narrowed, next_place
+from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
 from asperity.flanks.worm.curve import LEAD
 from asperity.flanks.worm.distance import distance_only
 

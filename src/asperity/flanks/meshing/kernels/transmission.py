@@ -15,13 +15,15 @@ The same search takes the least distance to the worm at a given phase instead (`
 """
 
 import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from asperity.compiled import kernel
 from asperity.flanks.meshing.kernels.kinematics import to_axes
-from asperity.flanks.wheel.cutting.conjugate import RATIO, conjugate
-from asperity.flanks.wheel.cutting.trim import FIELDS, NODES, PSI, RADIUS, REACHED, U, locate
+from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
+from asperity.flanks.wheel.cutting.conjugate import Stand, conjugate
+from asperity.flanks.wheel.cutting.trim import NODE, NODES, REACHED, keep, locate
 from asperity.flanks.wheel.cutting.undercut import section
 from asperity.flanks.worm.curve import ARC_RADIUS, ARC_Z, FLANK_END, LEAD, ROUNDING, TIP, width
 from asperity.flanks.worm.distance import distance_only
@@ -29,18 +31,26 @@ from asperity.flanks.worm.distance import distance_only
 TURN = 0
 NEAR = 1
 
-CENTRE = 0
-THROAT = 1
-OUTSIDE = 2
-
 _STEPS = 80
-_GOLDEN = 0.381966011250105
 # Of a bracket's width; the value is then off by its square.
 _NARROW = 1e-7
 # Where values differ by rounding only, as along the contact line of an identical hob.
 _EVEN = 1e-15
 # Between points of a grid the flank may come this much nearer than at them, mm.
 _DEEPER = 2e-3
+
+
+class Search(NamedTuple):
+    """What is looked for, and of what: the wheel's angle, the worm's phase, `measure`'s mode."""
+
+    beta: float
+    phase: float
+    mode: int
+    side: float
+    hob: Any
+    cut: Stand
+    worm: Any
+    mount: Stand
 
 
 @kernel
@@ -65,63 +75,33 @@ def measure(x, y, z, beta, phase, mode, side, worm, mount):
 
 
 @kernel
-def next_place(a, fa, b, fb, c, fc, narrow, slow):
-    """Where to look next between ``a <= b <= c``, of which ``b`` is the lowest.
-
-    The vertex of a parabola, at least ``narrow`` from ``b``; the golden section where there is none
-    and where the bracket was ``slow`` to shrink: parabolas creep along a function that bends
-    sharply at one end.
-    """
-    left, right = b - a, c - b
-    if left > 0.0 and right > 0.0 and not slow:
-        down, up = (fa - fb) / left, (fc - fb) / right
-        t = b + 0.5 * (down * right - up * left) / (down + up)
-        if a < t < c:
-            if abs(t - b) < narrow:
-                return b + narrow if right > left else b - narrow
-            return t
-    return b + _GOLDEN * right if right > left else b - _GOLDEN * left
-
-
-@kernel
-def narrowed(a, fa, b, fb, c, fc, t, ft):
-    """The bracket with one more place ``t``."""
-    if ft <= fb:
-        if t > b:
-            return b, fb, t, ft, c, fc
-        return a, fa, t, ft, b, fb
-    if t > b:
-        return a, fa, b, fb, t, ft
-    return t, ft, b, fb, c, fc
-
-
-@kernel
-def of_node(u, psi, beta, phase, mode, side, hob, cut, worm, mount):
+def of_node(u, psi, given):
     """`measure` of the point of the wheel that the hob cuts at ``(u, psi)``."""
-    x, y, z, own, _, _, _ = conjugate(u, psi, side, hob, cut)
-    return measure(x, y, z, beta - own / cut[RATIO], phase, mode, side, worm, mount)
+    x, y, z, own, _, _, _ = conjugate(u, psi, given.side, given.hob, given.cut)
+    beta = given.beta - own / given.cut.ratio
+    return measure(x, y, z, beta, given.phase, given.mode, given.side, given.worm, given.mount)
 
 
 @kernel
 def resolution(given):
     """How much less a measure may be between points of a grid than at them."""
-    return _DEEPER if given[2] == NEAR else _DEEPER / given[6][LEAD]
+    return _DEEPER if given.mode == NEAR else _DEEPER / given.worm[LEAD]
 
 
 @kernel
 def tip_radius(z, blank):
     """Radius of the blank at a place on its axis."""
-    throat = blank[CENTRE] - math.sqrt(max(blank[THROAT] ** 2 - z * z, 0.0))
-    return min(throat, blank[OUTSIDE])
+    throat = blank.centre_distance - math.sqrt(max(blank.throat_radius**2 - z * z, 0.0))
+    return min(throat, blank.outside_radius)
 
 
 @kernel
 def least_between(low, k, high, values, z, given, nodes, flank, last):
     """``(value, radius)`` of the least measure round the node ``k`` of a section."""
-    a, fa = nodes[low, RADIUS], values[low]
-    b, fb = nodes[k, RADIUS], values[k]
-    c, fc = nodes[high, RADIUS], values[high]
-    side, hob, cut = given[3], given[4], given[5]
+    a, fa = nodes[low].radius, values[low]
+    b, fb = nodes[k].radius, values[k]
+    c, fc = nodes[high].radius, values[high]
+    side, hob, cut = given.side, given.hob, given.cut
     narrow = _NARROW * (c - a)
     older = old = math.inf
     for _ in range(_STEPS):
@@ -130,7 +110,7 @@ def least_between(low, k, high, values, z, given, nodes, flank, last):
         t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
         older, old = old, c - a
         u, psi = locate(t, flank, last, z, side, hob, cut, nodes)
-        ft = of_node(u, psi, *given)
+        ft = of_node(u, psi, given)
         a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
     return fb, b
 
@@ -139,20 +119,20 @@ def least_between(low, k, high, values, z, given, nodes, flank, last):
 def least_on_column(z, given, blank, nodes, values):
     """``(value, radius)`` of the least measure on the flank at a place ``z``; inf if there is none.
 
-    ``given`` is what `of_node` takes behind the place. The nodes of the traced section bracket
+    ``given`` is a `Search`. The nodes of the traced section bracket
     every minimum; ``values`` is room for theirs.
     """
-    side, hob, cut = given[3], given[4], given[5]
+    side, hob, cut = given.side, given.hob, given.cut
     stop = tip_radius(z, blank)
     _, flank, count, status, _ = section(z, stop, side, hob, cut, nodes)
     if status != REACHED:
         return math.inf, 0.0
     last = count - 1
     u, psi = locate(stop, flank, last, z, side, hob, cut, nodes)
-    nodes[last, U], nodes[last, PSI], nodes[last, RADIUS] = u, psi, stop
+    keep(nodes[last], u, psi, stop, nodes[last].regularity)
     least = math.inf
     for k in range(flank, count):
-        values[k] = of_node(nodes[k, U], nodes[k, PSI], *given)
+        values[k] = of_node(nodes[k].u, nodes[k].psi, given)
         least = min(least, values[k])
     best, radius = math.inf, 0.0
     if least == math.inf:
@@ -200,7 +180,7 @@ def least_on_tooth(columns, rough, given, blank):
     ``rough`` has the least value of each column on a grid. Columns that may hold the least are
     looked at themselves, and every minimum among them is followed between the columns.
     """
-    nodes = np.empty((NODES, FIELDS))
+    nodes = np.empty(NODES, NODE)
     values = np.empty(NODES)
     found = np.full((2, columns.size), math.inf)
     reach = resolution(given)
@@ -248,5 +228,5 @@ def least_each(points, columns, betas, phases, mode, side, hob, cut, worm, mount
         out[k, 1] = 0.0
         out[k, 2] = columns[rough.argmin()]
         if out[k, 0] < math.inf and out[k, 0] <= near[k]:
-            given = (betas[k], phases[k], mode, side, hob, cut, worm, mount)
+            given = Search(betas[k], phases[k], mode, side, hob, cut, worm, mount)
             out[k, 0], out[k, 1], out[k, 2] = least_on_tooth(columns, rough, given, blank)

@@ -11,17 +11,7 @@ with :math:`m` the middle of the tooth space. Lengths in mm.
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.trim import (
-    FIELDS,
-    NODES,
-    PSI,
-    RADIUS,
-    REACHED,
-    U,
-    first_psi,
-    locate,
-    slide,
-)
+from asperity.flanks.wheel.cutting.trim import NODE, NODES, REACHED, first_psi, locate, slide
 from asperity.flanks.wheel.cutting.undercut import body_angle, section
 
 
@@ -32,8 +22,8 @@ def piece(start, end, psi, z, side, hob, cut, knots, weights):
     for k in range(knots.size):
         u = start + (end - start) * 0.5 * (1.0 + knots[k])
         found = slide(u, psi, 0.0, 1.0, z, side, hob, cut)
-        psi, radius = found[1], found[2]
-        rate = found[3] - found[4] * found[5] / found[6]
+        psi, radius = found.psi, found.radius
+        rate = found.radius_u - found.radius_psi * found.z_u / found.z_psi
         total += weights[k] * body_angle(u, psi, side, hob, cut) * radius * rate
     return 0.5 * (end - start) * total, psi
 
@@ -41,21 +31,21 @@ def piece(start, end, psi, z, side, hob, cut, knots, weights):
 @kernel
 def side_areas(z, stop, side, hob, cut, knots, weights, areas, status):
     """Area of every section on a side of the tooth, mm^2."""
-    nodes = np.empty((NODES, FIELDS))
+    nodes = np.empty(NODES, NODE)
     for k in range(z.size):
         arc, flank, count, status[k], _ = section(z[k], stop[k], side, hob, cut, nodes)
         if status[k] != REACHED:
             continue
         found = slide(3.0, first_psi(3.0, z[k], hob, cut), 0.0, 1.0, z[k], side, hob, cut)
-        psi, radius = found[1], found[2]
+        psi, radius = found.psi, found.radius
         total = 0.5 * radius * radius * body_angle(3.0, psi, side, hob, cut)
         part, _ = piece(3.0, 2.0, psi, z[k], side, hob, cut, knots, weights)
         total += part
-        part, _ = piece(2.0, nodes[arc, U], nodes[0, PSI], z[k], side, hob, cut, knots, weights)
+        part, _ = piece(2.0, nodes[arc].u, nodes[0].psi, z[k], side, hob, cut, knots, weights)
         total += part
-        half = 0.5 * (stop[k] - nodes[flank, RADIUS])
+        half = 0.5 * (stop[k] - nodes[flank].radius)
         for j in range(knots.size):
-            radius = nodes[flank, RADIUS] + half * (1.0 + knots[j])
+            radius = nodes[flank].radius + half * (1.0 + knots[j])
             u, psi = locate(radius, flank, count - 1, z[k], side, hob, cut, nodes)
             total += half * weights[j] * body_angle(u, psi, side, hob, cut) * radius
         areas[k] = side * total

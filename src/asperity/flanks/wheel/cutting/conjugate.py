@@ -16,31 +16,31 @@ Lengths are in mm, angles in rad; the frame is that of the right-handed gearset.
 """
 
 import math
-
-import numpy as np
+from typing import NamedTuple
 
 from asperity.compiled import kernel
 from asperity.flanks.worm.curve import LEAD, curve
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Setting
 
-RATIO = 0
-CENTRE = 1
-OFFSET = 2
-COSINE = 3
-SINE = 4
+
+class Stand(NamedTuple):
+    """How a hob cuts or a worm runs, as the kernels take it: ratio :math:`i`, lengths in mm."""
+
+    ratio: float
+    centre_distance: float
+    axial_offset: float
+    cosine: float
+    sine: float
 
 
-def cut_params(ratio: float, setting: Setting) -> FloatArray:
-    """Return the numbers the kernels here take: the ratio :math:`i` and how the hob stands."""
-    return np.array(
-        [
-            ratio,
-            setting.centre_distance,
-            setting.axial_offset,
-            math.cos(setting.tilt),
-            math.sin(setting.tilt),
-        ]
+def cut_params(ratio: float, setting: Setting) -> Stand:
+    """Return how a hob or worm stands and turns, as the kernels take it."""
+    return Stand(
+        ratio=float(ratio),
+        centre_distance=float(setting.centre_distance),
+        axial_offset=float(setting.axial_offset),
+        cosine=math.cos(setting.tilt),
+        sine=math.sin(setting.tilt),
     )
 
 
@@ -52,7 +52,7 @@ def conjugate(u, psi, side, hob, cut):
     """
     rho, place, rho1, place1, _, _ = curve(u, hob)
     p = hob[LEAD]
-    ce, se = cut[COSINE], cut[SINE]
+    ce, se = cut.cosine, cut.sine
     c, s = math.cos(psi), math.sin(psi)
     nr = -side * place1 * rho
     nt = -rho1 * p
@@ -61,13 +61,13 @@ def conjugate(u, psi, side, hob, cut):
     ny = nt * s - nr * c
     nz = -(nr * s + nt * c) * ce + na * se
     rx = rho * s * se
-    ry = cut[CENTRE] - rho * c
-    zeta = (cut[RATIO] * rho * nt - rx * ny + ry * nx) / (ce * ny)
+    ry = cut.centre_distance - rho * c
+    zeta = (cut.ratio * rho * nt - rx * ny + ry * nx) / (ce * ny)
     size = side / math.sqrt(nr * nr + nt * nt + na * na)
     return (
         rx + zeta * ce,
         ry,
-        cut[OFFSET] - rho * s * ce + zeta * se,
+        cut.axial_offset - rho * s * ce + zeta * se,
         psi - (zeta - side * place) / p,
         nx * size,
         ny * size,
@@ -86,8 +86,8 @@ def conjugate_rates(u, psi, side, hob, cut):
     """
     rho, _, rho1, place1, rho2, place2 = curve(u, hob)
     p = hob[LEAD]
-    ratio = cut[RATIO]
-    ce, se = cut[COSINE], cut[SINE]
+    ratio = cut.ratio
+    ce, se = cut.cosine, cut.sine
     c, s = math.cos(psi), math.sin(psi)
     nr = -side * place1 * rho
     nt = -rho1 * p
@@ -103,7 +103,7 @@ def conjugate_rates(u, psi, side, hob, cut):
     ny_p = nt * c + nr * s
     nz = -(nr * s + nt * c) * ce + na * se
     rx = rho * s * se
-    ry = cut[CENTRE] - rho * c
+    ry = cut.centre_distance - rho * c
     d = ce * ny
     zeta = (ratio * rho * nt - rx * ny + ry * nx) / d
     top_u = (
@@ -117,7 +117,7 @@ def conjugate_rates(u, psi, side, hob, cut):
     zeta_u = (top_u - zeta * ce * ny_u) / d
     zeta_p = (top_p - zeta * ce * ny_p) / d
     x = rx + zeta * ce
-    z = cut[OFFSET] - rho * s * ce + zeta * se
+    z = cut.axial_offset - rho * s * ce + zeta * se
     turn_u = -(zeta_u - side * place1) / (p * ratio)
     turn_p = (1.0 - zeta_p / p) / ratio
     xu = rho1 * s * se + zeta_u * ce + turn_u * ry
@@ -136,7 +136,7 @@ def conjugate_each(u, psi, side, hob, cut, points, normals, phases):
     """Points and normals on the wheel, where the tooth stands at phase 0, and the phases."""
     for k in range(u.size):
         x, y, z, phase, nx, ny, nz = conjugate(u[k], psi[k], side, hob, cut)
-        turn = phase / cut[RATIO]
+        turn = phase / cut.ratio
         c, s = math.cos(turn), math.sin(turn)
         points[k, 0] = x * c + y * s
         points[k, 1] = y * c - x * s

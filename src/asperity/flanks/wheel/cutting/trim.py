@@ -6,13 +6,16 @@ and the flank until it leaves the blank: from this end the pole of the conjugate
 the blank's radius and is never met, while from the pitch point it may be met first. By its length,
 since near the pole of a tilted hob ``u`` turns back.
 
-A traced section is an array of nodes, a row each: ``u``, ``psi``, radius and regularity.
+A traced section is an array of `NODE`.
 """
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.conjugate import COSINE, OFFSET, conjugate_rates
+from asperity.flanks.wheel.cutting.conjugate import conjugate_rates
 from asperity.flanks.worm.curve import BASE, FLANK_END, ROOT, curve
 
 REACHED = 0
@@ -31,18 +34,29 @@ NODES = 300
 SPARE = 20
 TOLERANCE = 1e-12
 
-U = 0
-PSI = 1
-RADIUS = 2
-REGULARITY = 3
-FIELDS = 4
+NODE = np.dtype([(name, np.float64) for name in ("u", "psi", "radius", "regularity")])
+"""A node of a section."""
+
+
+class Found(NamedTuple):
+    """A point of a section with the rates of radius and place; not ``sound`` beyond the pole."""
+
+    u: float
+    psi: float
+    radius: float
+    radius_u: float
+    radius_psi: float
+    z_u: float
+    z_psi: float
+    regularity: float
+    sound: bool
 
 
 @kernel
 def first_psi(u, z, hob, cut):
     """``psi`` at a place ``z`` as if the hob were not tilted; exact where it is not."""
     rho = curve(u, hob)[0]
-    ratio = (cut[OFFSET] - z) / (rho * cut[COSINE])
+    ratio = (cut.axial_offset - z) / (rho * cut.cosine)
     return math.asin(min(max(ratio, -0.999), 0.999))
 
 
@@ -50,8 +64,7 @@ def first_psi(u, z, hob, cut):
 def slide(u, psi, du, dpsi, z, side, hob, cut):
     """Newton along the direction ``(du, dpsi)`` until the point lies at the place ``z``.
 
-    Returns ``(u, psi, radius, R_u, R_psi, z_u, z_psi, regularity, sound)``; not ``sound`` beyond
-    the pole and where nothing was found.
+    Returns a `Found`; not ``sound`` beyond the pole and where nothing was found.
     """
     for _ in range(25):
         x, y, zk, xu, yu, zu, xp, yp, zp, regularity, pole = conjugate_rates(u, psi, side, hob, cut)
@@ -65,23 +78,23 @@ def slide(u, psi, du, dpsi, z, side, hob, cut):
     radius_u = (x * xu + y * yu) / radius
     radius_psi = (x * xp + y * yp) / radius
     sound = abs(z - zk) <= TOLERANCE and pole > 0.0 and abs(psi) < 0.5 * math.pi
-    return u, psi, radius, radius_u, radius_psi, zu, zp, regularity, sound
+    return Found(u, psi, radius, radius_u, radius_psi, zu, zp, regularity, sound)
 
 
 @kernel
 def at_u(u, psi, z, side, hob, cut):
     """``(psi, radius, sound)`` of the section at ``u``, from a guess of ``psi``."""
     found = slide(u, psi, 0.0, 1.0, z, side, hob, cut)
-    return found[1], found[2], found[8]
+    return found.psi, found.radius, found.sound
 
 
 @kernel
 def keep(node, u, psi, radius, regularity):
     """Write a node."""
-    node[U] = u
-    node[PSI] = psi
-    node[RADIUS] = radius
-    node[REGULARITY] = regularity
+    node.u = u
+    node.psi = psi
+    node.radius = radius
+    node.regularity = regularity
 
 
 @kernel
@@ -112,15 +125,15 @@ def advance(u, psi, tu, tp, step, limit, z, side, hob, cut):
     pu, pp = u + step * tu, psi + step * tp
     if pu > limit:
         found = slide(pu, pp, -tp, tu, z, side, hob, cut)
-        if found[0] > limit:
+        if found.u > limit:
             # The corrector may have found another branch.
-            off = math.hypot(found[0] - pu, found[1] - pp)
-            return found, found[8] and off <= 0.5 * step
-        pp = found[1] if found[8] else pp
+            off = math.hypot(found.u - pu, found.psi - pp)
+            return found, found.sound and off <= 0.5 * step
+        pp = found.psi if found.sound else pp
     else:
         pp = psi + (pp - psi) * (limit - u) / (pu - u)
     found = slide(limit, pp, 0.0, 1.0, z, side, hob, cut)
-    return found, found[8] and abs(found[1] - psi) <= 2.0 * step
+    return found, found.sound and abs(found.psi - psi) <= 2.0 * step
 
 
 @kernel
@@ -181,10 +194,10 @@ def between(radius, k, z, side, hob, cut, nodes):
 
     Newton along the chord of the two nodes, bracketed by them.
     """
-    u, psi = nodes[k, U], nodes[k, PSI]
-    du, dpsi = nodes[k + 1, U] - u, nodes[k + 1, PSI] - psi
+    u, psi = nodes[k].u, nodes[k].psi
+    du, dpsi = nodes[k + 1].u - u, nodes[k + 1].psi - psi
     length = du * du + dpsi * dpsi
-    rising = nodes[k + 1, RADIUS] > nodes[k, RADIUS]
+    rising = nodes[k + 1].radius > nodes[k].radius
     t, low, high = 0.0, 0.0, 1.0
     for _ in range(100):
         u, psi, found, radius_u, radius_psi, zu, zp, _, _ = slide(
@@ -217,10 +230,10 @@ def above_base(radius, k, z, side, hob, cut, nodes):
 
     Regula falsi (Illinois) by the root of the distance in ``u``, by which all is smooth.
     """
-    base = nodes[k + 1, U]
-    low, high = math.sqrt(nodes[k, U] - base), 0.0
-    off_low, off_high = nodes[k, RADIUS] - radius, nodes[k + 1, RADIUS] - radius
-    u, psi = base, nodes[k + 1, PSI]
+    base = nodes[k + 1].u
+    low, high = math.sqrt(nodes[k].u - base), 0.0
+    off_low, off_high = nodes[k].radius - radius, nodes[k + 1].radius - radius
+    u, psi = base, nodes[k + 1].psi
     kept = 0
     for _ in range(100):
         if off_high == 0.0 or low == high:
@@ -246,8 +259,8 @@ def above_base(radius, k, z, side, hob, cut, nodes):
 def locate(radius, first, last, z, side, hob, cut, nodes):
     """``(u, psi)`` at a radius on the part of a section from node ``first`` to ``last``, rising."""
     k = first
-    while k < last - 1 and nodes[k + 1, RADIUS] < radius:
+    while k < last - 1 and nodes[k + 1].radius < radius:
         k += 1
-    if nodes[k + 1, U] == base_break(hob) and nodes[k, U] > nodes[k + 1, U]:
+    if nodes[k + 1].u == base_break(hob) and nodes[k].u > nodes[k + 1].u:
         return above_base(radius, k, z, side, hob, cut, nodes)
     return between(radius, k, z, side, hob, cut, nodes)

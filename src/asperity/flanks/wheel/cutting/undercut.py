@@ -12,20 +12,17 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.conjugate import RATIO, conjugate
+from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
+from asperity.flanks.wheel.cutting.conjugate import conjugate
 from asperity.flanks.wheel.cutting.trim import (
-    FIELDS,
     LOST,
     NO_FLANK,
     NO_INVOLUTE,
+    NODE,
     NODES,
-    PSI,
-    RADIUS,
     REACHED,
-    REGULARITY,
     SPARE,
     UNDERCUT,
-    U,
     base_break,
     keep,
     locate,
@@ -34,14 +31,16 @@ from asperity.flanks.wheel.cutting.trim import (
 )
 
 DIP = 1.5
-GOLDEN = 0.5 * (3.0 - math.sqrt(5.0))
+# Of a chord; where on it the least lies does not matter beyond that.
+NARROW = 1e-5
+STEPS = 40
 
 
 @kernel
 def body_angle(u, psi, side, hob, cut):
     """Angle about the wheel's axis, from +Y towards +X, of the point in the wheel."""
     x, y, _, phase, _, _, _ = conjugate(u, psi, side, hob, cut)
-    return math.atan2(x, y) + phase / cut[RATIO]
+    return math.atan2(x, y) + phase / cut.ratio
 
 
 @kernel
@@ -49,26 +48,26 @@ def insert(k, count, found, nodes):
     """Insert what `slide` has found as node ``k``; returns the new count."""
     for j in range(count, k, -1):
         nodes[j] = nodes[j - 1]
-    keep(nodes[k], found[0], found[1], found[2], found[7])
+    keep(nodes[k], found.u, found.psi, found.radius, found.regularity)
     return count + 1
 
 
 @kernel
 def on_chord(t, k, z, side, hob, cut, nodes):
     """The section at the share ``t`` of the chord from node ``k`` to the next, as by `slide`."""
-    u, psi = nodes[k, U], nodes[k, PSI]
-    du, dpsi = nodes[k + 1, U] - u, nodes[k + 1, PSI] - psi
+    u, psi = nodes[k].u, nodes[k].psi
+    du, dpsi = nodes[k + 1].u - u, nodes[k + 1].psi - psi
     return slide(u + t * du, psi + t * dpsi, -dpsi, du, z, side, hob, cut)
 
 
 @kernel
 def insert_cusp(k, count, z, side, hob, cut, nodes):
     """Insert the turning point between ``k`` and the next node, on its regular side."""
-    rising = nodes[k + 1, REGULARITY] > 0.0
+    rising = nodes[k + 1].regularity > 0.0
     low, high = 0.0, 1.0
     for _ in range(60):
         t = 0.5 * (low + high)
-        if (on_chord(t, k, z, side, hob, cut, nodes)[7] > 0.0) == rising:
+        if (on_chord(t, k, z, side, hob, cut, nodes).regularity > 0.0) == rising:
             high = t
         else:
             low = t
@@ -77,32 +76,39 @@ def insert_cusp(k, count, z, side, hob, cut, nodes):
 
 
 @kernel
+def least_on_chord(k, z, side, hob, cut, nodes):
+    """The share of the chord from node ``k`` to the next where the regularity is least."""
+    a = 0.0
+    fa, fc = nodes[k].regularity, nodes[k + 1].regularity
+    c = 1.0
+    b, fb = (a, fa) if fa <= fc else (c, fc)
+    older = old = math.inf
+    for _ in range(STEPS):
+        if c - a <= 2.5 * NARROW:
+            break
+        t = next_place(a, fa, b, fb, c, fc, NARROW, c - a > 0.5 * older)
+        older, old = old, c - a
+        ft = on_chord(t, k, z, side, hob, cut, nodes).regularity
+        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
+    return b
+
+
+@kernel
 def insert_dips(first, count, z, side, hob, cut, nodes):
     """Insert nodes where the regularity dips below zero between nodes; returns the new count."""
     k = first + 1
     while k < count - 1 and count < NODES - SPARE // 2:
         before, here, after = (
-            nodes[k - 1, REGULARITY],
-            nodes[k, REGULARITY],
-            nodes[k + 1, REGULARITY],
+            nodes[k - 1].regularity,
+            nodes[k].regularity,
+            nodes[k + 1].regularity,
         )
         if 0.0 < here < min(before, after) and max(before, after) > DIP * here:
             for j in (k, k - 1):
-                low, high = 0.0, 1.0
-                a, b = GOLDEN, 1.0 - GOLDEN
-                at_a = on_chord(a, j, z, side, hob, cut, nodes)
-                at_b = on_chord(b, j, z, side, hob, cut, nodes)
-                for _ in range(24):
-                    if at_a[7] < at_b[7]:
-                        high, b, at_b = b, a, at_a
-                        a = low + GOLDEN * (high - low)
-                        at_a = on_chord(a, j, z, side, hob, cut, nodes)
-                    else:
-                        low, a, at_a = a, b, at_b
-                        b = high - GOLDEN * (high - low)
-                        at_b = on_chord(b, j, z, side, hob, cut, nodes)
-                if at_a[8] and at_a[7] < 0.0:
-                    count = insert(j + 1, count, at_a, nodes)
+                t = least_on_chord(j, z, side, hob, cut, nodes)
+                found = on_chord(t, j, z, side, hob, cut, nodes)
+                if found.sound and found.regularity < 0.0:
+                    count = insert(j + 1, count, found, nodes)
                     k += 1
                     break
         k += 1
@@ -115,8 +121,8 @@ def meet(lower, first, last, stop, z, side, hob, cut, nodes):
 
     Below it the former is deeper in the tooth.
     """
-    low = max(nodes[first, RADIUS], nodes[0, RADIUS])
-    high = min(min(nodes[lower, RADIUS], nodes[last, RADIUS]), stop)
+    low = max(nodes[first].radius, nodes[0].radius)
+    high = min(min(nodes[lower].radius, nodes[last].radius), stop)
     if not low < high:
         return -1.0
     for k in range(70):
@@ -145,12 +151,12 @@ def cut_out(radius, lower, first, last, count, z, side, hob, cut, nodes):
     u, psi = locate(radius, first, last, z, side, hob, cut, nodes)
     v, psi_low = locate(radius, 0, lower, z, side, hob, cut, nodes)
     end = 1
-    while nodes[end, RADIUS] < radius:
+    while nodes[end].radius < radius:
         end += 1
-    while first < last and nodes[first, RADIUS] <= radius:
+    while first < last and nodes[first].radius <= radius:
         first += 1
-    keep(nodes[end], v, psi_low, radius, nodes[end, REGULARITY])
-    keep(nodes[end + 1], u, psi, radius, nodes[first, REGULARITY])
+    keep(nodes[end], v, psi_low, radius, nodes[end].regularity)
+    keep(nodes[end + 1], u, psi, radius, nodes[first].regularity)
     for k in range(first, count):
         nodes[end + 2 + k - first] = nodes[k]
     return end, end + 2 + count - first
@@ -162,7 +168,7 @@ def regularity_map(z, stop, side, hob, cut, share, u, radius, regularity, status
 
     Rows are even along the traced nodes, whether these reach the blank or not.
     """
-    nodes = np.empty((NODES, FIELDS))
+    nodes = np.empty(NODES, NODE)
     for k in range(z.size):
         flank, count, status[k] = trace(z[k], stop[k], side, hob, cut, nodes)
         if flank < 0 or flank == count - 1:
@@ -172,10 +178,10 @@ def regularity_map(z, stop, side, hob, cut, share, u, radius, regularity, status
         for j in range(share.size):
             place = flank + share[j] * (count - 1 - flank)
             n = min(int(place), count - 2)
-            du, dpsi = nodes[n + 1, U] - nodes[n, U], nodes[n + 1, PSI] - nodes[n, PSI]
-            near_u, near_psi = nodes[n, U] + (place - n) * du, nodes[n, PSI] + (place - n) * dpsi
+            du, dpsi = nodes[n + 1].u - nodes[n].u, nodes[n + 1].psi - nodes[n].psi
+            near_u, near_psi = nodes[n].u + (place - n) * du, nodes[n].psi + (place - n) * dpsi
             found = slide(near_u, near_psi, -dpsi, du, z[k], side, hob, cut)
-            u[j, k], radius[j, k], regularity[j, k] = found[0], found[2], found[7]
+            u[j, k], radius[j, k], regularity[j, k] = found.u, found.radius, found.regularity
 
 
 @kernel
@@ -183,7 +189,7 @@ def past_base(status, first, count, hob, nodes):
     """The status, or `NO_INVOLUTE` if a flank that ended badly had passed its base cylinder."""
     base = base_break(hob)
     for k in range(first, count):
-        if nodes[k, U] <= base and status in (LOST, UNDERCUT):
+        if nodes[k].u <= base and status in (LOST, UNDERCUT):
             return NO_INVOLUTE
     return status
 
@@ -197,12 +203,12 @@ def section(z, stop, side, hob, cut, nodes):
     """
     arc, count, status = trace(z, stop, side, hob, cut, nodes)
     if arc < 0:
-        lost = count == 0 or nodes[count - 1, RADIUS] < stop
+        lost = count == 0 or nodes[count - 1].radius < stop
         return 0, 0, count, status if lost else NO_FLANK, False
     if status != REACHED:
         turned = False
         for k in range(arc, count):
-            turned = turned or nodes[k, REGULARITY] <= 0.0
+            turned = turned or nodes[k].regularity <= 0.0
         if turned and status == LOST:
             status = UNDERCUT
         return arc, arc, count, past_base(status, arc, count, hob, nodes), turned
@@ -211,7 +217,7 @@ def section(z, stop, side, hob, cut, nodes):
     count = insert_dips(flank, count, z, side, hob, cut, nodes)
     k = flank
     while k < count:
-        if nodes[k, REGULARITY] > 0.0:
+        if nodes[k].regularity > 0.0:
             k += 1
             continue
         turned = True
@@ -219,11 +225,11 @@ def section(z, stop, side, hob, cut, nodes):
         if k > flank:
             count = insert_cusp(k - 1, count, z, side, hob, cut, nodes)
             k += 1
-        while nodes[k, REGULARITY] <= 0.0:
+        while nodes[k].regularity <= 0.0:
             k += 1
         count = insert_cusp(k - 1, count, z, side, hob, cut, nodes)
         last = k
-        while last < count - 1 and nodes[last + 1, REGULARITY] > 0.0:
+        while last < count - 1 and nodes[last + 1].regularity > 0.0:
             last += 1
         radius = meet(lower, k, last, stop, z, side, hob, cut, nodes)
         if radius < 0.0:
@@ -233,4 +239,4 @@ def section(z, stop, side, hob, cut, nodes):
             arc = end
             flank = end + 1
         k = end + 1
-    return arc, flank, count, REACHED if nodes[flank, RADIUS] < stop else NO_FLANK, turned
+    return arc, flank, count, REACHED if nodes[flank].radius < stop else NO_FLANK, turned
