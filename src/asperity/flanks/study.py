@@ -6,24 +6,33 @@ from typing import TypeVar
 
 from asperity.casefile import Case, Table
 from asperity.errors import InputError, MissingExtraError
+from asperity.flanks import parameters
 from asperity.flanks.export.brep import require_cad
 from asperity.flanks.export.views import require_view
 from asperity.flanks.mesh.density import read_density
 from asperity.flanks.mesh.tooth import element_size, tooth
+from asperity.flanks.meshing import lubrication
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
-from asperity.flanks.remarks import assumptions, from_memory
 from asperity.flanks.result import FlankStudy, ToothMesh
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
+from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.rating import Operation, rate_case
 from asperity.runs import Run
+from asperity.sources import Source
 
 _TOUCH = 1e-9
 _ZERO_CELSIUS = 273.15
+_CUSTOMARY = {
+    "disc.diameter": f"{1e3 * parameters.DISC_DIAMETER:g} mm",
+    "disc.profile_radius": f"{parameters.DISC_PROFILE_RADIUS:g} modules",
+    "hob.tip_radius": f"{parameters.HOB_TIP_RADIUS:g} modules, or what there is room for",
+}
+_OUTSIDE = Source("common practice", "from memory", "d_a2 + m")
 
 T = TypeVar("T", bound=Table)
 
@@ -165,14 +174,14 @@ def study(prepared: Prepared) -> FlankStudy:
             raise
         found = analyse(pair, prepared.wheel, worm_speed=load.worm_speed)
         notes.append(f"no load on the contact lines: {error}")
-    assumed = assumptions(prepared.gearset, prepared.hob, prepared.disc)
+    assumed = _assumed(prepared.gearset, prepared.hob, prepared.disc)
     return FlankStudy(
         name=prepared.gearset.name,
         wheel=Wheel(found.pair),
         analysis=found,
         mesh=prepared.mesh,
         assumed=assumed,
-        from_memory=from_memory(prepared.gearset, assumed, loaded=load is not None),
+        from_memory=_from_memory(prepared.gearset, assumed, loaded=load is not None),
         notes=(*_notes(found, prepared.wheel), *notes),
         seconds=prepared.seconds + time.perf_counter() - began,
         step=prepared.step,
@@ -218,3 +227,48 @@ def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
     sump = float(rated["theta_S_degC"]) if rated is not None else 0.0
     note = f"oil at {sump:.4g} degC, from the heat balance of ISO/TR 14521"
     return Load.of(gearset, operation, sump + _ZERO_CELSIUS), [note]
+
+
+def _assumed(gearset: Gearset, hob: Hob | None, disc: Disc | None) -> dict[str, str]:
+    """Return the keys that bear on the flanks and were left out, and what was assumed for them."""
+    found = {
+        f"gearset.{key}": text
+        for key, text in gearset.assumed.items()
+        if key not in ("worm_roughness",)
+    }
+    if hob is None:
+        found["hob"] = "identical to the worm"
+    elif "oversize" not in hob.model_fields_set:
+        found["hob.oversize"] = "1, the worm's own size"
+    if hob is None or hob.tip_radius is None:
+        found["hob.tip_radius"] = _CUSTOMARY["hob.tip_radius"]
+    for key in _ground(gearset):
+        name = key.partition(".")[2]
+        if disc is None or name not in disc.model_fields_set:
+            found[key] = _CUSTOMARY[key]
+    return found
+
+
+def _from_memory(
+    gearset: Gearset, assumed: dict[str, str], *, loaded: bool = False
+) -> dict[str, str]:
+    """Return what rests on something that no document at hand confirms, with its source."""
+    sources = {
+        f"gearset.tooth_proportions {gearset.tooth_proportions}": PROPORTIONS[
+            gearset.tooth_proportions
+        ],
+        "outside diameter of the wheel": _OUTSIDE,
+        **{key: parameters.SOURCES[key] for key in assumed if key in parameters.SOURCES},
+        **(lubrication.SOURCES if loaded else {}),
+    }
+    return {
+        key: source.name + (f"; {source.note}" if source.note else "")
+        for key, source in sources.items()
+        if source.confidence == "from memory"
+    }
+
+
+def _ground(gearset: Gearset) -> tuple[str, ...]:
+    return {"ZK": ("disc.diameter",), "ZC": ("disc.diameter", "disc.profile_radius")}.get(
+        gearset.flank, ()
+    )
