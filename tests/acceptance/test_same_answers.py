@@ -23,6 +23,12 @@ CHANGES = (
         ("flank *", f"flank.nc:{name}.units", "what labels a dimension is a number without unit")
         for name in ("axis", "direction", "part")
     ),
+    *(
+        (line, f"slide.nc:{name}", "the history of a march holds means of stretches, not samples")
+        for line in ("slide table-4.? --out OUT", "slide table-4.1-L4 * --out OUT")
+        for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
+    ),
+    ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
     ("*", "json*.assumed.rating.iso14521_face_width", "b_2H is offered both ways, one is assumed"),
     *(
         (line, "json.agma6034.violations", "a sump too hot is named")

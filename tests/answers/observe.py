@@ -24,11 +24,10 @@ HERE = Path(__file__).parent
 _MOST_KEPT_WHOLE = 24
 _SAMPLES = 16
 
-# Of a deck, a subroutine and a solid: comments, dates and who wrote it.
+# Of a deck and a subroutine.
 _REMARKS = {
     ".inp": re.compile(r"^\*\*.*$", re.MULTILINE),
     ".f": re.compile(r"^[Cc!*].*$", re.MULTILINE),
-    ".step": re.compile(r"^FILE_.*?;$", re.MULTILINE | re.DOTALL),
 }
 _NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?(?![\w.])")
 
@@ -103,7 +102,6 @@ def _content(path):
         ".glb": _surfaces,
         ".inp": _text,
         ".f": _text,
-        ".step": _text,
     }.get(path.suffix)
     return {} if read is None else read(path)
 
@@ -167,7 +165,8 @@ def _surfaces(path):
 def _text(path):
     text = _REMARKS[path.suffix].sub("", path.read_text("utf-8"))
     numbers = [float(re.sub("[dD]", "e", number)) for number in _NUMBER.findall(text)]
-    words = "\n".join(" ".join(line.split()) for line in _NUMBER.sub("#", text).splitlines())
+    # Where a line of numbers is broken depends on how many digits each has.
+    words = " ".join(_NUMBER.sub("#", text).split())
     return {
         "words": {"value": hashlib.sha256(words.encode()).hexdigest()[:16]},
         "numbers": {"value": digest(np.array(numbers))},
