@@ -24,10 +24,10 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-import numpy.typing as npt
 from pydantic import model_validator
 
 from asperity import store
+from asperity.arrays import FloatArray
 from asperity.casefile import Table
 from asperity.compiled import kernel
 from asperity.errors import InputError, shown
@@ -42,8 +42,6 @@ _TABLE_POINTS = 8192
 STEPS_A_TURN = 16
 _STEPS_A_FLANK = 4
 _NO_TABLE = np.zeros(2)
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @kernel

@@ -142,7 +142,7 @@ def test_every_amplitude_gives_the_same_body():
     assert answers[2].ratio == pytest.approx(answers[0].ratio, rel=1e-12)
 
 
-def test_what_the_lanes_cannot_take_is_solved_alone_in_its_place():
+def test_what_a_batch_cannot_take_is_solved_alone_in_its_place():
     models = [
         body(),
         body(friction={"model": "coulomb", "max_deflection": None}),

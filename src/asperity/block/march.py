@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.block.notes import block_notes
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult
@@ -20,7 +21,6 @@ from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.runs import Run
 from asperity.runs.tree import Tree, from_tree, to_tree
-from asperity.slider.model import FloatArray
 from asperity.slider.result import History
 
 _RECORDS = 4000

@@ -21,6 +21,7 @@ from typing import Self
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.block.parameters import Block, Contact
 from asperity.casefile import Case
 from asperity.contact.elastic import (
@@ -41,7 +42,7 @@ from asperity.contact.motion.compliance import BaseCompliance, base_compliance
 from asperity.contact.motion.system import Shaking, System
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 from asperity.slider.timetable import Timetable
 
 STANDARD_GRAVITY = 9.80665

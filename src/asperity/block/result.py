@@ -7,12 +7,12 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem
 from asperity.block.series import Frame, write_block_series
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
-from asperity.slider.model import FloatArray
 from asperity.slider.result import History, SlideResult, table_inputs
 from asperity.slider.result import inputs as slider_inputs
 

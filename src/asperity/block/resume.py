@@ -9,6 +9,7 @@ import functools
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem
 from asperity.block.result import inputs
 from asperity.block.series import Frame
@@ -16,7 +17,6 @@ from asperity.contact.increment.solver import SolverMemory
 from asperity.contact.motion.ledger import Energies
 from asperity.contact.motion.steps import Snapshot
 from asperity.runs.key import code_key, key
-from asperity.slider.model import FloatArray
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.contact.elastic.modes import whole_shapes
 from asperity.errors import InputError
 from asperity.mesh.vtu import Data, write_series
-from asperity.slider.model import FloatArray
 
 if TYPE_CHECKING:
     from asperity.block.problem import BlockProblem

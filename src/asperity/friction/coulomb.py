@@ -8,7 +8,7 @@ _SLIPS = 1.0 - 1e-9  # square of the share from which the contact slips
 
 
 @kernel
-def project(free_x, free_y, give_x, give_y, last_x, last_y):
+def project(free_x, free_y, mobility_x, mobility_y, last_x, last_y):
     r"""Friction share that stops, or failing that opposes, a slip.
 
     Finds :math:`\sigma` in the unit disc with slip :math:`D = f - \mathrm{diag}(b)\,\sigma` such
@@ -19,7 +19,7 @@ def project(free_x, free_y, give_x, give_y, last_x, last_y):
     ----------
     free_x, free_y : float
         Slip :math:`f` over the step if there were no friction.
-    give_x, give_y : float
+    mobility_x, mobility_y : float
         How much a full friction force takes off it (:math:`b \ge 0`; 0: prescribed slip).
     last_x, last_y : float
         Share to keep where neither slip nor force decides (no slip, nothing gives).
@@ -31,40 +31,42 @@ def project(free_x, free_y, give_x, give_y, last_x, last_y):
     """
     size = math.sqrt(free_x * free_x + free_y * free_y)
     if size == 0.0:
-        if give_x > 0.0 or give_y > 0.0:
+        if mobility_x > 0.0 or mobility_y > 0.0:
             return 0.0, 0.0
         return last_x, last_y
-    stuck_x = free_x / give_x if give_x > 0.0 else 0.0
-    stuck_y = free_y / give_y if give_y > 0.0 else 0.0
-    can_stick = (give_x > 0.0 or free_x == 0.0) and (give_y > 0.0 or free_y == 0.0)
+    stuck_x = free_x / mobility_x if mobility_x > 0.0 else 0.0
+    stuck_y = free_y / mobility_y if mobility_y > 0.0 else 0.0
+    can_stick = (mobility_x > 0.0 or free_x == 0.0) and (mobility_y > 0.0 or free_y == 0.0)
     if can_stick and stuck_x * stuck_x + stuck_y * stuck_y <= 1.0:
         return stuck_x, stuck_y
     # Slip: |f/(|D| + b)| = 1 for |D|. 1/|.| is nearly linear in |D|, so Newton takes few steps;
     # from below, where the norm is at least 1, it cannot overshoot.
-    slip = max(size - max(give_x, give_y), abs(free_x) - give_x, abs(free_y) - give_y, 0.0)
+    slip = max(
+        size - max(mobility_x, mobility_y), abs(free_x) - mobility_x, abs(free_y) - mobility_y, 0.0
+    )
     for _ in range(50):
-        x = free_x / (slip + give_x) if slip + give_x > 0.0 else 0.0
-        y = free_y / (slip + give_y) if slip + give_y > 0.0 else 0.0
+        x = free_x / (slip + mobility_x) if slip + mobility_x > 0.0 else 0.0
+        y = free_y / (slip + mobility_y) if slip + mobility_y > 0.0 else 0.0
         norm = math.sqrt(x * x + y * y)
         if norm == 0.0:
             break
         bend = 0.0
-        if slip + give_x > 0.0:
-            bend += x * x / (slip + give_x)
-        if slip + give_y > 0.0:
-            bend += y * y / (slip + give_y)
+        if slip + mobility_x > 0.0:
+            bend += x * x / (slip + mobility_x)
+        if slip + mobility_y > 0.0:
+            bend += y * y / (slip + mobility_y)
         change = (norm - 1.0) * norm * norm / bend
         slip = max(slip + change, 0.0)
         if abs(change) <= 1e-15 * (slip + size):
             break
-    x = free_x / (slip + give_x) if slip + give_x > 0.0 else 0.0
-    y = free_y / (slip + give_y) if slip + give_y > 0.0 else 0.0
+    x = free_x / (slip + mobility_x) if slip + mobility_x > 0.0 else 0.0
+    y = free_y / (slip + mobility_y) if slip + mobility_y > 0.0 else 0.0
     norm = math.sqrt(x * x + y * y)
     return x / norm, y / norm
 
 
 @kernel
-def _reversal(before, free, give):
+def _reversal(before, free, mobility):
     """Mean share along a line while a steady push slows, stops, holds or turns the slip.
 
     Continuous in every argument, which a share taken at the end of the step is not.
@@ -72,18 +74,18 @@ def _reversal(before, free, give):
     sign = 1.0 if before >= 0.0 else -1.0
     start = abs(before)
     push = sign * free - start
-    after = start + push - give
+    after = start + push - mobility
     if after >= 0.0:
         return sign
-    if push >= -give:
-        return sign * (start + push) / give
-    stop = start / (give - push)
+    if push >= -mobility:
+        return sign * (start + push) / mobility
+    stop = start / (mobility - push)
     return sign * (2.0 * stop - 1.0)
 
 
 @kernel
 def mean_share(
-    before_x, before_y, free_x, free_y, give_x, give_y, smooth, last_x, last_y
+    before_x, before_y, free_x, free_y, mobility_x, mobility_y, smooth, last_x, last_y
 ):  # fmt: skip
     r"""Mean friction share around a time node, from the slip of the steps on both sides of it.
 
@@ -94,7 +96,7 @@ def mean_share(
     ----------
     before_x, before_y : float
         Slip of the step before the node.
-    free_x, free_y, give_x, give_y, last_x, last_y : float
+    free_x, free_y, mobility_x, mobility_y, last_x, last_y : float
         The step after it, as in `project`.
     smooth : bool
         Whether the slip velocity changes steadily, or jumps at the node.
@@ -105,12 +107,12 @@ def mean_share(
         Friction force over :math:`\mu F_N`, by component, in the direction of the slip.
     """
     if smooth and before_x != 0.0 and before_y == 0.0 and free_y == 0.0:
-        return _reversal(before_x, free_x, give_x), 0.0
-    share_x, share_y = project(free_x, free_y, give_x, give_y, last_x, last_y)
+        return _reversal(before_x, free_x, mobility_x), 0.0
+    share_x, share_y = project(free_x, free_y, mobility_x, mobility_y, last_x, last_y)
     if share_x * share_x + share_y * share_y < _SLIPS:
         return share_x, share_y
-    after_x = free_x - give_x * share_x
-    after_y = free_y - give_y * share_y
+    after_x = free_x - mobility_x * share_x
+    after_y = free_y - mobility_y * share_y
     before = math.sqrt(before_x * before_x + before_y * before_y)
     after = math.sqrt(after_x * after_x + after_y * after_y)
     if before == 0.0 or after == 0.0:

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.slider import batch_kernels as bk
 from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import STATE, SUMS, Parameters
 from asperity.slider.summary import energies, summarise

@@ -11,6 +11,7 @@ import time
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
 from asperity.results.ledger import REFUSED, PowerLedger, guard
@@ -22,7 +23,7 @@ from asperity.slider.homogenised_law import (
     value_and_slope,
 )
 from asperity.slider.march import March
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 from asperity.slider.result import History, SlideResult
 from asperity.slider.timetable import march_notes
 
@@ -46,21 +47,21 @@ def _stage(x0, v0, w, drive, stiffness, damping, mass, force, breaks, c, viscous
 
     Newton within a bracket: the law bends, and Newton alone can go back and forth at a bend.
     """
-    give = w / mass
+    mobility = w / mass
     low = -math.inf
     high = math.inf
     v = v0
     for _ in range(80):
         share, slope = value_and_slope(v, breaks, c, viscous)
         pull = stiffness * (x0 + w * (drive - v)) + damping * (drive - v)
-        rest = v - v0 - give * (pull - force * share)
+        rest = v - v0 - mobility * (pull - force * share)
         if rest == 0.0:
             break
         if rest > 0.0:
             high = v
         else:
             low = v
-        steep = 1.0 + give * (stiffness * w + damping + force * slope)
+        steep = 1.0 + mobility * (stiffness * w + damping + force * slope)
         new = v - rest / steep if steep > 0.0 else 0.5 * (low + high)
         if not low < new < high and math.isfinite(high - low):
             new = 0.5 * (low + high)

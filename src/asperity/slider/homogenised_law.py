@@ -13,10 +13,11 @@ from typing import Any, overload
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.lugre import stribeck_share
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 
 _POINTS_BELOW = 64

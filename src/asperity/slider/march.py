@@ -5,12 +5,13 @@ import time
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider import kernels as k
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 from asperity.slider.result import History, SlideResult
 from asperity.slider.scaled import NODE, STATE, SUMS
 from asperity.slider.summary import energies, history_of, summarise

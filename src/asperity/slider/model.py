@@ -7,17 +7,12 @@ import math
 from collections.abc import Iterator
 from typing import Self
 
-import numpy as np
-import numpy.typing as npt
-
 from asperity.casefile import Case
 from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.slider.parameters import Slider, Solve
 from asperity.slider.scaled import MODELS, Parameters
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
-
-FloatArray = npt.NDArray[np.float64]
 
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4

@@ -5,9 +5,10 @@ import time
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
-from asperity.slider.model import FloatArray, Model, in_proportion
+from asperity.slider.model import Model, in_proportion
 from asperity.slider.result import History, SlideResult
 from asperity.slider.scaled import NODE, STATE, SUMS, Parameters
 from asperity.slider.shooting import ACCEPTED, MOST_UNKNOWNS, SETTLING, shoot

@@ -4,11 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
+from asperity.arrays import FloatArray
 from asperity.casefile import Table
 from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.results.dataset import Labels
 from asperity.results.ledger import PowerLedger
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 
 _OVER_TIME, _VECTORS = ("time",), ("time", "axis")
 _ROUNDING = 1e-12

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.results.ledger import PowerLedger, guard
-from asperity.slider.model import FloatArray, Model
+from asperity.slider.model import Model
 from asperity.slider.result import History, SlideResult
 from asperity.slider.scaled import NODE, Parameters
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.results import Result, quantity
 from asperity.results.table import Table
-from asperity.slider.model import FloatArray
 from asperity.sweep.axes import Axis
 from asperity.sweep.shown import grid_table
 from asperity.sweep.tasks import VARIABLES

@@ -211,7 +211,7 @@ class _Sweep:
                 del waiting[future]
 
     def _tasks(self) -> Iterator[list[int]]:
-        # Points of one kind together, so that they fill the lanes of a compiled batch.
+        # Points of one kind together, so that they fill a compiled batch.
         missing = np.array(self.missing)
         missing = missing[np.argsort(self._kind_of[missing], kind="stable")]
         edges = np.flatnonzero(np.diff(self._kind_of[missing])) + 1

@@ -3,8 +3,8 @@
 import itertools
 from collections.abc import Sequence
 
+from asperity.arrays import FloatArray
 from asperity.results.table import Table
-from asperity.slider.model import FloatArray
 from asperity.sweep.axes import Axis
 
 _MOST_ROWS = 60

@@ -22,7 +22,7 @@ VARIABLES = SlideResult.scalars()
 
 
 def task_size(model: Model) -> int:
-    """Points solved before they are kept: a batch of lanes, or one where each is slow."""
+    """Points solved before they are kept: a compiled batch, or one where each is slow."""
     if fits_batch(model) or model.solve.method == "periodic":
         return WIDTH
     return 1

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from asperity.slider.closed_forms.evaluate import POSITIVE, FloatArray, Invalid, evaluate
+from asperity.arrays import FloatArray
+from asperity.slider.closed_forms.evaluate import POSITIVE, Invalid, evaluate
 
 
 def dahl_from_rest(

@@ -6,9 +6,9 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 
-FloatArray = npt.NDArray[np.float64]
 Invalid = Literal["raise", "mask"]
 
 NOT_FINITE = 1

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from asperity.slider.closed_forms.evaluate import FloatArray, Invalid, evaluate
+from asperity.arrays import FloatArray
+from asperity.slider.closed_forms.evaluate import Invalid, evaluate
 from asperity.slider.closed_forms.ratios import (
     directed_sine,
     factors,

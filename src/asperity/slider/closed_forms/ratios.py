@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from asperity.slider.closed_forms.evaluate import FloatArray, Invalid, evaluate
+from asperity.arrays import FloatArray
+from asperity.slider.closed_forms.evaluate import Invalid, evaluate
 
 # Source of the elliptic forms: a Moebius map of cos(p) makes both quadratic factors under the root
 # even, and Carlson's symmetric integrals follow (DLMF 19.14, 19.25); the two forms of the third
