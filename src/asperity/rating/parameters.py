@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
-from asperity.errors import InputError
+from asperity.errors import InputError, shown
 from asperity.gearset.bearings import Bearings
 from asperity.gearset.library import resolve
 from asperity.gearset.lubricants import Lubricant
@@ -65,7 +65,7 @@ def _steps(value: Any, context: Any) -> tuple[LoadStep, ...]:
     listed = isinstance(value, list | tuple) and len(value) > 0
     if not listed or not all(isinstance(step, Mapping | LoadStep) for step in value):
         raise InputError(
-            f"operation.duty_cycle is {str(value)[:60]}; it must be a list of tables with "
+            f"operation.duty_cycle is {shown(value)}; it must be a list of tables with "
             "'duration', 'output_torque' and perhaps 'worm_speed'"
         )
     return tuple(
