@@ -2,7 +2,13 @@
 
 import csv
 import json
+import os
 import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -414,3 +420,33 @@ def test_the_result_is_plain_json(result):
     assert plain["index"] == str(result.index)
     assert len(plain["claims"]) == len(VERDICTS)
     assert plain["figures"][0]["number"] == "2.7"
+
+
+def processes_of(group):
+    """Command lines of a process group, but of processes that have ended."""
+    states = subprocess.run(["ps", "-eo", "pgid=,stat=,args="], capture_output=True, text=True)
+    rows = [line.split(None, 2) for line in states.stdout.splitlines()]
+    return [row for row in rows if row[0] == str(group) and not row[1].startswith("Z")]
+
+
+@pytest.mark.skipif(shutil.which("ps") is None, reason="ps tells which processes there are")
+def test_ctrl_c_ends_all_processes_at_once_and_the_same_command_goes_on(tmp_path):
+    command = [sys.executable, "-m", "asperity", "thesis", "--out", str(tmp_path)]
+    numbers = ("2.7", "2.14", "4.7", "4.17", "4.20", "4.23")
+    command += [word for number in numbers for word in ("--only", number)]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    first = process.stderr.readline()
+    assert ": made in" in first or ": reproduced" in first
+    began = time.monotonic()
+    os.killpg(process.pid, signal.SIGINT)
+    rest = process.communicate(timeout=60)[1]
+    assert time.monotonic() - began < 20.0
+    assert process.returncode == 130
+    assert re.search(r"interrupted: \d of 6 are kept; the same command goes on", rest)
+    assert "Traceback" not in rest
+    while processes_of(process.pid):
+        assert time.monotonic() - began < 20.0, processes_of(process.pid)
+        time.sleep(0.05)
+    lines = []
+    run(tmp_path, numbers, lines.append, processes=1)
+    assert f"{first.partition(':')[0]}: there already" in lines

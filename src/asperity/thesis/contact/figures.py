@@ -121,7 +121,7 @@ def figure_5_3() -> Drawn:
     }
     start, end = laws["two-stage"].start, laws["two-stage"].end
     over = np.linspace(-0.2 * end, 1.6 * end, 361)
-    found = np.array([[pressure(x, 0.0, law.parameters) for x in over] for law in laws.values()])
+    found = np.array([[pressure(x, 0.0, law.numbers) for x in over] for law in laws.values()])
     dataset = labelled(
         law=(("law",), _objects([*laws]), "1", "law of pressure"),
         overclosure=(("overclosure",), over, "m", "overclosure"),
