@@ -30,6 +30,7 @@ CHANGES = (
     ),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
     ("*", "json*.assumed.rating.iso14521_face_width", "b_2H is offered both ways, one is assumed"),
+    ("rate *--out*", "rate.csv:equation", "equations come from the formulas, in all their pieces"),
     *(
         (line, "json.agma6034.violations", "a sump too hot is named")
         for line in ("*output_torque='500 N m'*", "rate gearset-3 --set rating.friction=0.05")

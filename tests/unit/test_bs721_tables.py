@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
-from asperity.rating import bs721
+from asperity.gearset import Gearset
+from asperity.rating import Operation, RatingOptions, bs721, rate_case, variants
+from asperity.rating.inputs import RPM
 
 OWN = """
 [strength_speed_factor]
@@ -31,7 +35,7 @@ def test_own_file_replaces_the_tables_it_holds_and_no_others(write):
     assert bs721.wear_speed_factor(1.0, 100.0, tables=own) == bs721.wear_speed_factor(1.0, 100.0)
     assert own.sources["strength_speed_factor"].confidence == "one source"
     assert own.sources["zone_factor"].confidence == "from memory"
-    assert bs721.read_tables().strength_speed_factor(60.0) == 0.45
+    assert bs721.strength_speed_factor(60.0) == 0.45
 
 
 def test_own_rows_of_the_zone_factor_bring_other_starts(write):
@@ -54,10 +58,13 @@ def test_own_rows_of_the_zone_factor_bring_other_starts(write):
             lambda: bs721.wear_speed_factor(31.0, 100.0),
             "sliding_velocity is 31 m/s; it must be from 0 to 30",
         ),
-        (lambda: bs721.wear_speed_factor(1.0, 0.1), "speed is 0.1 rpm; it must be from 0.5 to 600"),
+        (
+            lambda: bs721.wear_speed_factor(1.0, 0.1),
+            "wheel_speed is 0.1 rpm; it must be from 0.5 to 600",
+        ),
         (
             lambda: bs721.strength_speed_factor(1440.0),
-            "speed is 1440 rpm; it must be from 1 to 1200",
+            "wheel_speed is 1440 rpm; it must be from 1 to 1200",
         ),
         (
             lambda: bs721.zone_factor(4, 5.0, 10.0, 2.0),
@@ -86,71 +93,63 @@ def test_end_of_a_table_is_masked_in_arrays():
     assert "from 1 to 1200 rpm" in result.legend[result.reason[1]]
 
 
-def given(**replaced):
-    case = {
-        "starts": 4,
-        "diameter_factor": [8.2, 5.0, 8.2],
-        "axial_module": 2.2,
-        "lead_angle": 0.45,
-        "wheel_diameter": 132.0,
-        "worm_tip_diameter": 22.4,
-        "face_width": 13.0,
-        "sliding_velocity": 1.5,
-        "worm_speed": [1440.0, 600.0, 600.0],
-        "wheel_speed": [96.0, 40.0, 40.0],
-        "wheel_material": "phosphor bronze centrifugal",
-        "worm_material": "case-hardened C steel",
-        "on_invalid": "mask",
-    }
-    return {**case, **replaced}
+WEAK = ("gearset.worm_material=0.4C steel",)
+
+
+def varied(*settings, **values):
+    case = read_case("gearset-3", case_tables(), settings)
+    tables = [case.require(table) for table in (Gearset, Operation, RatingOptions)]
+    return variants(*tables, ("bs721",), **values)
 
 
 def test_variant_the_tables_do_not_cover_is_masked_and_the_worm_left_out_where_it_is_too_fast():
-    rated = bs721.permissible_torques(**given())
-    m_26k = rated.m_26k
-    assert list(rated.wear.reason > 0) == [False, True, False]
-    assert list(rated.wear.worm > 0.0) == [False, False, True]
-    assert "everywhere" in rated.wear.note
-    assert m_26k[0] == min(rated.wear.wheel[0], rated.strength.wheel[0])
+    speeds = np.array([1440.0, 600.0, 600.0]) / RPM
+    found = varied(diameter_factor=[8.2, 5.0, 8.2], worm_speed=speeds)
+    assert list(found.reason("bs721") > 0) == [False, True, False]
+    assert "diameter_factor is not allowed" in found.legend("bs721")[found.reason("bs721")[1]]
+    m_26k = found["bs721.M_26k_Nm"]
+    wheel = np.minimum(found["bs721.M_c_wheel_Nm"], found["bs721.M_b_wheel_Nm"])
+    assert m_26k[0] == wheel[0]
     assert np.isnan(m_26k[1])
-    assert m_26k[2] == min(
-        rated.wear.wheel[2], rated.wear.worm[2], rated.strength.wheel[2], rated.strength.worm[2]
-    )
-    assert rated.m_w(100.0).shape == rated.m_s(10.0).shape == (3,)
+    # The hardened worm bears more than the wheel.
+    assert m_26k[2] == wheel[2]
+
+
+def test_a_weak_worm_limits_only_the_variants_at_speeds_its_tables_have():
+    found = varied(*WEAK, worm_speed=np.array([1440.0, 600.0]) / RPM)
+    lower = found["bs721.M_26k_Nm"] < found["bs721.M_c_wheel_Nm"]
+    assert list(lower) == [False, True]
+    slow = read_case("gearset-3", case_tables(), [*WEAK, "operation.worm_speed=600 rpm"])
+    alone = rate_case(slow, ("bs721",)).bs721
+    assert found["bs721.M_26k_Nm"][1] == pytest.approx(alone["M_c_worm_Nm"], rel=1e-13)
 
 
 def test_variant_masked_for_strength_alone_has_no_smallest_torque():
-    rated = bs721.permissible_torques(
-        **given(diameter_factor=8.2, worm_speed=600.0, wheel_speed=[0.7, 40.0])
-    )
-    assert np.all(rated.wear.wheel > 0.0)
-    assert list(rated.strength.reason > 0) == [True, False]
-    assert list(np.isnan(rated.m_26k)) == [True, False]
-
-
-def test_arrays_raise_unless_masked():
-    with pytest.raises(bs721.TableRangeError, match="diameter_factor is 5"):
-        bs721.permissible_torques(**given(on_invalid="raise"))
+    # The wheel turns at 0.7 rpm, where the speed factor for strength ends at 1 rpm.
+    found = varied(worm_speed=np.array([10.5, 600.0]) / RPM)
+    assert np.all(found["bs721.M_c_wheel_Nm"] > 0.0)
+    assert list(np.isnan(found["bs721.M_b_wheel_Nm"])) == [True, False]
+    assert list(np.isnan(found["bs721.M_26k_Nm"])) == [True, False]
 
 
 @pytest.mark.parametrize(
-    ("replaced", "words"),
+    ("call", "words"),
     [
-        ({"worm_speed": -1.0}, "worm_speed is -1 rpm; it must be positive"),
-        ({"worm_speed": float("nan")}, "worm_speed is nan rpm"),
         (
-            {"wheel_material": "phosphor bronze centrifugl"},
+            lambda t: t.surface_stress_factor("phosphor bronze centrifugl", "0.4C steel"),
             "did you mean 'phosphor bronze centrifugal'",
         ),
-        ({"wheel_material": "aluminium"}, "has no row for 'aluminium'"),
-        ({"worm_material": "0.5C steel"}, "did you mean '0.55C steel'"),
-        ({"face_width": 50.0, "axial_module": 8.0}, "tip diameter"),
+        (lambda t: t.bending_stress_factor("wheel", "aluminium"), "nothing for 'wheel' with"),
+        (lambda t: t.surface_stress_factor("aluminium", "0.4C steel"), "no row for 'aluminium'"),
+        (lambda t: t.bending_stress_factor("worm", "0.5C steel"), "did you mean '0.55C steel'"),
+        (lambda t: bs721.root_arc(50.0, 22.4, 8.0, 8.2, 0.45), "tip diameter"),
+        (lambda t: bs721.wear_speed_factor(1.0, -1.0), "speed is -1 rpm; it must be positive"),
+        (lambda t: bs721.wear_speed_factor(1.0, float("nan")), "speed is nan rpm"),
     ],
 )
-def test_what_cannot_be_rated_is_refused(replaced, words):
-    scalars = {"diameter_factor": 8.2, "worm_speed": 600.0, "wheel_speed": 40.0}
+def test_what_cannot_be_rated_is_refused(call, words):
     with pytest.raises(InputError, match=words):
-        bs721.permissible_torques(**given(**{**scalars, "on_invalid": "raise", **replaced}))
+        call(bs721.read_tables())
 
 
 HEAD = 'source = "own"\nconfidence = "one source"\n'

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from asperity.gearset import relations
-from asperity.rating import hertz, iso14521, shaft
+from asperity.rating import agma6034, bs721, iso14521, shaft
+from asperity.rating.iso14521 import hertz
 
 FUNCTIONS = {
     "sqrt": math.sqrt,
@@ -16,9 +17,12 @@ FUNCTIONS = {
     "acos": math.acos,
     "cos": math.cos,
     "sin": math.sin,
+    "asin": math.asin,
+    "exp": math.exp,
     "min": min,
     "max": max,
 }
+WORDS = {"if", "else"}
 TOKEN = re.compile(r"\d+\.?\d*(?:e-?\d+)?|[A-Za-z]\w*\*?|\S")
 # What these show is abridged, a table, or of one case among several.
 ABRIDGED = {
@@ -32,14 +36,22 @@ ABRIDGED = {
     "root_thickness",
     "rim_factor",
     "worm_contact_stress",
+    "bs721.friction",
+    "wear_speed_factor",
+    "zone_factor",
+    "strength_speed_factor",
+    "materials_factor",
+    "lewis_form_factor",
+    "maximum_lead_angle",
 }
 
 
 def formulas():
-    for module in (relations, iso14521, hertz, shaft):
+    for module in (relations, iso14521, hertz, shaft, bs721, agma6034):
         for name, thing in sorted(vars(module).items()):
-            if hasattr(thing, "equation") and name not in ABRIDGED:
-                yield pytest.param(thing, id=f"{module.__name__.rpartition('.')[2]}.{name}")
+            said = f"{module.__name__.rpartition('.')[2]}.{name}"
+            if hasattr(thing, "equation") and not {name, said} & ABRIDGED:
+                yield pytest.param(thing, id=said)
 
 
 def value(equation, numbers):
@@ -47,10 +59,11 @@ def value(equation, numbers):
     names = {symbol: f"v{n}" for n, symbol in enumerate(numbers)}
     text, before = "", "("
     for token in TOKEN.findall(equation):
-        starts = token[0].isalnum() or token == "("
-        if starts and (before[0].isalnum() or before[-1] in "*)") and before not in FUNCTIONS:
+        starts = token not in WORDS and (token[0].isalnum() or token == "(")
+        ended = before not in WORDS and (before[0].isalnum() or before[-1] in "*)")
+        if starts and ended and before not in FUNCTIONS:
             text += "*"
-        text += {"^": "**"}.get(token, names.get(token, token))
+        text += {"^": "**"}.get(token, names.get(token, f" {token} " if token in WORDS else token))
         before = token
     given = {names[symbol]: number for symbol, number in numbers.items()}
     return eval(text, {"__builtins__": {}}, {**FUNCTIONS, "pi": math.pi, **given})
@@ -63,6 +76,15 @@ TOGETHER = {
     iso14521.worm_driving_efficiency: {"mean_friction": 0.1},
     iso14521.worm_tangential_force: {"lead_angle": 0.3},
     iso14521.worm_deflection: {"lead_angle": 0.3},
+    bs721.root_arc: {"worm_tip_diameter": 3.0},
+    agma6034.friction_force: {"lead_angle": 0.3, "pressure_angle": 0.3},
+    agma6034.worm_tangential_load: {"lead_angle": 0.3, "pressure_angle": 0.3},
+}
+# A number within each piece of what is defined by pieces.
+PIECES = {
+    agma6034.friction: (0.0, 0.03, 0.06),
+    agma6034.ratio_correction_factor: (10.0, 50.0, 100.0),
+    agma6034.velocity_factor: (1.0, 8.0, 20.0),
 }
 
 
@@ -78,3 +100,11 @@ def test_the_equation_shown_is_the_one_calculated(formula):
         given |= TOGETHER.get(formula, {})
         numbers = {formula.parameters[name].symbol: number for name, number in given.items()}
         assert formula(**given) == pytest.approx(value(formula.equation, numbers), rel=1e-12)
+
+
+@pytest.mark.parametrize("formula", PIECES, ids=lambda formula: formula.__name__)
+def test_the_equation_shown_is_the_one_calculated_in_each_piece(formula):
+    (symbol,) = formula.parameters.values()
+    for number in PIECES[formula]:
+        shown = value(formula.equation, {symbol.symbol: number})
+        assert formula(number) == pytest.approx(shown, rel=1e-12)

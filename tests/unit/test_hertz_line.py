@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError
-from asperity.rating import hertz, shaft
+from asperity.rating import shaft
+from asperity.rating.iso14521 import hertz
 
 MODULUS = hertz.contact_modulus(209e3, 0.3, 120e3, 0.3)
 ALPHA = math.radians(20.0)

@@ -22,7 +22,6 @@ from asperity.rating import (
     self_locking,
     variants,
 )
-from asperity.rating.bs721 import equivalent_hours
 from asperity.rating.entries import facts, starts_from, words
 from asperity.rating.inputs import inputs
 from asperity.rating.iso14521 import FilmParameterError
@@ -34,7 +33,7 @@ PLAIN = {
     "A", "C", "I", "K", "K_R", "K_V", "L", "N", "P", "S_b1", "S_c1", "T", "T_i", "U_i", "W_n",
     "X_b1", "X_c1", "Z_0", "a", "and", "at", "b_e", "by", "c", "c_0", "c_1", "c_2", "c_k",
     "casting", "cycle", "duty", "else", "fan", "flanks", "for", "form", "h_a1", "h_f1", "h_f2",
-    "in", "input", "linear", "n_i", "of", "or", "over", "polynomial", "required", "rho", "s",
+    "if", "in", "input", "linear", "n_i", "of", "or", "over", "polynomial", "required", "rho", "s",
     "sum", "table", "the", "through", "times", "turns", "value", "wheel", "with", "without", "worm",
     "y",
 }  # fmt: skip
@@ -241,11 +240,9 @@ def test_duty_cycle_is_worth_the_equivalent_hours_of_bs_721():
         {"duration": "2 h", "output_torque": "300 N m", "worm_speed": "750 rpm"},
     ]
     rated = rate(*minimal(run={"duty_cycle": steps}))
-    hours, speeds, torques = [10.0, 2.0], [75.0, 37.5], [100.0, 300.0]
-    wear = equivalent_hours(hours, speeds, torques, 75.0, 100.0, of="wear")
-    strength = equivalent_hours(hours, speeds, torques, 75.0, 300.0, of="strength")
-    assert rated.bs721["U_w_h"] == pytest.approx(wear, rel=1e-13)
-    assert rated.bs721["U_s_h"] == pytest.approx(strength, rel=1e-13)
+    # The torque to the power of 3 for wear, at that through the travel, and of 7 for strength.
+    assert rated.bs721["U_w_h"] == pytest.approx(10.0 + 0.5 * 2.0 * 3.0**3, rel=1e-13)
+    assert rated.bs721["U_s_h"] == pytest.approx(10.0 / 3.0**7 + 0.5 * 2.0, rel=1e-13)
     assert rated.iso14521["life_h"] == pytest.approx(11.0, rel=1e-13)
 
 

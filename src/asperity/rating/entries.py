@@ -65,8 +65,10 @@ def _fact(section: str, key: str, values: Mapping[str, Any], sources: Mapping[st
     if "formula" in values:
         module, name = values["formula"].split(".")
         formula = getattr(importlib.import_module(f"asperity.rating.{section}.{module}"), name)
-        given = values.get("given", {})
+        given = _read().get("shown", {}).get(section, {}) | values.get("given", {})
         equation = _SYMBOL.sub(lambda word: given.get(word[0], word[0]), formula.equation)
+        if "times" in values:
+            equation = f"{values['times']} ({equation})"
         found = {"symbol": formula.symbol, "unit": formula.unit, "equation": equation}
         source = formula.source
     found |= {name: values[name] for name in found if name in values}

@@ -27,7 +27,8 @@ from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.transmission import Transmission
 from asperity.flanks.worm.profiles import FloatArray
 from asperity.gearset import Gearset
-from asperity.rating import Operation, hertz
+from asperity.rating import Operation
+from asperity.rating.iso14521 import hertz
 from asperity.results import Quantities, quantity
 from asperity.sources import Source
 

@@ -11,12 +11,10 @@ from asperity.rating.agma6034.symbols import (
     METRE_A_SECOND,
     PRESSURE_ANGLES,
     VERIFIED,
-    D,
     V_s,
     d,
     f,
     lambda_,
-    n_G,
     n_W,
     phi_n,
     phi_n_tabulated,
@@ -25,7 +23,9 @@ from asperity.rating.agma6034.symbols import (
 _LEAD_ANGLES = tuple(math.radians(degrees) for degrees in (16.0, 25.0, 35.0, 45.0))
 
 
-@formula(symbol="V_s", unit=METRE_A_SECOND, equation="pi/12 d n_W/cos(lambda)", source=VERIFIED)
+@formula(
+    symbol="V_s", unit=METRE_A_SECOND, equation="pi d n_W/(60000 cos(lambda))", source=VERIFIED
+)
 def sliding_velocity(worm_diameter: d, lead_angle: lambda_, worm_speed: n_W) -> Real:
     """Sliding velocity at the worm's mean diameter.
 
@@ -39,22 +39,16 @@ def sliding_velocity(worm_diameter: d, lead_angle: lambda_, worm_speed: n_W) -> 
     return math.pi / 12.0 * worm_diameter * worm_speed / np.cos(lead_angle)
 
 
-@formula(symbol="V_G", unit=METRE_A_SECOND, equation="pi/12 D n_G", source=VERIFIED)
-def pitch_line_velocity(wheel_diameter: D, wheel_speed: n_G) -> Real:
-    """Velocity of the wheel's pitch line at its mean diameter."""
-    return math.pi / 12.0 * wheel_diameter * wheel_speed
-
-
 @formula(
     symbol="f",
-    equation="0.15 at rest, 0.124 exp(-0.074 V_s^0.645) up to 10 ft/min, then "
-    "0.103 exp(-0.110 V_s^0.450) + 0.012",
+    equation="0.15 if V_s <= 0 else 0.124 exp(-0.074 (V_s/0.00508)^0.645) if V_s <= 0.0508 else "
+    "0.103 exp(-0.110 (V_s/0.00508)^0.450) + 0.012",
     source=VERIFIED,
 )
 def friction(sliding_velocity: V_s) -> Real:
     """Coefficient of friction.
 
-    It jumps at rest and at 10 ft/min, see `jumps`.
+    It jumps by -17.33 % at rest and by -2.12 % at 10 ft/min.
 
     Examples
     --------

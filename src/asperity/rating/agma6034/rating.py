@@ -10,7 +10,7 @@ from asperity.errors import InputError
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
 from asperity.rating import agma6034
-from asperity.rating.agma6034.units import VELOCITY
+from asperity.rating.agma6034.symbols import FROM_MEMORY
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import losses, strength
@@ -27,9 +27,10 @@ def rate(given: Inputs) -> Rating:
         The standard cannot be applied.
     """
     values = rated(given)
+    equations = {} if given.friction is None else {"mu": f"k_mu {given.friction:g}"}
     return Rating(
         "ANSI/AGMA 6034-B92",
-        entries(given, "agma6034", values, _sources(given), _equations(given, values)),
+        entries(given, "agma6034", values, _sources(given), equations),
         _violations(given, values),
         _notes(given, values),
     )
@@ -75,7 +76,7 @@ def rated(given: Inputs) -> Values:
         given.axial_pitch,
         given.lead_angle,
         v["F_e_mm"],
-        given.pressure_angle,
+        agma6034.lewis_form_factor(given.pressure_angle),
     )
     _heat(given, v)
     return v
@@ -87,7 +88,7 @@ def _heat(given: Inputs, v: Values) -> None:
     )
     load = 2000.0 * given.output_torque / given.wheel_mean_diameter
     mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["W_f_N"] = agma6034.friction_force(load, *mesh, form="shigley")
+    v["W_f_N"] = agma6034.friction_force(load, *mesh)
     v["loss_meshing_W"] = agma6034.friction_power(v["sliding_velocity_m_s"], v["W_f_N"])
     v["input_power_W"] = v["output_power_W"] + v["loss_meshing_W"]
     v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
@@ -107,37 +108,6 @@ def _sources(given: Inputs) -> dict[str, Source]:
     return casting if given.friction is None else {**casting, "mu": GIVEN}
 
 
-def _equations(given: Inputs, values: Values) -> dict[str, str]:
-    # In the standard's feet a minute, as its constants are.
-    feet = values["sliding_velocity_m_s"] / VELOCITY.size
-    v, ratio = "(V_s/0.00508)", given.gear_ratio
-    by_case = {
-        "C_m": (
-            "0.02 sqrt(-u^2 + 40 u - 76) + 0.46"
-            if ratio <= 20.0
-            else "0.0107 sqrt(-u^2 + 56 u + 5145)"
-            if ratio <= 76.0
-            else "1.1483 - 0.00658 u"
-        ),
-        "C_v": (
-            f"0.659 exp(-0.0011 {v})"
-            if feet < 700.0
-            else f"13.31 {v}^-0.571"
-            if feet < 3000.0
-            else f"65.52 {v}^-0.774"
-        ),
-        "h_CR_W_m2K": f"(n_1/{3939 if given.operation.fan else 6494} + 0.13) 63.07",
-        "mu": (
-            f"k_mu (0.103 exp(-0.110 {v}^0.450) + 0.012)"
-            if feet > 10.0
-            else f"k_mu 0.124 exp(-0.074 {v}^0.645)"
-        ),
-    }
-    if given.friction is not None:
-        by_case["mu"] = f"k_mu {given.friction:g}"
-    return by_case
-
-
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     at = {
         "sliding_velocity": values["sliding_velocity_m_s"],
@@ -147,7 +117,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     }
     found = [agma6034.VALIDITY[name].violation(value) for name, value in at.items()]
     steepest = math.degrees(agma6034.maximum_lead_angle(given.pressure_angle))
-    lead = Range("lead angle", 0.0, steepest, "deg", agma6034.SOURCES["maximum_lead_angle"])
+    lead = Range("lead angle", 0.0, steepest, "deg", FROM_MEMORY)
     found.append(lead.violation(math.degrees(given.lead_angle)))
     hottest, oils = oil.TEMPERATURE.upper, oil.TEMPERATURE.source
     sump = Range("temperature of the sump t_s", oil.TEMPERATURE.lower, hottest, "degC", oils)

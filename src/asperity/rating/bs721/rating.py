@@ -4,19 +4,25 @@ Wear is judged by the torque through the travel and the whole running time, stre
 torque and a tenth of the time (thesis 3.3.1), both torques times the application factor.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from asperity.arrays import smaller
+from asperity.arrays import Real, smaller
 from asperity.errors import InputError
-from asperity.formulas import current_mask
+from asperity.formulas import current_mask, masking
 from asperity.gearset.library import GIVEN
 from asperity.rating import bs721
+from asperity.rating.bs721.symbols import FROM_MEMORY
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
-from asperity.rating.iso14521 import efficiency, strength
-from asperity.rating.iso14521 import friction as iso_friction
+from asperity.rating.iso14521 import (
+    safety,
+    sliding_velocity,
+    wheel_driving_efficiency,
+    worm_driving_efficiency,
+)
 from asperity.rating.result import Rating
 from asperity.sources import Source, weakest
 
@@ -42,39 +48,60 @@ def rated(given: Inputs, tables: bs721.Tables) -> tuple[Values, tuple[str, ...]]
     """Return friction and permissible torques by the keys of a rating, and notes."""
     wheel, worm = _rows(given)
     v: Values = {}
-    v["sliding_velocity_m_s"] = iso_friction.sliding_velocity(
-        given.worm_pitch_diameter,
-        given.worm_speed,
-        given.lead_angle,
+    v["sliding_velocity_m_s"] = sliding_velocity(
+        given.worm_pitch_diameter, given.worm_speed, given.lead_angle
     )
     mean = given.friction
     if mean is None:
         mean = bs721.friction(v["sliding_velocity_m_s"], tables=tables)
     v["mu"] = mean * given.friction_factor
-    v["eta"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu"])
-    v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu"])
-    v["X_c"] = bs721.wear_speed_factor(v["sliding_velocity_m_s"], given.wheel_speed, tables=tables)
-    v["Z"] = bs721.zone_factor(
-        given.starts,
-        given.diameter_factor,
-        given.wheel_face_width,
-        given.axial_module,
-        tables=tables,
-    )
+    v["eta"] = worm_driving_efficiency(given.lead_angle, v["mu"])
+    v["eta_back"] = wheel_driving_efficiency(given.lead_angle, v["mu"])
+    geometry = given.axial_module, given.diameter_factor, given.lead_angle
+    m, q, lead = geometry
+    at, d_2 = v["sliding_velocity_m_s"], given.wheel_reference_diameter
+    v["X_c"] = bs721.wear_speed_factor(at, given.wheel_speed, tables=tables)
+    v["Z"] = bs721.zone_factor(given.starts, q, given.wheel_face_width, m, tables=tables)
     v["S_c_MPa"] = tables.surface_stress_factor(wheel, worm)
     v["X_b"] = bs721.strength_speed_factor(given.wheel_speed, tables=tables)
     v["S_b_MPa"] = tables.bending_stress_factor("wheel", wheel)
-    v["l_r_mm"] = bs721.root_arc(
-        given.wheel_face_width,
-        given.worm_tip_diameter,
-        given.axial_module,
-        given.diameter_factor,
-        given.lead_angle,
-    )
-    permitted = _permissible(given, v, tables)
-    _torques(given, v, permitted)
-    notes = dict.fromkeys(limit.note for limit in (permitted.wear, permitted.strength))
-    return v, tuple(note for note in notes if note)
+    v["l_r_mm"] = bs721.root_arc(given.wheel_face_width, given.worm_tip_diameter, *geometry)
+
+    def wear(speed_factor: Real, stress_factor: float) -> Real:
+        return bs721.wear_torque(speed_factor, stress_factor, v["Z"], d_2, m)
+
+    def strength(speed_factor: Real, stress_factor: float) -> Real:
+        return bs721.strength_torque(speed_factor, stress_factor, m, v["l_r_mm"], d_2, lead)
+
+    def worm_wear() -> Real:
+        speed = bs721.wear_speed_factor(at, given.worm_speed, member="worm", tables=tables)
+        return wear(speed, tables.worm_surface_stress_factor(worm, wheel))
+
+    def worm_strength() -> Real:
+        speed = bs721.strength_speed_factor(given.worm_speed, member="worm", tables=tables)
+        return strength(speed, tables.bending_stress_factor("worm", worm))
+
+    v["M_c_wheel_Nm"] = wear(v["X_c"], v["S_c_MPa"])
+    lower_wear, wear_note = _with_worm(v, "M_c", worm_wear)
+    v["M_b_wheel_Nm"] = strength(v["X_b"], v["S_b_MPa"])
+    lower_strength, strength_note = _with_worm(v, "M_b", worm_strength)
+    _torques(given, v, lower_wear, lower_strength)
+    return v, tuple(note for note in (wear_note, strength_note) if note)
+
+
+def _with_worm(v: Values, symbol: str, worm: Callable[[], Real]) -> tuple[Real, str]:
+    """Return the lower torque of wheel and worm, and why the worm is not rated."""
+    wheel = v[f"{symbol}_wheel_Nm"]
+    mask = current_mask()
+    if mask is not None:
+        # A worm that no table reaches does not limit; a wheel without an answer stays without.
+        with masking(mask.copy()):
+            return np.where(np.isnan(wheel), wheel, np.fmin(wheel, worm())), ""
+    try:
+        v[f"{symbol}_worm_Nm"] = worm()
+    except bs721.TableRangeError as error:
+        return wheel, f"the worm is not rated: {error}"
+    return smaller(wheel, v[f"{symbol}_worm_Nm"]), ""
 
 
 def _equations(given: Inputs, values: Values) -> dict[str, str]:
@@ -107,8 +134,7 @@ def _sources(given: Inputs, tables: bs721.Tables) -> dict[str, Source]:
     }
     sources["mu"] = tables.friction.source if given.friction is None else GIVEN
     if given.operation.duty_cycle is not None:
-        equivalent = bs721.SOURCES["equivalent_hours"]
-        sources |= {"U_w_h": equivalent, "U_s_h": equivalent}
+        sources |= {"U_w_h": FROM_MEMORY, "U_s_h": FROM_MEMORY}
     return sources
 
 
@@ -157,51 +183,14 @@ def _rows(given: Inputs) -> tuple[str, str]:
     return rows[0], rows[1]
 
 
-def _permissible(given: Inputs, v: Values, tables: bs721.Tables) -> bs721.Permissible:
-    wheel, worm = _rows(given)
-    numbers = {
-        "starts": given.starts,
-        "diameter_factor": given.diameter_factor,
-        "axial_module": given.axial_module,
-        "lead_angle": given.lead_angle,
-        "wheel_diameter": given.wheel_reference_diameter,
-        "worm_tip_diameter": given.worm_tip_diameter,
-        "face_width": given.wheel_face_width,
-        "sliding_velocity": v["sliding_velocity_m_s"],
-        "worm_speed": given.worm_speed,
-        "wheel_speed": given.wheel_speed,
-    }
-    mask = current_mask()
-    if mask is not None:
-        # An array is masked where a number that all variants share would raise.
-        shape = mask.reason.shape
-        numbers = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
-    return bs721.permissible_torques(
-        **numbers,
-        wheel_material=wheel,
-        worm_material=worm,
-        tables=tables,
-        on_invalid="raise" if mask is None else "mask",
-    )
-
-
-def _torques(given: Inputs, v: Values, permitted: bs721.Permissible) -> None:
-    for limit, symbol in ((permitted.wear, "c"), (permitted.strength, "b")):
-        v[f"M_{symbol}_wheel_Nm"] = limit.wheel
-        mask = current_mask()
-        if mask is not None and limit.reason is not None:
-            # The worm has no number where no table reaches its speed: the torques below heed that.
-            for code, sentence in limit.legend.items():
-                mask.refuse(limit.reason == code, sentence)
-        elif limit.worm is not None:
-            v[f"M_{symbol}_worm_Nm"] = limit.worm
-    v["M_26k_Nm"] = permitted.m_26k
+def _torques(given: Inputs, v: Values, wear: Real, strength: Real) -> None:
+    v["M_26k_Nm"] = smaller(wear, strength)
     v["U_w_h"], v["U_s_h"] = given.wear_hours, given.strength_hours
     v["wear_life_factor"] = bs721.wear_life_factor(v["U_w_h"])
     v["strength_life_factor"] = bs721.strength_life_factor(v["U_s_h"])
-    v["M_w_Nm"] = permitted.wear.torque * v["wear_life_factor"]
-    v["M_s_Nm"] = permitted.strength.torque * v["strength_life_factor"]
+    v["M_w_Nm"] = wear * v["wear_life_factor"]
+    v["M_s_Nm"] = strength * v["strength_life_factor"]
     v["M_permissible_Nm"] = smaller(v["M_w_Nm"], v["M_s_Nm"])
     factor = given.operation.application_factor
-    v["safety_wear"] = strength.safety(v["M_w_Nm"], factor * given.through_travel_torque)
-    v["safety_strength"] = strength.safety(v["M_s_Nm"], factor * given.output_torque)
+    v["safety_wear"] = safety(v["M_w_Nm"], factor * given.through_travel_torque)
+    v["safety_strength"] = safety(v["M_s_Nm"], factor * given.output_torque)

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity import store
+from asperity.arrays import FloatArray, Real
 from asperity.errors import InputError, nearest
-from asperity.rating.formula import Argument, FloatArray
+from asperity.formulas import Bounds, Symbol, check, current_mask
 from asperity.sources import Source, weakest
 
 _SHIPPED = Path(__file__).parents[1] / "data" / "bs721.toml"
@@ -46,21 +46,22 @@ class Curve:
     source: Source
     hold_above: bool = False
 
-    def __call__(self, x: FloatArray) -> FloatArray:
-        """Return values at points that lie inside."""
-        return np.interp(x, self.x, self.y)
+    def __call__(self, name: str, value: Real, unit: str = "") -> Real:
+        """Return values at what is called ``name``; raises as `inside`."""
+        return np.interp(self.inside(name, value, unit), self.x, self.y)
 
-    def argument(self, name: str, value: npt.ArrayLike, unit: str = "") -> Argument:
-        """Return an argument that must lie inside, else `TableRangeError`."""
-        return Argument(
-            name,
-            value,
-            unit,
-            float(self.x[0]),
-            np.inf if self.hold_above else float(self.x[-1]),
-            because=f"the table of the {self.name} by {self.source.name} goes no further",
-            error=TableRangeError,
-        )
+    def inside(self, name: str, value: Real, unit: str = "") -> Real:
+        """Return a number or array that lies inside.
+
+        Raises
+        ------
+        TableRangeError
+            The table does not go that far.
+        """
+        upper = math.inf if self.hold_above else float(self.x[-1])
+        because = f"the table of the {self.name} by {self.source.name} goes no further"
+        over = Symbol(name, unit, Bounds(float(self.x[0]), upper), because, TableRangeError)
+        return check(name, value, over)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,37 +79,30 @@ class ZoneFactor:
     rows: Mapping[int, Curve]
     source: Source
 
-    def __call__(self, starts: FloatArray, diameter_factor: FloatArray) -> FloatArray:
-        """Return Z_0; NaN where there is no row."""
-        return np.select(
-            [starts == row for row in self.rows],
-            [curve(diameter_factor) for curve in self.rows.values()],
-            np.nan,
-        )
+    def __call__(self, starts: Real, diameter_factor: Real) -> Real:
+        """Return Z_0.
 
-    def arguments(
-        self, starts: npt.ArrayLike, diameter_factor: npt.ArrayLike
-    ) -> tuple[Argument, Argument]:
-        """Return arguments that must lie inside, else `TableRangeError`."""
-        curve = next(iter(self.rows.values()))
-        fewest, most = min(self.rows), max(self.rows)
-        return (
-            Argument(
-                "starts",
-                starts,
-                "",
-                fewest,
-                most,
-                because=self.rows_there_are,
-                error=TableRangeError,
-            ),
-            curve.argument("diameter_factor", diameter_factor),
-        )
-
-    @property
-    def rows_there_are(self) -> str:
-        """Return the rows as the end of a message."""
-        return f"the table has rows for {', '.join(map(str, sorted(self.rows)))} starts"
+        Raises
+        ------
+        TableRangeError
+            There is no such row, or the table does not go that far.
+        """
+        listed = ", ".join(map(str, sorted(self.rows)))
+        because = f"the table has rows for {listed} starts"
+        between = Bounds(min(self.rows), max(self.rows))
+        starts = check("starts", starts, Symbol("z_1", "", between, because, TableRangeError))
+        q = next(iter(self.rows.values())).inside("diameter_factor", diameter_factor)
+        found: Real = np.nan
+        for row, curve in self.rows.items():
+            found = np.where(starts == row, np.interp(q, curve.x, curve.y), found)
+        missing = np.isnan(found) & ~(np.isnan(starts) | np.isnan(q))
+        if np.any(missing):
+            mask = current_mask()
+            if mask is None:
+                given = float(np.asarray(starts)[missing].flat[0])
+                raise TableRangeError(f"starts is {given:.6g}; {because}")
+            mask.refuse(missing, f"starts is not allowed; {because}")
+        return found
 
 
 @dataclasses.dataclass(frozen=True)

@@ -9,7 +9,6 @@ import math
 
 from asperity.arrays import Real, smaller
 from asperity.gearset import oil
-from asperity.rating import hertz
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import (
     contact,
@@ -17,6 +16,7 @@ from asperity.rating.iso14521 import (
     film,
     forces,
     friction,
+    hertz,
     losses,
     pitting,
     strength,
