@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from asperity.block import settled as settling
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -52,14 +53,14 @@ def test_what_separates_block_and_sliding_body_is_the_blocks_compliance():
 def test_a_block_settles_to_the_same_wherever_its_start_leaves_it():
     block = Block("block-transverse", (*LIGHT, K_2)).settled()
     assert abs(block.late) > 1e-3
-    assert block.unsteadiness < 0.5 * blocks.STEADY * block.slider
+    assert block.unsteadiness < 0.5 * settling.STEADY * block.slider
 
 
 def test_a_block_is_read_anew_in_longer_windows_until_they_agree(monkeypatch):
     block = Block("block-transverse", (*LIGHT, K_2))
     assert block.settled().cycles == 16
-    monkeypatch.setattr(blocks, "STEADY", block.settled().unsteadiness / block.settled().slider)
-    monkeypatch.setattr(blocks, "_LONGEST", 8)
+    monkeypatch.setattr(settling, "STEADY", block.settled().unsteadiness / block.settled().slider)
+    monkeypatch.setattr(settling, "_LONGEST", 8)
     longer = blocks._settled.__wrapped__(block)
     assert longer.cycles == 32
     assert longer.ratio == pytest.approx(block.settled().ratio, rel=1e-3)
@@ -70,8 +71,8 @@ def test_a_rocking_block_read_for_twice_as_long_comes_to_the_same(monkeypatch):
     block = Block("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=20"))
     found = block.settled()
     assert found.cycles == 32
-    monkeypatch.setattr(blocks, "STEADY", 0.0)
-    monkeypatch.setattr(blocks, "_LONGEST", 16)
+    monkeypatch.setattr(settling, "STEADY", 0.0)
+    monkeypatch.setattr(settling, "_LONGEST", 16)
     further = blocks._settled.__wrapped__(block)
     assert further.cycles == 64
     assert further.unsteadiness < found.unsteadiness

@@ -58,6 +58,9 @@ class UndividedModel(Model):
     @property
     def substeps(self) -> int:
         """Parts of a step: the implicit solution takes it whole."""
+        if self.solve.scheme == "two-phase":
+            # The explicit scheme refuses a step it is unstable with.
+            _ = super().substeps
         return 1
 
 
@@ -67,22 +70,27 @@ class BlockProblem:
 
     Attributes
     ----------
-    model : Model
+    model : UndividedModel
         The sliding body the block is: drive, friction, vibration, times.
     block, contact : Block, Contact
         The tables of the case.
     """
 
-    model: Model
+    model: UndividedModel
     block: Block
     contact: Contact = dataclasses.field(default_factory=Contact)
 
     def __post_init__(self) -> None:
         model, slider = self.model, self.model.slider
-        if model.solve.method != "march":
+        if model.solve.method not in ("march", "settled"):
             raise InputError(
                 f"solve.method is '{model.solve.method}'; an elastic block is solved by 'march' "
-                "only"
+                "or, for its steady state under vibration, by 'settled'"
+            )
+        if model.solve.method == "settled" and not model.vibrates:
+            raise InputError(
+                "solve.method is 'settled', which is for a block that is vibrated, and nothing "
+                "vibrates: take 'march'"
             )
         if slider.mass is None:
             raise InputError("slider.mass is missing; it makes the density of the block")
@@ -93,19 +101,12 @@ class BlockProblem:
                 f"of the block, {weight:.4g} N, the rest is pressure on its top: give a smaller "
                 "slider.mass"
             )
-        if model.solve.scheme == "two-phase":
-            # Asked for its own bounds: the explicit scheme refuses a step it is unstable with.
-            _ = model.substeps
-        undivided = UndividedModel(
-            model.slider, model.friction, model.vibration, model.solve, model.shape
-        )
-        object.__setattr__(self, "model", undivided)
 
     @classmethod
     def from_case(cls, case: Case) -> Self:
         """Gather the tables of a case; [contact] may be missing."""
         contact = case.require(Contact) if Contact.table in case else Contact()
-        return cls(Model.from_case(case), case.require(Block), contact)
+        return cls(UndividedModel.from_case(case), case.require(Block), contact)
 
     @functools.cached_property
     def timetable(self) -> Timetable:

@@ -4,6 +4,7 @@ from asperity.block.check import check
 from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, UnfinishedBlock
+from asperity.block.settled import SettledBlock, settle
 from asperity.block.stability import flutter_note
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError
@@ -23,7 +24,7 @@ def prepare(case: Case) -> BlockProblem:
     return problem
 
 
-def answer(problem: BlockProblem, run: Run) -> BlockResult:
+def answer(problem: BlockProblem, run: Run) -> BlockResult | SettledBlock:
     """Solve an elastic block, going on from where the same work was interrupted.
 
     Raises
@@ -33,6 +34,8 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult:
     Interrupted
         Ctrl-C; what is kept is said.
     """
+    if problem.model.solve.method == "settled":
+        return settle(problem, run)
     march = BlockMarch(problem, history=run.detailed, run=run)
     if run.detailed and march.resume():
         run.notify(f"goes on after {march.done} increments")

@@ -47,6 +47,7 @@ def solve(
     ConvergenceError
         The march became unstable, the powers do not balance, or there is no homogenised law.
     """
+    _check_method(model)
     if model.solve.method == "periodic":
         try:
             return solve_periodic(model, history=history)
@@ -59,6 +60,14 @@ def solve(
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
     return march(model, history=history, stop=stop, run=run)
+
+
+def _check_method(model: Model) -> None:
+    if model.solve.method == "settled":
+        raise InputError(
+            "solve.method is 'settled', which is for an elastic block (`asperity block`); a "
+            "sliding body takes 'march', 'periodic' or 'homogenised'"
+        )
 
 
 def _to_march(model: Model, error: ConvergenceError) -> Model:
@@ -81,6 +90,7 @@ def prepare(case: Case) -> Model:
         It cannot be solved.
     """
     model = Model.from_case(case)
+    _check_method(model)
     if model.solve.method == "march":
         Timetable(model)
     else:

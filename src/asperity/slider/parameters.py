@@ -82,8 +82,9 @@ class Solve(Table):
 
     Parameters
     ----------
-    method : {'march', 'periodic', 'homogenised'}
-        Time integration; the periodic state by shooting; the tabulated cycle-mean law.
+    method : {'march', 'periodic', 'homogenised', 'settled'}
+        Time integration; the periodic state by shooting; the tabulated cycle-mean law; for an
+        elastic block alone, what it settles to under vibration.
     scheme : {'exponential', 'two-phase'}
         Exponential midpoint (default), or the thesis's explicit scheme (with ``march`` and law
         ``split`` only).
@@ -95,7 +96,7 @@ class Solve(Table):
 
     table: ClassVar[str] = "solve"
 
-    method: Literal["march", "periodic", "homogenised"] = "march"
+    method: Literal["march", "periodic", "homogenised", "settled"] = "march"
     scheme: Literal["exponential", "two-phase"] = "exponential"
     step: Annotated[float, Quantity("s", what="a time", example="1 us", gt=0)] | None = None
     duration: Annotated[float, Quantity("s", what="a time", example="1 s", gt=0)] | None = None

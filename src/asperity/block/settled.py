@@ -1,0 +1,335 @@
+"""What an elastic block settles to under vibration, without a march from rest.
+
+A block is marched from the sliding body's periodic state: at its velocity, drive force and
+deflection of the asperities. The asperities and the swing of the body within a cycle settle in
+some ten cycles; its rocking on the contact, which nothing but friction damps, may take a hundred.
+The drive force would take tens of milliseconds to follow, so that it would say more about the
+start than about the block. Read is therefore the block's own friction, averaged over whole cycles,
+and the mean velocity it slid at. That velocity is not quite the drive's; the sliding body's slope
+of friction over velocity brings the one to the other. It is read in four windows, one after the
+other, and anew in four twice as long until they agree.
+"""
+
+import dataclasses
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from asperity.block.problem import BlockProblem, shaking
+from asperity.block.result import inputs
+from asperity.block.stability import Stability, flutter_note
+from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.rest import rest_under_load
+from asperity.contact.motion.steps import Stepper
+from asperity.contact.motion.system import Shaking, System, SystemState
+from asperity.results import Result, labelled, quantity
+from asperity.runs import Run
+from asperity.slider import Model, SlideResult
+from asperity.slider.model import FloatArray
+from asperity.slider.periodic import solve_periodic
+from asperity.vibration import Vibration
+
+STEPS = 200
+"""Increments a cycle."""
+
+# Long steps and much numerical damping first, which end most of the rocking on the contact that the
+# start excites; then steps that follow everything.
+_CALM_STEPS, _CALM_CYCLES, _CALM_ALPHA = 50, 12, -1.0 / 3.0
+_SETTLE_CYCLES = 14
+# The rocking that is left makes cycles differ by far more than their mean is off: windows of whole
+# cycles tell whether it has gone.
+_WINDOWS = 4
+_SHORTEST, _LONGEST = 4, 32
+_SLOPE = 0.01
+
+STEADY = 1e-3
+"""How far windows may be apart, over the ratio of the sliding body, for a block to have settled."""
+
+
+class SettledBlock(Result):
+    """What an elastic block under vibration comes to.
+
+    Attributes
+    ----------
+    problem : BlockProblem
+        What was solved.
+    ratio : float
+        Mean friction along the drive over mu F_N, at the drive's velocity.
+    unsteadiness : float
+        Half of what the highest and the lowest of four successive windows of the ratio, as long as
+        one another, are apart.
+    slider_ratio : float
+        The sliding body's periodic state.
+    cycles : int
+        In the four windows together.
+    late : float
+        By how much of the drive's velocity the block was slower in them, which the ratio is
+        corrected for.
+    increments : int
+        Taken in all.
+    seconds : float
+        Time the solution took, s.
+    """
+
+    title: ClassVar[str] = "Settled elastic block"
+    stem: ClassVar[str] = "block"
+
+    problem: BlockProblem
+    ratio: float = quantity("F_dv/F_ds", "", "mean drive force over mu F_N")
+    unsteadiness: float = quantity("", "", "how far windows of the ratio are apart, half of it")
+    slider_ratio: float = quantity("", "", "mean drive force over mu F_N, sliding body")
+    cycles: int = quantity("", "", "whole cycles of the vibration that were read")
+    late: float = quantity("", "", "how much slower than the drive the block was, corrected for")
+    increments: int = quantity("", "", "increments")
+    seconds: float = quantity("", "s", "time it took", key="seconds", only="json", swept=False)
+
+    @property
+    @labelled("F_dv", "N", "mean drive force", variable="mean_drive_force")
+    def drive_force(self) -> float:
+        """Mean drive force of the steady state, N."""
+        return self.ratio * self.problem.model.full_friction
+
+    @property
+    @labelled("mu F_N", "N", "drive force without vibration")
+    def static_drive_force(self) -> float:
+        r"""Drive force without vibration, :math:`\mu F_N`, N."""
+        return self.problem.model.full_friction
+
+    @property
+    @labelled("", "", "method", only="json", shown=False)
+    def method(self) -> str:
+        """How it was solved."""
+        return self.problem.model.solve.method
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """The values of the problem's tables in SI, by ``table.key``."""
+        return inputs(self.problem) | {"solver": self.problem.body.solver}
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Reading:
+    """Ratios of some bodies over the same cycles.
+
+    Attributes
+    ----------
+    windows : tuple of ndarray, shape (4,)
+        Ratio of each body in each window, at the drive's velocity.
+    late : tuple of float
+        By how much of the drive's velocity each was slower.
+    cycles : int
+        In the four windows together.
+    """
+
+    windows: tuple[FloatArray, ...]
+    late: tuple[float, ...]
+    cycles: int
+
+    @property
+    def apart(self) -> float:
+        """How far the windows of a body are apart, at most."""
+        return max(float(np.ptp(ratios)) for ratios in self.windows)
+
+
+def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
+    """Return what a vibrated block settles to.
+
+    Parameters
+    ----------
+    problem : BlockProblem
+        The block.
+    run : Run, optional
+        Told how far it is.
+
+    Raises
+    ------
+    ConvergenceError
+        The sliding body has no periodic state to start from, or an increment did not converge.
+    """
+    run = run or Run()
+    began = time.perf_counter()
+    slider = solve_periodic(_periodic(problem.model))
+    system = problem.system
+    taken, length = 0, _SHORTEST
+    expected = _CALM_CYCLES * _CALM_STEPS + (_SETTLE_CYCLES + _WINDOWS * length) * STEPS
+
+    def between() -> None:
+        nonlocal taken, expected, length
+        taken += 1
+        if taken > expected:
+            length *= 2
+            expected += _WINDOWS * length * STEPS
+        if taken % _CALM_STEPS == 0:
+            run.checkpoint(taken, expected, what="increments")
+
+    with run.going_on():
+        body = (system, rest_under_load(system, problem.loads))
+        reading = read_settled([body], slider, slope_over_velocity(problem.model), between)
+    ratios = reading.windows[0]
+    return SettledBlock(
+        problem=problem,
+        ratio=float(ratios.mean()),
+        unsteadiness=0.5 * float(np.ptp(ratios)),
+        slider_ratio=slider.ratio,
+        cycles=reading.cycles,
+        late=reading.late[0],
+        increments=taken,
+        seconds=time.perf_counter() - began,
+        notes=_notes(problem, reading, slider.ratio),
+    )
+
+
+def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, ...]:
+    flutter = Stability(problem).flutter()
+    notes = [] if flutter is None else [flutter_note(problem, flutter)]
+    if reading.apart > STEADY * abs(ratio):
+        notes.append(
+            f"not steady: in {reading.cycles} cycles the ratio still swings by "
+            f"{reading.apart:.2g}, as that of a block that rocks or flutters; solve.method "
+            "'march' shows it in time"
+        )
+    return tuple(notes)
+
+
+def _periodic(model: Model) -> Model:
+    """The sliding body a block is, to be solved for its periodic state."""
+    plain = {field.name: getattr(model, field.name) for field in dataclasses.fields(Model)}
+    plain["solve"] = model.solve.model_copy(update={"method": "periodic"})
+    return Model(**plain)
+
+
+def slope_over_velocity(model: Model) -> float:
+    """Rise of the sliding body's ratio over a relative rise of its velocity.
+
+    The peak velocity of the vibration stays the same.
+    """
+    periodic = _periodic(model)
+    slider = periodic.slider
+    low, high = (
+        solve_periodic(
+            dataclasses.replace(
+                periodic,
+                slider=slider.model_copy(update={"drive_velocity": share * slider.drive_velocity}),
+                vibration=_at_peak_velocity(model),
+            ),
+            history=False,
+        ).ratio
+        for share in (1.0 - _SLOPE, 1.0 + _SLOPE)
+    )
+    return (high - low) / (2.0 * _SLOPE)
+
+
+def _at_peak_velocity(model: Model) -> Vibration:
+    assert model.vibration is not None
+    given = {"velocity_amplitude": model.peak_velocity}
+    others = dict.fromkeys(("velocity_ratio", "displacement_amplitude"))
+    return model.vibration.model_copy(update=others | given)
+
+
+def read_settled(
+    bodies: Sequence[tuple[System, SystemState]],
+    slider: SlideResult,
+    slope: float,
+    between: Callable[[], None] = lambda: None,
+) -> Reading:
+    """Let bodies settle under vibration, and read their ratios.
+
+    Parameters
+    ----------
+    bodies : sequence of (System, SystemState)
+        At rest under their loads.
+    slider : SlideResult
+        Periodic state of the sliding body they are, with its history.
+    slope : float
+        See `slope_over_velocity`.
+    between : callable, optional
+        Called after each increment.
+
+    Returns
+    -------
+    Reading
+        All over the same cycles: the drive force has not settled, but it stands alike for all.
+    """
+    steppers = [_calmed(*body, slider, between) for body in bodies]
+    length = _SHORTEST
+    while True:
+        read = [_read(stepper, slider.model, slope, length, between) for stepper in steppers]
+        windows, late = zip(*read, strict=True)
+        reading = Reading(windows, late, _WINDOWS * length)
+        if reading.apart <= STEADY * abs(slider.ratio) or length >= _LONGEST:
+            return reading
+        length *= 2
+
+
+def _calmed(
+    system: System, rest: SystemState, slider: SlideResult, between: Callable[[], None]
+) -> Stepper:
+    """A body on its way from the sliding body's periodic state, most of its rocking gone."""
+    model = slider.model
+    shaken = dataclasses.replace(system, shaking=_from_the_start(model))
+    calm = Stepper(dataclasses.replace(shaken, alpha=_CALM_ALPHA), _begin(system, rest, slider))
+    _cycles(calm, model, _CALM_CYCLES, _CALM_STEPS, between)
+    stepper = Stepper(shaken, calm.state)
+    _cycles(stepper, model, _SETTLE_CYCLES, STEPS, between)
+    return stepper
+
+
+def _read(
+    stepper: Stepper, model: Model, slope: float, length: int, between: Callable[[], None]
+) -> tuple[FloatArray, float]:
+    """Ratio in each window, brought to the drive's velocity, and how much slower the body was."""
+    # The rocking comes round in other than whole cycles. Weights that fade in and out let it
+    # cancel within a window, where equal ones would leave what is cut off at its ends.
+    weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
+    cycles = np.array([_cycle(stepper, model, between) for _ in range(_WINDOWS * length)])
+    means = np.average(cycles.reshape(_WINDOWS, length, 2), axis=1, weights=weights)
+    late = 1.0 - means[:, 1] / model.slider.drive_velocity
+    return means[:, 0] / model.full_friction + slope * late, float(late.mean())
+
+
+def _from_the_start(model: Model) -> Shaking | None:
+    wave = shaking(model)
+    return None if wave is None else dataclasses.replace(wave, start=0.0)
+
+
+def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemState:
+    """A body at rest under its loads, set going as the sliding body is between two cycles."""
+    history = slider.history
+    if history is None:
+        raise ValueError("solved without a history")
+    coordinates, drive = rest.coordinates.copy(), rest.drive.copy()
+    coordinates[hht.VELOCITY, :2] = history.velocity[-1]
+    if system.mechanism.drive is not None:
+        pull = float(history.drive_force[-1])
+        drive[mo.FORCE] = pull
+        drive[mo.REACH] = drive[mo.WAY] + pull / system.mechanism.drive.stiffness
+    contact = rest.contact
+    deflection = np.zeros_like(contact.state.deflection)
+    deflection[:, :2] = history.deflection[-1]
+    contact = dataclasses.replace(
+        contact, state=dataclasses.replace(contact.state, deflection=deflection)
+    )
+    return dataclasses.replace(rest, coordinates=coordinates, drive=drive, contact=contact)
+
+
+def _cycles(
+    stepper: Stepper, model: Model, count: int, steps: int, between: Callable[[], None]
+) -> None:
+    step = 1.0 / (model.frequency * steps)
+    first = round(stepper.state.time / step)
+    for n in range(first + 1, first + count * steps + 1):
+        stepper.step_to(n * step, step)
+        between()
+
+
+def _cycle(stepper: Stepper, model: Model, between: Callable[[], None]) -> tuple[float, float]:
+    """Friction along the drive and velocity, averaged over a cycle."""
+    stepper.clear()
+    begin, place = stepper.state.time, stepper.state.coordinates[hht.PLACE, 0]
+    _cycles(stepper, model, 1, STEPS, between)
+    way = stepper.state.coordinates[hht.PLACE, 0] - place
+    friction = stepper.sums[ledger.FRICTION_X] / stepper.sums[ledger.TIME]
+    return float(friction), float(way / (stepper.state.time - begin))

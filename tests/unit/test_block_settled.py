@@ -1,0 +1,84 @@
+"""What a vibrated block settles to, beside the march it stands for."""
+
+import pytest
+
+from asperity.block import settled
+from asperity.block.march import solve_block
+from asperity.block.problem import BlockProblem
+from asperity.block.settled import SettledBlock, settle
+from asperity.block.solve import answer, prepare
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.errors import InputError
+from asperity.runs import Run
+from asperity.thesis.contact.blocks import LIGHT, Block
+
+SETTLED = "solve.method=settled"
+
+
+def case(*settings):
+    return read_case("block-longitudinal", case_tables(), [*LIGHT, *settings])
+
+
+@pytest.fixture(scope="module")
+def found():
+    return settle(BlockProblem.from_case(case(SETTLED, "vibration.velocity_ratio=2")))
+
+
+def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
+    told = found.to_json()
+    assert told["ratio"] == pytest.approx(0.5619, abs=2e-3 * 0.5619)
+    assert 0.0 < told["unsteadiness"] < 0.5 * settled.STEADY * told["slider_ratio"]
+    assert told["drive_force_N"] == pytest.approx(told["ratio"] * 5.5)
+    assert told["method"] == "settled"
+    assert (told["cycles"], told["notes"]) == (16, [])
+
+
+def test_the_figures_of_the_thesis_settle_blocks_in_the_same_way(found):
+    block = Block("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=2")).settled()
+    assert block.ratio == pytest.approx(found.ratio, rel=1e-12)
+    assert block.slider == pytest.approx(found.slider_ratio, rel=1e-12)
+
+
+def test_the_command_answers_by_the_method_of_the_case(monkeypatch):
+    asked = []
+    monkeypatch.setattr("asperity.block.solve.settle", lambda problem, run: asked.append(problem))
+    problem = prepare(case(SETTLED))
+    answer(problem, Run())
+    assert asked == [problem]
+
+
+def test_windows_that_do_not_agree_are_told(monkeypatch, found):
+    monkeypatch.setattr(settled, "STEADY", 1e-9)
+    monkeypatch.setattr(settled, "_LONGEST", settled._SHORTEST)
+    (note,) = settle(found.problem).notes
+    assert note.startswith("not steady: in 16 cycles the ratio still swings by ")
+
+
+def test_a_settled_block_is_saved_and_read(found, tmp_path):
+    path = tmp_path / "block.nc"
+    found.save(path)
+    kept = SettledBlock.read(path).to_dataset()
+    assert float(kept["unsteadiness"]) == found.unsteadiness
+
+
+@pytest.mark.parametrize(
+    ("settings", "why"),
+    [
+        (("solve.method=periodic",), "solve.method is 'periodic'; an elastic block is solved by"),
+        ((SETTLED, "vibration.velocity_ratio=0"), "nothing vibrates: take 'march'"),
+    ],
+)
+def test_a_method_that_does_not_answer_is_refused(settings, why):
+    with pytest.raises(InputError, match=why):
+        prepare(case(*settings))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", [2, 6, 20])
+def test_a_settled_block_is_what_a_march_of_a_second_comes_to(k):
+    settings = (f"vibration.velocity_ratio={k}", "solve.step=1.25 us")
+    quick = settle(BlockProblem.from_case(case(SETTLED, *settings)))
+    marched = solve_block(BlockProblem.from_case(case(*settings)), history=False)
+    assert quick.ratio == pytest.approx(marched.ratio, rel=2e-3)
+    assert marched.seconds > 30.0 * quick.seconds
