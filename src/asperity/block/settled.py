@@ -17,6 +17,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import inputs
 from asperity.block.stability import Stability, flutter_note
@@ -28,7 +29,6 @@ from asperity.contact.motion.system import Shaking, System, SystemState
 from asperity.results import Result, labelled, quantity
 from asperity.runs import Run
 from asperity.slider import Model, SlideResult
-from asperity.slider.model import FloatArray
 from asperity.slider.periodic import solve_periodic
 from asperity.vibration import Vibration
 
