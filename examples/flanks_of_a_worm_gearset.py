@@ -53,11 +53,12 @@ errors = {}
 for kind in ("ZI", "ZA"):
     wrong = found(f"gearset.flank={kind}", "mount.shaft_angle_error=0.1 deg")
     mesh = wrong.analysis.flanks[1].transmission
-    errors[kind] = mesh.peak_to_peak
+    even = mesh.peak_to_peak < mesh.resolution("peak_to_peak")
+    errors[kind] = "none" if even else f"{1e6 * mesh.peak_to_peak:.3g} µrad"
     axes.plot(np.degrees(mesh.wheel_angle), 1e6 * (mesh.error - mesh.mean), label=kind)
 axes.set(xlabel="angle of the wheel (°)", ylabel="transmission error (µrad)")
 axes.legend(frameon=False)
-print({kind: f"{1e6 * error:.3g} µrad" for kind, error in errors.items()})
+print(errors)
 
 # %%
 # What a vibration would do there. A worm that vibrates along its axis moves mostly along the normal

@@ -136,13 +136,14 @@ def test_blue_dye_shows_a_pattern_near_the_face_edge_and_tilting_the_hob_brings_
 ):
     half_face = tilted.pair.geometry.wheel_face_width / 2.0
     for side in (1, -1):
-        edge, middle = oversize.flanks[side].pattern, tilted.flanks[side].pattern
+        first, second = oversize.flanks[side], tilted.flanks[side]
+        edge, middle = first.pattern, second.pattern
         assert side * edge.centre[0] == pytest.approx(4.8, abs=0.05)
         assert side * middle.centre[0] == pytest.approx(1.5, abs=0.2)
         assert middle.area_fraction == pytest.approx(0.19, abs=0.005)
         # Without tilt the marked area comes to within a tenth of the face of its edge.
-        assert np.abs(edge.grid.z[edge.marked]).max() > half_face * 0.9
-        assert np.abs(middle.grid.z[middle.marked]).max() < half_face * 0.75
+        assert np.abs(first.grid.z[edge.marked]).max() > half_face * 0.9
+        assert np.abs(second.grid.z[middle.marked]).max() < half_face * 0.75
 
 
 def test_threads_of_nominal_thickness_interfere_by_the_known_amount(tilted):

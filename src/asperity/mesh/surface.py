@@ -1,7 +1,7 @@
 """Triangulated surfaces: the skin of a mesh, a grid of points; what STL and GLB files hold."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,10 +81,6 @@ class Surface:
         quads = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
         corners = np.stack(quads, axis=-1).reshape(-1, 4)
         return cls(grid.reshape(-1, 3), corners[:, _CORNERS].reshape(-1, 3), unit)
-
-    def flipped(self) -> "Surface":
-        """Return the surface with its outside inside."""
-        return replace(self, triangles=self.triangles[:, ::-1])
 
     def welded(self, tolerance: float) -> "Surface":
         """Return the surface with points nearer than a tolerance as one, in their first place."""
