@@ -245,7 +245,7 @@ def watched(monkeypatch, new_user, tmp_path, _compiled):
     monkeypatch.chdir(tmp_path)
 
     def note(line):
-        if "will take about" in line:
+        if "take about" in line:
             raise Announced
         show_note(line)
 

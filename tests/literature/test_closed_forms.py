@@ -223,6 +223,15 @@ def test_dahl_refuses_a_deflection_limit_of_zero():
             form(1.0, 1.0, 0.0)
 
 
+def test_a_ratio_whose_powers_leave_the_floats_is_refused():
+    for k in (1e88, 1e300):
+        with pytest.raises(InputError, match=r"k is 1e\+\d+; it must be at most 1e\+50"):
+            cf.directed_ratio(k, 0.3)
+    masked = cf.directed_ratio([1e49, 1e51], 0.3, on_invalid="mask")
+    assert masked.data[1] == cf.TOO_LARGE
+    assert 0.0 < masked[0] < 1e-46
+
+
 def test_an_array_with_nonsense_raises_or_is_masked_with_the_reason():
     k = [0.5, -1.0, math.nan, 2.0]
     with pytest.raises(InputError, match="k is -1"):

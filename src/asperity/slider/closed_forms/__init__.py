@@ -10,11 +10,11 @@ transverse vibration counts with :math:`\eta_y k`.
 
 Every function takes numbers or arrays. A number outside the range raises; an array with such
 elements raises, or with ``on_invalid="mask"`` comes back as a masked array whose ``data`` hold the
-reason where it is masked: `NOT_FINITE` or `TOO_SMALL`.
+reason where it is masked: `NOT_FINITE`, `TOO_SMALL` or `TOO_LARGE`.
 """
 
 from asperity.slider.closed_forms.dahl import dahl_from_rest, dahl_loop_area, dahl_peak_force
-from asperity.slider.closed_forms.evaluate import NOT_FINITE, TOO_SMALL
+from asperity.slider.closed_forms.evaluate import NOT_FINITE, TOO_LARGE, TOO_SMALL
 from asperity.slider.closed_forms.powers import (
     directed_power,
     longitudinal_power,
@@ -32,6 +32,7 @@ from asperity.slider.closed_forms.ratios import (
 
 __all__ = [
     "NOT_FINITE",
+    "TOO_LARGE",
     "TOO_SMALL",
     "dahl_from_rest",
     "dahl_loop_area",

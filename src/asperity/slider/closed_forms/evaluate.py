@@ -13,7 +13,11 @@ Invalid = Literal["raise", "mask"]
 
 NOT_FINITE = 1
 TOO_SMALL = 2
+TOO_LARGE = 3
 POSITIVE = float(np.nextafter(0.0, 1.0))
+
+# The formulas hold fourth powers of a velocity ratio, which are to stay among the floats.
+_LARGEST = 1e50
 
 
 def evaluate(
@@ -37,9 +41,15 @@ def evaluate(
         raise InputError(f"the shapes {shapes} do not go together; make them equal") from None
     reason = np.zeros(arrays[0].shape, dtype=np.int8)
     for (name, (_, least)), array in zip(given.items(), arrays, strict=True):
-        here = np.where(~np.isfinite(array), NOT_FINITE, np.where(array < least, TOO_SMALL, 0))
+        here = np.select(
+            [~np.isfinite(array), array < least, array > _LARGEST],
+            [NOT_FINITE, TOO_SMALL, TOO_LARGE],
+            0,
+        )
         if (on_invalid == "raise" or array.ndim == 0) and here.any():
             bound = {0.0: "zero or positive", POSITIVE: "positive"}.get(least, "finite")
+            if here[here > 0].flat[0] == TOO_LARGE:
+                bound = f"at most {_LARGEST:g}"
             raise InputError(f"{name} is {array[here > 0].flat[0]:g}; it must be {bound}")
         reason = np.where(reason == 0, here, reason)
     valid = reason == 0
