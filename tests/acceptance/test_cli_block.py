@@ -5,6 +5,7 @@ import math
 import re
 import signal
 import time
+from pathlib import Path
 
 import pytest
 
@@ -36,9 +37,9 @@ def outcome(folder):
     return {key: value for key, value in answer.items() if key not in TIMES}
 
 
-def test_a_block_that_flutters_is_told_before_it_is_marched(ended):
+def test_a_block_that_flutters_is_told_before_it_is_marched(asperity):
     modes = "--set", "block.modes=16", "--set", "block.damping_ratio=0", "--set", "solve.step=1 us"
-    code, output, errors = ended(*SHORT, *modes, "--json")
+    code, output, errors = asperity(*SHORT, *modes, "--json")
     assert code == 0
     told = json.loads(output)["notes"][0]
     assert told.startswith("the block flutters as it slides")
@@ -46,9 +47,10 @@ def test_a_block_that_flutters_is_told_before_it_is_marched(ended):
     assert told in errors
 
 
-def wait_until(process, path):
+def wait_until(process, folder, pattern=KEPT):
+    """Wait for a file that a process writes."""
     deadline = time.monotonic() + 120
-    while not path.exists():
+    while not any(folder.glob(pattern)):
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < deadline
         time.sleep(0.005)
@@ -97,7 +99,7 @@ def test_an_interrupted_block_goes_on_to_the_very_same_result(
     start, asperity, uninterrupted, tmp_path
 ):
     process = start(*LONG, "--out", tmp_path)
-    wait_until(process, tmp_path / KEPT)
+    wait_until(process, tmp_path)
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=120)
     assert (process.returncode, output) == (130, "")
@@ -122,7 +124,7 @@ def test_an_interrupted_block_goes_on_to_the_very_same_result(
 @pytest.mark.slow
 def test_a_killed_block_goes_on_to_the_very_same_result(start, asperity, uninterrupted, tmp_path):
     process = start(*LONG, "--out", tmp_path)
-    wait_until(process, tmp_path / KEPT)
+    wait_until(process, tmp_path)
     process.kill()
     process.communicate(timeout=120)
     code, _, errors = asperity(*LONG, "--out", tmp_path)
@@ -137,7 +139,7 @@ def test_what_was_kept_of_another_case_is_told_and_not_mixed_in(
 ):
     other = (*LONG, "--set", "friction.mu=0.2", "--out", tmp_path)
     process = start(*other)
-    wait_until(process, tmp_path / KEPT)
+    wait_until(process, tmp_path)
     process.kill()
     process.communicate(timeout=120)
     code, _, errors = asperity(*LONG, "--out", tmp_path)
@@ -148,9 +150,11 @@ def test_what_was_kept_of_another_case_is_told_and_not_mixed_in(
     check_same(tmp_path, uninterrupted)
 
 
-def test_interrupted_without_a_folder_a_block_says_how_far_it_was(start):
-    process = start(*SMALL, "--set", "solve.duration=1 s")
-    time.sleep(4.0)
+def test_interrupted_without_a_folder_a_block_says_how_far_it_was(start, new_user):
+    environment = new_user()
+    process = start(*SMALL, "--set", "solve.duration=1 s", env=environment)
+    # The condensed block is kept just before the first increment.
+    wait_until(process, Path(environment["ASPERITY_CACHE"], "asperity"), "condensed/*.npz")
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=120)
     assert (process.returncode, output) == (130, "")
