@@ -24,10 +24,12 @@ from asperity.block.deck import BlockSetup, calculix_files
 from asperity.block.problem import STANDARD_GRAVITY, BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.elastic import Pressure, Traction, cache, condense, elastic_body
+from asperity.contact.elastic import CondensedBody, Pressure, Traction, condense, elastic_body
 from asperity.contact.elastic.solver import installed_solver
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
+from asperity.runs.cache import Cache
+from asperity.runs.tree import from_tree, to_tree
 
 MESHES = {
     "8x6x6 hex27": ("block.elements=[8,6,6]", "block.element=hex27"),
@@ -80,8 +82,9 @@ def condensing(figures, mesh):
         figures[f"condense{label}_s"] = time.process_time() - began
     figures["contact_nodes"] = len(body.nodes)
     with tempfile.TemporaryDirectory() as folder:
-        cache.save(Path(folder), "body", body)
-        figures["read_back_s"] = best(lambda: cache.load(Path(folder), "body"))
+        cache = Cache(Path(folder))
+        cache.put("body", to_tree(body))
+        figures["read_back_s"] = best(lambda: from_tree(CondensedBody, cache.get("body")))
 
 
 def marching(figures, mesh, march):

@@ -197,3 +197,9 @@ def test_a_key_follows_what_was_asked_and_what_it_is_computed_by():
     }
     assert len(keys) == 6
     assert code_key("asperity.rating.rate") != code_key("asperity.slider.batch")
+
+
+def test_a_key_depends_on_the_content_shape_and_type_of_arrays():
+    a = np.arange(6.0)
+    assert len({key("", a), key("", a.reshape(2, 3)), key("", a.astype(int)), key("", a, "")}) == 4
+    assert key("", a[::-1][::-1]) == key("", a)

@@ -16,6 +16,7 @@ nothing.
 import dataclasses
 import functools
 import math
+from collections.abc import Callable
 from typing import Self
 
 import numpy as np
@@ -74,11 +75,16 @@ class BlockProblem:
         The sliding body the block is: drive, friction, vibration, times.
     block, contact : Block, Contact
         The tables of the case.
+    notify : callable, optional
+        Takes one line about what was found damaged on the way.
     """
 
     model: UndividedModel
     block: Block
     contact: Contact = dataclasses.field(default_factory=Contact)
+    notify: Callable[[str], None] | None = dataclasses.field(
+        default=None, compare=False, repr=False
+    )
 
     def __post_init__(self) -> None:
         model, slider = self.model, self.model.slider
@@ -159,6 +165,7 @@ class BlockProblem:
             element=self.block.element,
             loads={_PRESSURE: Pressure("top"), _DRIVE: _pull()},
             modes=self.block.modes,
+            notify=self.notify,
         )
 
     @functools.cached_property

@@ -1,5 +1,7 @@
 """A block's case answered: refused early, kept on its way, gone on with."""
 
+import dataclasses
+
 from asperity.block.check import check
 from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
@@ -34,6 +36,7 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult | SettledBlock:
     Interrupted
         Ctrl-C; what is kept is said.
     """
+    problem = dataclasses.replace(problem, notify=run.notify)
     if problem.model.solve.method == "settled":
         return settle(problem, run)
     march = BlockMarch(problem, history=run.detailed, run=run)

@@ -5,14 +5,14 @@ import dataclasses
 import math
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.contact.elastic import cache
+from asperity.closure import source_key
 from asperity.contact.elastic.body import ElasticBody, elastic_body
 from asperity.contact.elastic.condensed import CondensedBody
 from asperity.contact.elastic.loads import Load
@@ -22,6 +22,9 @@ from asperity.contact.elastic.solver import COLUMNS_AT_A_TIME, factor_bytes, ins
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.errors import InputError
 from asperity.mesh import HexMesh
+from asperity.runs.cache import Cache
+from asperity.runs.key import key
+from asperity.runs.tree import from_tree, to_tree
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -51,6 +54,7 @@ def condense(
     solver: str = "auto",
     memory_limit: float | None = None,
     use_cache: bool = True,
+    notify: Callable[[str], None] | None = None,
 ) -> CondensedBody:
     """Condense an elastic body to the nodes of its contact faces.
 
@@ -82,6 +86,8 @@ def condense(
     use_cache : bool
         Whether to look for, and keep, the result on disk. Its key is the content of everything
         above and of the sources of this room.
+    notify : callable, optional
+        Takes one line about a kept file that is damaged; it is set aside.
 
     Returns
     -------
@@ -104,8 +110,9 @@ def condense(
     pushed = np.array([loads[name].forces(mesh).reshape(-1) for name in loads])
     pushed = pushed.reshape(-1, unknowns).T
 
-    folder = cache.folder() if use_cache else None
-    key = cache.key(
+    cache = Cache.of_this_user("condensed", notify) if use_cache else Cache(None)
+    digest = key(
+        source_key("asperity.contact.elastic"),
         mesh.points,
         mesh.cells,
         mesh.face_nodes(contact),
@@ -113,8 +120,9 @@ def condense(
         _tied_nodes(mesh, tied),
         repr((material, element, movable, names, modes, solver)),
     )
-    if folder is not None and (kept := cache.load(folder, key)) is not None:
-        return kept
+    kept = cache.get(digest)
+    if kept is not None:
+        return from_tree(CondensedBody, kept | {"from_cache": True})
 
     name = installed_solver(solver)
     expected = memory_needed(mesh, len(surface.nodes), modes=modes, solver=name)
@@ -129,8 +137,7 @@ def condense(
     body = elastic_body(mesh, material, element=element, tied=tied, solver=name)
     condensed = _condense(body, surface, names, pushed, movable or body.free, modes)
     condensed = dataclasses.replace(condensed, seconds=time.perf_counter() - began)
-    if folder is not None:
-        cache.save(folder, key, condensed)
+    cache.put(digest, to_tree(condensed))
     return condensed
 
 
