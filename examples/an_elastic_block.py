@@ -10,8 +10,8 @@ contact. Here a rigid drive pulls it, so that it slides from the first moment on
 import matplotlib.pyplot as plt
 import numpy as np
 
-from asperity.block.march import solve_block
 from asperity.block.problem import BlockProblem
+from asperity.block.solution.march import solve_block
 from asperity.block.tables import TABLES as CONTACT
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve

@@ -9,8 +9,8 @@ the block rocks, with the inertia of its turns on its contact, it accounts for a
 import numpy as np
 import pytest
 
-from asperity.block.march import solve_block
 from asperity.block.problem import BlockProblem
+from asperity.block.solution.march import solve_block
 from asperity.casefile import read_case, shipped_cases
 from asperity.commands import case_tables
 from asperity.contact.motion import ledger

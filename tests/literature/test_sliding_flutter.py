@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from asperity.block.problem import BlockProblem
-from asperity.block.stability import Stability
+from asperity.block.solution.stability import Stability
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.interface.friction import PointFriction

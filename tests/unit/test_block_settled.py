@@ -2,10 +2,10 @@
 
 import pytest
 
-from asperity.block import settled
-from asperity.block.march import solve_block
 from asperity.block.problem import BlockProblem
-from asperity.block.settled import SettledBlock, settle
+from asperity.block.solution import settled
+from asperity.block.solution.march import solve_block
+from asperity.block.solution.settled import SettledBlock, settle
 from asperity.block.solve import answer, prepare
 from asperity.casefile import read_case
 from asperity.commands import case_tables

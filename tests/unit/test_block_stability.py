@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 
-from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import BlockProblem
-from asperity.block.stability import Flutter, Stability, flutter_note, slip_directions
+from asperity.block.solution.march import BlockMarch, solve_block
+from asperity.block.solution.stability import Flutter, Stability, flutter_note, slip_directions
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.interface.friction import PointFriction

@@ -7,11 +7,11 @@ import types
 import numpy as np
 import pytest
 
-from asperity.block import march as block_march
-from asperity.block.check import check
-from asperity.block.march import BlockMarch, solve_block
 from asperity.block.problem import BlockProblem
-from asperity.block.resume import march_key
+from asperity.block.solution import march as block_march
+from asperity.block.solution.check import check
+from asperity.block.solution.march import BlockMarch, solve_block
+from asperity.block.solution.resume import march_key
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.increment import IncrementSolver

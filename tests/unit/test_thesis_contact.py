@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from asperity.block import settled as settling
 from asperity.block.problem import BlockProblem
+from asperity.block.solution import settled as settling
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.thesis.contact import blocks, elastic, pressed

@@ -2,12 +2,12 @@
 
 import dataclasses
 
-from asperity.block.check import check
-from asperity.block.march import BlockMarch
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, UnfinishedBlock
-from asperity.block.settled import SettledBlock, settle
-from asperity.block.stability import flutter_note
+from asperity.block.solution.check import check
+from asperity.block.solution.march import BlockMarch
+from asperity.block.solution.settled import SettledBlock, settle
+from asperity.block.solution.stability import flutter_note
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError
 from asperity.runs import Run

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from asperity.block.check import check_ranges
 from asperity.block.deck import WRITERS, BlockSetup
+from asperity.block.solution.check import check_ranges
 from asperity.casefile import read_case
 from asperity.cli import show
 from asperity.commands import case_tables

@@ -1,7 +1,7 @@
 """Elastic blocks beside the sliding bodies they are: settled under vibration, or from rest.
 
-A block settles as `asperity.block.settled` has it, and so do the bodies it is compared with, over
-the same cycles.
+A block settles as `asperity.block.solution.settled` has it, and so do the bodies it is compared
+with, over the same cycles.
 """
 
 import dataclasses
@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from asperity.block import settled
-from asperity.block.march import solve_block
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult
+from asperity.block.solution import settled
+from asperity.block.solution.march import solve_block
 from asperity.block.tables import TABLES as BLOCK_TABLES
 from asperity.casefile import read_case
 from asperity.contact.interface.surface import contact_surface

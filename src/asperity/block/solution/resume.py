@@ -21,7 +21,7 @@ from asperity.runs.key import code_key, key
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class MarchState:
-    """All that a march goes on from, see `asperity.block.march.BlockMarch`.
+    """All that a march goes on from, see `asperity.block.solution.march.BlockMarch`.
 
     Attributes
     ----------
@@ -66,4 +66,4 @@ def march_key(problem: BlockProblem) -> str:
 
 @functools.cache
 def _sources() -> str:
-    return code_key("asperity.block.march")
+    return code_key("asperity.block.solution.march")

@@ -7,12 +7,12 @@ import time
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.block.notes import block_notes
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult
-from asperity.block.resume import MarchState, march_key
 from asperity.block.series import Frame
-from asperity.block.stability import Flutter, Stability
+from asperity.block.solution.notes import block_notes
+from asperity.block.solution.resume import MarchState, march_key
+from asperity.block.solution.stability import Flutter, Stability
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load

@@ -3,7 +3,7 @@
 import math
 
 from asperity.block.problem import BlockProblem
-from asperity.block.stability import Flutter, Stability, flutter_note
+from asperity.block.solution.stability import Flutter, Stability, flutter_note
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.contact.motion.steps import Stepper
 from asperity.slider.timetable import march_notes

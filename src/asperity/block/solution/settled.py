@@ -20,7 +20,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import inputs
-from asperity.block.stability import Stability, flutter_note
+from asperity.block.solution.stability import Stability, flutter_note
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
