@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.stats.qmc import Sobol
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -272,6 +273,20 @@ def test_a_climb_that_ends_beyond_a_kink_goes_back_as_far_as_needed():
     top = climb(merit, [start])
     assert top.height > 0.45
     assert merit(top.point[None])[0, 1] >= -1e-12
+
+
+@pytest.mark.parametrize("dimensions", [1, 2, 3, 4])
+def test_the_starts_are_points_of_sobol(dimensions):
+    expected = Sobol(dimensions, scramble=False).random(64)
+    assert spread(dimensions, 64).tolist() == expected.tolist()
+
+
+def test_a_failure_of_the_merit_ends_all_climbs():
+    def merit(points):
+        raise InputError("there is nothing to climb")
+
+    with pytest.raises(InputError, match="nothing to climb"):
+        climb(merit, spread(2, 4))
 
 
 def test_a_climb_without_an_allowed_point_has_no_top():

@@ -175,6 +175,8 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
         They do not go together.
     """
     shapes = {name: np.shape(array) for name, array in arrays.items()}
+    if len(set(shapes.values())) == 1:
+        return next(iter(shapes.values()))
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
