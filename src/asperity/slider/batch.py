@@ -205,13 +205,9 @@ def _waves(
 
 def _state(buffer: FloatArray, place: int, p: Parameters) -> np.void:
     """A body's state as the single-body kernels have it."""
-    state: np.void = np.zeros(1, STATE)[0]
-    state["stretch"] = buffer[bk.STRETCH, place]
-    state["velocity_x"] = buffer[bk.WX, place]
-    state["velocity_y"] = buffer[bk.WY, place]
-    state["deflection_x"] = state["friction_x"] = buffer[bk.SX, place]
-    state["deflection_y"] = state["friction_y"] = buffer[bk.SY, place]
-    state["drive_force"] = state["friction_x"] if p.rigid else p.stiffness * state["stretch"]
+    stretch, wx, wy, sx, sy = buffer[: bk.SY + 1, place]
+    pull = sx if p.rigid else p.stiffness * stretch
+    state: np.void = np.array([(stretch, wx, wy, sx, sy, sx, sy, pull, 0.0)], STATE)[0]
     return state
 
 
