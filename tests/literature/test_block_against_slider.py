@@ -18,7 +18,8 @@ from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 from asperity.slider.march import march
-from asperity.thesis.contact.blocks import LIGHT, Block, in_series
+from asperity.thesis.contact.blocks import in_series
+from asperity.thesis.contact.elastic import LIGHT, ElasticBlock
 
 WAYS = {
     "longitudinal": ("block-longitudinal", ()),
@@ -37,7 +38,7 @@ CALM = [case for case in CASES if case not in ROCKING]
 
 def block(way, k, *settings, mesh=LIGHT):
     case, direction = WAYS[way]
-    return Block(case, (*mesh, f"vibration.velocity_ratio={k}", *direction, *settings))
+    return ElasticBlock(case, (*mesh, f"vibration.velocity_ratio={k}", *direction, *settings))
 
 
 def some_slow(cases, slow):

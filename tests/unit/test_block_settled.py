@@ -11,7 +11,8 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.runs import Run
-from asperity.thesis.contact.blocks import LIGHT, Block
+from asperity.thesis.contact import blocks
+from asperity.thesis.contact.elastic import LIGHT
 
 SETTLED = "solve.method=settled"
 
@@ -35,7 +36,7 @@ def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
 
 
 def test_the_figures_of_the_thesis_settle_blocks_in_the_same_way(found):
-    block = Block("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=2")).settled()
+    block = blocks.settle("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=2"))
     assert block.ratio == pytest.approx(found.ratio, rel=1e-12)
     assert block.slider == pytest.approx(found.slider_ratio, rel=1e-12)
 

@@ -12,8 +12,8 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.thesis.contact import blocks, elastic, pressed
 from asperity.thesis.contact import claims as claims_contact
-from asperity.thesis.contact.blocks import LIGHT, Block, Settled, settle_all
-from asperity.thesis.contact.elastic import BlockFromRest, ElasticBlock, from_rest
+from asperity.thesis.contact.blocks import Settled
+from asperity.thesis.contact.elastic import LIGHT, BlockFromRest, ElasticBlock, from_rest
 from asperity.thesis.contact.figures import figure_7_9
 from asperity.thesis.contents import FIGURES
 
@@ -28,52 +28,54 @@ def problem(*settings):
     )
 
 
+@functools.cache
+def settle(case, *settings):
+    return blocks.settle(case, (*LIGHT, *settings))
+
+
 def compliance(*settings):
     return np.diag(problem(*settings).compliance.static)
 
 
 def test_a_block_that_does_not_give_is_the_sliding_body():
-    stiff = Block("block-longitudinal", (*LIGHT, STIFF, K_2)).settled()
+    stiff = settle("block-longitudinal", STIFF, K_2)
     assert stiff.ratio == pytest.approx(stiff.slider, rel=5e-4)
     assert stiff.in_series == pytest.approx(stiff.slider, rel=5e-4)
 
 
 def test_what_separates_block_and_sliding_body_is_the_blocks_compliance():
-    block, across = settle_all(
-        [
-            Block("block-longitudinal", (*LIGHT, K_2)),
-            Block("block-transverse", (*LIGHT, "vibration.velocity_ratio=3")),
-        ]
-    )
-    for found in (block, across):
+    for found in (
+        settle("block-longitudinal", K_2),
+        settle("block-transverse", "vibration.velocity_ratio=3"),
+    ):
         assert found.ratio == pytest.approx(found.in_series, rel=1e-3)
         assert abs(found.ratio - found.in_series) < 0.2 * abs(found.ratio - found.slider)
 
 
 def test_a_block_settles_to_the_same_wherever_its_start_leaves_it():
-    block = Block("block-transverse", (*LIGHT, K_2)).settled()
+    block = settle("block-transverse", K_2)
     assert abs(block.late) > 1e-3
     assert block.unsteadiness < 0.5 * settling.STEADY * block.slider
 
 
 def test_a_block_is_read_anew_in_longer_windows_until_they_agree(monkeypatch):
-    block = Block("block-transverse", (*LIGHT, K_2))
-    assert block.settled().cycles == 16
-    monkeypatch.setattr(settling, "STEADY", block.settled().unsteadiness / block.settled().slider)
+    found = settle("block-transverse", K_2)
+    assert found.cycles == 16
+    monkeypatch.setattr(settling, "STEADY", found.unsteadiness / found.slider)
     monkeypatch.setattr(settling, "_LONGEST", 8)
-    longer = blocks._settled.__wrapped__(block)
+    longer = blocks.settle("block-transverse", (*LIGHT, K_2))
     assert longer.cycles == 32
-    assert longer.ratio == pytest.approx(block.settled().ratio, rel=1e-3)
+    assert longer.ratio == pytest.approx(found.ratio, rel=1e-3)
 
 
 @pytest.mark.slow
 def test_a_rocking_block_read_for_twice_as_long_comes_to_the_same(monkeypatch):
-    block = Block("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=20"))
-    found = block.settled()
+    settings = (*LIGHT, "vibration.velocity_ratio=20")
+    found = blocks.settle("block-longitudinal", settings)
     assert found.cycles == 32
     monkeypatch.setattr(settling, "STEADY", 0.0)
     monkeypatch.setattr(settling, "_LONGEST", 16)
-    further = blocks._settled.__wrapped__(block)
+    further = blocks.settle("block-longitudinal", settings)
     assert further.cycles == 64
     assert further.unsteadiness < found.unsteadiness
     assert further.ratio == pytest.approx(found.ratio, abs=found.unsteadiness)
@@ -157,11 +159,11 @@ def test_a_block_is_settled_once_for_all_runs(tmp_path, monkeypatch):
     monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
     solved = []
 
-    def settled(block):
-        solved.append(block)
+    def settled(case, settings):
+        solved.append(settings)
         return Settled(0.5, 0.5, 0.5, 0.5, 0.0, 16, 0.0)
 
-    monkeypatch.setattr(Block, "settled", settled)
+    monkeypatch.setattr(blocks, "settle", settled)
     block, other = (ElasticBlock("block-longitudinal", (*LIGHT, k)) for k in (K_2, f"{K_2}.5"))
     assert block.settled() == block.settled() == other.settled()
     assert len(solved) == 2
@@ -174,7 +176,7 @@ def test_what_is_shown_of_a_march_is_kept_as_it_was(tmp_path, monkeypatch):
         time=time, drive_force=2.0 * time, friction=np.stack([time, -time], axis=1)
     )
     results = [SimpleNamespace(ratio=0.25, history=history)]
-    monkeypatch.setattr(Block, "march", lambda block: results.pop())
+    monkeypatch.setattr(blocks, "march", lambda case, settings: results.pop())
     (block,) = from_rest("block-longitudinal")
     now, again = block.marched(), block.marched()
     for name in ("ratio", "time", "drive_force", "friction"):

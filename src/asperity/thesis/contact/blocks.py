@@ -6,7 +6,6 @@ with, over the same cycles.
 
 import dataclasses
 import functools
-import shlex
 from collections.abc import Sequence
 
 import numpy as np
@@ -30,9 +29,6 @@ from asperity.slider.tables import TABLES as SLIDER_TABLES
 FloatArray = npt.NDArray[np.float64]
 
 _TABLES = {**SLIDER_TABLES, **BLOCK_TABLES}
-
-LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
-"""A mesh of 20 contact nodes; without these settings a shipped block has 221."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,57 +64,9 @@ class Settled:
     late: float
 
 
-@dataclasses.dataclass(frozen=True)
-class Block:
-    """A shipped case of an elastic block with settings."""
-
-    case: str
-    settings: tuple[str, ...] = ()
-
-    def model(self, **changes: float) -> Model:
-        """The sliding body it is, with values of keys in SI (``slider__drive_velocity=...``)."""
-        case = read_case(self.case, _TABLES, self.settings)
-        values = {key.replace("__", "."): value for key, value in changes.items()}
-        return Model.from_case(case.replace_values(values) if values else case)
-
-    def settled(self) -> Settled:
-        """Its friction under steady vibration; solved once in a process."""
-        return _settled(self)
-
-    def march(self) -> BlockResult:
-        """From rest, as ``asperity block`` has it; solved once in a process."""
-        return _marched(self)
-
-    @property
-    def unshaken(self) -> tuple[str, ...]:
-        """Settings but those of the vibration."""
-        return tuple(s for s in self.settings if not s.startswith("vibration."))
-
-    @property
-    def how(self) -> str:
-        """How to come by what it settles to."""
-        settings = "".join(f"{setting!r}, " for setting in self.settings)
-        return f"asperity.thesis.contact.blocks.Block({self.case!r}, ({settings})).settled()"
-
-    @property
-    def command(self) -> str:
-        """The march from rest on the command line."""
-        settings = " ".join(f"--set {shlex.quote(setting)}" for setting in self.settings)
-        return f"asperity block {self.case} {settings}".strip()
-
-
-def settle_all(blocks: Sequence[Block]) -> list[Settled]:
-    """Settle blocks one after the other.
-
-    Threads would not be faster: between the compiled loops, which are short, they wait for the
-    interpreter and wake each other.
-    """
-    return [block.settled() for block in blocks]
-
-
-@functools.cache
-def _marched(block: Block) -> BlockResult:
-    return solve_block(BlockProblem.from_case(read_case(block.case, _TABLES, block.settings)))
+def march(case: str, settings: Sequence[str]) -> BlockResult:
+    """March a shipped block from rest, as ``asperity block`` does."""
+    return solve_block(BlockProblem.from_case(read_case(case, _TABLES, settings)))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -147,10 +95,11 @@ def _at_rest(case: str, settings: tuple[str, ...]) -> _Resting:
     )
 
 
-@functools.cache
-def _settled(block: Block) -> Settled:
-    resting = _at_rest(block.case, block.unshaken)
-    model = block.model()
+def settle(case: str, settings: Sequence[str]) -> Settled:
+    """Settle a shipped block, and the sliding bodies beside it over the same cycles."""
+    unshaken = (setting for setting in settings if not setting.startswith("vibration."))
+    resting = _at_rest(case, tuple(unshaken))
+    model = Model.from_case(read_case(case, _TABLES, settings))
     slider = solve_periodic(model)
     bodies = (resting.block, resting.in_series, resting.rocking)
     reading = settled.read_settled(bodies, slider, settled.slope_over_velocity(model))

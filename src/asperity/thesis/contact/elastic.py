@@ -5,7 +5,7 @@ Light, so that a run can hand them out before anything of theirs is imported.
 
 import dataclasses
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -53,9 +53,9 @@ class ElasticBlock:
 
     def settled(self) -> "Settled":
         """Its friction and that of the sliding bodies beside it, solved once for all runs."""
-        from asperity.thesis.contact.blocks import Block, Settled
+        from asperity.thesis.contact.blocks import Settled, settle
 
-        return _once(self, Settled, lambda: Block(self.case, self.settings).settled())
+        return _once(self, Settled, lambda: settle(self.case, self.settings))
 
     @property
     def task(self) -> Task:
@@ -65,9 +65,8 @@ class ElasticBlock:
 
     @property
     def how(self) -> str:
-        """How to come by what it settles to."""
-        settings = "".join(f"{setting!r}, " for setting in self.settings)
-        return f"{__name__}.ElasticBlock({self.case!r}, ({settings})).settled()"
+        """How to come by what it settles to, on the command line."""
+        return _command(self.case, (*self.settings, "solve.method=settled"))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -118,9 +117,9 @@ class BlockFromRest:
 
     def marched(self) -> FromRest:
         """What is shown of its march, solved once for all runs."""
-        from asperity.thesis.contact.blocks import Block
+        from asperity.thesis.contact.blocks import march
 
-        return _once(self, FromRest, lambda: FromRest.of(Block(self.case, self.settings).march()))
+        return _once(self, FromRest, lambda: FromRest.of(march(self.case, self.settings)))
 
     @property
     def task(self) -> Task:
@@ -131,8 +130,12 @@ class BlockFromRest:
     @property
     def command(self) -> str:
         """The same on the command line."""
-        settings = " ".join(f"--set {shlex.quote(setting)}" for setting in self.settings)
-        return f"asperity block {self.case} {settings}".strip()
+        return _command(self.case, self.settings)
+
+
+def _command(case: str, settings: Sequence[str]) -> str:
+    words = ["asperity", "block", case, *(f"--set {shlex.quote(one)}" for one in settings)]
+    return " ".join(words)
 
 
 def _once(block: ElasticBlock | BlockFromRest, of: type[T], solve: Callable[[], T]) -> T:
