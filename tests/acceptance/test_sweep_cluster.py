@@ -67,7 +67,8 @@ def test_a_sweep_outlives_a_worker_and_equals_that_of_this_machine(
     victim.kill()
     assert kept(environment) < POINTS
     output, errors = process.communicate(timeout=180)
-    assert (process.returncode, errors) == (0, "")
+    assert process.returncode == 0, errors
+    assert all("take about" in line for line in errors.splitlines())
     there = json.loads(output)
     assert (there["points"], there["cached"]) == (POINTS, 0)
     here = json.loads(asperity_process(*SWEEP, env=new_user())[1])
@@ -85,7 +86,9 @@ def test_an_interrupted_cluster_keeps_what_is_done(
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=120)
     assert (process.returncode, output) == (130, "")
-    assert errors.startswith(f"interrupted: {kept(environment)} of {POINTS} points are kept")
+    # Before it may stand how long it takes.
+    last = errors.splitlines()[-1]
+    assert last.startswith(f"interrupted: {kept(environment)} of {POINTS} points are kept")
 
 
 def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
@@ -98,8 +101,7 @@ def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
     processes[0].kill()
     output, errors = process.communicate(timeout=180)
     assert (process.returncode, output) == (2, "")
-    assert errors.count("\n") == 1
-    assert "the scheduler is gone" in errors
+    assert "the scheduler is gone" in errors.splitlines()[-1]
     assert kept(environment) > 0
 
 

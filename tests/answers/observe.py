@@ -163,7 +163,8 @@ def _surfaces(path):
 
 
 def _text(path):
-    text = _REMARKS[path.suffix].sub("", path.read_text("utf-8"))
+    # A deck names its case, which may stand anywhere.
+    text = _REMARKS[path.suffix].sub("", path.read_text("utf-8")).replace(f"{HERE}/", "")
     numbers = [float(re.sub("[dD]", "e", number)) for number in _NUMBER.findall(text)]
     # Where a line of numbers is broken depends on how many digits each has.
     words = " ".join(_NUMBER.sub("#", text).split())
