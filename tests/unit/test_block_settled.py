@@ -76,10 +76,9 @@ def test_a_method_that_does_not_answer_is_refused(settings, why):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("k", [2, 6, 20])
-def test_a_settled_block_is_what_a_march_of_a_second_comes_to(k):
-    settings = (f"vibration.velocity_ratio={k}", "solve.step=1.25 us")
+def test_a_settled_block_is_what_a_march_of_a_second_comes_to():
+    settings = ("vibration.velocity_ratio=6", "solve.step=1.25 us")
     quick = settle(BlockProblem.from_case(case(SETTLED, *settings)))
     marched = solve_block(BlockProblem.from_case(case(*settings)), history=False)
     assert quick.ratio == pytest.approx(marched.ratio, rel=2e-3)
-    assert marched.seconds > 30.0 * quick.seconds
+    assert marched.steps > 30 * quick.increments
