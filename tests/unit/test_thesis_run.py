@@ -256,7 +256,9 @@ def test_a_change_reaches_what_follows_from_it_and_nothing_else(follow_from):
     again = follow_from("rating/__init__.py")
     assert {"claim 7.1", "table 3.2"} <= again
     elsewhere = ("4.", "5.2", "5.5", "5.6", "5.7", "5.8", "5.9", "5.10", "5.11", "7.8", "7.9")
-    assert not {name for name in again if name.split()[1].startswith(elsewhere)}
+    found = {name for name in again if name.split()[1].startswith(elsewhere)}
+    # A pressure of the rating, though chapter 7 states it.
+    assert found <= {"claim 7.9"}
     again = follow_from("slider/batch.py")
     assert {"figure 4.17", "claim 4.6", "figure 5.5", "claim 5.1", "figure 7.8"} <= again
     assert not {"figure 2.11", "figure 7.11"} & again

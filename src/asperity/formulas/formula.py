@@ -210,7 +210,10 @@ class _Made:
             if type(value) is float:
                 # A Python float raises where an array has an infinite number.
                 value = np.float64(value)
-            given[name] = value if size == 1.0 else value / size
+            if size != 1.0:
+                with np.errstate(over="ignore"):
+                    value = value / size
+            given[name] = value
         lowest, highest = self.result.bounds.ends
         with np.errstate(all="ignore"):
             values = self.body(**given)
