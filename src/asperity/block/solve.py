@@ -50,7 +50,11 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult | SettledBlock:
         with run.going_on():
             return march.run()
     except (ConvergenceError, KeyboardInterrupt) as error:
-        _write_unfinished(march, run, str(error))
+        why = str(error)
+        if isinstance(error, KeyboardInterrupt):
+            # Where it goes on from is nobody's business a year later.
+            why = why.partition(";")[0]
+        _write_unfinished(march, run, why)
         raise
 
 
