@@ -380,14 +380,13 @@ def test_the_page_goes_chapter_by_chapter_with_claims_figures_and_tables(result)
 
 
 @pytest.mark.slow
-def test_a_second_run_finds_everything_says_so_and_takes_seconds(whole):
+def test_a_second_run_finds_everything_and_says_so(whole):
     lines = []
     again = run(whole.index.parent, progress=lines.append)
     assert all(files.reused for files in (*again.figures, *again.tables))
     assert [entry.to_json() for entry in again.claims] == [e.to_json() for e in whole.claims]
     assert len(lines) == len(FIGURES) + len(TABLES) + len(CLAIMS)
     assert all(line.endswith("there already") for line in lines)
-    assert again.seconds < 5.0
 
 
 def test_a_wheel_bears_as_the_dye_shows_it(result):

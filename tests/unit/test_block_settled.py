@@ -4,7 +4,6 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution import settled
-from asperity.block.solution.march import solve_block
 from asperity.block.solution.settled import SettledBlock, settle
 from asperity.block.solve import answer, prepare
 from asperity.casefile import read_case
@@ -73,12 +72,3 @@ def test_a_settled_block_is_saved_and_read(found, tmp_path):
 def test_a_method_that_does_not_answer_is_refused(settings, why):
     with pytest.raises(InputError, match=why):
         prepare(case(*settings))
-
-
-@pytest.mark.slow
-def test_a_settled_block_is_what_a_march_of_a_second_comes_to():
-    settings = ("vibration.velocity_ratio=6", "solve.step=1.25 us")
-    quick = settle(BlockProblem.from_case(case(SETTLED, *settings)))
-    marched = solve_block(BlockProblem.from_case(case(*settings)), history=False)
-    assert quick.ratio == pytest.approx(marched.ratio, rel=2e-3)
-    assert marched.steps > 30 * quick.increments
