@@ -27,6 +27,8 @@ exclude_patterns = ["_build"]
 
 autosummary_generate = True
 autodoc_typehints = "none"
+# Names of types that take arguments have no signature that could be written.
+suppress_warnings = ["autodoc"]
 autodoc_default_options = {"exclude-members": "model_config"}
 numpydoc_show_class_members = False
 
