@@ -15,8 +15,9 @@ Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
 
 
-# A work that will take longer than that is announced, once it has been looked at for so long.
-_LONG_SECONDS = 60.0
+# A work that takes a minute is announced, once it has been looked at for a while; the estimate
+# wavers, so the line is drawn a little lower.
+_LONG_SECONDS = 50.0
 _LOOK_SECONDS = 2.0
 
 
@@ -83,9 +84,9 @@ class Run:
         began, first = self._begun
         if self._announced or now - began < _LOOK_SECONDS or done <= first:
             return
-        self._announced = True
         left = (now - began) / (done - first) * (total - done)
-        if left > _LONG_SECONDS:
+        if now - began + left > _LONG_SECONDS:
+            self._announced = True
             self.notify(f"this will take about {duration(left)}")
 
     def resume(self, key: str) -> Tree | None:
