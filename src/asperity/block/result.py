@@ -4,10 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from asperity.arrays import FloatArray
+from asperity.arrays import FloatArray, IntArray
 from asperity.block.problem import BlockProblem
 from asperity.block.series import Frame, write_block_series
 from asperity.contact.motion.ledger import ContactLedger
@@ -15,8 +12,6 @@ from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
 from asperity.slider.result import History, SlideResult, table_inputs
 from asperity.slider.result import inputs as slider_inputs
-
-IntArray = NDArray[np.int64]
 
 
 class BlockResult(SlideResult):

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.flanks.wheel.flank import RESOLVED
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 
 if TYPE_CHECKING:

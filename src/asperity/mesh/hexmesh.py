@@ -5,13 +5,12 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, nearest
 from asperity.mesh import shape
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 Unit = Literal["m", "mm"]
 
 _PER_METRE = {"m": 1.0, "mm": 1000.0}
@@ -44,10 +43,10 @@ class HexMesh:
         face does not exist.
     """
 
-    points: Floats
-    cells: Integers
-    node_sets: Mapping[str, Integers] = field(default_factory=dict)
-    face_sets: Mapping[str, Integers] = field(default_factory=dict)
+    points: FloatArray
+    cells: IntArray
+    node_sets: Mapping[str, IntArray] = field(default_factory=dict)
+    face_sets: Mapping[str, IntArray] = field(default_factory=dict)
     unit: Unit = "m"
 
     def __post_init__(self) -> None:
@@ -81,7 +80,7 @@ class HexMesh:
         """Order of the shape functions: 1 with 8 nodes a cell, 2 with 27."""
         return 1 if self.cells.shape[1] == 8 else 2
 
-    def node_set(self, name: str) -> Integers:
+    def node_set(self, name: str) -> IntArray:
         """Return the nodes of a set.
 
         Raises
@@ -93,7 +92,7 @@ class HexMesh:
             raise InputError(f"the mesh has no node set {name!r}{nearest(name, self.node_sets)}")
         return self.node_sets[name]
 
-    def face_set(self, name: str) -> Integers:
+    def face_set(self, name: str) -> IntArray:
         """Return the faces of a set, shape (k, 2): cell and local face.
 
         Raises
@@ -105,7 +104,7 @@ class HexMesh:
             raise InputError(f"the mesh has no face set {name!r}{nearest(name, self.face_sets)}")
         return self.face_sets[name]
 
-    def face_nodes(self, faces: str | ArrayLike) -> Integers:
+    def face_nodes(self, faces: str | ArrayLike) -> IntArray:
         """Return the nodes of faces, counterclockwise seen from outside.
 
         Parameters
@@ -120,10 +119,10 @@ class HexMesh:
         """
         pairs = self.face_set(faces) if isinstance(faces, str) else np.asarray(faces, np.int64)
         local = shape.FACES if self.order == 1 else shape.QUADRATIC_FACES
-        nodes: Integers = self.cells[pairs[:, :1], local[pairs[:, 1]]]
+        nodes: IntArray = self.cells[pairs[:, :1], local[pairs[:, 1]]]
         return nodes
 
-    def skin_faces(self) -> Integers:
+    def skin_faces(self) -> IntArray:
         """Return the faces that belong to one cell alone, shape (k, 2): cell and local face.
 
         Raises
@@ -138,13 +137,13 @@ class HexMesh:
         single = np.flatnonzero(count[index.reshape(-1)] == 1)
         return np.column_stack([single // 6, single % 6])
 
-    def skin(self) -> Integers:
+    def skin(self) -> IntArray:
         """Return the corner nodes of the skin's faces, shape (k, 4), counterclockwise outside."""
         faces = self.skin_faces()
-        quads: Integers = self.cells[faces[:, :1], shape.FACES[faces[:, 1]]]
+        quads: IntArray = self.cells[faces[:, :1], shape.FACES[faces[:, 1]]]
         return quads
 
-    def open_edges(self) -> Integers:
+    def open_edges(self) -> IntArray:
         """Return the skin's edges that do not join exactly two faces of it, shape (k, 2)."""
         quads = self.skin()
         edges = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
@@ -158,7 +157,7 @@ class HexMesh:
         """Return whether the skin is closed: every edge once in each direction."""
         return not len(self.open_edges())
 
-    def jacobians(self) -> Floats:
+    def jacobians(self) -> FloatArray:
         """Return det J at the cells' Gauss points, shape (m, 8) or (m, 27), unit cubed.
 
         The reference cell is [-1, 1]^3, so that a cube of edge h has h^3/8 everywhere.
@@ -173,7 +172,7 @@ class HexMesh:
         _, weights = shape.gauss(self.order + 1, 3)
         return float((self.jacobians() @ weights).sum())
 
-    def scaled_jacobian(self) -> Floats:
+    def scaled_jacobian(self) -> FloatArray:
         """Return the scaled Jacobian of each cell, shape (m,), from -1 (inverted) to 1 (a cuboid).
 
         The smallest triple product of unit vectors along the three edges that meet at a corner, and
@@ -201,7 +200,7 @@ class HexMesh:
             return self
         cells, points = [self.cells], [self.points]
         whole = np.arange(8)[None, :]
-        parents: list[tuple[Integers, int]] = []
+        parents: list[tuple[IntArray, int]] = []
         start = len(self.points)
         for local in (shape.EDGES, shape.FACES, whole):
             owners = np.sort(self.cells[:, local].reshape(-1, local.shape[1]), axis=1)
@@ -249,14 +248,14 @@ class HexMesh:
         return self if scale == 1.0 else replace(self, points=self.points * scale, unit=unit)
 
 
-def _integers(values: ArrayLike, what: str) -> Integers:
+def _integers(values: ArrayLike, what: str) -> IntArray:
     array = np.asarray(values)
     if array.size and array.dtype.kind not in "iu":
         raise InputError(f"{what} are {array.dtype} numbers; give whole numbers")
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
-def _check_range(numbers: Integers, count: int, what: str) -> None:
+def _check_range(numbers: IntArray, count: int, what: str) -> None:
     if numbers.size and (numbers.min() < 0 or numbers.max() >= count):
         raise InputError(
             f"{what} name numbers from {numbers.min()} to {numbers.max()}; "

@@ -8,8 +8,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from asperity.arrays import IntArray
 from asperity.errors import InputError
-from asperity.mesh.hexmesh import HexMesh, Integers
+from asperity.mesh.hexmesh import HexMesh
 
 _NO_FACES = np.empty((0, 2), np.int64)
 
@@ -64,7 +65,7 @@ def merged(meshes: Sequence[HexMesh], tolerance: float | None = None) -> HexMesh
         ),
         _keys(bare.skin_faces()),
     )
-    face_sets: dict[str, Integers] = {}
+    face_sets: dict[str, IntArray] = {}
     for name in dict.fromkeys(name for mesh in meshes for name in mesh.face_sets):
         faces = np.concatenate(
             [
@@ -73,7 +74,7 @@ def merged(meshes: Sequence[HexMesh], tolerance: float | None = None) -> HexMesh
             ]
         )
         face_sets[name] = faces[~np.isin(_keys(faces), joined)]
-    node_sets: dict[str, Integers] = {}
+    node_sets: dict[str, IntArray] = {}
     for name in dict.fromkeys(name for mesh in meshes for name in mesh.node_sets):
         if name in face_sets:
             node_sets[name] = np.unique(bare.face_nodes(face_sets[name]))
@@ -87,6 +88,6 @@ def merged(meshes: Sequence[HexMesh], tolerance: float | None = None) -> HexMesh
     return replace(bare, node_sets=node_sets, face_sets=face_sets)
 
 
-def _keys(faces: Integers) -> Integers:
-    keys: Integers = 6 * faces[:, 0] + faces[:, 1]
+def _keys(faces: IntArray) -> IntArray:
+    keys: IntArray = 6 * faces[:, 0] + faces[:, 1]
     return keys

@@ -13,9 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import qr
 
+from asperity.arrays import FloatArray
 from asperity.block.deck.setup import BlockSetup, numbers
-
-FloatArray = npt.NDArray[np.float64]
 
 _TERMS_A_LINE = 4
 # Freedoms of the contact are taken out of the unknowns where no other will do.

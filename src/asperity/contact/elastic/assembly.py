@@ -9,17 +9,15 @@ from collections.abc import Iterator
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.contact.elastic import hex8i
 from asperity.contact.elastic.material import ElasticMaterial
 from asperity.errors import InputError, choices
 from asperity.mesh import HexMesh
 from asperity.mesh.shape import REFERENCE_NODES
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 ElementName = Literal["hex27", "hex8", "hex8i"]
 
 NODES = {"hex27": 27, "hex8": 8, "hex8i": 8}
@@ -48,7 +46,7 @@ def element_of(mesh: HexMesh, element: str | None) -> ElementName:
     return name  # type: ignore[return-value]
 
 
-def scikit_fem_basis(mesh: HexMesh) -> tuple[Any, Any, Integers]:
+def scikit_fem_basis(mesh: HexMesh) -> tuple[Any, Any, IntArray]:
     """Return a mesh as scikit-fem knows it, its scalar element, and the order of its nodes.
 
     Returns
@@ -78,7 +76,7 @@ def scikit_fem_basis(mesh: HexMesh) -> tuple[Any, Any, Integers]:
     return skfem.MeshHex2(points, cells), element, order
 
 
-def _bases(mesh: HexMesh) -> Iterator[tuple[slice, Any, Integers]]:
+def _bases(mesh: HexMesh) -> Iterator[tuple[slice, Any, IntArray]]:
     import skfem
 
     converted, element, order = scikit_fem_basis(mesh)
@@ -91,7 +89,7 @@ def _bases(mesh: HexMesh) -> Iterator[tuple[slice, Any, Integers]]:
 
 def _stiffness_of_cells(
     mesh: HexMesh, material: ElasticMaterial, element: ElementName
-) -> Iterator[tuple[slice, Floats]]:
+) -> Iterator[tuple[slice, FloatArray]]:
     if element == "hex8i":
         for first in range(0, len(mesh.cells), _CELLS_AT_A_TIME):
             cells = slice(first, first + _CELLS_AT_A_TIME)
@@ -105,7 +103,7 @@ def _stiffness_of_cells(
         yield cells, hex8i.stiffness_of_products(products, material)
 
 
-def _pattern(mesh: HexMesh) -> tuple[Integers, Integers, Integers]:
+def _pattern(mesh: HexMesh) -> tuple[IntArray, IntArray, IntArray]:
     """Which nodes share a cell: CSR rows and columns, and each cell's place in them."""
     count = len(mesh.points)
     keys = (mesh.cells[:, :, None] * count + mesh.cells[:, None, :]).reshape(-1)

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import qr
 from scipy.sparse.csgraph import connected_components
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.contact.elastic.assembly import (
     ElementName,
     element_of,
@@ -29,9 +29,6 @@ from asperity.contact.elastic.material import ElasticMaterial
 from asperity.contact.elastic.solver import Factorisation, factorise
 from asperity.errors import InputError
 from asperity.mesh import HexMesh
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +54,7 @@ class ElasticBody:
     mesh: HexMesh
     material: ElasticMaterial
     element: ElementName
-    tied: Integers
+    tied: IntArray
     wanted_solver: str = "auto"
 
     @property
@@ -75,19 +72,19 @@ class ElasticBody:
         """Consistent mass of one displacement component, shape (N, N), kg."""
         return mass_matrix(self.mesh, self.material.density)
 
-    def mass_times(self, displacements: Floats) -> Floats:
+    def mass_times(self, displacements: FloatArray) -> FloatArray:
         """Return the mass matrix times displacements, shape (3N,) or (3N, k)."""
         nodes = displacements.reshape(len(self.mesh.points), -1)
         return np.asarray(self.nodal_mass @ nodes).reshape(displacements.shape)
 
     @cached_property
-    def centre(self) -> Floats:
+    def centre(self) -> FloatArray:
         """Centre of mass, shape (3,), m."""
         mass = self.nodal_mass.sum(axis=0)
         return np.asarray(mass @ self.mesh.points / mass.sum())
 
     @cached_property
-    def rigid(self) -> Floats:
+    def rigid(self) -> FloatArray:
         """Displacements of the six rigid modes, shape (3N, 6).
 
         Shifts along x, y, z; turns about x, y, z through the centre of mass (m per rad).
@@ -100,24 +97,24 @@ class ElasticBody:
         return modes.reshape(-1, 6)
 
     @cached_property
-    def inertia(self) -> Floats:
+    def inertia(self) -> FloatArray:
         """Nodal forces of a unit acceleration of each rigid mode, M R, shape (3N, 6)."""
         return self.mass_times(self.rigid)
 
     @cached_property
-    def rigid_mass(self) -> Floats:
+    def rigid_mass(self) -> FloatArray:
         """Mass and inertia about the centre of mass, R^T M R, shape (6, 6), kg and kg m^2."""
         mass = self.rigid.T @ self.inertia
         return np.asarray(0.5 * (mass + mass.T))
 
     @cached_property
-    def moving(self) -> Integers:
+    def moving(self) -> IntArray:
         """Freedoms solved for: those not tied, or all but six of a free body."""
         held = np.zeros(3 * len(self.mesh.points), dtype=bool)
         held[self._isostatic() if self.free else _freedoms(self.tied)] = True
         return np.flatnonzero(~held)
 
-    def _isostatic(self) -> Integers:
+    def _isostatic(self) -> IntArray:
         # Six freedoms that hold the body, far apart; chosen among the nodes on its bounding box.
         points = self.mesh.points
         ends = np.unique(np.concatenate([points.argmin(axis=0), points.argmax(axis=0)]))
@@ -132,7 +129,7 @@ class ElasticBody:
         """The stiffness of the freedoms solved for, factorised."""
         return factorise(self.stiffness[self.moving][:, self.moving], self.wanted_solver)
 
-    def response(self, forces: Floats) -> Floats:
+    def response(self, forces: FloatArray) -> FloatArray:
         """Return the displacements under static loads, shape (3N,) or (3N, k), m.
 
         A free body's loads are balanced by its inertia, and its answer holds no rigid motion.
@@ -153,7 +150,7 @@ class ElasticBody:
             answer -= self.rigid @ np.linalg.solve(self.rigid_mass, self.inertia.T @ answer)
         return answer.reshape(forces.shape)
 
-    def residual(self, forces: Floats, answer: Floats) -> float:
+    def residual(self, forces: FloatArray, answer: FloatArray) -> float:
         """Return the largest residual of `response` relative to its forces, shape (3N, k) both."""
         error = self.stiffness @ answer - forces
         if self.free:
@@ -164,8 +161,8 @@ class ElasticBody:
         return float(relative.max(initial=0.0))
 
 
-def _freedoms(nodes: Integers) -> Integers:
-    rows: Integers = (3 * np.asarray(nodes)[:, None] + np.arange(3)).reshape(-1)
+def _freedoms(nodes: IntArray) -> IntArray:
+    rows: IntArray = (3 * np.asarray(nodes)[:, None] + np.arange(3)).reshape(-1)
     return rows
 
 
@@ -228,7 +225,7 @@ def _check_one_piece(mesh: HexMesh) -> None:
         raise InputError(f"the mesh falls into {pieces} pieces that share no node; join them")
 
 
-def _check_held(points: Floats, nodes: Integers, name: str) -> None:
+def _check_held(points: FloatArray, nodes: IntArray, name: str) -> None:
     if len(nodes) == len(points):
         raise InputError(f"set {name!r} ties every node; nothing is left to deform")
     spread = points[nodes] - points[nodes].mean(axis=0) if len(nodes) else np.zeros((1, 3))

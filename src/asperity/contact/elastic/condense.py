@@ -10,8 +10,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.closure import source_key
 from asperity.contact.elastic.body import ElasticBody, elastic_body
 from asperity.contact.elastic.condensed import CondensedBody
@@ -25,9 +25,6 @@ from asperity.mesh import HexMesh
 from asperity.runs.cache import Cache
 from asperity.runs.key import key
 from asperity.runs.tree import from_tree, to_tree
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 GRAVITY = ("gravity_x", "gravity_y", "gravity_z")
 """The loads every body has: its mass times 1 m/s^2 along an axis."""
@@ -193,7 +190,7 @@ def memory_for(
     return float(assembly + factor_bytes(unknowns, 9 * pairs, solver) + dense)
 
 
-def _tied_nodes(mesh: HexMesh, tied: str | None) -> Integers:
+def _tied_nodes(mesh: HexMesh, tied: str | None) -> IntArray:
     if tied is None:
         return np.empty(0, dtype=np.int64)
     return mesh.node_set(tied) if tied in mesh.node_sets else mesh.face_nodes(tied)
@@ -203,7 +200,7 @@ def _condense(
     body: ElasticBody,
     surface: ContactSurface,
     names: tuple[str, ...],
-    pushed: Floats,
+    pushed: FloatArray,
     movable: bool,
     count: int,
 ) -> CondensedBody:

@@ -14,12 +14,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, nearest
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +33,9 @@ class LoadResponse:
         Generalised force on each mode.
     """
 
-    displacement: Floats
-    rigid: Floats
-    modes: Floats
+    displacement: FloatArray
+    rigid: FloatArray
+    modes: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,22 +96,22 @@ class CondensedBody:
         Whether this was read back from disk.
     """
 
-    nodes: Integers
-    positions: Floats
-    flexibility: Floats
-    rigid: Floats
-    mass: Floats
-    centre: Floats
-    modes: Floats
-    mode_frequency: Floats
+    nodes: IntArray
+    positions: FloatArray
+    flexibility: FloatArray
+    rigid: FloatArray
+    mass: FloatArray
+    centre: FloatArray
+    modes: FloatArray
+    mode_frequency: FloatArray
     natural_modes: int
-    mode_inertia: Floats
-    inertia_response: Floats
+    mode_inertia: FloatArray
+    inertia_response: FloatArray
     load_names: tuple[str, ...]
-    load_flexibility: Floats
-    load_compliance: Floats
-    load_rigid: Floats
-    load_modes: Floats
+    load_flexibility: FloatArray
+    load_compliance: FloatArray
+    load_rigid: FloatArray
+    load_modes: FloatArray
     unknowns: int
     solver: str
     residual: float
@@ -122,27 +119,27 @@ class CondensedBody:
     from_cache: bool = False
 
     @property
-    def mode_mass(self) -> Floats:
+    def mode_mass(self) -> FloatArray:
         """Generalised masses of the modes, kg: 1 each."""
         return np.ones(len(self.mode_frequency))
 
     @property
-    def mode_stiffness(self) -> Floats:
+    def mode_stiffness(self) -> FloatArray:
         """Generalised stiffness of the modes, N/m."""
         return np.asarray((2.0 * np.pi * self.mode_frequency) ** 2)
 
     @cached_property
-    def residual_flexibility(self) -> Floats:
+    def residual_flexibility(self) -> FloatArray:
         """Static flexibility less the share of the modes, shape (3n, 3n), m/N."""
         return self.flexibility - (self.modes / self.mode_stiffness) @ self.modes.T
 
     @cached_property
-    def residual_load_flexibility(self) -> Floats:
+    def residual_load_flexibility(self) -> FloatArray:
         """``load_flexibility`` less the share of the modes, shape (3n, L)."""
         return self.load_flexibility - (self.modes / self.mode_stiffness) @ self.load_modes
 
     @cached_property
-    def residual_load_compliance(self) -> Floats:
+    def residual_load_compliance(self) -> FloatArray:
         """``load_compliance`` less the share of the modes, shape (L, L)."""
         share = (self.load_modes.T / self.mode_stiffness) @ self.load_modes
         return np.asarray(self.load_compliance - share)
@@ -166,7 +163,7 @@ class CondensedBody:
             self.load_flexibility[:, column], self.load_rigid[:, column], self.load_modes[:, column]
         )
 
-    def loads(self, sizes: Mapping[str, float]) -> Floats:
+    def loads(self, sizes: Mapping[str, float]) -> FloatArray:
         """Return a vector of loads, shape (L,), from sizes by name; the others are zero."""
         vector = np.zeros(len(self.load_names))
         for name, size in sizes.items():

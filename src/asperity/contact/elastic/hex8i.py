@@ -7,17 +7,15 @@ and Wilson (A non-conforming element for stress analysis, Int. J. Numer. Meth. E
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray
 from asperity.contact.elastic.material import ElasticMaterial
 from asperity.mesh import shape
-
-Floats = NDArray[np.float64]
 
 _MODES = 3
 
 
-def products_of_gradients(gradients: Floats, weights: Floats) -> Floats:
+def products_of_gradients(gradients: FloatArray, weights: FloatArray) -> FloatArray:
     r"""Return :math:`H_{aibj} = \int \partial_i N_a\, \partial_j N_b`, shape (m, n, 3, n, 3).
 
     Parameters
@@ -33,7 +31,7 @@ def products_of_gradients(gradients: Floats, weights: Floats) -> Floats:
     return products.reshape(cells, functions, 3, functions, 3)
 
 
-def stiffness_of_products(products: Floats, material: ElasticMaterial) -> Floats:
+def stiffness_of_products(products: FloatArray, material: ElasticMaterial) -> FloatArray:
     r"""Return the stiffness of isotropic elasticity, shape (m, 3n, 3n), N/m.
 
     :math:`K_{aibj} = \lambda H_{aibj} + \mu H_{ajbi} + \mu\,\delta_{ij} H_{akbk}`.
@@ -47,7 +45,7 @@ def stiffness_of_products(products: Floats, material: ElasticMaterial) -> Floats
     return stiffness.reshape(len(products), size, size)
 
 
-def element_stiffness(corners: Floats, material: ElasticMaterial) -> Floats:
+def element_stiffness(corners: FloatArray, material: ElasticMaterial) -> FloatArray:
     """Return the elements' stiffness with the incompatible modes condensed out.
 
     Parameters

@@ -5,13 +5,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, shape
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 Direction = tuple[float, float, float]
 
 
@@ -23,12 +21,12 @@ class Load(Protocol):
     moves along it.
     """
 
-    def forces(self, mesh: HexMesh) -> Floats:
+    def forces(self, mesh: HexMesh) -> FloatArray:
         """Return the nodal forces of the unit load, shape (n, 3)."""
         ...
 
 
-def _unit(direction: Direction) -> Floats:
+def _unit(direction: Direction) -> FloatArray:
     vector = np.asarray(direction, dtype=float)
     length = float(np.linalg.norm(vector)) if vector.shape == (3,) else 0.0
     if not (np.isfinite(length) and length > 0.0):
@@ -51,7 +49,7 @@ class Force:
     nodes: str | Sequence[int]
     direction: Direction
 
-    def forces(self, mesh: HexMesh) -> Floats:
+    def forces(self, mesh: HexMesh) -> FloatArray:
         """Return the nodal forces of the unit load, shape (n, 3)."""
         if isinstance(self.nodes, str):
             nodes = mesh.node_set(self.nodes)
@@ -79,7 +77,7 @@ class Traction:
     faces: str
     direction: Direction
 
-    def forces(self, mesh: HexMesh) -> Floats:
+    def forces(self, mesh: HexMesh) -> FloatArray:
         """Return the nodal forces of the unit load, shape (n, 3)."""
         nodes, values, normals = _face_rule(mesh, self.faces)
         areas = np.linalg.norm(normals, axis=2)
@@ -101,7 +99,7 @@ class Pressure:
 
     faces: str
 
-    def forces(self, mesh: HexMesh) -> Floats:
+    def forces(self, mesh: HexMesh) -> FloatArray:
         """Return the nodal forces of the unit load, shape (n, 3)."""
         nodes, values, normals = _face_rule(mesh, self.faces)
         forces = np.zeros_like(mesh.points)
@@ -109,7 +107,7 @@ class Pressure:
         return forces
 
 
-def _face_rule(mesh: HexMesh, faces: str) -> tuple[Integers, Floats, Floats]:
+def _face_rule(mesh: HexMesh, faces: str) -> tuple[IntArray, FloatArray, FloatArray]:
     """Nodes (k, n), shape values (q, n), and outward normals times weighted area (k, q, 3)."""
     nodes = mesh.face_nodes(faces)
     if not len(nodes):

@@ -12,15 +12,13 @@ deform the body only near the surface, where little mass moves.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from asperity.arrays import FloatArray
 from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.elastic.condensed import CondensedBody
 from asperity.contact.interface.surface import ContactSurface
-
-Floats = NDArray[np.float64]
 
 # Below this many unknowns all modes at once are as cheap as a few.
 _DENSE_UNKNOWNS = 600
@@ -31,7 +29,7 @@ _DEPENDENT = 1e-8
 
 def shapes_with_inertia(
     body: ElasticBody, surface: ContactSurface, count: int
-) -> tuple[Floats, Floats]:
+) -> tuple[FloatArray, FloatArray]:
     """Return the lowest natural modes, then shapes for smooth tractions on a surface.
 
     Parameters
@@ -67,7 +65,9 @@ def shapes_with_inertia(
     return np.hstack([modes, _signed(basis @ turn)]), np.concatenate([frequency, own])
 
 
-def whole_shapes(body: ElasticBody, surface: ContactSurface, condensed: CondensedBody) -> Floats:
+def whole_shapes(
+    body: ElasticBody, surface: ContactSurface, condensed: CondensedBody
+) -> FloatArray:
     """Return the shapes of a condensed body at every node, for pictures, shape (3N, k).
 
     Shapes of equal frequency may be combined otherwise each time they are computed; these are
@@ -79,7 +79,7 @@ def whole_shapes(body: ElasticBody, surface: ContactSurface, condensed: Condense
     return np.asarray(shapes @ combination)
 
 
-def _smooth_forces(body: ElasticBody, surface: ContactSurface) -> Floats:
+def _smooth_forces(body: ElasticBody, surface: ContactSurface) -> FloatArray:
     """Nodal forces of tractions along x, y, z that are polynomials over the surface."""
     places = surface.points - surface.integral(surface.points) / surface.area
     _, _, axes = np.linalg.svd(places.reshape(-1, 3), full_matrices=False)
@@ -96,13 +96,13 @@ def _smooth_forces(body: ElasticBody, surface: ContactSurface) -> Floats:
     return np.stack(columns, axis=1)
 
 
-def _signed(shapes: Floats) -> Floats:
+def _signed(shapes: FloatArray) -> FloatArray:
     # The sign is a convention; this one does not depend on the solver.
     strongest = np.abs(shapes).argmax(axis=0)
     return np.asarray(shapes * np.sign(shapes[strongest, np.arange(shapes.shape[1])]))
 
 
-def natural_modes(body: ElasticBody, count: int) -> tuple[Floats, Floats]:
+def natural_modes(body: ElasticBody, count: int) -> tuple[FloatArray, FloatArray]:
     """Return the lowest elastic modes of a body, with tied nodes held.
 
     Parameters
@@ -137,7 +137,7 @@ def natural_modes(body: ElasticBody, count: int) -> tuple[Floats, Floats]:
     return _signed(shapes[:, order]), np.sqrt(squared[order]) / (2.0 * np.pi)
 
 
-def _all_modes(body: ElasticBody) -> tuple[Floats, Floats]:
+def _all_modes(body: ElasticBody) -> tuple[FloatArray, FloatArray]:
     moving = np.arange(len(body.rigid)) if body.free else body.moving
     stiffness = body.stiffness[moving][:, moving].toarray()
     mass = body.mass_times(np.eye(len(body.rigid)))[np.ix_(moving, moving)]

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError, MissingExtraError, choices
-
-Floats = NDArray[np.float64]
 
 SOLVERS = ("pypardiso", "superlu")
 COLUMNS_AT_A_TIME = 128
@@ -97,9 +96,9 @@ class Factorisation:
 
     matrix: sparse.csr_array
     solver: str
-    _solve: Callable[[Floats], Floats] = field(repr=False)
+    _solve: Callable[[FloatArray], FloatArray] = field(repr=False)
 
-    def solve(self, right: Floats) -> Floats:
+    def solve(self, right: FloatArray) -> FloatArray:
         """Return the solution of one or several right-hand sides, shape (n,) or (n, k)."""
         columns = right.reshape(len(right), -1)
         answer = np.empty_like(columns)
@@ -108,7 +107,7 @@ class Factorisation:
             answer[:, block] = self._solve(np.asfortranarray(columns[:, block]))
         return answer.reshape(right.shape)
 
-    def residual(self, right: Floats, answer: Floats) -> float:
+    def residual(self, right: FloatArray, answer: FloatArray) -> float:
         """Return the largest relative residual of the columns, shape (n, k) each."""
         error = np.linalg.norm(self.matrix @ answer - right, axis=0)
         size = np.linalg.norm(right, axis=0)
@@ -156,7 +155,7 @@ def _new_pardiso(matrix_type: int) -> Any:
     return backend
 
 
-def _pardiso(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
+def _pardiso(matrix: sparse.csr_array) -> Callable[[FloatArray], FloatArray]:
     from pypardiso.pardiso_wrapper import PyPardisoError
 
     symmetric_positive = 2
@@ -179,12 +178,12 @@ class _Pardiso:
         self._upper = upper
         weakref.finalize(self, backend.free_memory, everything=True)
 
-    def __call__(self, right: Floats) -> Floats:
-        answer: Floats = self._backend.solve(self._upper, right)
+    def __call__(self, right: FloatArray) -> FloatArray:
+        answer: FloatArray = self._backend.solve(self._upper, right)
         return answer
 
 
-def _superlu(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
+def _superlu(matrix: sparse.csr_array) -> Callable[[FloatArray], FloatArray]:
     from scipy.sparse.linalg import splu
 
     try:
@@ -193,7 +192,7 @@ def _superlu(matrix: sparse.csr_array) -> Callable[[Floats], Floats]:
         raise _NotPositiveError from error
     if not (factors.U.diagonal() > 0.0).all():
         raise _NotPositiveError
-    solve: Callable[[Floats], Floats] = factors.solve
+    solve: Callable[[FloatArray], FloatArray] = factors.solve
     return solve
 
 
@@ -214,7 +213,7 @@ class GeneralSolver:
         self._backend: Any = None
         self._places: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None
 
-    def solve(self, matrix: sparse.csr_array, right: Floats) -> Floats:
+    def solve(self, matrix: sparse.csr_array, right: FloatArray) -> FloatArray:
         """Return the solution.
 
         Parameters
@@ -239,5 +238,5 @@ class GeneralSolver:
         self._places = places
         factorise_and_solve, all_phases = 23, 13
         self._backend.set_phase(factorise_and_solve if known else all_phases)
-        answer: Floats = self._backend._call_pardiso(ordered, right[:, None])
+        answer: FloatArray = self._backend._call_pardiso(ordered, right[:, None])
         return answer[:, 0]

@@ -14,13 +14,12 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.iterations import product
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.contact.interface.records import Committed, ContactPoints
 from asperity.contact.interface.tractions import augmented_tractions, tractions
-
-FloatArray = npt.NDArray[np.float64]
 
 _ROUNDING = 16.0 * np.finfo(float).eps
 

@@ -16,15 +16,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.contact.increment.coupling import couple, mean_correction, mean_tangent, ratios
 from asperity.contact.interface.active_set import stiffness_forces
 from asperity.contact.interface.tractions import tractions
 from asperity.elimination import eliminate
-
-FloatArray = npt.NDArray[np.float64]
 
 GOING = 0
 CONVERGED = 1

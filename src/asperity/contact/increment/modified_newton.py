@@ -15,15 +15,13 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.contact.increment.equations import Increment, Trial
 from asperity.contact.increment.iterations import CONVERGED, modified_newton
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.increment.tangents import Tangent, factored, outer
 from asperity.contact.interface.active_set import stiffness_forces
 from asperity.contact.interface.records import ContactPoints
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 # Mean stiffness times mean flexibility below which a direction needs no stiffness, and the factor
 # between levels above it.

@@ -21,12 +21,11 @@ import numpy as np
 import numpy.typing as npt
 import scipy.linalg
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.equations import Trial
 from asperity.contact.increment.newton import tangent_matrix
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.active_set import ActiveSet
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def classical(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -> FloatArray:

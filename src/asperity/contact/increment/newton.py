@@ -15,14 +15,12 @@ the integral of :math:`|t(\hat D) - t_a|^2`.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from scipy import sparse
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.equations import AugmentedTrial, Increment, Trial
 from asperity.contact.interface.active_set import ActiveSet
 from asperity.errors import ConvergenceError
-
-FloatArray = npt.NDArray[np.float64]
 
 _LEAST_STEP = 1.0 / 64.0
 _REMEMBERED = 3

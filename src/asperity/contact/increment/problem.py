@@ -17,14 +17,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from asperity.arrays import FloatArray
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.records import Committed, Interface
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import ContactSurface
 from asperity.errors import InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

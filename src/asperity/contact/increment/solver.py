@@ -20,8 +20,8 @@ import dataclasses
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment import modified_newton, newton
 from asperity.contact.increment.equations import Increment, Trial
 from asperity.contact.increment.multipliers import (
@@ -32,8 +32,6 @@ from asperity.contact.increment.multipliers import (
 from asperity.contact.increment.problem import ContactState, IncrementProblem, IncrementResult
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.errors import ConvergenceError, InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 _MOST_AUGMENTATIONS = 40
 

@@ -8,12 +8,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.active_set import ActiveSet
 
-FloatArray = npt.NDArray[np.float64]
 SingleArray = npt.NDArray[np.float32]
-IntArray = npt.NDArray[np.int64]
 
 # Part of a polynomial that the others leave, at which it counts.
 _NEW = 1e-3

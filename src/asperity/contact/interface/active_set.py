@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.contact.interface.records import Interface
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @kernel

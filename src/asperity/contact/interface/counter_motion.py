@@ -6,11 +6,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.interface.rigid import Pose
-
-FloatArray = npt.NDArray[np.float64]
 
 
 class MotionNumbers(NamedTuple):

@@ -5,13 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.contact.interface.friction import PointNumbers
 from asperity.contact.interface.normal import PressureLaw
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
 
 
 class Interface(NamedTuple):

@@ -10,14 +10,12 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.flanks.worm import distance as worm
 from asperity.flanks.worm.helicoid import Helicoid
-
-FloatArray = npt.NDArray[np.float64]
 
 PLANE = 0
 SPHERE = 1

@@ -10,14 +10,11 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, choices
 from asperity.mesh import HexMesh, shape
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,12 +37,12 @@ class ContactSurface:
         Unit normals at the quadrature points, out of the body.
     """
 
-    nodes: Integers
-    positions: Floats
-    faces: Integers
-    shapes: Floats
-    weights: Floats
-    normals: Floats
+    nodes: IntArray
+    positions: FloatArray
+    faces: IntArray
+    shapes: FloatArray
+    weights: FloatArray
+    normals: FloatArray
 
     @property
     def area(self) -> float:
@@ -53,22 +50,22 @@ class ContactSurface:
         return float(self.weights.sum())
 
     @cached_property
-    def points(self) -> Floats:
+    def points(self) -> FloatArray:
         """The quadrature points, shape (k, q, 3), m."""
         return self.to_points(self.positions)
 
     @cached_property
-    def nodal_area(self) -> Floats:
+    def nodal_area(self) -> FloatArray:
         """Area that belongs to each node, shape (n,), m^2; positive, and in all the area."""
         return self.to_forces(np.ones_like(self.weights))
 
     @cached_property
-    def nodal_normals(self) -> Floats:
+    def nodal_normals(self) -> FloatArray:
         """Unit normals at the nodes, shape (n, 3): the mean of those around, by area."""
         mean = self.to_forces(self.normals)
         return np.asarray(mean / np.linalg.norm(mean, axis=1, keepdims=True))
 
-    def to_points(self, nodal: Floats) -> Floats:
+    def to_points(self, nodal: FloatArray) -> FloatArray:
         """Return a nodal field at the quadrature points.
 
         Parameters
@@ -81,7 +78,7 @@ class ContactSurface:
         """
         return np.asarray(np.einsum("qa,ka...->kq...", self.shapes, nodal[self.faces]))
 
-    def integral(self, values: Floats) -> Floats:
+    def integral(self, values: FloatArray) -> FloatArray:
         """Return the integral over the surface of a field at the quadrature points.
 
         Parameters
@@ -90,7 +87,7 @@ class ContactSurface:
         """
         return np.asarray(np.einsum("kq,kq...->...", self.weights, values))
 
-    def to_forces(self, tractions: Floats) -> Floats:
+    def to_forces(self, tractions: FloatArray) -> FloatArray:
         """Return the nodal forces of tractions at the quadrature points.
 
         Parameters
@@ -108,8 +105,8 @@ class ContactSurface:
         return forces
 
     def to_nodes(
-        self, values: Floats, method: Literal["average", "projection"] = "average"
-    ) -> Floats:
+        self, values: FloatArray, method: Literal["average", "projection"] = "average"
+    ) -> FloatArray:
         """Return a nodal field for a picture from values at the quadrature points.
 
         Parameters
@@ -146,7 +143,7 @@ class ContactSurface:
         entries = (local.reshape(-1), (rows.reshape(-1), columns.reshape(-1)))
         return sparse.csc_array(sparse.coo_array(entries, shape=(size, size)))
 
-    def resultant(self, forces: Floats, about: Floats) -> Floats:
+    def resultant(self, forces: FloatArray, about: FloatArray) -> FloatArray:
         """Return the resultant force and moment of nodal forces, shape (6,).
 
         Parameters

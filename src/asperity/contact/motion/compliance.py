@@ -19,14 +19,12 @@ import dataclasses
 import functools
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion.mechanism import Mechanism
 from asperity.errors import InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 # Shift along z and turns about x and y; the other rigid motions are the sliding itself. Modes
 # come after all six.

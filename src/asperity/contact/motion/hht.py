@@ -25,10 +25,9 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 ALPHA = -0.05
 

@@ -18,16 +18,14 @@ the states at both ends, so that one that is wrong leaves the balance open.
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.contact.interface.normal import HARD, TWO_STAGE, pressure
 from asperity.contact.motion import hht
 from asperity.contact.motion import mechanism as mo
 from asperity.results.ledger import PowerLedger
 from asperity.results.quantity import quantity
-
-FloatArray = npt.NDArray[np.float64]
 
 # Places in the vector of sums over steps; forces are trapezoidal means times the step in s.
 TIME = 0

@@ -24,11 +24,10 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.contact.motion import hht
 from asperity.errors import InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 # Places in the vector of the drive's numbers.
 SPRING = 0

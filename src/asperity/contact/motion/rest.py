@@ -3,8 +3,8 @@
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import SurfaceMotion
@@ -13,8 +13,6 @@ from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.steps import resultants, take_step
 from asperity.contact.motion.system import System, SystemState
 from asperity.errors import ConvergenceError, InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 _MOST_STATIC = 50
 _AT_REST = 1e-9

@@ -29,6 +29,7 @@ import numpy.typing as npt
 from scipy import sparse
 from scipy.linalg import block_diag
 
+from asperity.arrays import FloatArray
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import ContactSurface
@@ -36,7 +37,6 @@ from asperity.contact.motion import hht
 from asperity.contact.motion.mechanism import Mechanism
 from asperity.errors import InputError
 
-FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 # Squares of eigenvalues are known to a few thousand times the rounding of the greatest.

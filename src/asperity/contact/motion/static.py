@@ -15,16 +15,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementProblem, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
 from asperity.contact.interface.rigid import Pose
 from asperity.errors import ConvergenceError, InputError
-
-FloatArray = npt.NDArray[np.float64]
 
 _MOST_CUTS = 12
 _MOST_SEARCHES = 60

@@ -7,8 +7,8 @@ halves, and those in halves if need be.
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver, SolverMemory
 from asperity.contact.interface.counter_motion import SurfaceMotion
@@ -16,8 +16,6 @@ from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.system import System, SystemState
 from asperity.errors import ConvergenceError
-
-FloatArray = npt.NDArray[np.float64]
 
 MOST_CUTS = 8
 

@@ -4,8 +4,8 @@ import dataclasses
 import functools
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import IncrementProblem, IncrementResult
 from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
 from asperity.contact.interface.friction import PointFriction
@@ -15,8 +15,6 @@ from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as mo
 from asperity.vibration import Shape, fill_increments
-
-FloatArray = npt.NDArray[np.float64]
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
 # touching, up to this angle of its oscillation in a step; at 3 it leaves 17 % faster.

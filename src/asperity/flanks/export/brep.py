@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, MissingExtraError
 from asperity.flanks.export.patch import Body, Patch
 
@@ -164,7 +164,7 @@ def _face(patch: Patch) -> Any:
     return BRepBuilderAPI_MakeFace(surface, SEWING_TOLERANCE).Face()
 
 
-def _cap(ring: Sequence[NDArray[np.float64]]) -> Any:
+def _cap(ring: Sequence[FloatArray]) -> Any:
     from OCP.BRepBuilderAPI import (
         BRepBuilderAPI_MakeEdge,
         BRepBuilderAPI_MakeFace,
@@ -186,7 +186,7 @@ def _cap(ring: Sequence[NDArray[np.float64]]) -> Any:
     return BRepBuilderAPI_MakeFace(wire.Wire(), True).Face()
 
 
-def _knots(knots: NDArray[np.float64]) -> tuple[Any, Any]:
+def _knots(knots: FloatArray) -> tuple[Any, Any]:
     from OCP.collections import Array1_double, Array1_int
 
     places, counts = np.unique(knots, return_counts=True)

@@ -4,13 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline, make_interp_spline
 
+from asperity.arrays import FloatArray
 from asperity.mesh.polygon import triangulate
 from asperity.mesh.surface import Surface, joined
-
-Floats = NDArray[np.float64]
 
 _DEGREE = 5
 _SAME = 1e-9
@@ -30,7 +29,7 @@ class Patch:
         outer normal.
     """
 
-    points: Floats
+    points: FloatArray
 
     @property
     def degrees(self) -> tuple[int, int]:
@@ -38,7 +37,7 @@ class Patch:
         first, second = self.points.shape[:2]
         return _degree(first), _degree(second)
 
-    def spline(self) -> tuple[Floats, Floats, Floats]:
+    def spline(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the spline through the points: poles (i, j, 3), knots along i, knots along j."""
         along = []
         poles = self.points
@@ -55,7 +54,7 @@ class Patch:
         points = self.points @ matrix.T
         return Patch(points if np.linalg.det(matrix) > 0 else points[::-1])
 
-    def at(self, first: ArrayLike, second: ArrayLike) -> Floats:
+    def at(self, first: ArrayLike, second: ArrayLike) -> FloatArray:
         """Return the spline's points at places 0 to 1 along i and along j, shape (i, j, 3)."""
         poles, *knots = self.spline()
         points = poles
@@ -92,7 +91,7 @@ class Body:
 
     name: str
     patches: Sequence[Patch]
-    rings: Sequence[Sequence[Floats]]
+    rings: Sequence[Sequence[FloatArray]]
 
     def moved(self, matrix: ArrayLike) -> "Body":
         """Return the body turned or mirrored by a matrix."""

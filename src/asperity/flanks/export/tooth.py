@@ -3,13 +3,11 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.wheel.enveloped import Wheel
-
-Floats = NDArray[np.float64]
 
 FLANK_ERROR = 4e-7
 """Largest distance of the spline surfaces from the flanks, mm, but for corners of undercut."""
@@ -86,7 +84,7 @@ def tooth_body(wheel: Wheel, teeth: int = 1) -> Body:
     return Body(name, patches, rings).moved(np.diag([1.0, 1.0, wheel.pair.mirror]))
 
 
-def _fitted(wheel: Wheel, low: float, high: float, columns: int) -> dict[str, Floats]:
+def _fitted(wheel: Wheel, low: float, high: float, columns: int) -> dict[str, FloatArray]:
     """Return the grids round one tooth over a part of its face, fine enough for the splines."""
     grids = _outline(wheel, np.linspace(low, high, columns), 1)
     for halving in range(1, _HALVINGS + 1):
@@ -99,7 +97,7 @@ def _fitted(wheel: Wheel, low: float, high: float, columns: int) -> dict[str, Fl
     return grids
 
 
-def _error(grid: Floats, finer: Floats) -> float:
+def _error(grid: FloatArray, finer: FloatArray) -> float:
     """Return how far the spline through a grid is from exact points between, across the surface."""
     normal = np.cross(np.gradient(finer, axis=0), np.gradient(finer, axis=1))
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
@@ -107,7 +105,7 @@ def _error(grid: Floats, finer: Floats) -> float:
     return float(np.abs(np.einsum("ijk,ijk->ij", between, normal)).max())
 
 
-def _outline(wheel: Wheel, z: Floats, steps: int) -> dict[str, Floats]:
+def _outline(wheel: Wheel, z: FloatArray, steps: int) -> dict[str, FloatArray]:
     """Return the grids round one tooth, counterclockwise seen from +Z, columns at ``z``.
 
     ``steps`` is by how many each step of the coarsest grids round the tooth is divided.
@@ -151,12 +149,12 @@ def _rows(count: int, steps: int) -> int:
     return steps * (count - 1) + 1
 
 
-def _cylinder(radius: Floats | float, angle: Floats, z: Floats) -> Floats:
+def _cylinder(radius: FloatArray | float, angle: FloatArray, z: FloatArray) -> FloatArray:
     points = [radius * np.sin(angle), radius * np.cos(angle), np.broadcast_to(z, angle.shape)]
     return np.stack(points, axis=-1)
 
 
-def _turned(angle: float) -> Floats:
+def _turned(angle: float) -> FloatArray:
     """The matrix that turns from +Y towards +X."""
     cosine, sine = math.cos(angle), math.sin(angle)
     return np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])

@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import MissingExtraError
 from asperity.flanks.export.together import centred_teeth, mounted_worm
 from asperity.flanks.wheel.enveloped import Wheel
@@ -117,7 +115,7 @@ def _theme() -> Any:
     return theme
 
 
-def _polygons(points: NDArray[np.float64], faces: NDArray[np.int64]) -> Any:
+def _polygons(points: FloatArray, faces: IntArray) -> Any:
     import pyvista
 
     return pyvista.PolyData.from_regular_faces(points, faces)

@@ -3,14 +3,13 @@
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.setting import Pair
-
-Floats = NDArray[np.float64]
 
 # Points that leave a quintic through a helix of the worm's size within 1e-8 mm.
 _POINTS_PER_TURN = 60
@@ -68,7 +67,7 @@ def worm_body(pair: Pair, length: float | None = None) -> Body:
     return Body(worm.name, patches, [low, high]).moved(np.diag([1.0, 1.0, pair.mirror]))
 
 
-def _axial_section(worm: Helicoid) -> list[tuple[Floats, Floats]]:
+def _axial_section(worm: Helicoid) -> list[tuple[FloatArray, FloatArray]]:
     """Return radius and axial place of each piece of a start, in the order of their places."""
     side = [worm.curve(u)[:2] for u in _flank_places(worm)]
     if worm.tip_rounding > 0:
@@ -83,7 +82,7 @@ def _axial_section(worm: Helicoid) -> list[tuple[Floats, Floats]]:
     return [root, *side, land, *back]
 
 
-def _flank_places(worm: Helicoid) -> list[Floats]:
+def _flank_places(worm: Helicoid) -> list[FloatArray]:
     """Return places on the flank, even in what it is smooth in, split where it is not."""
     base = worm.profile.base_radius
     root, end = worm.root_radius, worm.flank_end

@@ -11,9 +11,8 @@ Points are polar here, :math:`(R, \theta)` in mm and rad.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from asperity.arrays import FloatArray
 
 _SWEEPS = 30
 
@@ -32,13 +31,13 @@ class Blocks(NamedTuple):
         Where along the rim's outer side the tooth's base begins.
     """
 
-    tooth: Floats
-    rim: Floats
+    tooth: FloatArray
+    rim: FloatArray
     first: int
 
 
 def fill(
-    first: Floats, second: Floats, split: int, across: int, layers: int, inner: float
+    first: FloatArray, second: FloatArray, split: int, across: int, layers: int, inner: float
 ) -> Blocks:
     """Fill cross-sections with two blocks of quadrilaterals.
 
@@ -62,7 +61,7 @@ def fill(
     return Blocks(tooth, _rim(outside, layers, inner), split)
 
 
-def _rim(outside: Floats, layers: int, inner: float) -> Floats:
+def _rim(outside: FloatArray, layers: int, inner: float) -> FloatArray:
     along = np.linspace(0.0, 1.0, len(outside))[:, None]
     inside = np.empty_like(outside)
     inside[..., 0] = inner
@@ -74,7 +73,7 @@ def _rim(outside: Floats, layers: int, inner: float) -> Floats:
     return _smoothed(inside[:, None] + share * (outside[:, None] - inside[:, None]))
 
 
-def _smoothed(block: Floats) -> Floats:
+def _smoothed(block: FloatArray) -> FloatArray:
     """Return a block whose inner points are relaxed by Winslow's equations, its sides as given."""
     if min(block.shape[:2]) < 3:
         return block

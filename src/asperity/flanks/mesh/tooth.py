@@ -5,15 +5,13 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, choices, suggestion
-from asperity.flanks.mesh.section import Blocks, Floats, fill
+from asperity.flanks.mesh.section import Blocks, fill
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
 from asperity.mesh.shape import REFERENCE_NODES
-
-Integers = NDArray[np.int64]
 
 COARSE = 0.2
 """Size of a coarse element on the flank, in axial modules."""
@@ -214,7 +212,7 @@ def _check_memory(number: Counts, teeth: int, order: int, memory: float) -> None
         )
 
 
-def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, Floats]:
+def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, FloatArray]:
     """The blocks of every section, and where the sections are."""
     z = wheel.blank.columns(number.face + 1)
     if order == 2:
@@ -244,16 +242,16 @@ def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, Floats]:
 class _Lattice(NamedTuple):
     """The nodes' numbers by place: along, outwards and over the face."""
 
-    rim: Integers
-    tooth: Integers
+    rim: IntArray
+    tooth: IntArray
 
 
-def _numbered(filled: tuple[Blocks, Floats]) -> tuple[Floats, _Lattice]:
+def _numbered(filled: tuple[Blocks, FloatArray]) -> tuple[FloatArray, _Lattice]:
     """Points of one tooth, x, y, z, and their numbers; the blocks share the tooth's base."""
     blocks, z = filled
-    rim: Integers = np.arange(blocks.rim[..., 0].size).reshape(*blocks.rim.shape[:3])
+    rim: IntArray = np.arange(blocks.rim[..., 0].size).reshape(*blocks.rim.shape[:3])
     upper = blocks.tooth[1:]
-    tooth: Integers = np.empty(blocks.tooth.shape[:3], dtype=np.int64)
+    tooth: IntArray = np.empty(blocks.tooth.shape[:3], dtype=np.int64)
     tooth[0] = rim[blocks.first : blocks.first + tooth.shape[1], -1, :]
     tooth[1:] = rim.size + np.arange(upper[..., 0].size).reshape(*upper.shape[:3])
     points = []
@@ -265,7 +263,7 @@ def _numbered(filled: tuple[Blocks, Floats]) -> tuple[Floats, _Lattice]:
     return np.concatenate(points), _Lattice(rim, tooth.transpose(1, 0, 2))
 
 
-def _cells(ids: Integers, order: int) -> tuple[Integers, Integers]:
+def _cells(ids: IntArray, order: int) -> tuple[IntArray, IntArray]:
     """Cells of a lattice of nodes, shape (m, 8 or 27), and their numbers by place."""
     offsets = (order * (REFERENCE_NODES[: 8 if order == 1 else 27] + 1) / 2).astype(np.int64)
     count = [(size - 1) // order for size in ids.shape]
@@ -274,11 +272,11 @@ def _cells(ids: Integers, order: int) -> tuple[Integers, Integers]:
     return ids[at[..., 0], at[..., 1], at[..., 2]], np.arange(len(at)).reshape(count)
 
 
-def _faces(numbers: Integers, local: int) -> Integers:
+def _faces(numbers: IntArray, local: int) -> IntArray:
     return np.column_stack([numbers.reshape(-1), np.full(numbers.size, local)])
 
 
-def _one_tooth(points: Floats, lattice: _Lattice, number: Counts, order: int) -> HexMesh:
+def _one_tooth(points: FloatArray, lattice: _Lattice, number: Counts, order: int) -> HexMesh:
     rim, at_rim = _cells(lattice.rim, order)
     tooth, at_tooth = _cells(lattice.tooth, order)
     at_tooth = at_tooth + len(rim)

@@ -10,12 +10,11 @@ import dataclasses
 import math
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.flanks.meshing.kinematics import Kinematics
 from asperity.flanks.meshing.pattern.area import crossings
 from asperity.flanks.wheel.enveloped import FlankGrid
-from asperity.flanks.worm.profiles import FloatArray
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -37,8 +36,8 @@ class ContactLines:
     """
 
     worm_angle: float
-    tooth: npt.NDArray[np.int64]
-    corners: npt.NDArray[np.int64]
+    tooth: IntArray
+    corners: IntArray
     weights: FloatArray
     points: FloatArray
     radius: FloatArray
@@ -101,7 +100,7 @@ def contact_lines(
     )
 
 
-def _middles(values: FloatArray, corners: npt.NDArray[np.int64], weights: FloatArray) -> FloatArray:
+def _middles(values: FloatArray, corners: IntArray, weights: FloatArray) -> FloatArray:
     flat = values.reshape(-1)[corners]
     middle = np.sum(weights.mean(axis=1) * flat, axis=1)
     # A mean of equal numbers may lie beside them.
@@ -109,8 +108,8 @@ def _middles(values: FloatArray, corners: npt.NDArray[np.int64], weights: FloatA
 
 
 def _within(
-    corners: npt.NDArray[np.int64], weights: FloatArray, reach: FloatArray
-) -> tuple[npt.NDArray[np.int64], FloatArray]:
+    corners: IntArray, weights: FloatArray, reach: FloatArray
+) -> tuple[IntArray, FloatArray]:
     """Cut the pieces off where the worm's flank ends."""
     ends = np.sum(weights * reach[corners][:, None, :], axis=2)
     kept = ends.max(axis=1) > 0.0

@@ -7,9 +7,9 @@ the axis, without turning one against the other; positive where material was rem
 
 import numpy as np
 
+from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
 from asperity.flanks.wheel.flank import MAP, RESOLVED, FlankGrid, WheelFlank
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.results import Quantities, labelled, quantity
 
 _MICROMETRES = 1e3
@@ -21,9 +21,7 @@ class EaseOff(Quantities):
     distance: FloatArray = quantity(
         "", "mm", "ease-off, positive where removed", variable="ease_off", dims=MAP
     )
-    compared: np.typing.NDArray[np.bool_] = quantity(
-        "", "", "whether an identical hob leaves a flank", dims=MAP
-    )
+    compared: BoolArray = quantity("", "", "whether an identical hob leaves a flank", dims=MAP)
 
     @property
     @labelled("", "um", "ease-off, greatest", key="ease_off_max_um", variable="ease_off_max")

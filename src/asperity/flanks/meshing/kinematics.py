@@ -12,11 +12,11 @@ Vectors are in the standing frame of the wheel, lengths in mm, velocities in mm/
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import kinematics as rows
 from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import MAP, RESOLVED, FlankGrid
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, labelled, quantity
 
@@ -78,7 +78,7 @@ class Kinematics(Quantities):
     along: FloatArray
 
     @property
-    def on_flank(self) -> npt.NDArray[np.bool_]:
+    def on_flank(self) -> BoolArray:
         """Whether the nearest place is on the worm's flank, and not on its tip."""
         return self.reach >= -RESOLVED
 

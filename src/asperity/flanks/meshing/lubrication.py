@@ -19,13 +19,12 @@ Higginson's, which ISO/TR 14521's mean over the mesh comes from. Friction does n
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
 from asperity.flanks.meshing.contact_lines import ContactLines
 from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.transmission import Transmission
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.rating.iso14521 import hertz
@@ -157,7 +156,7 @@ class LoadedLines:
     entrainment: FloatArray
 
     @property
-    def carrying(self) -> npt.NDArray[np.bool_]:
+    def carrying(self) -> BoolArray:
         """Which pieces carry."""
         return self.load > 0.0
 

@@ -17,12 +17,12 @@ import math
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
 from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import RESOLVED, FlankGrid, WheelFlank
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, labelled, quantity
 

@@ -18,9 +18,9 @@ import math
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.flanks.meshing.kinematics import Kinematics
 from asperity.flanks.wheel.flank import MAP
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, quantity
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from asperity.flanks.worm.profiles import FloatArray
+from asperity.arrays import FloatArray
 from asperity.gearset import Geometry
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.flanks.wheel.enveloped import FlankGrid, WheelFlank
 from asperity.flanks.worm.distance import distances
-from asperity.flanks.worm.profiles import FloatArray
 
 
 def conjugacy_residual(flank: WheelFlank, grid: FlankGrid) -> FloatArray:

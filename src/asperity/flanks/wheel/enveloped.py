@@ -11,13 +11,13 @@ import functools
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting.trim import UNDERCUT
 from asperity.flanks.wheel.flank import GAUSS, FlankGrid, UndercutMap, WheelFlank
 from asperity.flanks.wheel.gaps import gaps
 from asperity.flanks.wheel.refusal import CUT_AGAIN, POINTED, refusal, widest_face
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
 
 __all__ = ["FlankGrid", "UndercutMap", "Wheel", "WheelFlank"]

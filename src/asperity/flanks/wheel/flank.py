@@ -9,13 +9,13 @@ import functools
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import BoolArray, FloatArray, IntArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting import areas as wheel_section
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
 from asperity.flanks.wheel.cutting.conjugate import Stand, conjugate_each, cut_params
 from asperity.flanks.wheel.refusal import refusal, widest_face
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, quantity
 
@@ -143,7 +143,7 @@ class WheelFlank:
                 raise InputError(f"z must lie on the face, from {-half:.6g} to {half:.6g} mm")
         return places, self.tip_radius(places)
 
-    def _refuse(self, status: npt.NDArray[np.int64], z: FloatArray) -> None:
+    def _refuse(self, status: IntArray, z: FloatArray) -> None:
         bad = np.flatnonzero(status != trim.REACHED)
         if bad.size:
             worst = bad[np.argmin(np.abs(z[bad]))]
@@ -248,14 +248,14 @@ class WheelFlank:
         self._refuse(status, places)
         return start, stop
 
-    def undercut_at(self, z: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    def undercut_at(self, z: npt.ArrayLike) -> BoolArray:
         """Return whether the hob undercuts at places ``z``."""
         places, stop = self._columns(0, z)
         return self._limits(places, stop)[1]
 
     def _limits(
         self, places: FloatArray, stop: FloatArray
-    ) -> tuple[FloatArray, npt.NDArray[np.bool_], npt.NDArray[np.int64]]:
+    ) -> tuple[FloatArray, BoolArray, IntArray]:
         start = np.empty(places.size)
         cut_under = np.empty(places.size, dtype=np.bool_)
         status = np.empty(places.size, dtype=np.int64)

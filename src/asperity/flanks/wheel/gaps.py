@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
 from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import FlankGrid
 from asperity.flanks.worm.distance import distance_only
 from asperity.flanks.worm.helicoid import Helicoid
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.flanks.worm.setting import Setting
 
 LONGEST_STEP = 0.07

@@ -6,9 +6,9 @@ fillet and root have gaps above zero, tips and roots are clear of each other. Le
 
 import dataclasses
 
+from asperity.arrays import FloatArray
 from asperity.flanks.wheel.enveloped import FlankGrid, Wheel
 from asperity.flanks.wheel.gaps import gaps
-from asperity.flanks.worm.profiles import FloatArray
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -21,6 +21,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.flanks.worm.curve import (
@@ -42,7 +43,6 @@ from asperity.flanks.worm.curve import (
 )
 from asperity.flanks.worm.foot import on_arc, on_flank
 from asperity.flanks.worm.helicoid import Helicoid
-from asperity.flanks.worm.profiles import FloatArray
 
 CLOSED = 0
 FLANK = 1

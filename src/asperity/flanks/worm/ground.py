@@ -19,8 +19,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.flanks.worm.profiles import AxialProfile, FloatArray, tabulate
+from asperity.flanks.worm.profiles import AxialProfile, tabulate
 
 _ITERATIONS = 50
 _TOLERANCE = 1e-12

@@ -13,10 +13,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.parameters import HOB_TIP_RADIUS, Disc, Hob, Modification, size_in_mm
 from asperity.flanks.worm import curve
-from asperity.flanks.worm.profiles import AxialProfile, FloatArray
+from asperity.flanks.worm.profiles import AxialProfile
 from asperity.flanks.worm.types import profile
 from asperity.gearset.geometry import Flank, Geometry
 

@@ -24,9 +24,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
-
-FloatArray = npt.NDArray[np.float64]
 
 RULED = 0.0
 TABULATED = 1.0

@@ -11,9 +11,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.flanks.worm.helicoid import Helicoid
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.gearset import Gearset, Geometry
 from asperity.gearset.geometry import Flank
 

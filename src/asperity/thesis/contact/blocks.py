@@ -9,7 +9,6 @@ import functools
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult
@@ -25,8 +24,6 @@ from asperity.mesh import box
 from asperity.slider import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.tables import TABLES as SLIDER_TABLES
-
-FloatArray = npt.NDArray[np.float64]
 
 _TABLES = {**SLIDER_TABLES, **BLOCK_TABLES}
 

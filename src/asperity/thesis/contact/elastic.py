@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.runs.workers import Task
 from asperity.thesis.exhibits import labelled
 
@@ -41,7 +41,6 @@ ALL_DIRECTIONS = tuple(15.0 * n for n in range(25))
 _ROOM = "asperity.thesis.contact"
 _SETTLING, _MARCH = 4.0, 30.0  # s, about
 T = TypeVar("T")
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -9,8 +9,8 @@ import functools
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
 from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.normal import NormalLaw
@@ -18,8 +18,6 @@ from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.contact.motion.static import Guide, load_to
 from asperity.mesh import box
-
-FloatArray = npt.NDArray[np.float64]
 
 SIZE = (12e-3, 1.5e-3, 8e-3)
 ELEMENTS = (16, 2, 10)

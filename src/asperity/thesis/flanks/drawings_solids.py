@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.results.figures import panels
-from asperity.thesis.flanks.shapes import Floats, Shape
+from asperity.thesis.flanks.shapes import Shape
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,7 +34,7 @@ class View:
     up: tuple[float, float, float] = (0.0, 1.0, 0.0)
 
     @property
-    def axes(self) -> Floats:
+    def axes(self) -> FloatArray:
         """Unit vectors to the right, up and to the eye, as rows."""
         eye = np.array(self.towards) / np.linalg.norm(self.towards)
         right = np.cross(self.up, eye)

@@ -6,8 +6,8 @@ import math
 from typing import TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.casefile import Table
 from asperity.flanks.meshing.contact_lines import contact_lines
 from asperity.flanks.meshing.kinematics import Kinematics, kinematics
@@ -21,7 +21,6 @@ from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.thesis.gearsets import Gear
 
-Floats = npt.NDArray[np.float64]
 T = TypeVar("T", bound=Table)
 
 _ROWS, _COLUMNS = 41, 61
@@ -42,7 +41,7 @@ def pair_of(gear: Gear) -> Pair:
     )
 
 
-def stood(points: Floats, angle: float) -> Floats:
+def stood(points: FloatArray, angle: float) -> FloatArray:
     """Return points of the wheel in the standing frame where it has turned by an angle, mm."""
     x, y, z = np.moveaxis(points, -1, 0)
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -78,7 +77,7 @@ class Meshing:
         """Turn of the worm from one tooth to the next, rad."""
         return 2.0 * math.pi / self.wheel.pair.geometry.starts
 
-    def in_worm(self, worm_angle: float) -> tuple[Floats, Floats, Floats]:
+    def in_worm(self, worm_angle: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the flank against the worm at an angle of it.
 
         Returns

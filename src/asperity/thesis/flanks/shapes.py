@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from asperity.arrays import FloatArray, IntArray
 from asperity.flanks.export.patch import Body
 from asperity.mesh import HexMesh
 from asperity.mesh.polygon import triangulate
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Floats = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -32,9 +30,9 @@ class Shape:
         Which part each belongs to.
     """
 
-    points: Floats
-    faces: Integers
-    part: Integers
+    points: FloatArray
+    faces: IntArray
+    part: IntArray
 
     @classmethod
     def of(cls, points: npt.ArrayLike, faces: npt.ArrayLike, part: npt.ArrayLike = 0) -> "Shape":
@@ -105,7 +103,7 @@ def joined(shapes: Sequence[Shape]) -> Shape:
     )
 
 
-def _fewer(points: Floats, every: tuple[int, int]) -> Floats:
+def _fewer(points: FloatArray, every: tuple[int, int]) -> FloatArray:
     """Leave lines of a grid out, but none at its edges."""
     kept = [
         np.unique(np.append(np.arange(0, n, step), n - 1))

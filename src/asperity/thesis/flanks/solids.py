@@ -5,8 +5,8 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.flanks.export.together import mounted_worm
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.mesh.tooth import DENSITIES, element_size, tooth
@@ -19,8 +19,6 @@ from asperity.thesis.flanks import drawings_solids as drawings
 from asperity.thesis.flanks.meshing import pair_of, stood
 from asperity.thesis.flanks.shapes import Shape, joined
 from asperity.thesis.gearsets import Gear
-
-Floats = npt.NDArray[np.float64]
 
 GEAR = Gear("gearset-3b")
 
@@ -49,7 +47,7 @@ def _centred(shape: Shape, teeth: int) -> Shape:
     return shape.turned(-2.0 * math.pi * (teeth // 2) / _wheel().pair.geometry.wheel_teeth)
 
 
-def facet_height(flank: WheelFlank, grid: FlankGrid, step: float) -> Floats:
+def facet_height(flank: WheelFlank, grid: FlankGrid, step: float) -> FloatArray:
     """Return how far a hob that cuts at steps alone leaves material beyond a flank, mm.
 
     Parameters

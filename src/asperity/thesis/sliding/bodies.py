@@ -5,13 +5,11 @@ import itertools
 import shlex
 
 import numpy as np
-import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.casefile import read_case
 from asperity.errors import AsperityError
 from asperity.slider import TABLES, Model, SlideResult, solve, solve_many
-
-FloatArray = npt.NDArray[np.float64]
 
 PERIODIC = "solve.method=periodic"
 TWO_PHASE = "solve.scheme=two-phase"

@@ -7,11 +7,8 @@ then exact.
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from asperity.flanks.worm.profiles import FloatArray
-
-Index = npt.NDArray[np.int64]
+from asperity.arrays import FloatArray, IntArray
 
 
 class Part(NamedTuple):
@@ -32,7 +29,7 @@ class Part(NamedTuple):
     centroid: FloatArray
 
 
-def triangles(rows: int, columns: int) -> Index:
+def triangles(rows: int, columns: int) -> IntArray:
     """Return the corners of the triangles of a grid, (n, 3), as indices into its points."""
     index = np.arange(rows * columns).reshape(rows, columns)
     a, b = index[:-1, :-1].ravel(), index[:-1, 1:].ravel()
@@ -115,7 +112,7 @@ def part_below(
     return Part(total, total / float(whole.sum()), moment.sum(axis=0) / total)
 
 
-def crossings(values: FloatArray, level: float) -> tuple[Index, FloatArray]:
+def crossings(values: FloatArray, level: float) -> tuple[IntArray, FloatArray]:
     """Return the pieces of the line on which values have a level.
 
     Returns

@@ -8,12 +8,12 @@ the transmission error the worm follows the wheel linearly.
 
 import numpy as np
 
+from asperity.arrays import BoolArray, FloatArray
 from asperity.flanks.meshing.kernels.pattern import smallest_gap
 from asperity.flanks.meshing.pattern.area import part_below
 from asperity.flanks.meshing.transmission import Transmission
 from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import MAP, FlankGrid
-from asperity.flanks.worm.profiles import FloatArray
 from asperity.results import Quantities, quantity
 
 MARKING = 6e-3
@@ -45,7 +45,7 @@ class Pattern(Quantities):
     centre: tuple[float, float]
 
     @property
-    def marked(self) -> np.typing.NDArray[np.bool_]:
+    def marked(self) -> BoolArray:
         """Where the compound is carried over."""
         return self.gap < self.thickness
 
