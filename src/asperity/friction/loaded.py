@@ -1,0 +1,119 @@
+r"""Dahl's asperity under a normal force that changes: what the contact keeps while it does.
+
+The friction force is :math:`\mu F_N\,s/s_{max}`, and two things may stay when :math:`F_N` changes:
+
+- ``stiffness``: :math:`k_t = \mu F_N/s_{max}` stays and the limit :math:`s_{max}` follows the
+  force. The energy :math:`k_t|s|^2/2` does not know the normal force; where the limit falls below
+  the deflection the asperity slips back to it, and what it loses is friction's. Nothing is gained
+  on any path.
+- ``deflection``: :math:`s_{max}` stays and the stiffness follows the force. The share is today's,
+  but a deflected asperity that is pressed harder pulls harder without having slipped: sheared under
+  a low force and released under a high one, friction gives energy.
+
+Forces are over :math:`\mu F_{N,ref}`, deflections and slips over the limit at that reference, so
+that with ``stiffness`` the deflection is the friction share and the limit is the greatest friction
+force, :math:`F_N/F_{N,ref}` where friction is proportional to the load (its power where it is not).
+"""
+
+import math
+
+from asperity.compiled import kernel
+from asperity.friction.dahl import TINY, advance
+
+STIFFNESS = 0
+DEFLECTION = 1
+KEEPS = {"stiffness": STIFFNESS, "deflection": DEFLECTION}
+
+
+@kernel
+def mean_limit(limit_0, limit_1, exponent):
+    """Limit that a step towards ``limit_1`` relaxes to: midway, which makes it of order two.
+
+    Exponent 0 does not relax, it stops at the limit, and so at the one of the end.
+    """
+    if exponent == 0.0:
+        return limit_1
+    return 0.5 * (limit_0 + limit_1)
+
+
+@kernel
+def lowered_limit(sx, sy, limit_0, limit_1):
+    """Size beyond which an asperity slips back as its limit falls.
+
+    It is the limit of the end; a deflection above the limit of the start (LuGre's, when the slip
+    speeds up) shrinks in proportion, so that a load that hardly falls hardly moves it.
+    """
+    return limit_1 * max(1.0, math.sqrt(sx * sx + sy * sy) / limit_0)
+
+
+@kernel
+def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, keeps):
+    """Deflection and friction after the slip ``D1 + D2`` while the limit goes from one to another.
+
+    Parameters
+    ----------
+    sx, sy : float
+        Deflection over the limit at the reference load.
+    d1x, d1y, d2x, d2y : float
+        The two parts of the slip, over the same.
+    limit_0, limit_1 : float
+        Friction force at full slip before and after the step over that at the reference load, 0 or
+        more; a contact that is open at the end (0) has a straight asperity.
+    exponent, law
+        As in `asperity.friction.dahl.advance`, which this is at a constant limit, to the last bit
+        where that is 1.
+    keeps : int
+        `STIFFNESS` or `DEFLECTION`.
+
+    Returns
+    -------
+    sx, sy, share_x, share_y : float
+        Deflection at the end, and friction force over that of full friction at the reference load.
+    """
+    if limit_1 <= TINY:
+        return 0.0, 0.0, 0.0, 0.0
+    if keeps == DEFLECTION:
+        wx, wy = advance(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        return wx, wy, limit_1 * wx, limit_1 * wy
+    limit = mean_limit(limit_0, limit_1, exponent)
+    wx, wy = advance(
+        sx / limit, sy / limit, d1x / limit, d1y / limit, d2x / limit, d2y / limit, exponent, law
+    )
+    wx *= limit
+    wy *= limit
+    square = wx * wx + wy * wy
+    if limit_1 < limit_0 and square > limit_1 * limit_1:
+        back = lowered_limit(sx, sy, limit_0, limit_1) / math.sqrt(square)
+        if back < 1.0:
+            wx *= back
+            wy *= back
+    return wx, wy, wx, wy
+
+
+@kernel
+def friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps):
+    r"""Work of the force at the end of a step over its slip, less what the asperity stores of it.
+
+    Parameters
+    ----------
+    sx, sy, wx, wy : float
+        Deflection before and after, over the limit at the reference load.
+    dx, dy : float
+        Slip of the step, over the same.
+    limit_0, limit_1, keeps
+        As in `advance_loaded`.
+
+    Returns
+    -------
+    float
+        Over :math:`\mu F_{N,ref} s_{max,ref}`. Never below 0 (but for rounding) with the stiffness
+        kept; with the deflection kept a change of the load alone changes what is stored, and a
+        negative value is energy from nowhere.
+    """
+    if keeps == DEFLECTION:
+        stored = limit_1 * (wx * wx + wy * wy) - limit_0 * (sx * sx + sy * sy)
+        return limit_1 * (wx * dx + wy * dy) - 0.5 * stored
+    # As a sum without the difference of two squares, which cancels in small steps.
+    ux = wx - sx
+    uy = wy - sy
+    return wx * (dx - ux) + wy * (dy - uy) + 0.5 * (ux * ux + uy * uy)
