@@ -7,6 +7,7 @@ from asperity.compiled import kernel
 from asperity.friction import LAWS
 from asperity.friction.dahl import advance
 from asperity.friction.loaded import DEFLECTION, KEEPS, STIFFNESS, advance_loaded, friction_loss
+from asperity.friction.loaded_tangent import update_loaded
 
 EXPONENTS = [0.0, 1 / 3, 0.5, 1.0, 1.5, 2.0]
 # Differences of squares of numbers of order one, added up over a path.
@@ -112,3 +113,90 @@ def test_only_a_kept_deflection_gains_energy_where_an_asperity_is_sheared_unpres
     elastic = 0.5 * shear**2
     assert kept > 0.0
     assert -gained / elastic == pytest.approx(0.977, abs=5e-3)
+
+
+def shares(s, varied, limit_0, exponent, law, keeps):
+    """Friction as a function of the four slips and the limit of the end."""
+    return np.array(advance_loaded(*s, *varied[:4], limit_0, varied[4], exponent, law, keeps)[2:])
+
+
+def differences(step, s, varied, *rest):
+    """Central differences of `shares` by slips and limit, by columns."""
+    sides = [
+        [shares(s, varied + sign * step * unit, *rest) for unit in np.eye(5)] for sign in (1, -1)
+    ]
+    return np.subtract(*sides).T / (2 * step)
+
+
+def tangents(s, varied, limit_0, exponent, law, keeps):
+    _, _, _, (first, second), slope = update_loaded(
+        tuple(s), tuple(varied[:2]), tuple(varied[2:4]), limit_0, varied[4], exponent, law, keeps
+    )
+    return np.column_stack([np.reshape(first, (2, 2)), np.reshape(second, (2, 2)), slope])
+
+
+@pytest.mark.parametrize("keeps", KEEPS.values(), ids=KEEPS)
+@pytest.mark.parametrize("exponent", EXPONENTS)
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_the_tangents_by_slip_and_load_are_the_differences(law, exponent, keeps):
+    random = np.random.default_rng(3)
+    smooth = 0
+    for _ in range(100):
+        limit_0, limit_1 = random.uniform(0.2, 2.0, 2)
+        size, angle = limit_0 * random.random(), random.uniform(-np.pi, np.pi)
+        s = size * np.array([np.cos(angle), np.sin(angle)])
+        varied = np.append(10.0 ** random.uniform(-2, 0.5) * random.standard_normal(4), limit_1)
+
+        point = s, varied, limit_0, exponent, law, keeps
+        found = differences(1e-6, *point)
+        if np.abs(found - differences(2e-6, *point)).max() > 1e-6:
+            continue  # a kink between the points has no derivative
+        smooth += 1
+        assert tangents(*point) == pytest.approx(found, abs=1e-5)
+    assert smooth > 90
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+def test_at_the_limit_and_a_load_that_stays_the_tangent_by_load_is_that_of_a_rise(law, exponent):
+    s, varied = np.array([0.6, 0.8]), np.array([0.2, 0.1, 0.0, 0.05, 1.0])
+    risen = varied + 1e-7 * np.eye(5)[4]
+    here, there = (shares(s, at, 1.0, exponent, law, STIFFNESS) for at in (varied, risen))
+    found = (there - here) / 1e-7
+    slope = tangents(s, varied, 1.0, exponent, law, STIFFNESS)[:, 4]
+    assert slope == pytest.approx(found, abs=1e-5)
+
+
+@pytest.mark.parametrize("keeps", KEEPS.values(), ids=KEEPS)
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_the_update_with_tangents_goes_where_the_plain_one_goes(law, keeps):
+    random = np.random.default_rng(4)
+    for n in range(300):
+        s, slip = random.uniform(-0.7, 0.7, 2), random.standard_normal(4)
+        loads = random.uniform(0.0, 2.0, 2) if n % 10 else (1.0, 0.0)
+        exponent = EXPONENTS[n % 6]
+        wanted = advance_loaded(*s, *slip, *loads, exponent, law, keeps)
+        new, share, loss, _, _ = update_loaded(
+            tuple(s), tuple(slip[:2]), tuple(slip[2:]), *loads, exponent, law, keeps
+        )
+        assert (*new, *share) == pytest.approx(wanted, abs=1e-14)
+        lost = friction_loss(*s, *new, *(slip[:2] + slip[2:]), *loads, keeps)
+        assert loss == pytest.approx(lost, abs=1e-14)
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_a_turn_of_the_frame_turns_the_friction_under_a_changing_load(exponent):
+    random = np.random.default_rng(5)
+    for _ in range(300):
+        s, slip = random.uniform(-0.7, 0.7, 2), random.standard_normal(2)
+        loads, angle = random.uniform(0.1, 2.0, 2), random.uniform(-np.pi, np.pi)
+        c, sine = np.cos(angle), np.sin(angle)
+        turn = np.array([[c, -sine], [sine, c]])
+
+        there, here = (
+            advance_loaded(
+                *(by @ s), *(by @ slip), 0.0, 0.0, *loads, exponent, LAWS["vector"], STIFFNESS
+            )[2:]
+            for by in (turn, np.eye(2))
+        )
+        assert there == pytest.approx(tuple(turn @ here), abs=1e-12)

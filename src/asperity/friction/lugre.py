@@ -11,8 +11,7 @@ et al. 1995, and without a Stribeck velocity :math:`g = \mu F_N`.
 import math
 
 from asperity.compiled import kernel
-from asperity.friction.dahl import VECTOR, relaxation, step_rate
-from asperity.friction.tangent import relaxation_slope, update
+from asperity.friction.tangent import limit_slope, update
 
 
 @kernel
@@ -25,40 +24,6 @@ def stribeck_share(speed, static_ratio, stribeck_speed):
         return 1.0
     x = speed / stribeck_speed
     return 1.0 + (static_ratio - 1.0) * math.exp(-x * x)
-
-
-@kernel
-def _limit_slope(sx, sy, d1x, d1y, d2x, d2y, law):
-    """Derivative of the deflection by the limit, both in units of the limit.
-
-    The relaxation over a step goes as one over the limit, its direction does not depend on it.
-    """
-    dx = d1x + d2x
-    dy = d1y + d2y
-    if law == VECTOR:
-        rate = math.sqrt(dx * dx + dy * dy)
-    else:
-        rate = step_rate(sx, sy, d1x, d1y, d2x, d2y, 1.0, law)
-    decay, gain = relaxation(rate)
-    slope = relaxation_slope(rate)
-    qx = rate * (sx * decay - dx * slope)
-    qy = rate * (sy * decay - dy * slope)
-    if law == VECTOR:
-        return qx, qy
-    free_x = sx * decay + dx * gain
-    free_y = sy * decay + dy * gain
-    reach = math.sqrt(free_x * free_x + free_y * free_y)
-    most = max(1.0, math.sqrt(sx * sx + sy * sy))
-    if reach <= most:
-        return qx, qy
-    # Brought back to the limit (or to where it was, above a limit that fell).
-    nx = free_x / reach
-    ny = free_y / reach
-    along = nx * qx + ny * qy
-    grow = 1.0 if most == 1.0 else 0.0
-    return nx * grow + most * (qx - nx * along) / reach, ny * grow + most * (
-        qy - ny * along
-    ) / reach
 
 
 @kernel
@@ -96,9 +61,9 @@ def lugre_update(
     ratio = stribeck_share(speed, static_ratio, stribeck_speed)
     now = limit * ratio
     new, _, tangents = update(deflection, slip_1, slip_2, now, 1.0, law)
-    hx, hy = _limit_slope(
+    hx, hy = limit_slope(
         deflection[0] / now, deflection[1] / now, slip_1[0] / now, slip_1[1] / now,
-        slip_2[0] / now, slip_2[1] / now, law,
+        slip_2[0] / now, slip_2[1] / now, 1.0, law,
     )  # fmt: skip
     # d(limit)/dD = limit dratio/dspeed D/(|D| step)
     gx = 0.0

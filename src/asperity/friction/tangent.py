@@ -58,9 +58,9 @@ def _rate_slope(
 
 @kernel
 def _midpoint_slope(
-    sx, sy, d1x, d1y, d2x, d2y, exponent, law, t1x, t1y, t2x, t2y
+    sx, sy, d1x, d1y, d2x, d2y, exponent, law, ux, uy, t1x, t1y, t2x, t2y
 ):  # fmt: skip
-    """Derivative of `dahl.midpoint` for the slip changing by ``(t1, t2)``."""
+    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``."""
     dx = d1x + d2x
     dy = d1y + d2y
     tx = t1x + t2x
@@ -68,19 +68,28 @@ def _midpoint_slope(
     size = math.sqrt(sx * sx + sy * sy)
     rate = 0.0
     rate_t = 0.0
-    if exponent != 1.0 and size > TINY:
+    ex = 0.0
+    ey = 0.0
+    size_t = 0.0
+    ex_t = 0.0
+    ey_t = 0.0
+    if size > TINY:
         ex = sx / size
         ey = sy / size
+        size_t = ex * ux + ey * uy
+        ex_t = (ux - ex * size_t) / size
+        ey_t = (uy - ey * size_t) / size
+    if exponent != 1.0 and size > TINY:
         share = min(size, 1.0)
         rate = rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law)
         rate_t = _rate_slope(
-            ex, ey, 0.0, 0.0, share, 0.0,
+            ex, ey, ex_t, ey_t, share, size_t if size < 1.0 else 0.0,
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
     hx, hy, scale = half_step(sx, sy, dx, dy, rate)
     scale_t = 0.5 * rate_t
-    hx_t = 0.5 * tx
-    hy_t = 0.5 * ty
+    hx_t = ux + 0.5 * tx
+    hy_t = uy + 0.5 * ty
     half = math.sqrt(hx * hx + hy * hy)
     rate = 0.0
     rate_t = 0.0
@@ -101,28 +110,47 @@ def _midpoint_slope(
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
     elif size > TINY:
-        ex = sx / size
-        ey = sy / size
         rate = rate_along(ex, ey, 0.0, d1x, d1y, d2x, d2y, exponent, law)
         rate_t = _rate_slope(
-            ex, ey, 0.0, 0.0, 0.0, 0.0,
+            ex, ey, ex_t, ey_t, 0.0, 0.0,
             d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
         )  # fmt: skip
     decay, gain = relaxation(rate)
     gain_t = relaxation_slope(rate) * rate_t
     sx1 = sx * decay + dx * gain
     sy1 = sy * decay + dy * gain
-    sx1_t = -sx * decay * rate_t + tx * gain + dx * gain_t
-    sy1_t = -sy * decay * rate_t + ty * gain + dy * gain_t
+    sx1_t = ux * decay - sx * decay * rate_t + tx * gain + dx * gain_t
+    sy1_t = uy * decay - sy * decay * rate_t + ty * gain + dy * gain_t
     most = max(1.0, size)
+    most_t = size_t if size > 1.0 else 0.0
     size1 = math.sqrt(sx1 * sx1 + sy1 * sy1)
     if size1 > most:
         ex = sx1 / size1
         ey = sy1 / size1
         along = ex * sx1_t + ey * sy1_t
-        sx1_t = (sx1_t - ex * along) * most / size1
-        sy1_t = (sy1_t - ey * along) * most / size1
+        sx1_t = ex * most_t + (sx1_t - ex * along) * most / size1
+        sy1_t = ey * most_t + (sy1_t - ey * along) * most / size1
     return sx1_t, sy1_t
+
+
+@kernel
+def _closed_form_factors(rho, length, exponent):
+    """(phi^i/rho, (1-g)/L, -(dg/drho)/(L rho)) of the closed form, with g = phi/rho.
+
+    Written so that nothing cancels for a small slip; in steady sliding rho is 0.
+    """
+    if exponent == 1.0:
+        speed, turn = relaxation(length)
+        return speed, turn, 0.0
+    order = 1.0 - exponent
+    part = order * rho ** (-order)
+    base = 1.0 - part * length
+    if base <= 0.0:
+        return 0.0, 1.0 / length, 0.0
+    left = base ** (1.0 / order)
+    turn = -math.expm1(math.log1p(-part * length) / order) / length
+    bend = left * part / (base * rho * rho) if rho > TINY else 0.0
+    return left / base * rho ** (-order), turn, bend
 
 
 @kernel
@@ -137,24 +165,7 @@ def _closed_form_slope(sx, sy, dx, dy, exponent):
     ny = dy / length
     wx = nx - sx
     wy = ny - sy
-    rho = math.sqrt(wx * wx + wy * wy)
-    # (1-g)/L, phi^i/rho and -(dg/drho)/(L rho) of the formula below, written so that nothing
-    # cancels for a small slip; in steady sliding rho is 0.
-    bend = 0.0
-    if exponent == 1.0:
-        speed, turn = relaxation(length)
-    else:
-        order = 1.0 - exponent
-        part = order * rho ** (-order)
-        base = 1.0 - part * length
-        speed = 0.0
-        turn = 1.0 / length
-        if base > 0.0:
-            left = base ** (1.0 / order)
-            speed = left / base * rho ** (-order)
-            turn = -math.expm1(math.log1p(-part * length) / order) / length
-            if rho > TINY:
-                bend = left * part / (base * rho * rho)
+    speed, turn, bend = _closed_form_factors(math.sqrt(wx * wx + wy * wy), length, exponent)
     # P = I - n n^T;  T = (1-g)/L P + (phi^i/rho) w n^T - (dg/drho)/(L rho) w (P w)^T
     pxx = 1.0 - nx * nx
     pxy = -nx * ny
@@ -167,6 +178,32 @@ def _closed_form_slope(sx, sy, dx, dy, exponent):
         turn * pxy + speed * wy * nx - bend * wy * qx,
         turn * pyy + speed * wy * ny - bend * wy * qy,
     )
+
+
+@kernel
+def limit_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Derivative of the deflection after a step by the limit, both in units of the limit.
+
+    Deflection and slip in units of a limit that grows shrink together.
+    """
+    if law != VECTOR:
+        wx, wy = midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        tx, ty = _midpoint_slope(
+            sx, sy, d1x, d1y, d2x, d2y, exponent, law, sx, sy, d1x, d1y, d2x, d2y
+        )
+        return wx - tx, wy - ty
+    dx = d1x + d2x
+    dy = d1y + d2y
+    length = math.sqrt(dx * dx + dy * dy)
+    if length <= TINY:
+        return 0.0, 0.0
+    nx = dx / length
+    ny = dy / length
+    wx = nx - sx
+    wy = ny - sy
+    speed, turn, bend = _closed_form_factors(math.sqrt(wx * wx + wy * wy), length, exponent)
+    back = speed + bend * (wx * sx + wy * sy)
+    return length * (turn * nx - back * wx), length * (turn * ny - back * wy)
 
 
 @kernel
@@ -220,10 +257,18 @@ def update(deflection, slip_1, slip_2, limit, exponent, law):
         tangent_2 = tangent_1
     else:
         share = midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
-        xx, yx = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 1.0, 0.0, 0.0, 0.0)
-        xy, yy = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 1.0, 0.0, 0.0)
+        xx, yx = _midpoint_slope(
+            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
+        )
+        xy, yy = _midpoint_slope(
+            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
+        )
         tangent_1 = (xx, xy, yx, yy)
-        xx, yx = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 1.0, 0.0)
-        xy, yy = _midpoint_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 1.0)
+        xx, yx = _midpoint_slope(
+            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
+        )
+        xy, yy = _midpoint_slope(
+            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
+        )
         tangent_2 = (xx, xy, yx, yy)
     return (share[0] * limit, share[1] * limit), share, (tangent_1, tangent_2)
