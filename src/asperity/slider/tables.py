@@ -3,8 +3,9 @@
 from asperity.casefile import Table
 from asperity.friction import Friction
 from asperity.slider.parameters import Slider, Solve
+from asperity.slider.wear import Wear
 from asperity.vibration import Vibration
 
 TABLES: dict[str, type[Table]] = {
-    table.table: table for table in (Slider, Friction, Vibration, Solve)
+    table.table: table for table in (Slider, Friction, Vibration, Wear, Solve)
 }

@@ -19,7 +19,7 @@ LEAST_LOAD = Source(
     "friction that holds at the least load of a cycle", "verified", "derived; marches agree"
 )
 MILAHIN = Source(
-    "N. Milahin, J. Starcevic, Physical Mesomechanics 17 (2014), 84-87", "one source",
+    "N. Milahin, J. Starcevic, Fizicheskaya Mezomekhanika 17 (2014), 84-87", "one source",
     "its abstract has the dependence, the form is derived; marches agree",
 )  # fmt: skip
 MOMENTUM = Source("momentum over a cycle", "verified", "derived; marches agree")

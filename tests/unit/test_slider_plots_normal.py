@@ -1,0 +1,58 @@
+"""Pictures of vibration out of the plane: what is drawn is what was given."""
+
+import numpy as np
+import pytest
+
+from asperity.slider import plots_normal
+
+
+def labels(axes):
+    return [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def test_all_swings_fall_on_one_curve():
+    velocity = np.linspace(0.0, 1.0, 11)
+    reduction = (1.0 - velocity) ** 2
+    curves = {a: 1.0 - a * reduction for a in (0.1, 0.9)}
+    points = {a: (velocity, ratio) for a, ratio in curves.items()}
+    figure = plots_normal.plot_master_curve(velocity, curves, reduction, reduction, points)
+    left, right = figure.axes
+    assert labels(left) == ["a = 0.1", "a = 0.9"]
+    assert labels(right) == ["h(V)", "Popov", "a = 0.1", "a = 0.9"]
+    for line in right.lines:
+        assert line.get_ydata() == pytest.approx(reduction, abs=1e-12)
+    figure.draw_without_rendering()
+
+
+def test_a_thrust_has_a_colour_of_its_own():
+    elevation, azimuth = np.radians([0.0, 45.0, 90.0]), np.radians([0.0, 90.0, 180.0])
+    braking = 0.5 * np.ones((3, 3)) + 0.1 * azimuth
+    for ratio, lowest in ((braking, 0.0), (braking - 0.6, -np.abs(braking - 0.6).max())):
+        figure = plots_normal.plot_directions(elevation, azimuth, ratio)
+        field = figure.axes[0].collections[0]
+        assert field.get_clim()[0] == pytest.approx(lowest)
+        figure.draw_without_rendering()
+
+
+def test_flight_is_shaded_where_the_normal_force_is_zero():
+    time = np.linspace(0.0, 0.5e-3, 501)
+    load = np.maximum(55.0 * (1.0 + 1.5 * np.cos(4e3 * 2.0 * np.pi * time)), 0.0)
+    for normal, flights in ((load, 2), (load + 1.0, 0)):
+        figure = plots_normal.plot_two_cycles(time, normal, 0.05 * normal, 0.1, 55.0)
+        upper, lower = figure.axes
+        paths = sum(len(shade.get_paths()) for shade in upper.collections)
+        assert paths == flights
+        assert ("in flight" in labels(upper)) == bool(flights)
+        assert "µs" in lower.get_xlabel()
+        figure.draw_without_rendering()
+
+
+def test_both_branches_are_told_apart():
+    frequency = np.linspace(1e3, 3e3, 21)
+    branches = [(name, size * np.ones(21), np.zeros(21)) for name, size in
+                (("upwards", 1e-7), ("downwards", 2e-7))]  # fmt: skip
+    figure = plots_normal.plot_branches(frequency, branches, 2218.0)
+    upper = figure.axes[0]
+    assert labels(upper) == ["upwards", "downwards"]
+    assert [line.get_ydata()[0] for line in upper.lines[:2]] == pytest.approx([0.1, 0.2])
+    figure.draw_without_rendering()
