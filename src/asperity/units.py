@@ -12,8 +12,10 @@ import numbers
 import re
 import typing
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
+from asperity import measures
 from asperity.errors import InputError, shown
 
 if TYPE_CHECKING:
@@ -24,68 +26,17 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?
 _UNIT = re.compile(r"[A-Za-z\u00b5\u03bc\u00b0%\u00b7\u00b2\u00b3*/^() 0-9-]{0,60}")
 _PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
 
-# A list of our own, because the one that ships with pint has no dimension for the angle, and
-# takes ten times as long to load.
-_DEFINITIONS = """
-pico- = 1e-12 = p-
-nano- = 1e-9 = n-
-micro- = 1e-6 = \u00b5- = \u03bc- = u-
-milli- = 1e-3 = m-
-centi- = 1e-2 = c-
-deci- = 1e-1 = d-
-hecto- = 1e2 = h-
-kilo- = 1e3 = k-
-mega- = 1e6 = M-
-giga- = 1e9 = G-
-meter = [length] = m = metre
-second = [time] = s = sec
-gram = [mass] = g
-kelvin = [temperature]; offset: 0 = K
-ampere = [current] = A
-radian = [angle] = rad
-percent = 0.01 = %
-degree = 3.14159265358979323846264338327950288 / 180 * radian = deg = \u00b0
-arcminute = degree / 60 = arcmin
-turn = 360 * degree = rev = revolution
-minute = 60 * second = min
-hour = 60 * minute = h
-hertz = 1 / second = Hz
-rpm = turn / minute
-newton = kilogram * meter / second ** 2 = N
-newton_meter = newton * meter = Nm
-pascal = newton / meter ** 2 = Pa
-bar = 1e5 * pascal
-joule = newton * meter = J
-watt = joule / second = W
-volt = watt / ampere = V
-ohm = volt / ampere
-farad = ampere * second / volt = F
-tonne = 1000 * kilogram = t
-liter = 1e-3 * meter ** 3 = l = L
-poise = 0.1 * pascal * second = P
-stokes = 1e-4 * meter ** 2 / second = St
-degree_Celsius = kelvin; offset: 273.15 = \u00b0C = degC
-standard_gravity = 9.80665 * meter / second ** 2 = g_n
-inch = 0.0254 * meter = in
-foot = 12 * inch = ft
-pound = 0.45359237 * kilogram = lb
-pound_force = pound * standard_gravity = lbf
-psi = pound_force / inch ** 2
-horsepower = 550 * foot * pound_force / second = hp
-"""
-
 
 @functools.cache
-def _registry() -> Any:
-    from decimal import Decimal
-
+def registry() -> Any:
+    """Return what pint makes of the list of units."""
     import pint
 
     # Decimals make the result the float nearest to what was written: 1 us is 1e-6 exactly.
-    registry: Any = pint.UnitRegistry(None, non_int_type=Decimal)
-    registry.load_definitions(_DEFINITIONS.splitlines())
-    registry._build_cache()
-    return registry
+    made: Any = pint.UnitRegistry(None, non_int_type=Decimal)
+    made.load_definitions(measures.DEFINITIONS.splitlines())
+    made._build_cache()
+    return made
 
 
 def split_unit(text: str) -> tuple[str, str] | None:
@@ -97,16 +48,16 @@ def split_unit(text: str) -> tuple[str, str] | None:
 
 @functools.lru_cache(maxsize=512)
 def _convert(number: str, given: str, unit: str) -> float:
-    from decimal import Decimal
-
-    import pint
-
     if not _UNIT.fullmatch(given):
         raise InputError(f"{given!r} is not a unit")
     text = _PLAIN_POWER.sub(r"**\1", given.replace("\u00b0C", "degC"))
-    registry = _registry()
+    converted = measures.convert(number, text, unit)
+    if converted is not None:
+        return float(converted)
+    import pint
+
     try:
-        quantity = registry.Quantity(Decimal(number), registry.parse_units(text))
+        quantity = registry().Quantity(Decimal(number), registry().parse_units(text))
         return float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         raise InputError(f"{given!r} does not convert to {unit or 'a plain number'}") from None

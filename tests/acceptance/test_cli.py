@@ -324,9 +324,9 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
     [
         (["--help"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
         (["cases"], {"numpy", "numba", "matplotlib", "xarray", "scipy"}),
-        (["rate", "gearset-3"], {"numba", "llvmlite", "matplotlib"}),
-        (["sensitivity", "gearset-3"], {"numba", "llvmlite", "matplotlib"}),
-        (["methods", "gearset-3"], {"numba", "llvmlite", "matplotlib"}),
+        (["rate", "gearset-3"], {"numba", "llvmlite", "matplotlib", "pint"}),
+        (["sensitivity", "gearset-3"], {"numba", "llvmlite", "matplotlib", "pint"}),
+        (["methods", "gearset-3"], {"numba", "llvmlite", "matplotlib", "pint"}),
         (
             ["slide", "table-4.3", *SHORT, "--json"],
             {"matplotlib", "xarray", "pandas", "h5py", "distributed", "sqlite3", "rich.table"}

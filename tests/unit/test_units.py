@@ -1,14 +1,18 @@
+import itertools
+import logging
 import math
 import subprocess
 import sys
+from decimal import Decimal
 from typing import Annotated
 
 import numpy as np
 import pydantic
 import pytest
 
+from asperity import measures
 from asperity.errors import InputError
-from asperity.units import Quantity, quantity_of, split_unit, to_si, unit_of
+from asperity.units import Quantity, quantity_of, registry, split_unit, to_si, unit_of
 
 
 @pytest.mark.parametrize(
@@ -111,6 +115,50 @@ def test_a_number_is_split_from_its_unit():
 def test_importing_units_does_not_load_pint():
     code = "import sys, asperity.units; sys.exit('pint' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_own_reader_agrees_with_pint_to_the_last_bit_on_every_unit_and_prefix(monkeypatch):
+    # Some names have two readings, of which pint takes one and tells the log of the other.
+    monkeypatch.setattr(logging.getLogger("pint.util"), "disabled", True)
+    number = Decimal("1.2345678901234567")
+    prefixes, units = measures.listed()
+    read = 0
+    for name in map("".join, itertools.product(("", *prefixes), units)):
+        if measures.measure(name) is None:
+            continue
+        base = registry().Quantity(number, registry().parse_units(name)).to_base_units()
+        si = " * ".join(f"{unit}**{power}" for unit, power in base.unit_items())
+        assert float(measures.convert(str(number), name, si)) == float(base.magnitude), name
+        read += 1
+    assert read > 0.9 * len(units) * (len(prefixes) + 1)
+
+
+@pytest.mark.parametrize(
+    ("unit", "si"),
+    [
+        ("N/mm**2", "Pa"),
+        ("W/m/K", "W/(m K)"),
+        ("N m/s rad", "W rad"),
+        ("mm**-1", "1/m"),
+        ("1/min", "Hz"),
+        ("m ^ 2/ s", "m**2/s"),
+        ("lbf/in", "N/m"),
+        ("degC", "K"),
+        ("N\u00b7m", "J"),
+    ],
+)
+def test_the_own_reader_agrees_with_pint_on_products_and_powers(unit, si):
+    for number in ("0.1", "-3.3e-7", "219.12345678901234567", "1e300"):
+        whole = registry().Quantity(Decimal(number), unit).to(si)
+        assert to_si(f"{number} {unit}", si) == float(whole.magnitude)
+
+
+@pytest.mark.parametrize(
+    "unit",
+    ["degC**2", "degC/m", "kdegC", "/m", "*m", "2 m", "m**9**9", "m**0", "m m2x", "", "fnord"],
+)
+def test_what_the_own_reader_does_not_know_it_leaves_to_pint(unit):
+    assert measures.convert("1", unit, "m") is None
 
 
 class Model(pydantic.BaseModel):
