@@ -6,6 +6,7 @@ are of an independent prototype of the sliding body with a normal freedom. The m
 another: it knows springs and a load, and none of the formulas.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -13,6 +14,8 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from asperity.errors import InputError
+from asperity.friction.dahl import VECTOR
+from asperity.friction.loaded import STIFFNESS, advance_loaded
 from asperity.slider import closed_forms as cf
 
 STEPS = 2000  # a cycle
@@ -277,3 +280,23 @@ def test_every_form_names_its_source_and_how_far_it_can_be_trusted():
     for name in cf.__all__:
         assert str(getattr(cf, name).source).endswith(")"), name
     assert cf.master_curve_approximated.source.confidence == "from memory"
+
+
+def test_an_asperity_after_dahl_loses_more_and_has_no_end_at_the_critical_velocity():
+    # The table of the prototype for exponent 1, whose reduction over the swing reaches on for ever:
+    # the package's update with its stiffness kept, at the same rigid drive.
+    steps, swing = 1000, 0.5
+    expected = {0.1: 0.89417, 0.3: 0.74512, 0.5: 0.63875, 1.0: 0.46668, 2.0: 0.29537, 5.0: 0.13248}
+    loads = 1.0 + swing * np.cos(2.0 * np.pi / steps * np.arange(steps + 1))
+    for velocity, reduction in expected.items():
+        way = 2.0 * np.pi / steps * swing * velocity
+        deflection, before = 1.0, np.inf
+        while abs(deflection - before) > 1e-9:
+            before, friction = deflection, []
+            for start, end in itertools.pairwise(loads):
+                deflection, _, share, _ = advance_loaded(
+                    deflection, 0.0, way, 0.0, 0.0, 0.0, start, end, 1.0, VECTOR, STIFFNESS
+                )
+                friction.append(share)
+        found = (1.0 - np.mean(friction)) / swing
+        assert found == pytest.approx(reduction, abs=1e-4), velocity

@@ -156,6 +156,10 @@ CLAIMS = (
         "2.4", "2.7.2", "Longitudinal, 4 kHz, v_a = 0.75 mm/s just above v_d = 0.5 mm/s: the mean "
         "of friction falls, its sign stays.", "yes",
     ),
+    _reading(
+        "2.5", "2.7.1", "Normal vibration without loss of contact saves friction (Hess and Soom).",
+        "up to 10 %", cases=(),
+    ),
     _reading("4.9", "4.5.4", "eta_y has no influence on longitudinal vibration.", "none"),
     _reading(
         "4.10", "4.5.5", "F_x and F_y of the coupled model, theta = 270 deg, match the "
