@@ -18,6 +18,10 @@ _OF_MARCHES = (
 
 CHANGES = (
     *_OF_MARCHES,
+    *(
+        ("block *", f"block.nc:{name}", _STRETCHES)
+        for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
+    ),
     # (command lines, what in their answers, why it is no longer what was recorded)
     *(
         ("flank *", f"flank.nc:{name}.units", "what labels a dimension is a number without unit")

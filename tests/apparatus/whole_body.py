@@ -22,8 +22,9 @@ from asperity.contact.elastic.solver import GeneralSolver
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
 from asperity.contact.interface.tractions import tractions
-from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import hht
 from asperity.contact.motion.system import System
+from asperity.contact.motion.works import Resultants, resultants
 from asperity.errors import ConvergenceError, InputError
 
 Floats = NDArray[np.float64]
@@ -150,15 +151,13 @@ class WholeSystem:
             np.zeros(len(self._contact)),
         )  # fmt: skip
 
-    def resultants(self, state: WholeState) -> Floats:
+    def resultants(self, state: WholeState) -> Resultants:
         """Return friction along x and y, normal force and mean deflections, N and m."""
-        forces = np.zeros(ledger.FORCES)
         points = state.points
-        ledger.resultants(
+        return resultants(
             points.pressure, points.traction, points.normal, points.deflection,
-            self.system.weights, forces,
+            self.system.weights,
         )  # fmt: skip
-        return forces
 
     def static_step(
         self, state: WholeState, load: Floats, motion: SurfaceMotion | None = None

@@ -13,8 +13,6 @@ from asperity.block.problem import BlockProblem
 from asperity.block.solution.march import solve_block
 from asperity.casefile import read_case, shipped_cases
 from asperity.commands import case_tables
-from asperity.contact.motion import ledger
-from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 from asperity.slider.march import march
@@ -110,9 +108,9 @@ def test_from_rest_the_block_goes_the_way_of_the_sliding_body_with_its_complianc
         for number in range(1, 20 * 160 + 1):
             stepper.step_to(number * step, step)
             if number % 160 == 0:
-                time = stepper.sums[ledger.TIME]
-                friction = stepper.sums[[ledger.FRICTION_X, ledger.FRICTION_Y]] / time
-                rows.append([*friction, stepper.state.drive[mo.FORCE]])
+                sums = stepper.sums
+                friction = np.array([sums.friction_x, sums.friction_y]) / sums.time
+                rows.append([*friction, stepper.state.drive.force])
                 stepper.clear()
         means.append(rows)
     block_, body = np.array(means) / problem.model.full_friction

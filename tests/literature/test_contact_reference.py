@@ -155,7 +155,7 @@ def apart(settings, step, count):
     for number in range(1, count + 1):
         stepper.step_to(number * step, step)
         theirs = whole.step_to(theirs, number * step, step, loads[-1])
-        mine.append([stepper.state.drive[mo.FORCE], *stepper.state.forces[:3]])
+        mine.append([stepper.state.drive.force, *stepper.state.forces[:3]])
         exact.append([theirs.drive_force, *whole.resultants(theirs)[:3]])
     mine, exact = np.array(mine), np.array(exact)
     friction = np.abs(exact[:, 1:3]).max()

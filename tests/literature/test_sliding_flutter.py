@@ -23,7 +23,6 @@ from asperity.commands import case_tables
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.motion import hht
 from asperity.contact.motion.mechanism import Mechanism
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.stability import sliding_motion
@@ -106,13 +105,14 @@ def test_a_marched_block_flutters_as_fast_as_its_eigenvalues_say():
     found, left = np.linalg.eig(np.linalg.solve(motion.mass, motion.stiffness).T)
     reader = left[:, np.argmax(np.sqrt(-found.astype(complex)).real)]
     rest = rest_under_load(problem.system, problem.loads)
-    thrown = rest.coordinates.copy()
-    thrown[hht.VELOCITY, 0] = 0.05
+    thrown = dataclasses.replace(
+        rest.coordinates, velocity=0.05 * np.eye(len(rest.coordinates.place))[0]
+    )
     stepper = Stepper(problem.system, dataclasses.replace(rest, coordinates=thrown))
     read = []
     for number in range(1, 3001):
         stepper.step_to(number * step, step)
-        read.append(reader @ stepper.state.coordinates[hht.PLACE])
+        read.append(reader @ stepper.state.coordinates.place)
     # From step to step, so that what stays has no share.
     size = np.log(np.abs(np.diff(read)))
     time = step * np.arange(len(size))

@@ -114,12 +114,12 @@ def test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_
         system, lift, 10.0 ** tilt[2] * np.array(tilt[:2]),
         np.array([2e-3, 2e-3, 10.0 ** velocity[3]]) * velocity[:3], 0.2 * np.array(spin),
     )  # fmt: skip
-    before = stepper.state.energies(system)
+    before = ledger.energies(system, stepper.state)
     for number in range(1, INCREMENTS + 1):
         stepper.step_to(number * SECONDS, SECONDS)
         check_contact(system, stepper.state.contact, bounded=law not in LOOSE)
         assert stepper.state.contact.residual <= 1e-9
-    balance = ledger.power_ledger(stepper.sums, before, stepper.state.energies(system))
+    balance = ledger.power_ledger(stepper.sums, before, ledger.energies(system, stepper.state))
     sums = powers(balance)
     assert np.isfinite(sums).all()
     off = balance.drive + balance.vibration + balance.loads
@@ -131,8 +131,8 @@ def test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_
 
 def mechanical_energy(system, state):
     load = system.mechanism.load
-    forces = load.generalised @ state.coordinates[hht.PLACE] + load.response @ state.contact.force
-    return state.energies(system).total - forces
+    forces = load.generalised @ state.coordinates.place + load.response @ state.contact.force
+    return ledger.energies(system, state).total - forces
 
 
 DROPS = {
@@ -170,14 +170,14 @@ def test_a_block_at_rest_that_is_let_go_stays_where_it_is():
     system = block("vibration.velocity_ratio=0").system
     still = dataclasses.replace(system, drive_velocity=0.0)
     at_rest = rest_under_load(still, block().loads)
-    place = at_rest.coordinates[hht.PLACE]
+    place = at_rest.coordinates.place
     stepper = Stepper(still, released(still, place, np.zeros_like(place)))
-    weight = at_rest.forces[ledger.FN]
+    weight = at_rest.forces.normal
     for number in range(1, 41):
         stepper.step_to(number * SECONDS, SECONDS)
         # The asperities bend anew, which leaves the block a little to do.
-        assert stepper.state.forces[ledger.FN] == pytest.approx(weight, rel=1e-3)
-    assert stepper.state.coordinates[hht.PLACE] == pytest.approx(place, abs=1e-3 * abs(place[2]))
+        assert stepper.state.forces.normal == pytest.approx(weight, rel=1e-3)
+    assert stepper.state.coordinates.place == pytest.approx(place, abs=1e-3 * abs(place[2]))
 
 
 @settings(max_examples=40)
@@ -238,22 +238,12 @@ def leaving_speed(height, *, impact):
     """Speed at which a mass leaves a wall it meets with 1 m/s, in steps of 1 s, hard contact."""
     mass, none = np.eye(1), np.zeros((1, 1))
     method = hht.step_operator(mass, none, 1.0, impact=impact)
-    state = hht.rest(1)
-    state[hht.PLACE], state[hht.VELOCITY] = height, -1.0
-    place, velocity = np.empty(1), np.empty(1)
+    state = hht.Coordinates.at_rest(1, place=np.array([height]), velocity=np.array([-1.0]))
     for _ in range(60):
-        hht.predict(
-            state, np.zeros(1), method.carry, method.compliance, method.damping, method.scalars,
-            place, velocity,
-        )  # fmt: skip
+        place, _ = method.predict(state, np.zeros(1))
         force = np.maximum(-place / method.compliance[0], 0.0)
-        trial = np.empty_like(state)
-        place += method.compliance[0] * force
-        hht.complete(
-            state, trial, place, force, mass, none, method.damping, method.held, method.scalars
-        )
-        state = trial
-    return float(state[hht.VELOCITY, 0])
+        state, _, _ = method.complete(state, place + method.compliance[0] * force, force)
+    return float(state.velocity[0])
 
 
 def test_a_mass_leaves_a_hard_contact_no_faster_than_it_came():

@@ -108,22 +108,14 @@ def test_a_block_slides_to_where_drive_and_vibration_take_it(settings, expected)
 
 
 def linear_step(block, motion, state):
-    """Step the coordinates of a sliding block by its own kernels, the contact put in by hand."""
+    """Step the coordinates of a sliding block by its own method, the contact put in by hand."""
     step = hht.step_operator(
         motion.mass, np.zeros_like(motion.mass), block.timetable.step,
         damping=np.diag(motion.damping).copy(),
     )  # fmt: skip
-    place, velocity, after = np.empty(len(state[0])), np.empty(len(state[0])), np.empty_like(state)
-    hht.predict(
-        state, np.zeros(len(place)), step.carry, step.compliance, step.damping, step.scalars,
-        place, velocity,
-    )  # fmt: skip
+    place, _ = step.predict(state, np.zeros(len(motion.mass)))
     place = np.linalg.solve(np.eye(len(place)) + step.compliance @ motion.stiffness, place)
-    hht.complete(
-        state, after, place, -motion.stiffness @ place, step.mass, step.stiffness, step.damping,
-        step.held, step.scalars,
-    )  # fmt: skip
-    return after
+    return step.complete(state, place, -motion.stiffness @ place)[0]
 
 
 def test_eigenvalues_in_steps_are_those_of_the_steps_that_are_taken():
@@ -131,9 +123,11 @@ def test_eigenvalues_in_steps_are_those_of_the_steps_that_are_taken():
     (motion,) = Stability(block).motions
     step, size = block.timetable.step, len(motion.mass)
     rng = np.random.default_rng(3)
-    state = hht.rest(size)
-    state[: hht.ACCELERATION + 1] = rng.normal(size=(3, size))
-    state[hht.FORCE] = motion.damping @ state[1] + motion.stiffness @ state[0]
+    place, velocity, acceleration = rng.normal(size=(3, size))
+    state = hht.Coordinates.at_rest(
+        size, place=place, velocity=velocity, acceleration=acceleration,
+        force=motion.damping @ velocity + motion.stiffness @ place,
+    )  # fmt: skip
     factors = np.exp(step * motion.in_steps(step))
     # Each sequence of places obeys the polynomial whose roots the factors are.
     polynomial = np.poly(factors).real
@@ -141,7 +135,7 @@ def test_eigenvalues_in_steps_are_those_of_the_steps_that_are_taken():
     for _ in range(3):
         state = linear_step(block, motion, state)
     for _ in range(len(polynomial)):
-        places.append(state[hht.PLACE].copy())
+        places.append(state.place)
         state = linear_step(block, motion, state)
     terms = polynomial[::-1, None] * np.array(places)
     assert np.abs(terms.sum(axis=0)).max() < 1e-6 * np.abs(terms).max()

@@ -13,6 +13,7 @@ from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
+from asperity.contact.motion.works import overclosure_work, potential, surface_energies, works
 
 LINEAR = NormalLaw(stiffness=4e13)
 TWO_STAGE = NormalLaw("two-stage", 4e13, 4e12, 1e-7, 3e-7)
@@ -40,28 +41,35 @@ def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law):
     distance, deflection, weights = steps_of()
     pressed = pressures(distance, parameters)
     deflection[pressed == 0.0] = 0.0
-    sums, none = np.zeros(ledger.SUMS), np.zeros((len(weights), 3))
-    imposed = np.zeros(ledger.IMPOSED)
-    imposed[ledger.BRISTLE] = MU / LIMIT
-    forces, drive, nodes = np.zeros(ledger.FORCES), np.zeros(6), np.zeros(3)
-    for n in range(len(distance) - 1):
-        ledger.account(
-            sums, imposed, forces, forces, drive, drive, nodes, nodes, nodes, nodes,
-            pressed[n], none, none, distance[n], deflection[n],
-            pressed[n + 1], none, none, distance[n + 1], deflection[n + 1],
-            none, none, weights, parameters, np.zeros(len(weights)),
-        )  # fmt: skip
+    none = np.zeros((len(weights), 3))
+    done = [
+        works(
+            pressed[n],
+            none,
+            none,
+            distance[n],
+            deflection[n],
+            pressed[n + 1],
+            none,
+            none,
+            distance[n + 1],
+            deflection[n + 1],
+            none,
+            weights,
+            parameters,
+            MU / LIMIT,
+        )
+        for n in range(len(distance) - 1)
+    ]
     over, asperities = np.subtract(
         *(
-            ledger.surface_energies(
-                pressed[n], distance[n], deflection[n], weights, parameters, MU, LIMIT
-            )
+            surface_energies(pressed[n], distance[n], deflection[n], weights, parameters, MU, LIMIT)
             for n in (-1, 0)
         )
     )
     assert min(abs(over), abs(asperities)) > 0.0
-    assert sums[ledger.OVERCLOSURE_WORK] == pytest.approx(over, rel=1e-9)
-    assert sums[ledger.ASPERITY_WORK] == pytest.approx(asperities, rel=1e-9)
+    assert sum(work.overclosure for work in done) == pytest.approx(over, rel=1e-9)
+    assert sum(work.asperities for work in done) == pytest.approx(asperities, rel=1e-9)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -73,14 +81,14 @@ def test_the_work_of_a_pressure_is_its_integral_and_its_potential(law):
         between = quad(
             lambda over: pressure(over, 0.0, parameters)[0], begin, end, points=inside or None
         )[0]
-        work = ledger.overclosure_work(begin, end, parameters)
+        work = overclosure_work(begin, end, parameters)
         assert work == pytest.approx(between, rel=1e-10)
-        stored = ledger.potential(end, parameters) - ledger.potential(begin, parameters)
+        stored = potential(end, parameters) - potential(begin, parameters)
         assert work == pytest.approx(stored, rel=1e-10)
 
 
 def test_hard_contact_stores_nothing():
-    assert ledger.overclosure_work(0.0, 1e-7, NormalLaw("hard", 4e13).numbers) == 0.0
+    assert overclosure_work(0.0, 1e-7, NormalLaw("hard", 4e13).numbers) == 0.0
 
 
 def marched(steps, cycles=4.25, rise=0.0, settings=()):
@@ -102,7 +110,7 @@ def marched(steps, cycles=4.25, rise=0.0, settings=()):
 
 
 def balance(stepper, before):
-    start, end = (state.energies(stepper.system) for state in (before, stepper.state))
+    start, end = (ledger.energies(stepper.system, state) for state in (before, stepper.state))
     return ledger.power_ledger(stepper.sums, start, end)
 
 

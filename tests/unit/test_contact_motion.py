@@ -8,6 +8,7 @@ import pytest
 from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import hht, ledger
 from asperity.contact.motion import mechanism as motion
+from asperity.contact.motion.works import potential
 from asperity.errors import InputError
 
 
@@ -22,40 +23,31 @@ def swing(steps, *, alpha, period=1.0, spring=None, damping=0.0):
     mass = np.array([[2.0]])
     linear = np.array([[2.0 * omega**2]]) if spring is None else np.zeros((1, 1))
     operator = hht.step_operator(mass, linear, step, damping=np.array([damping]), alpha=alpha)
-    state = hht.rest(1)
-    state[hht.PLACE] = 1.0
-    state[hht.FORCE] = linear[0] if spring is None else -spring(1.0)
-    state[hht.ACCELERATION] = -state[hht.FORCE] / 2.0
-    trial, place, velocity = hht.rest(1), np.empty(1), np.empty(1)
-    known, force = np.zeros(1), np.zeros(1)
-    lost, work = np.zeros(2), 0.0
+    state = hht.Coordinates.at_rest(1, place=np.ones(1))
+    resisting = linear[0] if spring is None else -np.array([spring(1.0)])
+    state = dataclasses.replace(state, force=resisting, acceleration=-resisting / 2.0)
+    force, lost, work = np.zeros(1), np.zeros(2), 0.0
     for _ in range(steps):
-        hht.predict(
-            state, known, operator.carry, operator.compliance, operator.damping, operator.scalars,
-            place, velocity,
-        )  # fmt: skip
+        place, _ = operator.predict(state, np.zeros(1))
         last = force.copy()
         if spring is not None:
-            last[0] = spring(state[hht.PLACE, 0])
+            last[0] = spring(state.place[0])
             free = place[0]
             for _ in range(100):
                 place[0] = free + operator.compliance[0, 0] * spring(place[0])
-            force[0] = spring(place[0])
-        taken = hht.complete(
-            state, trial, place, force, mass, linear, operator.damping, operator.held,
-            operator.scalars,
-        )  # fmt: skip
+            force = np.array([spring(place[0])])
+        before = state
+        state, *taken = operator.complete(before, place, force)
         lost += np.array(taken)
-        work += 0.5 * (last + force) @ (trial[hht.PLACE] - state[hht.PLACE])
-        state, trial = trial, state
-    kinetic = 1.0 * state[hht.VELOCITY, 0] ** 2
-    stored = 0.5 * linear[0, 0] * (state[hht.PLACE, 0] ** 2 - 1.0) + kinetic
+        work += 0.5 * (last + force) @ (state.place - before.place)
+    kinetic = 1.0 * state.velocity[0] ** 2
+    stored = 0.5 * linear[0, 0] * (state.place[0] ** 2 - 1.0) + kinetic
     return state, lost, work, stored
 
 
 def test_the_method_is_of_second_order():
-    errors = [abs(swing(n, alpha=-0.05)[0][hht.PLACE, 0] - 1.0) for n in (40, 80)]
-    velocities = [abs(swing(n, alpha=-0.05)[0][hht.VELOCITY, 0]) for n in (40, 80)]
+    errors = [abs(swing(n, alpha=-0.05)[0].place[0] - 1.0) for n in (40, 80)]
+    velocities = [abs(swing(n, alpha=-0.05)[0].velocity[0]) for n in (40, 80)]
     assert np.log2(velocities[0] / velocities[1]) == pytest.approx(2.0, abs=0.05)
     assert errors[1] < errors[0] / 4.0
 
@@ -63,7 +55,7 @@ def test_the_method_is_of_second_order():
 def test_without_alpha_a_linear_swing_keeps_its_energy():
     state, lost, _, stored = swing(30, alpha=0.0)
     assert lost == pytest.approx([0.0, 0.0], abs=1e-12)
-    assert stored == pytest.approx(0.0, abs=1e-10 * state[hht.ACCELERATION, 0] ** 2)
+    assert stored == pytest.approx(0.0, abs=1e-10 * state.acceleration[0] ** 2)
 
 
 @pytest.mark.parametrize("alpha", [-0.05, -1.0 / 3.0])
@@ -87,7 +79,7 @@ def test_a_damped_swing_dies_away_as_its_closed_form_to_second_order():
     damped = omega * np.sqrt(1.0 - ratio**2)
     exact = np.exp(-ratio * omega) * (np.cos(damped) + ratio * omega / damped * np.sin(damped))
     errors = [
-        abs(swing(n, alpha=-0.05, damping=2.0 * ratio * 2.0 * omega)[0][hht.PLACE, 0] - exact)
+        abs(swing(n, alpha=-0.05, damping=2.0 * ratio * 2.0 * omega)[0].place[0] - exact)
         for n in (80, 160)
     ]
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
@@ -103,20 +95,13 @@ def test_the_energy_the_method_takes_is_exact_for_any_force():
 def test_a_held_coordinate_goes_on_whatever_pushes_it():
     mass, none = np.diag([2.0, 3.0]), np.zeros((2, 2))
     operator = hht.step_operator(mass, none, 0.1, held=np.array([True, False]))
-    state, trial = hht.rest(2), hht.rest(2)
-    state[hht.VELOCITY, 0] = 4.0
-    place, velocity, force = np.empty(2), np.empty(2), np.array([7.0, 0.0])
-    hht.predict(
-        state, np.zeros(2), operator.carry, operator.compliance, operator.damping,
-        operator.scalars, place, velocity,
-    )  # fmt: skip
-    place += operator.compliance @ force
-    lost = hht.complete(
-        state, trial, place, force, mass, none, operator.damping, operator.held, operator.scalars
-    )
-    assert (place[0], trial[hht.VELOCITY, 0], place[1]) == pytest.approx((0.4, 4.0, 0.0))
-    assert trial[hht.REACTION, 0] == -7.0
-    assert lost == (0.0, 0.0)
+    state = hht.Coordinates.at_rest(2, velocity=np.array([4.0, 0.0]))
+    force = np.array([7.0, 0.0])
+    place = operator.predict(state, np.zeros(2))[0] + operator.compliance @ force
+    end, *taken = operator.complete(state, place, force)
+    assert (end.place[0], end.velocity[0], end.place[1]) == pytest.approx((0.4, 4.0, 0.0))
+    assert end.reaction[0] == -7.0
+    assert taken == [0.0, 0.0]
 
 
 @pytest.mark.parametrize("alpha", [0.1, -0.5])
@@ -151,41 +136,28 @@ def random_mechanism(seed=0, *, damping=30.0, modes=1):
 def one_step(mechanism, step, springs, state, drive_state, far, speed):
     """Take a step on linear springs under the contact nodes; also what it takes from the energy."""
     moving = motion.motion_step(mechanism, step)
-    operator, size = moving.operator, mechanism.size
-    place, velocity, room = np.empty(size), np.empty(size), np.empty(size)
-    free = np.empty(len(springs))
-    pull = motion.approach(
-        state, drive_state, far, speed, 1.0, operator.carry, operator.compliance,
-        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive,
-        moving.drive_shape, moving.load_force, moving.load_response, place, velocity, room, free,
-    )  # fmt: skip
-    u = np.linalg.solve(np.eye(len(springs)) + moving.compliance * springs, free)
-    trial, drive_trial = np.empty_like(state), np.empty_like(drive_state)
-    lost = motion.settle(
-        state, trial, drive_state, drive_trial, far, speed, 1.0, pull, -springs * u, place,
-        velocity, room, operator.mass, operator.stiffness, operator.damping, operator.held,
-        operator.compliance, operator.scalars, moving.shapes, moving.drop, moving.drive,
-        moving.drive_shape, moving.drive_response, moving.load_force,
-    )  # fmt: skip
-    return u, trial, drive_trial, lost
+    imposed = motion.Imposed(far, speed, 1.0)
+    start = moving.approach(state, drive_state, imposed)
+    u = np.linalg.solve(np.eye(len(springs)) + moving.compliance * springs, start.free)
+    return u, *moving.settle(state, drive_state, imposed, start, -springs * u)
 
 
 def test_a_step_solves_motion_deformation_drive_and_contact_at_once():
     mechanism, step = random_mechanism(), 1e-3
     springs = np.array([2e5, 1e4, 3e5, 0.0, 5e4, 1e5])
     size, drive, load = mechanism.size, mechanism.drive, mechanism.load
-    state = hht.rest(size)
-    state[:3] = np.random.default_rng(1).normal(size=(3, size)) * [[1e-4], [1e-2], [1.0]]
-    state[hht.FORCE] = [3.0, -2.0, 1.0, 5.0]
-    drive_state = np.zeros(motion.DRIVE_STATE)
-    drive_state[motion.STRAIN] = 3e-6
+    q0, v0, a0 = np.random.default_rng(1).normal(size=(3, size)) * [[1e-4], [1e-2], [1.0]]
+    state = hht.Coordinates.at_rest(
+        size, place=q0, velocity=v0, acceleration=a0, force=np.array([3.0, -2.0, 1.0, 5.0])
+    )
+    drive_state = motion.DriveState(strain=3e-6)
     far, speed = 2e-3, 0.7
     u, trial, drive_trial, _ = one_step(mechanism, step, springs, state, drive_state, far, speed)
-    q, v, a = trial[:3]
-    force, pull = -springs * u, drive_trial[motion.FORCE]
+    q, v, a = trial.place, trial.velocity, trial.acceleration
+    force, pull = -springs * u, drive_trial.force
     strain = drive.port.response @ force + drive.port.own * pull
     way = drive.port.generalised @ q + strain
-    pace = drive.port.generalised @ v + (strain - drive_state[motion.STRAIN]) / step
+    pace = drive.port.generalised @ v + (strain - drive_state.strain) / step
     assert pull == pytest.approx(
         drive.stiffness * (far - way) + drive.damping * (speed - pace), rel=1e-9
     )
@@ -194,12 +166,12 @@ def test_a_step_solves_motion_deformation_drive_and_contact_at_once():
     assert u == pytest.approx(shown, rel=1e-9)
     resistance = mechanism.stiffness @ q + mechanism.damping * v - mechanism.shapes.T @ force
     resistance -= drive.port.generalised * pull + load.generalised
-    left = mechanism.mass @ a + (1.0 + hht.ALPHA) * resistance - hht.ALPHA * state[hht.FORCE]
+    left = mechanism.mass @ a + (1.0 + hht.ALPHA) * resistance - hht.ALPHA * state.force
     assert left == pytest.approx(np.zeros(size), abs=1e-9 * np.abs(resistance).max())
     beta, gamma = hht.coefficients()
-    ahead = state[0] + step * state[1] + step**2 * ((0.5 - beta) * state[2] + beta * a)
+    ahead = q0 + step * v0 + step**2 * ((0.5 - beta) * a0 + beta * a)
     assert q == pytest.approx(ahead, rel=1e-9)
-    assert v == pytest.approx(state[1] + step * ((1 - gamma) * state[2] + gamma * a), rel=1e-9)
+    assert v == pytest.approx(v0 + step * ((1 - gamma) * a0 + gamma * a), rel=1e-9)
 
 
 def test_without_a_dashpot_the_compliance_is_symmetric_and_positive():
@@ -211,7 +183,7 @@ def test_without_a_dashpot_the_compliance_is_symmetric_and_positive():
 def test_the_energy_of_motion_deformation_and_spring_balances_the_works():
     mechanism, step = random_mechanism(), 1e-3
     springs = np.array([2e5, 1e4, 3e5, 0.0, 5e4, 1e5])
-    state, drive_state = hht.rest(mechanism.size), np.zeros(motion.DRIVE_STATE)
+    state, drive_state = hht.Coordinates.at_rest(mechanism.size), motion.DriveState()
     u0, force0, far = np.zeros(6), np.zeros(6), 0.0
     energy0, supplied = None, 0.0
     for n in range(200):
@@ -220,18 +192,17 @@ def test_the_energy_of_motion_deformation_and_spring_balances_the_works():
             mechanism, step, springs, state, drive_state, far, 1e-2
         )
         force = -springs * u
-        stretch = [d[motion.REACH] - d[motion.WAY] for d in (drive_state, drive_trial)]
         if n > 0:
-            supplied += 0.5 * (drive_state + drive_trial)[motion.FORCE] * 1e-5
+            supplied += 0.5 * (drive_state.force + drive_trial.force) * 1e-5
             supplied += 0.5 * (force0 + force) @ (u - u0)
-            supplied += mechanism.load.generalised @ (trial[0] - state[0])
+            supplied += mechanism.load.generalised @ (trial.place - state.place)
             supplied += mechanism.load.response @ (force - force0)
-            pull = 0.5 * (drive_state + drive_trial)[motion.PULL]
-            supplied -= sum(lost) + pull * (stretch[1] - stretch[0])
+            pull = 0.5 * (drive_state.pull + drive_trial.pull)
+            supplied -= sum(lost) + pull * (drive_trial.stretch - drive_state.stretch)
         state, drive_state, u0, force0 = trial, drive_trial, u, force
         if n == 0:
-            energy0 = sum(ledger.body_energies(mechanism, state, drive_state, force, 1.0))
-    change = sum(ledger.body_energies(mechanism, state, drive_state, force0, 1.0)) - energy0
+            energy0 = ledger.body_energies(mechanism, state, drive_state, force, 1.0).total
+    change = ledger.body_energies(mechanism, state, drive_state, force0, 1.0).total - energy0
     assert change == pytest.approx(supplied, rel=1e-8)
 
 
@@ -249,6 +220,4 @@ def test_a_drive_without_stiffness_is_refused():
 def test_the_energy_of_the_overclosure_is_the_integral_of_the_pressure(law, over):
     at = np.linspace(0.0, over, 20_001)
     pressures = np.array([pressure(x, 0.0, law.numbers)[0] for x in at])
-    assert ledger.potential(over, law.numbers) == pytest.approx(
-        np.trapezoid(pressures, at), rel=1e-6
-    )
+    assert potential(over, law.numbers) == pytest.approx(np.trapezoid(pressures, at), rel=1e-6)

@@ -8,7 +8,7 @@ import pytest
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.motion import hht, ledger
+from asperity.contact.motion import ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 
@@ -40,7 +40,7 @@ def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
     forces = []
     for time in times:
         stepper.step_to(time, STEP)
-        forces.append(stepper.state.forces[ledger.FN])
+        forces.append(stepper.state.forces.normal)
     # z'' + own^2 (z - z_base) = 0 from rest, with z_base = amplitude sin(imposed t).
     share = own / (own**2 - imposed**2)
     z = amplitude * share * (own * np.sin(imposed * times) - imposed * np.sin(own * times))
@@ -60,7 +60,7 @@ def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
 def test_a_block_that_is_thrown_up_keeps_its_momentum_and_its_ledger(contact):
     problem, stepper = shaken(2e-5, *contact)
     mass = problem.mass
-    before = stepper.state.energies(stepper.system)
+    before = ledger.energies(stepper.system, stepper.state)
     touching, landings = True, 0
     for number in range(1, 4001):
         stepper.step_to(number * STEP, STEP)
@@ -68,11 +68,11 @@ def test_a_block_that_is_thrown_up_keeps_its_momentum_and_its_ledger(contact):
         landings += touching and not before_it
     assert landings >= 2
     sums = stepper.sums
-    push = sums[ledger.NORMAL_FORCE] - 55.0 * sums[ledger.TIME]
+    push = sums.normal_force - 55.0 * sums.time
     assert push == pytest.approx(
-        mass * stepper.state.coordinates[hht.VELOCITY, 2], abs=0.02 * 55.0 * sums[ledger.TIME]
+        mass * stepper.state.coordinates.velocity[2], abs=0.02 * 55.0 * sums.time
     )
-    balance = ledger.power_ledger(sums, before, stepper.state.energies(stepper.system))
+    balance = ledger.power_ledger(sums, before, ledger.energies(stepper.system, stepper.state))
     assert balance.vibration > 0.0
     missing = balance.drive + balance.vibration + balance.loads - balance.friction
     missing -= balance.damping + balance.numerical + balance.stored

@@ -59,7 +59,7 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult | SettledBlock:
 
 
 def _write_unfinished(march: BlockMarch, run: Run, why: str) -> None:
-    if run.folder is None or not march.rows:
+    if run.folder is None or not march.done:
         return
     unfinished = UnfinishedBlock(problem=march.problem, history=march.history, ended=why)
     unfinished.save(run.folder / "block.nc")

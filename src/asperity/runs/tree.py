@@ -128,6 +128,11 @@ def _typed(of: Any, tree: Any) -> Any:
         fields = {field.name for field in dataclasses.fields(of)}
         made: Any = of
         return made(**{name: _typed(hints[name], tree[name]) for name in fields})
+    if hasattr(of, "_fields"):
+        hints = typing.get_type_hints(of)
+        return of(
+            *(_typed(hints[name], entry) for name, entry in zip(of._fields, tree, strict=True))
+        )
     if origin is tuple:
         kinds = [inner[0]] * len(tree) if inner[-1] is Ellipsis else inner
         return tuple(_typed(kind, entry) for kind, entry in zip(kinds, tree, strict=True))

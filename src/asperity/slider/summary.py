@@ -1,5 +1,7 @@
 """From the sums over a window to a result in SI, power ledger and history."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from asperity.arrays import FloatArray
@@ -9,6 +11,7 @@ from asperity.slider.result import History, SlideResult
 from asperity.slider.scaled import NODE, Parameters
 
 _ADVICE = "give a smaller solve.step"
+_SI = dict.fromkeys(("drive_force", "friction", "deflection", "position", "velocity"), 1.0)
 
 
 def energies(state: np.void, p: Parameters, *, elastic: bool) -> tuple[float, float]:
@@ -121,33 +124,54 @@ def history_of(
         The body.
     step : float
         Time step, s.
+    at, span, mean, least, greatest
+        As `of_stretches` takes them, scaled as in `asperity.slider.scaled`.
+    """
+    length, force = model.length(step), model.full_friction
+    units = dict.fromkeys(("drive_force", "friction"), force)
+    units |= {"deflection": length, "position": length, "velocity": length / step}
+    begin = model.slider.drive_velocity * at
+    return of_stretches(step, at, span, mean, least, greatest, units, begin)
+
+
+def of_stretches(
+    step: float,
+    at: FloatArray,
+    span: FloatArray,
+    mean: FloatArray,
+    least: FloatArray | None,
+    greatest: FloatArray | None,
+    units: Mapping[str, float] = _SI,
+    begin: FloatArray | float = 0.0,
+) -> History:
+    """Return motion and forces, stretch by stretch.
+
+    Parameters
+    ----------
+    step : float
+        Time step, s.
     at, span : ndarray, shape (n,)
         Begin and length of each stretch, s.
     mean, least, greatest : ndarray, shape (n, numbers of a node)
         As `asperity.slider.kernels.condense` leaves them; the latter two only where a stretch is
         more than a step.
+    units : mapping of str to float
+        What the numbers of a node are given in, SI.
+    begin : ndarray, shape (n,), or float
+        Where on the way along the drive the positions of a stretch are counted from, m.
     """
-    length, force = model.length(step), model.full_friction
-    drive = model.slider.drive_velocity
-    speed = length / step
 
     def columns(rows: FloatArray | None, ending: str) -> dict[str, FloatArray]:
         if rows is None:
             return {}
         node = np.ascontiguousarray(rows).view(NODE)[:, 0]
-
-        def pair(name: str, unit: float) -> FloatArray:
-            return unit * np.stack([node[f"{name}_x"], node[f"{name}_y"]], axis=1)
-
-        position = pair("position", length)
-        position[:, 0] += drive * at
         found = {
-            "drive_force": force * node["drive_force"],
-            "friction": pair("friction", force),
-            "deflection": pair("deflection", length),
-            "position": position,
-            "velocity": pair("velocity", speed),
+            name: unit * np.stack([node[f"{name}_x"], node[f"{name}_y"]], axis=1)
+            for name, unit in units.items()
+            if name != "drive_force"
         }
+        found["drive_force"] = units["drive_force"] * node["drive_force"]
+        found["position"][:, 0] += begin
         return {name + ending: values for name, values in found.items()}
 
     # The mean over the ends of a stretch's steps belongs to the mean of their times.

@@ -1,27 +1,33 @@
 """An elastic block marched through its steps: gravity, pressure, drive, vibration."""
 
+import dataclasses
 import functools
 import math
 import time
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem
-from asperity.block.result import BlockResult
+from asperity.block.result import BlockResult, inputs
 from asperity.block.series import Frame
 from asperity.block.solution.notes import block_notes
-from asperity.block.solution.resume import MarchState, march_key
 from asperity.block.solution.stability import Flutter, Stability
-from asperity.contact.motion import hht, ledger
-from asperity.contact.motion import mechanism as mo
+from asperity.contact.increment.solver import SolverMemory
+from asperity.contact.motion.ledger import Energies, Sums, energies, power_ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Snapshot, Stepper
 from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.runs import Run
+from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree, from_tree, to_tree
+from asperity.slider.kernels import condense
 from asperity.slider.result import History
+from asperity.slider.summary import of_stretches
+from asperity.slider.timetable import Timetable
 
 _RECORDS = 4000
 _FRAMES = 48
@@ -32,13 +38,46 @@ _REPORTS = 0.1
 
 _NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
 
-_Place = tuple[
-    int, Snapshot, int, int, ledger.Energies | None, FloatArray | None, FloatArray | None
-]
 
-# Places in a recorded row.
-_TIME, _FD, _FX, _FY, _SX, _SY, _X, _Y, _VX, _VY = range(10)
-_ROW = 10
+@dataclasses.dataclass(frozen=True, eq=False)
+class Progress:
+    """What a march has come to, in one piece: no interruption can split it.
+
+    Attributes
+    ----------
+    snapshot : Snapshot
+        Of the stepper.
+    done : int
+        Increments solved.
+    seconds, march_seconds, timed : float, float, int
+        As in `asperity.block.result.BlockResult`.
+    rows : tuple of ndarray, shape (3, numbers of a node)
+        Mean, least and greatest of each recorded stretch.
+    nodes : tuple of ndarray
+        Of the stretch under way.
+    frames : tuple of Frame
+        For an animation.
+    window_energies, first_half, first_pressure : Energies, Sums, ndarray; or None
+        Of the window, as far as it is reached.
+    """
+
+    snapshot: Snapshot
+    done: int = 0
+    seconds: float = 0.0
+    march_seconds: float = 0.0
+    timed: int = 0
+    rows: tuple[FloatArray, ...] | FloatArray = ()
+    nodes: tuple[FloatArray, ...] | FloatArray = ()
+    frames: tuple[Frame, ...] = ()
+    window_energies: Energies | None = None
+    first_half: Sums | None = None
+    first_pressure: FloatArray | None = None
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Kept:
+    progress: Progress
+    memories: dict[str, SolverMemory]
 
 
 class BlockMarch:
@@ -53,11 +92,6 @@ class BlockMarch:
         of the last cycles.
     run : Run, optional
         Told how far the march is; it may keep it between increments, or end it by raising.
-
-    Attributes
-    ----------
-    done : int
-        Increments solved.
     """
 
     def __init__(
@@ -68,19 +102,11 @@ class BlockMarch:
         run: Run | None = None,
     ) -> None:
         self.problem = problem
-        self.done = 0
-        self.rows: list[FloatArray] = []
-        self.frames: list[Frame] = []
-        self.window_energies: ledger.Energies | None = None
-        self.first_half: FloatArray | None = None
-        self.first_pressure: FloatArray | None = None
-        self.seconds = self.march_seconds = 0.0
-        self.timed = 0
         self._run = run or Run()
-        table = problem.timetable
-        self._stride = max(1, table.steps // _RECORDS) if history else 0
+        self._ends = _stretch_ends(problem.timetable) if history else None
         self._frame_steps = _frame_steps(problem) if history else frozenset()
         self._stepper: Stepper | None = None
+        self._progress: Progress | None = None
 
     @property
     def stepper(self) -> Stepper:
@@ -88,8 +114,20 @@ class BlockMarch:
         if self._stepper is None:
             system = self.problem.system
             self._stepper = Stepper(system, rest_under_load(system, self.problem.loads))
-            self._record(0)
         return self._stepper
+
+    @property
+    def progress(self) -> Progress:
+        """What the march has come to."""
+        if self._progress is None:
+            frames = (_frame(self.stepper.state),) if 0 in self._frame_steps else ()
+            self._progress = Progress(self.stepper.snapshot(), frames=frames)
+        return self._progress
+
+    @property
+    def done(self) -> int:
+        """Increments solved."""
+        return self._progress.done if self._progress is not None else 0
 
     @functools.cached_property
     def flutter(self) -> Flutter | None:
@@ -97,27 +135,23 @@ class BlockMarch:
         return Stability(self.problem).flutter()
 
     def state(self) -> Tree:
-        """Return where the march stands, to be kept."""
-        stepper = self.stepper
-        tree: Tree = to_tree(
-            MarchState(
-                self.done, self.seconds, self.march_seconds, self.timed, np.array(self.rows),
-                self.frames, self.window_energies, self.first_half, self.first_pressure,
-                stepper.snapshot(), stepper.memories(),
-            )
-        )  # fmt: skip
+        """Return where the march stands, to be kept: to the last bit, and with what it has learnt.
+
+        A march that goes on from there ends exactly as one that was never interrupted.
+        """
+        progress = self.progress
+        rows, nodes = np.array(progress.rows), np.array(progress.nodes)
+        progress = dataclasses.replace(progress, rows=rows, nodes=nodes)
+        tree: Tree = to_tree(_Kept(progress, self.stepper.memories()))
         return tree
 
     def restore(self, tree: Tree) -> None:
         """Go on from where a march of the same problem stood."""
-        state = from_tree(MarchState, tree)
-        self._stepper = Stepper(self.problem.system, state.snapshot.state)
-        self._stepper.restore(state.snapshot)
-        self._stepper.recall(state.memories)
-        self.done, self.rows, self.frames = state.done, list(state.rows), state.frames
-        self.seconds, self.march_seconds = state.seconds, state.march_seconds
-        self.timed, self.window_energies = state.timed, state.window_energies
-        self.first_half, self.first_pressure = state.first_half, state.first_pressure
+        kept = from_tree(_Kept, tree)
+        self._progress = kept.progress
+        self._stepper = Stepper(self.problem.system, kept.progress.snapshot.state)
+        self._stepper.restore(kept.progress.snapshot)
+        self._stepper.recall(kept.memories)
 
     def resume(self) -> bool:
         """Go on from where the run has kept a march of this problem; returns whether it has."""
@@ -138,137 +172,136 @@ class BlockMarch:
             An increment did not converge however small; with time, residual, points in contact
             and the increments done.
         """
-        last = told = time.perf_counter()
-        table, stepper = self.problem.timetable, self.stepper
-        first = self.done
-        whole = self._place()
+        told = time.perf_counter()
+        table, first = self.problem.timetable, self.done
         try:
             while self.done < table.steps:
-                if self.done == table.window_start and self.window_energies is None:
-                    self._open_window()
-                elif self.done == table.middle and self.first_half is None:
-                    self._close_first_half()
-                begin = time.perf_counter()
-                stepper.step_to((self.done + 1) * table.step, table.step)
-                self.done += 1
-                self._record(self.done)
-                now = time.perf_counter()
-                self.seconds += now - last
+                self._begin_half()
                 # The first increment of a program may have compiled kernels.
-                if self.done > first + 1:
-                    self.march_seconds += now - begin
-                    self.timed += 1
-                last = now
-                whole = self._place()
+                self._increment(timed=self.done > first)
+                now = time.perf_counter()
                 if now - told >= _REPORTS or self.done == table.steps:
                     told = now
                     self._run.checkpoint(self.done, table.steps, self.state, "increments")
         except ConvergenceError as error:
-            self._go_back(whole)
+            self.stepper.restore(self.progress.snapshot)
             raise ConvergenceError(
                 f"{error}; {self.done} of {table.steps} increments are solved",
                 reached={**error.reached, "increments": float(self.done)},
             ) from error
         except BaseException:
-            self._go_back(whole)
+            self.stepper.restore(self.progress.snapshot)
             raise
         result = self._result()
         if not all(math.isfinite(n) for n in result.to_json().values() if isinstance(n, float)):
             raise ConvergenceError(_NOT_FINITE)
         return result
 
-    def _place(self) -> _Place:
-        """Return all that an increment changes, in one piece: no interruption can split it."""
-        return (
-            self.done, self.stepper.snapshot(), len(self.rows), len(self.frames),
-            self.window_energies, self.first_half, self.first_pressure,
-        )  # fmt: skip
+    def _go_on(self, **changed: Any) -> None:
+        snapshot = self.stepper.snapshot()
+        self._progress = dataclasses.replace(self.progress, snapshot=snapshot, **changed)
 
-    def _go_back(self, place: _Place) -> None:
-        self.done, snapshot, rows, frames, energies, half, pressure = place
-        self.stepper.restore(snapshot)
-        del self.rows[rows:], self.frames[frames:]
-        self.window_energies, self.first_half, self.first_pressure = energies, half, pressure
+    def _begin_half(self) -> None:
+        """Sum anew where the window opens, and in its middle."""
+        table, progress, stepper = self.problem.timetable, self.progress, self.stepper
+        if progress.done == table.window_start and progress.window_energies is None:
+            opened = energies(stepper.system, stepper.state)
+            stepper.clear()
+            self._go_on(window_energies=opened)
+        elif progress.done == table.middle and progress.first_half is None:
+            sums, pressure = stepper.sums, stepper.mean_pressure
+            stepper.clear()
+            self._go_on(first_half=sums, first_pressure=pressure)
 
-    def _open_window(self) -> None:
-        stepper = self.stepper
-        self.window_energies = stepper.state.energies(stepper.system)
-        stepper.clear()
+    def _increment(self, *, timed: bool) -> None:
+        began, progress, step = time.perf_counter(), self.progress, self.problem.timetable.step
+        self.stepper.step_to((progress.done + 1) * step, step)
+        solved = time.perf_counter()
+        recorded = self._recorded(progress)
+        self._go_on(
+            done=progress.done + 1,
+            march_seconds=progress.march_seconds + timed * (solved - began),
+            timed=progress.timed + timed,
+            seconds=progress.seconds + time.perf_counter() - began,
+            **recorded,
+        )
 
-    def _close_first_half(self) -> None:
-        self.first_half = self.stepper.sums.copy()
-        self.first_pressure = self.stepper.mean_pressure.copy()
-        self.stepper.clear()
-
-    def _record(self, number: int) -> None:
-        table = self.problem.timetable
-        if not self._stride or self._stepper is None:
-            return
-        state = self._stepper.state
-        in_tail = number > table.steps - table.tail
-        if number % self._stride == 0 or in_tail or number == table.steps:
-            self.rows.append(_row(state))
+    def _recorded(self, progress: Progress) -> dict[str, Any]:
+        """What is recorded of the state after an increment."""
+        state, number = self.stepper.state, progress.done + 1
+        rows, nodes, frames = progress.rows, progress.nodes, progress.frames
+        if self._ends is not None:
+            nodes = (*nodes, _node(state))
+            if number == self._ends[len(rows)]:
+                rows, nodes = (*rows, _condensed(nodes)), ()
         if number in self._frame_steps:
-            self.frames.append(_frame(state))
+            frames = (*frames, _frame(state))
+        return {"rows": rows, "nodes": nodes, "frames": frames}
 
     @property
     def history(self) -> History:
         """Motion and forces up to now."""
-        rows = np.array(self.rows).reshape(-1, _ROW)
-        return History(
-            time=rows[:, _TIME],
-            drive_force=rows[:, _FD],
-            friction=rows[:, [_FX, _FY]],
-            deflection=rows[:, [_SX, _SY]],
-            position=rows[:, [_X, _Y]],
-            velocity=rows[:, [_VX, _VY]],
-        )
+        progress, step = self.progress, self.problem.timetable.step
+        if self._ends is None or not progress.done:
+            raise ValueError("nothing is recorded")
+        ends, rows = self._ends[: len(progress.rows)], [*progress.rows]
+        if len(progress.nodes):
+            ends, rows = np.append(ends, progress.done), [*rows, _condensed(progress.nodes)]
+        counts = np.diff(ends, prepend=0)
+        at, span = (np.asarray(step * steps) for steps in (ends - counts, counts))
+        return of_stretches(step, at, span, *np.stack(rows, axis=1))
 
     def _result(self) -> BlockResult:
         problem, stepper = self.problem, self.stepper
-        model, table = problem.model, problem.timetable
-        first, start = self.first_half, self.window_energies
-        if first is None or start is None or self.first_pressure is None:
+        model, table, progress = problem.model, problem.timetable, self.progress
+        first, start = progress.first_half, progress.window_energies
+        if first is None or start is None or progress.first_pressure is None:
             raise ConvergenceError(f"the march is at {self.done} of {table.steps} increments")
         second = stepper.sums
-        sums = _joined(first, second)
-        end = stepper.state.energies(stepper.system)
-        span = float(sums[ledger.TIME])
+        sums = first + second
+        if not all(map(math.isfinite, dataclasses.astuple(sums))):
+            raise ConvergenceError(_NOT_FINITE)
+        end = energies(stepper.system, stepper.state)
+        span = sums.time
         force = model.full_friction
-        halves = [float(s[ledger.DRIVE_FORCE] / s[ledger.TIME]) for s in (first, second)]
+        halves = [s.drive_force / s.time for s in (first, second)]
         residual = abs(halves[1] - halves[0]) / force
-        breakaway = float(second[ledger.BREAKAWAY])
-        mean = float(sums[ledger.DRIVE_FORCE]) / span
-        powers = ledger.power_ledger(sums, start, end)
+        mean = sums.drive_force / span
+        powers = power_ledger(sums, start, end)
         return BlockResult(
             problem=problem,
             model=model,
             ratio=mean / force,
             drive_force=mean,
-            friction_mean=_pair(sums, ledger.FRICTION_X, ledger.FRICTION_Y, 1.0 / span),
-            friction_max=_pair(sums, ledger.MAX_FX, ledger.MAX_FY),
-            friction_min=_pair(sums, ledger.MIN_FX, ledger.MIN_FY),
-            breakaway_time=breakaway if breakaway >= 0.0 else None,
+            friction_mean=(sums.friction_x / span, sums.friction_y / span),
+            friction_max=(sums.friction_x_max, sums.friction_y_max),
+            friction_min=(sums.friction_x_min, sums.friction_y_min),
+            breakaway_time=stepper.breakaway,
             ledger=powers,
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,
-            seconds=self.seconds,
-            history=self.history if self._stride else None,
+            seconds=progress.seconds,
+            history=self.history if self._ends is not None else None,
             notes=block_notes(
-                problem, stepper, powers, residual, self.flutter, broke=breakaway >= 0.0
+                problem,
+                stepper,
+                powers,
+                residual,
+                self.flutter,
+                broke=stepper.breakaway is not None,
             ),
-            normal_force=float(sums[ledger.NORMAL_FORCE]) / span,
-            iterations_mean=float(sums[ledger.ITERATIONS] / sums[ledger.INCREMENTS]),
-            iterations_max=int(sums[ledger.MOST_ITERATIONS]),
+            normal_force=sums.normal_force / span,
+            iterations_mean=sums.iterations / sums.increments,
+            iterations_max=int(sums.iterations_max),
             cuts=stepper.cuts,
             unconverged=stepper.unconverged,
             residual_increment_max=stepper.residual_max,
-            march_seconds=self.march_seconds,
-            timed=self.timed,
-            point_pressure=(self.first_pressure + stepper.mean_pressure) / span,
-            peak_pressure=float(sums[ledger.MAX_PRESSURE]),
-            frames=tuple(self.frames),
+            march_seconds=progress.march_seconds,
+            timed=progress.timed,
+            point_pressure=(progress.first_pressure + stepper.mean_pressure) / span,
+            peak_pressure=sums.pressure_max,
+            frames=progress.frames,
         )
 
 
@@ -305,39 +338,43 @@ def _frame_steps(problem: BlockProblem) -> frozenset[int]:
     return frozenset(np.round(places).astype(int).tolist())
 
 
-def _row(state: SystemState) -> FloatArray:
-    row = np.empty(_ROW)
-    row[_TIME] = state.time
-    row[_FD] = state.drive[mo.FORCE]
-    row[_FX : _SY + 1] = state.forces[[ledger.FX, ledger.FY, ledger.SX, ledger.SY]]
-    row[_X : _Y + 1] = state.coordinates[hht.PLACE, :2]
-    row[_VX : _VY + 1] = state.coordinates[hht.VELOCITY, :2]
-    return row
+def _stretch_ends(table: Timetable) -> npt.NDArray[np.int64]:
+    """Steps at which recorded stretches end: a few thousand, and every step of the last cycles."""
+    stride, fine = max(1, table.steps // _RECORDS), max(1, table.steps - table.tail)
+    return np.union1d(np.arange(stride, fine, stride), np.arange(fine, table.steps + 1))
+
+
+def _node(state: SystemState) -> FloatArray:
+    forces, body = state.forces, state.coordinates
+    return np.array([
+        state.drive.force, forces.friction_x, forces.friction_y, forces.deflection_x,
+        forces.deflection_y, *body.place[:2], *body.velocity[:2],
+    ])  # fmt: skip
+
+
+def _condensed(nodes: tuple[FloatArray, ...] | FloatArray) -> FloatArray:
+    """Mean, least and greatest of each number of some nodes, shape (3, numbers)."""
+    rows = np.empty((3, len(nodes[0])))
+    condense(np.array(nodes), *rows)
+    return rows
 
 
 def _frame(state: SystemState) -> Frame:
     return Frame(
         state.time,
-        state.coordinates[hht.PLACE].copy(),
-        float(state.drive[mo.FORCE]),
+        state.coordinates.place,
+        state.drive.force,
         state.contact.force,
         state.contact.pressure.copy(),
         state.contact.traction.copy(),
     )
 
 
-def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
-    sums = first + second
-    for most in (ledger.MAX_FX, ledger.MAX_FY, ledger.MAX_PRESSURE, ledger.MOST_ITERATIONS):
-        sums[most] = max(first[most], second[most])
-    for least in (ledger.MIN_FX, ledger.MIN_FY):
-        sums[least] = min(first[least], second[least])
-    sums[ledger.BREAKAWAY] = second[ledger.BREAKAWAY]
-    return sums
-
-
-def _pair(sums: FloatArray, x: int, y: int, scale: float = 1.0) -> tuple[float, float]:
-    pair = float(sums[x]) * scale, float(sums[y]) * scale
-    if not all(map(math.isfinite, pair)):
-        raise ConvergenceError(_NOT_FINITE)
-    return pair
+def march_key(problem: BlockProblem) -> str:
+    """Return a text that is the same for what calculates the same, by these sources."""
+    parts = [repr(sorted(inputs(problem).items()))]
+    shape = problem.model.shape
+    if shape is None:
+        return key(code_key(__name__), *parts)
+    parts.append(repr((shape.code, shape.frequency, shape.rise)))
+    return key(code_key(__name__), *parts, np.ascontiguousarray(shape.table))

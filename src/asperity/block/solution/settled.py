@@ -21,8 +21,6 @@ from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import inputs
 from asperity.block.solution.stability import Stability, flutter_note
-from asperity.contact.motion import hht, ledger
-from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 from asperity.contact.motion.system import Shaking, System, SystemState
@@ -300,18 +298,19 @@ def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemStat
     history = slider.history
     if history is None:
         raise ValueError("solved without a history")
-    coordinates, drive = rest.coordinates.copy(), rest.drive.copy()
-    coordinates[hht.VELOCITY, :2] = history.velocity[-1]
+    coordinates, drive = rest.coordinates, rest.drive
+    velocity = np.concatenate([history.velocity[-1], coordinates.velocity[2:]])
     if system.mechanism.drive is not None:
         pull = float(history.drive_force[-1])
-        drive[mo.FORCE] = pull
-        drive[mo.REACH] = drive[mo.WAY] + pull / system.mechanism.drive.stiffness
+        reach = drive.way + pull / system.mechanism.drive.stiffness
+        drive = dataclasses.replace(drive, force=pull, reach=reach)
     contact = rest.contact
     deflection = np.zeros_like(contact.state.deflection)
     deflection[:, :2] = history.deflection[-1]
     contact = dataclasses.replace(
         contact, state=dataclasses.replace(contact.state, deflection=deflection)
     )
+    coordinates = dataclasses.replace(coordinates, velocity=velocity)
     return dataclasses.replace(rest, coordinates=coordinates, drive=drive, contact=contact)
 
 
@@ -328,8 +327,7 @@ def _cycles(
 def _cycle(stepper: Stepper, model: Model, between: Callable[[], None]) -> tuple[float, float]:
     """Friction along the drive and velocity, averaged over a cycle."""
     stepper.clear()
-    begin, place = stepper.state.time, stepper.state.coordinates[hht.PLACE, 0]
+    begin, place = stepper.state.time, stepper.state.coordinates.place[0]
     _cycles(stepper, model, 1, STEPS, between)
-    way = stepper.state.coordinates[hht.PLACE, 0] - place
-    friction = stepper.sums[ledger.FRICTION_X] / stepper.sums[ledger.TIME]
-    return float(friction), float(way / (stepper.state.time - begin))
+    way = stepper.state.coordinates.place[0] - place
+    return stepper.sums.friction_x / stepper.sums.time, float(way / (stepper.state.time - begin))

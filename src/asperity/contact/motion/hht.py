@@ -20,32 +20,46 @@ acceleration makes the place right, and works on in the next. With
 order; that is for impacts.
 """
 
+from __future__ import annotations
+
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
-from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
 
 ALPHA = -0.05
 
-# Rows of the array that holds a state of the coordinates.
-PLACE = 0
-VELOCITY = 1
-ACCELERATION = 2
-FORCE = 3  # D v + K q - Q: what acts on the coordinates, with the sign of a resistance
-IMBALANCE = 4  # -(D v + K q - Q) - M a, which the method leaves at the end of a step
-REACTION = 5  # what holds a held coordinate
-ROWS = 6
 
-# Places in the vector of a method's numbers.
-STEP = 0
-BETA = 1
-GAMMA = 2
-WEIGHT = 3  # alpha
-SCALARS = 4
+@dataclasses.dataclass(frozen=True, eq=False)
+class Coordinates:
+    """A state of m generalised coordinates; each an array of shape (m,), SI.
+
+    Attributes
+    ----------
+    place, velocity, acceleration : ndarray
+        Of each coordinate.
+    force : ndarray
+        D v + K q - Q: what acts on them, with the sign of a resistance.
+    imbalance : ndarray
+        -(D v + K q - Q) - M a, which the method leaves at the end of a step.
+    reaction : ndarray
+        What holds a held coordinate.
+    """
+
+    place: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+    force: FloatArray
+    imbalance: FloatArray
+    reaction: FloatArray
+
+    @classmethod
+    def at_rest(cls, size: int, **given: FloatArray) -> Coordinates:
+        """Return a state at rest, without forces, but for what is given."""
+        none = dict.fromkeys((field.name for field in dataclasses.fields(cls)), np.zeros(size))
+        return cls(**none | given)
 
 
 def coefficients(alpha: float = ALPHA, *, impact: bool = False) -> tuple[float, float]:
@@ -86,8 +100,10 @@ class StepOperator:
         acceleration at the end of the step.
     held : ndarray of bool, shape (m,)
         Coordinates that go on at the velocity they have, whatever the forces.
-    scalars : ndarray, shape (4,)
-        Step in s, :math:`\beta`, :math:`\gamma`, :math:`\alpha`.
+    step : float
+        s.
+    beta, gamma, alpha : float
+        Of the method.
     """
 
     mass: FloatArray
@@ -95,8 +111,86 @@ class StepOperator:
     damping: FloatArray
     compliance: FloatArray
     carry: FloatArray
-    held: npt.NDArray[np.bool_]
-    scalars: FloatArray
+    held: BoolArray
+    step: float
+    beta: float
+    gamma: float
+    alpha: float
+
+    @property
+    def pace(self) -> float:
+        """Velocity at the end of a step per place there, 1/s."""
+        return self.gamma / (self.beta * self.step)
+
+    def _ahead(self, state: Coordinates) -> FloatArray:
+        """Place by Newmark's formula without an acceleration at the end of the step."""
+        step = self.step
+        acceleration = step * step * (0.5 - self.beta) * state.acceleration
+        return state.place + step * state.velocity + acceleration
+
+    def predict(self, state: Coordinates, known: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return where the forces known beforehand would lead, :math:`q^*`, and its velocity.
+
+        Parameters
+        ----------
+        state : Coordinates
+            Committed.
+        known : ndarray, shape (m,)
+            Generalised forces at the end of the step.
+        """
+        ahead = self._ahead(state)
+        velocity = state.velocity + self.step * (1.0 - self.gamma) * state.acceleration
+        push = known + self.alpha / (1.0 + self.alpha) * state.force - self.damping * velocity
+        place = self.carry @ ahead + self.compliance @ push
+        return place, velocity + self.pace * (place - ahead)
+
+    def complete(
+        self, state: Coordinates, place: FloatArray, forces: FloatArray
+    ) -> tuple[Coordinates, float, float]:
+        r"""Return the state at the end of a step, and the energy the method and the damping take.
+
+        Parameters
+        ----------
+        state : Coordinates
+            Committed, at the start.
+        place : ndarray, shape (m,)
+            Coordinates at the end.
+        forces : ndarray, shape (m,)
+            All generalised forces :math:`Q_1` at the end.
+
+        Returns
+        -------
+        state : Coordinates
+            At the end.
+        lost : float
+            Energy dissipated numerically in the step, J. With :math:`N = Dv + Kq - Q`, the
+            imbalance :math:`e_0 = -N_0 - M a_0` the step began with and
+            :math:`\bar a = (1-\gamma) a_0 + \gamma a_1`,
+
+            .. math:: \Delta q^T [M (\tfrac12 - \gamma) \Delta a
+                + \tfrac12 (\alpha \Delta N + e_0)]
+                + h^2 (\beta - \tfrac{\gamma}{2})\, \Delta a^T M \bar a ,
+
+            which is what trapezoidal works of all forces exceed the change of energy by. It
+            vanishes with :math:`\alpha`.
+        damped : float
+            Trapezoidal work of the damping, J.
+        """
+        step, beta, gamma = self.step, self.beta, self.gamma
+        acceleration = (place - self._ahead(state)) / (beta * step * step)
+        mean = (1.0 - gamma) * state.acceleration + gamma * acceleration
+        velocity = state.velocity + step * mean
+        resistance = self.damping * velocity + self.stiffness @ place - forces
+        reaction = np.where(self.held, resistance, 0.0)
+        resistance -= reaction
+        imbalance = -resistance - self.mass @ acceleration
+        moved, change = place - state.place, acceleration - state.acceleration
+        uneven = self.alpha * (resistance - state.force) + state.imbalance
+        lost = moved @ ((0.5 - gamma) * (self.mass @ change) + 0.5 * uneven)
+        lost += step * step * (beta - 0.5 * gamma) * (change @ (self.mass @ mean))
+        damped = 0.5 * (self.damping * (state.velocity + velocity)) @ moved
+        end = Coordinates(place, velocity, acceleration, resistance, imbalance, reaction)
+        return end, float(lost), float(damped)
 
 
 def step_operator(
@@ -107,7 +201,7 @@ def step_operator(
     damping: FloatArray | None = None,
     alpha: float = ALPHA,
     impact: bool = False,
-    held: npt.NDArray[np.bool_] | None = None,
+    held: BoolArray | None = None,
 ) -> StepOperator:
     """Return the operator of steps of one length.
 
@@ -147,131 +241,6 @@ def step_operator(
     compliance[inner] = (1.0 + alpha) * np.linalg.inv(left)
     carry = np.eye(size)
     carry[inner] = np.linalg.solve(left, inertia)
-    scalars = np.array([step, beta, gamma, alpha])
-    return StepOperator(mass.copy(), stiffness.copy(), damping, compliance, carry, held, scalars)
-
-
-@kernel
-def predict(state, known, carry, compliance, damping, scalars, place, velocity):
-    """Place the coordinates would reach under the known forces alone, and its velocity.
-
-    Parameters
-    ----------
-    state : ndarray, shape (6, m)
-        Committed state.
-    known : ndarray, shape (m,)
-        Generalised forces at the end of the step that are known beforehand.
-    carry, compliance, damping, scalars : ndarray
-        Of the `StepOperator`.
-    place, velocity : ndarray, shape (m,)
-        Filled: :math:`q^*`, and the velocity that goes with it.
-    """
-    step = scalars[STEP]
-    beta = scalars[BETA]
-    gamma = scalars[GAMMA]
-    share = scalars[WEIGHT] / (1.0 + scalars[WEIGHT])
-    size = state.shape[1]
-    ahead = np.empty(size)
-    push = np.empty(size)
-    for i in range(size):
-        ahead[i] = (
-            state[PLACE, i]
-            + step * state[VELOCITY, i]
-            + step * step * (0.5 - beta) * state[ACCELERATION, i]
-        )
-        velocity[i] = state[VELOCITY, i] + step * (1.0 - gamma) * state[ACCELERATION, i]
-        push[i] = known[i] + share * state[FORCE, i] - damping[i] * velocity[i]
-    for i in range(size):
-        total = 0.0
-        for j in range(size):
-            total += carry[i, j] * ahead[j]
-            total += compliance[i, j] * push[j]
-        place[i] = total
-        velocity[i] += gamma / (beta * step) * (total - ahead[i])
-
-
-@kernel
-def complete(state, trial, place, forces, mass, stiffness, damping, held, scalars):
-    r"""Write the state at the end of a step; return the energy the method and the damping take.
-
-    Parameters
-    ----------
-    state : ndarray, shape (6, m)
-        Committed state at the start.
-    trial : ndarray, shape (6, m)
-        Filled: the state at the end.
-    place : ndarray, shape (m,)
-        Coordinates at the end.
-    forces : ndarray, shape (m,)
-        All generalised forces :math:`Q_1` at the end.
-    mass, stiffness, damping, held, scalars : ndarray
-        Of the `StepOperator`.
-
-    Returns
-    -------
-    lost : float
-        Energy dissipated numerically in the step, J. With :math:`N = Dv + Kq - Q`, the imbalance
-        :math:`e_0 = -N_0 - M a_0` the step began with and
-        :math:`\bar a = (1-\gamma) a_0 + \gamma a_1`,
-
-        .. math:: \Delta q^T [M (\tfrac12 - \gamma) \Delta a + \tfrac12 (\alpha \Delta N + e_0)]
-            + h^2 (\beta - \tfrac{\gamma}{2})\, \Delta a^T M \bar a ,
-
-        which is what trapezoidal works of all forces exceed the change of energy by. It vanishes
-        with :math:`\alpha`.
-    damped : float
-        Trapezoidal work of the damping, J.
-    """
-    step = scalars[STEP]
-    beta = scalars[BETA]
-    gamma = scalars[GAMMA]
-    alpha = scalars[WEIGHT]
-    size = state.shape[1]
-    for i in range(size):
-        trial[PLACE, i] = place[i]
-        ahead = (
-            state[PLACE, i]
-            + step * state[VELOCITY, i]
-            + step * step * (0.5 - beta) * state[ACCELERATION, i]
-        )
-        trial[ACCELERATION, i] = (place[i] - ahead) / (beta * step * step)
-        trial[VELOCITY, i] = state[VELOCITY, i] + step * (
-            (1.0 - gamma) * state[ACCELERATION, i] + gamma * trial[ACCELERATION, i]
-        )
-    lost = 0.0
-    damped = 0.0
-    for i in range(size):
-        resistance = damping[i] * trial[VELOCITY, i] - forces[i]
-        damped += (
-            0.5 * damping[i] * (state[VELOCITY, i] + trial[VELOCITY, i])
-            * (place[i] - state[PLACE, i])
-        )  # fmt: skip
-        inertia = 0.0
-        turn = 0.0
-        mean = 0.0
-        for j in range(size):
-            resistance += stiffness[i, j] * place[j]
-            change = trial[ACCELERATION, j] - state[ACCELERATION, j]
-            inertia += mass[i, j] * trial[ACCELERATION, j]
-            turn += mass[i, j] * change
-            mean += mass[i, j] * (
-                (1.0 - gamma) * state[ACCELERATION, j] + gamma * trial[ACCELERATION, j]
-            )
-        trial[REACTION, i] = 0.0
-        if held[i]:
-            trial[REACTION, i] = resistance
-            resistance = 0.0
-        trial[FORCE, i] = resistance
-        trial[IMBALANCE, i] = -resistance - inertia
-        bracket = (0.5 - gamma) * turn + 0.5 * (
-            alpha * (resistance - state[FORCE, i]) + state[IMBALANCE, i]
-        )
-        lost += (place[i] - state[PLACE, i]) * bracket
-        change = trial[ACCELERATION, i] - state[ACCELERATION, i]
-        lost += step * step * (beta - 0.5 * gamma) * change * mean
-    return lost, damped
-
-
-def rest(size: int) -> FloatArray:
-    """Return a state at rest, without forces, shape (6, size)."""
-    return np.zeros((ROWS, size))
+    return StepOperator(
+        mass.copy(), stiffness.copy(), damping, compliance, carry, held, step, beta, gamma, alpha
+    )

@@ -19,33 +19,16 @@ where :math:`l` is what a unit drive force does to the contact nodes within the 
 and symmetric without a dashpot.
 """
 
+from __future__ import annotations
+
 import dataclasses
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from asperity.arrays import FloatArray
-from asperity.compiled import kernel
-from asperity.contact.motion import hht
+from asperity.arrays import BoolArray, FloatArray
+from asperity.contact.motion.hht import ALPHA, Coordinates, StepOperator, step_operator
 from asperity.errors import InputError
-
-# Places in the vector of the drive's numbers.
-SPRING = 0
-DASHPOT = 1
-GAIN = 2  # gamma / (beta h): velocity at the end of a step per place there
-YIELD = 3  # what the drive's own give divides its force by
-ONWARD = 4  # place of the drive's point per its force within a step, through the coordinates
-SELF = 5  # the same through deformation
-DRIVE_SCALARS = 6
-
-# Places in the vector that says where the drive is.
-REACH = 0  # place of the drive's far end, m
-SPEED = 1  # and its velocity, m/s
-FORCE = 2  # drive force, N
-STRAIN = 3  # what deformation adds to the place of the drive's point, m
-PULL = 4  # part of the drive force that comes from the dashpot, N
-WAY = 5  # place of the drive's point, m
-DRIVE_STATE = 6
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -65,6 +48,10 @@ class Port:
     generalised: FloatArray
     response: FloatArray
     own: float = 0.0
+
+    def moved(self, coordinates: Coordinates, force: FloatArray) -> float:
+        """Return how far coordinates and contact forces, N, move the port, m."""
+        return float(self.generalised @ coordinates.place + self.response @ force)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -112,7 +99,7 @@ class Mechanism:
     shapes: FloatArray
     mass: FloatArray
     stiffness: FloatArray
-    held: npt.NDArray[np.bool_]
+    held: BoolArray
     drive: Drive | None = None
     load: Port | None = None
     damping: FloatArray | None = None
@@ -123,9 +110,62 @@ class Mechanism:
         return len(self.mass)
 
 
+@dataclasses.dataclass(frozen=True)
+class DriveState:
+    """Where a drive is, and how it pulls.
+
+    Attributes
+    ----------
+    reach : float
+        Place of its far end, m.
+    way : float
+        Place of the point it holds, m.
+    force : float
+        Drive force, N.
+    strain : float
+        What deformation adds to the place of the point, m.
+    pull : float
+        Part of the force that comes from the dashpot, N.
+    """
+
+    reach: float = 0.0
+    way: float = 0.0
+    force: float = 0.0
+    strain: float = 0.0
+    pull: float = 0.0
+
+    @property
+    def stretch(self) -> float:
+        """Of spring and dashpot, m."""
+        return self.reach - self.way
+
+
+class Imposed(NamedTuple):
+    """What stands at the end of a step, whatever the body does."""
+
+    reach: float
+    """Place of the drive's far end, m."""
+    speed: float
+    """Its velocity, m/s."""
+    load: float
+    """Share of the loads."""
+
+
+class Approach(NamedTuple):
+    """Where a step would lead without contact forces."""
+
+    place: FloatArray
+    """Coordinates without the drive force, shape (m,)."""
+    velocity: FloatArray
+    free: FloatArray
+    """Displacement of the contact nodes :math:`u^*`, m, shape (3 n,)."""
+    force: float
+    """Drive force, N."""
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class MotionStep:
-    """A mechanism's motion over one length of the step, made ready for the kernels.
+    """A mechanism's motion over one length of the step.
 
     Attributes
     ----------
@@ -135,30 +175,86 @@ class MotionStep:
         `A`, m/N.
     shapes : ndarray, shape (3 n, m)
         Displacement of the contact nodes per generalised coordinate.
+    drive : Drive
+        One without stiffness where nothing pulls.
+    load : Port
+        One that moves nothing where there are no loads.
     lift : ndarray, shape (3 n,)
         Displacement of the contact nodes by a unit drive force within the step, m/N.
     drop : ndarray, shape (3 n,)
         What contact forces take off the drive force.
-    drive : ndarray, shape (6,)
-        The drive's numbers.
-    drive_shape, drive_response, load_force, load_response : ndarray
-        Of the ports; zeros where there is none.
+    yielding : float
+        What the drive's own give divides its force by.
     """
 
-    operator: hht.StepOperator
+    operator: StepOperator
     compliance: FloatArray
     shapes: FloatArray
+    drive: Drive
+    load: Port
     lift: FloatArray
     drop: FloatArray
-    drive: FloatArray
-    drive_shape: FloatArray
-    drive_response: FloatArray
-    load_force: FloatArray
-    load_response: FloatArray
+    yielding: float
+
+    def approach(self, state: Coordinates, drive: DriveState, imposed: Imposed) -> Approach:
+        """Return where a step leads from committed states without contact forces."""
+        place, velocity = self.operator.predict(state, imposed.load * self.load.generalised)
+        held, along = self.drive, self.drive.port.generalised
+        lag = imposed.speed - along @ velocity + drive.strain / self.operator.step
+        pull = held.stiffness * (imposed.reach - along @ place) + held.damping * lag
+        force = float(pull / self.yielding)
+        free = imposed.load * self.load.response + force * self.lift + self.shapes @ place
+        return Approach(place, velocity, free, force)
+
+    def settle(
+        self,
+        state: Coordinates,
+        drive: DriveState,
+        imposed: Imposed,
+        start: Approach,
+        forces: FloatArray,
+    ) -> tuple[Coordinates, DriveState, tuple[float, float]]:
+        """Return both states at the end of a step, the contact forces being known.
+
+        Parameters
+        ----------
+        state, drive, imposed : Coordinates, DriveState, Imposed
+            As in `approach`.
+        start : Approach
+            What that returned.
+        forces : ndarray, shape (3 n,)
+            Contact forces on the body, N.
+
+        Returns
+        -------
+        state, drive : Coordinates, DriveState
+            At the end.
+        taken : tuple of 2 floats
+            Energy dissipated by the method, and by the coordinates' damping, J.
+        """
+        operator, port = self.operator, self.drive.port
+        pull = start.force - float(self.drop @ forces)
+        acting = self.shapes.T @ forces + pull * port.generalised
+        change = operator.compliance @ acting
+        place = start.place + change
+        end, lost, damped = operator.complete(
+            state, place, acting + imposed.load * self.load.generalised
+        )
+        strain = float(port.response @ forces) + port.own * pull
+        pace = port.generalised @ (start.velocity + operator.pace * change)
+        lag = imposed.speed - pace - (strain - drive.strain) / operator.step
+        drive = DriveState(
+            reach=imposed.reach,
+            way=float(port.generalised @ place) + strain,
+            force=pull,
+            strain=strain,
+            pull=float(self.drive.damping * lag),
+        )
+        return end, drive, (lost, damped)
 
 
 def motion_step(
-    mechanism: Mechanism, step: float, *, alpha: float = hht.ALPHA, impact: bool = False
+    mechanism: Mechanism, step: float, *, alpha: float = ALPHA, impact: bool = False
 ) -> MotionStep:
     """Return what a mechanism does in steps of one length.
 
@@ -168,19 +264,16 @@ def motion_step(
         The body.
     step : float
         Length of the step, s.
-    alpha : float
-        Parameter of the method, -1/3 to 0.
-    impact : bool
-        Whether the body meets contacts that a step does not resolve.
+    alpha, impact
+        As `asperity.contact.motion.hht.step_operator` takes them.
 
     Raises
     ------
     InputError
-        The step is not positive, or the body is neither free to move nor held anywhere.
+        The step is not positive, or the drive does not pull.
     """
     shapes = mechanism.shapes
-    count = shapes.shape[0]
-    operator = hht.step_operator(
+    operator = step_operator(
         mechanism.mass,
         mechanism.stiffness,
         step,
@@ -190,168 +283,32 @@ def motion_step(
         held=mechanism.held,
     )
     compliance = mechanism.flexibility + shapes @ operator.compliance @ shapes.T
-    none = np.zeros(count), np.zeros(mechanism.size)
-    lift, drop = np.zeros(count), np.zeros(count)
-    drive_response, drive_shape = none
-    numbers = np.zeros(DRIVE_SCALARS)
-    numbers[YIELD] = 1.0
-    beta, gamma = hht.coefficients(alpha, impact=impact)
-    numbers[GAIN] = gamma / (beta * step)
+    nothing = Port(np.zeros(mechanism.size), np.zeros(len(shapes)))
+    drive, lift, drop, yielding = Drive(nothing, 0.0), nothing.response, nothing.response, 1.0
     if mechanism.drive is not None:
-        drive = mechanism.drive
+        drive, port = mechanism.drive, mechanism.drive.port
         if not (drive.stiffness > 0.0 and drive.damping >= 0.0):
             raise InputError(
                 f"the drive has a stiffness of {drive.stiffness:g} N/m and a damping of "
                 f"{drive.damping:g} N s/m; the first must be positive, the second not negative"
             )
-        drive_response, drive_shape = drive.port.response, drive.port.generalised
         # The dashpot knows the coordinates' velocity by the method's own formula, and that of the
         # deformation, which has no velocity of its own, as a difference.
-        onward = drive.stiffness + drive.damping * numbers[GAIN]
+        onward = drive.stiffness + drive.damping * operator.pace
         inward = drive.stiffness + drive.damping / step
-        numbers[SPRING], numbers[DASHPOT] = drive.stiffness, drive.damping
-        numbers[ONWARD] = drive_shape @ operator.compliance @ drive_shape
-        numbers[SELF] = drive.port.own
-        numbers[YIELD] = 1.0 + onward * numbers[ONWARD] + inward * numbers[SELF]
-        through = shapes @ (operator.compliance @ drive_shape)
-        lift = through + drive_response
-        drop = (onward * through + inward * drive_response) / numbers[YIELD]
+        moved = operator.compliance @ port.generalised
+        yielding = 1.0 + onward * float(port.generalised @ moved) + inward * port.own
+        through = shapes @ moved
+        lift = through + port.response
+        drop = (onward * through + inward * port.response) / yielding
         compliance -= np.outer(lift, drop)
-    load = mechanism.load
     return MotionStep(
         operator,
         np.ascontiguousarray(compliance),
         np.ascontiguousarray(shapes),
+        drive,
+        mechanism.load or nothing,
         lift,
         drop,
-        numbers,
-        np.ascontiguousarray(drive_shape),
-        np.ascontiguousarray(drive_response),
-        none[1] if load is None else np.ascontiguousarray(load.generalised),
-        none[0] if load is None else np.ascontiguousarray(load.response),
+        yielding,
     )
-
-
-@kernel
-def approach(
-    state, drive_state, far, speed, load, carry, compliance, damping, scalars, shapes, lift, drive,
-    drive_shape, load_force, load_response, place, velocity, known, free,
-):  # fmt: skip
-    """Place the contact nodes would go in a step without contact forces.
-
-    Parameters
-    ----------
-    state : ndarray, shape (6, m)
-        Committed coordinates.
-    drive_state : ndarray, shape (6,)
-        Committed state of the drive.
-    far, speed : float
-        Place, m, and velocity, m/s, of the drive's far end at the end of the step.
-    load : float
-        Share of the loads at the end of the step.
-    carry, compliance, damping, scalars, shapes, lift, drive, drive_shape, load_force, \
-    load_response : ndarray
-        Of the `MotionStep` and its operator.
-    place, velocity, known : ndarray, shape (m,)
-        Filled: coordinates and velocities without contact and drive forces; room.
-    free : ndarray, shape (3 n,)
-        Filled: :math:`u^*`, m.
-
-    Returns
-    -------
-    float
-        The drive force without contact forces, N.
-    """
-    size = state.shape[1]
-    for i in range(size):
-        known[i] = load * load_force[i]
-    hht.predict(state, known, carry, compliance, damping, scalars, place, velocity)
-    force = 0.0
-    if drive[SPRING] > 0.0:
-        way = 0.0
-        pace = 0.0
-        for i in range(size):
-            way += drive_shape[i] * place[i]
-            pace += drive_shape[i] * velocity[i]
-        force = drive[SPRING] * (far - way) + drive[DASHPOT] * (
-            speed - pace + drive_state[STRAIN] / scalars[hht.STEP]
-        )
-        force /= drive[YIELD]
-    count = free.size
-    for i in range(count):
-        total = load * load_response[i] + force * lift[i]
-        for j in range(size):
-            total += shapes[i, j] * place[j]
-        free[i] = total
-    return force
-
-
-@kernel
-def settle(
-    state, trial, drive_state, drive_trial, far, speed, load, free_force, forces, place, velocity,
-    resultant, mass, stiffness, damping, held, compliance, scalars, shapes, drop, drive,
-    drive_shape, drive_response, load_force,
-):  # fmt: skip
-    """Write the state at the end of a step, the contact forces being known.
-
-    Parameters
-    ----------
-    state, drive_state : ndarray
-        Committed states.
-    trial, drive_trial : ndarray
-        Filled: states at the end of the step.
-    far, speed, load : float
-        As in `approach`.
-    free_force : float
-        What `approach` returned.
-    forces : ndarray, shape (3 n,)
-        Contact forces on the body, N.
-    place, velocity : ndarray, shape (m,)
-        As filled by `approach`; changed.
-    resultant : ndarray, shape (m,)
-        Filled: contact forces on each coordinate.
-    mass, stiffness, damping, held, compliance, scalars, shapes, drop, drive, drive_shape, \
-    drive_response, load_force : ndarray
-        Of the `MotionStep` and its operator.
-
-    Returns
-    -------
-    tuple of 2 floats
-        Energy dissipated by the method, and by the coordinates' damping, J.
-    """
-    size = state.shape[1]
-    count = forces.size
-    drive_force = free_force
-    strain = 0.0
-    for j in range(size):
-        resultant[j] = 0.0
-    for i in range(count):
-        force = forces[i]
-        drive_force -= drop[i] * force
-        strain += drive_response[i] * force
-        for j in range(size):
-            resultant[j] += shapes[i, j] * force
-    for i in range(size):
-        change = 0.0
-        for j in range(size):
-            change += compliance[i, j] * (resultant[j] + drive_force * drive_shape[j])
-        place[i] += change
-        velocity[i] += drive[GAIN] * change
-    # What the velocity is needed for comes first: its room takes all forces on the coordinates.
-    way = 0.0
-    pace = 0.0
-    for i in range(size):
-        way += drive_shape[i] * place[i]
-        pace += drive_shape[i] * velocity[i]
-        velocity[i] = resultant[i] + drive_force * drive_shape[i] + load * load_force[i]
-    taken = hht.complete(state, trial, place, velocity, mass, stiffness, damping, held, scalars)
-    strain += drive[SELF] * drive_force
-    drive_trial[REACH] = far
-    drive_trial[SPEED] = speed
-    drive_trial[FORCE] = drive_force
-    drive_trial[STRAIN] = strain
-    drive_trial[WAY] = way + strain
-    drive_trial[PULL] = drive[DASHPOT] * (
-        speed - pace - (strain - drive_state[STRAIN]) / scalars[hht.STEP]
-    )
-    return taken

@@ -8,9 +8,9 @@ from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import SurfaceMotion
-from asperity.contact.motion import hht
-from asperity.contact.motion import mechanism as mo
-from asperity.contact.motion.steps import resultants, take_step
+from asperity.contact.motion.hht import Coordinates
+from asperity.contact.motion.mechanism import DriveState, Imposed, Port, motion_step
+from asperity.contact.motion.steps import contact_resultants, take_step
 from asperity.contact.motion.system import System, SystemState
 from asperity.errors import ConvergenceError, InputError
 
@@ -21,7 +21,7 @@ _AT_REST = 1e-9
 _INERTIA_AT_REST, _MOST_INERTIA = 1e-5, 0.1
 
 
-def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
+def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
     """Bring a body to rest under loads that come one after the other, friction and all.
 
     Parameters
@@ -44,20 +44,20 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
     mechanism = system.mechanism
     long, accuracy = _loading(system)
     waiting = dataclasses.replace(mechanism, drive=None, load=None, damping=None)
-    first = mo.motion_step(waiting, long, alpha=0.0)
+    first = motion_step(waiting, long, alpha=0.0)
     solver = IncrementSolver(system.increments(first.compliance, long))
     contact = ContactState.rest(solver.problem)
-    coordinates = hht.rest(mechanism.size)
-    drive = np.zeros(mo.DRIVE_STATE)
+    coordinates = Coordinates.at_rest(mechanism.size)
     still = SurfaceMotion(pose=system.pose)
     result = None
     for number, load in enumerate(loads, start=1):
-        moving = mo.motion_step(dataclasses.replace(waiting, load=load), long, alpha=0.0)
+        moving = motion_step(dataclasses.replace(waiting, load=load), long, alpha=0.0)
         for _ in range(_MOST_STATIC):
             try:
-                result, coordinates, drive, _ = take_step(
-                    moving, solver, still, contact, coordinates, drive, (0.0, 0.0, 1.0)
-                )
+                result, coordinates, _, _ = take_step(
+                    moving, solver, still, contact, coordinates, DriveState(),
+                    Imposed(0.0, 0.0, 1.0),
+                )  # fmt: skip
             except ConvergenceError as error:
                 raise ConvergenceError(
                     f"no equilibrium at rest under load {number} of {len(loads)}: {error}",
@@ -65,8 +65,8 @@ def rest_under_load(system: System, loads: tuple[mo.Port, ...]) -> SystemState:
                 ) from error
             contact = result.state
             # What the inertia still bears; each step starts anew without a velocity.
-            left = float(np.abs(coordinates[hht.FORCE]).max())
-            coordinates[1:] = 0.0
+            left = float(np.abs(coordinates.force).max())
+            coordinates = Coordinates.at_rest(mechanism.size, place=coordinates.place)
             if left <= accuracy * float(np.abs(load.generalised).max()):
                 break
         else:
@@ -126,14 +126,17 @@ def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemS
     problem = system.increments(mechanism.flexibility, _loading(system)[0])
     untouched = dataclasses.replace(ContactState.rest(problem), displacement=free)
     result = IncrementSolver(problem).solve(free, SurfaceMotion(pose=system.pose), untouched)
-    coordinates = hht.rest(mechanism.size)
-    coordinates[: hht.VELOCITY + 1] = start
     forces -= mechanism.shapes.T @ result.force
     moving = ~mechanism.held
-    coordinates[hht.FORCE] = forces
-    coordinates[hht.REACTION, ~moving] = forces[~moving]
-    coordinates[hht.ACCELERATION, moving] = np.linalg.solve(
-        mechanism.mass[np.ix_(moving, moving)], -forces[moving]
+    acceleration = np.zeros(mechanism.size)
+    acceleration[moving] = np.linalg.solve(mechanism.mass[np.ix_(moving, moving)], -forces[moving])
+    coordinates = Coordinates.at_rest(
+        mechanism.size,
+        place=start[0],
+        velocity=start[1],
+        acceleration=acceleration,
+        force=forces,
+        reaction=np.where(mechanism.held, forces, 0.0),
     )
     return _at_start(system, result, coordinates)
 
@@ -161,16 +164,16 @@ def _loading(system: System) -> tuple[float, float]:
     return long, max(_AT_REST, digits / inertia)
 
 
-def _at_start(system: System, result: IncrementResult, coordinates: FloatArray) -> SystemState:
+def _at_start(system: System, result: IncrementResult, coordinates: Coordinates) -> SystemState:
     mechanism = system.mechanism
-    drive = np.zeros(mo.DRIVE_STATE)
+    way, strain = float(coordinates.place[0]), 0.0
     if mechanism.drive is not None:
         port = mechanism.drive.port
-        drive[mo.STRAIN] = port.response @ result.force
-        drive[mo.WAY] = port.generalised @ coordinates[hht.PLACE] + drive[mo.STRAIN]
-        drive[mo.REACH] = drive[mo.WAY]
+        way, strain = port.moved(coordinates, result.force), float(port.response @ result.force)
     else:
-        coordinates[hht.VELOCITY, 0] = system.drive_velocity if mechanism.held[0] else 0.0
-        drive[mo.REACH] = drive[mo.WAY] = coordinates[hht.PLACE, 0]
-    forces = resultants(system, result, coordinates, 1.0)
+        velocity = coordinates.velocity.copy()
+        velocity[0] = system.drive_velocity if mechanism.held[0] else 0.0
+        coordinates = dataclasses.replace(coordinates, velocity=velocity)
+    forces = contact_resultants(system, result)
+    drive = DriveState(reach=way, way=way, strain=strain)
     return SystemState(0.0, coordinates, drive, result, forces, 1.0)

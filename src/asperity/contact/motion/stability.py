@@ -33,7 +33,7 @@ from asperity.arrays import FloatArray
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.surface import ContactSurface
-from asperity.contact.motion import hht
+from asperity.contact.motion.hht import ALPHA, coefficients
 from asperity.contact.motion.mechanism import Mechanism
 from asperity.errors import InputError
 
@@ -90,9 +90,7 @@ class SlidingMotion:
         found = np.linalg.eigvals(np.vstack([upper, np.hstack([by_place, by_velocity])]))
         return np.asarray(found, dtype=complex)
 
-    def in_steps(
-        self, step: float, *, alpha: float = hht.ALPHA, impact: bool = False
-    ) -> ComplexArray:
+    def in_steps(self, step: float, *, alpha: float = ALPHA, impact: bool = False) -> ComplexArray:
         """Eigenvalues of the motion as `asperity.contact.motion.hht` steps it, 1/s.
 
         Parameters
@@ -108,7 +106,7 @@ class SlidingMotion:
             ln(z)/h of the factors z by which motions change in a step, those that vanish at once
             left out.
         """
-        beta, gamma = hht.coefficients(alpha, impact=impact)
+        beta, gamma = coefficients(alpha, impact=impact)
         size = len(self.mass)
         one, none = np.eye(size), np.zeros((size, size))
         # Place and velocity at the end of a step, but for the acceleration there.

@@ -12,9 +12,11 @@ from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver, SolverMemory
 from asperity.contact.interface.counter_motion import SurfaceMotion
-from asperity.contact.motion import hht, ledger
-from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.hht import Coordinates
+from asperity.contact.motion.ledger import Sums, over_step
+from asperity.contact.motion.mechanism import DriveState, Imposed, MotionStep
 from asperity.contact.motion.system import System, SystemState
+from asperity.contact.motion.works import Resultants, resultants
 from asperity.errors import ConvergenceError
 
 MOST_CUTS = 8
@@ -25,22 +27,26 @@ class Snapshot:
     """All that changes on the way of a `Stepper`, whose attributes these are."""
 
     state: SystemState
-    sums: FloatArray
+    sums: Sums
+    breakaway: float | None
     mean_pressure: FloatArray
     cuts: int
     unconverged: int
     residual_max: float
 
 
+_KEPT = tuple(field.name for field in dataclasses.fields(Snapshot))
+
+
 def take_step(
-    moving: mo.MotionStep,
+    moving: MotionStep,
     solver: IncrementSolver,
     surface_motion: SurfaceMotion,
     contact: ContactState,
-    coordinates: FloatArray,
-    drive: FloatArray,
-    imposed: tuple[float, float, float],
-) -> tuple[IncrementResult, FloatArray, FloatArray, tuple[float, float]]:
+    coordinates: Coordinates,
+    drive: DriveState,
+    imposed: Imposed,
+) -> tuple[IncrementResult, Coordinates, DriveState, tuple[float, float]]:
     """Solve a step of motion and contact together.
 
     Parameters
@@ -49,19 +55,16 @@ def take_step(
         What the length of the step makes of body and contact.
     surface_motion : SurfaceMotion
         Of the base over the step.
-    contact : ContactState
-        Committed contact.
-    coordinates, drive : ndarray
-        Committed coordinates and drive.
-    imposed : tuple of 3 floats
-        At the end of the step: place, m, and velocity, m/s, of the drive's far end, and the share
-        of the loads.
+    contact, coordinates, drive : ContactState, Coordinates, DriveState
+        Committed.
+    imposed : Imposed
+        At the end of the step.
 
     Returns
     -------
     result : IncrementResult
         The contact at its end.
-    coordinates, drive : ndarray
+    coordinates, drive : Coordinates, DriveState
         Theirs.
     taken : tuple of 2 floats
         Energy the method and the damping of the coordinates took, J.
@@ -71,42 +74,19 @@ def take_step(
     ConvergenceError
         With residual, iterations and points in contact.
     """
-    operator = moving.operator
-    size = coordinates.shape[1]
-    place, velocity, room = np.empty(size), np.empty(size), np.empty(size)
-    free = np.empty(len(moving.lift))
-    far, speed, load = imposed
-    free_force = mo.approach(
-        coordinates, drive, far, speed, load, operator.carry, operator.compliance,
-        operator.damping, operator.scalars, moving.shapes, moving.lift, moving.drive,
-        moving.drive_shape, moving.load_force, moving.load_response, place, velocity, room, free,
-    )  # fmt: skip
-    result = solver.solve(free, surface_motion, contact)
-    after, drive_after = np.empty_like(coordinates), np.empty_like(drive)
-    taken = mo.settle(
-        coordinates, after, drive, drive_after, far, speed, load, free_force, result.force,
-        place, velocity, room, operator.mass, operator.stiffness, operator.damping, operator.held,
-        operator.compliance, operator.scalars, moving.shapes, moving.drop, moving.drive,
-        moving.drive_shape, moving.drive_response, moving.load_force,
-    )  # fmt: skip
-    return result, after, drive_after, taken
+    start = moving.approach(coordinates, drive, imposed)
+    result = solver.solve(start.free, surface_motion, contact)
+    end, pull, taken = moving.settle(coordinates, drive, imposed, start, result.force)
+    return result, end, pull, taken
 
 
-def resultants(
-    system: System, result: IncrementResult, coordinates: FloatArray, share: float
-) -> FloatArray:
-    """Return the resultants of a contact, as the `asperity.contact.motion.ledger` places them."""
-    forces = np.empty(ledger.FORCES)
-    ledger.resultants(
-        result.pressure, result.traction, result.normal, result.state.deflection, system.weights,
-        forces,
-    )  # fmt: skip
-    load = system.mechanism.load
-    forces[ledger.LOAD_WAY] = 0.0
-    if load is not None and share > 0.0:
-        forces[ledger.LOAD_WAY] = load.generalised @ coordinates[hht.PLACE]
-        forces[ledger.LOAD_WAY] += load.response @ result.force
-    return forces
+def contact_resultants(system: System, result: IncrementResult) -> Resultants:
+    """Return the resultants of a contact."""
+    return Resultants(
+        *resultants(
+            result.pressure, result.traction, result.normal, result.state.deflection, system.weights
+        )
+    )
 
 
 class Stepper:
@@ -118,8 +98,10 @@ class Stepper:
         What moves.
     state : SystemState
         Where it is.
-    sums : ndarray
-        See `asperity.contact.motion.ledger`.
+    sums : Sums
+        Since they were cleared.
+    breakaway : float or None
+        Time of the first full drive force, s; None while it has not come.
     mean_pressure : ndarray, shape (q,)
         Pressure times time at each point since the sums were cleared, Pa s.
     cuts : int
@@ -133,15 +115,14 @@ class Stepper:
     def __init__(self, system: System, state: SystemState) -> None:
         self.system = system
         self.state = state
-        self.sums = np.zeros(ledger.SUMS)
-        self.sums[ledger.BREAKAWAY] = -1.0
+        self.sums = Sums()
+        self.breakaway: float | None = None
         self.mean_pressure = np.zeros(system.weights.size)
         self.cuts = self.unconverged = 0
         self.residual_max = 0.0
-        self._by_length: dict[float, tuple[mo.MotionStep, IncrementSolver]] = {}
-        ledger.clear(self.sums)
+        self._by_length: dict[float, tuple[MotionStep, IncrementSolver]] = {}
 
-    def stepping(self, step: float) -> tuple[mo.MotionStep, IncrementSolver]:
+    def stepping(self, step: float) -> tuple[MotionStep, IncrementSolver]:
         """What a length of the step makes of body and contact; made once for each."""
         if step not in self._by_length:
             moving = self.system.motion_step(step)
@@ -151,15 +132,12 @@ class Stepper:
 
     def snapshot(self) -> Snapshot:
         """Return all that changes."""
-        return Snapshot(
-            self.state, self.sums, self.mean_pressure, self.cuts, self.unconverged,
-            self.residual_max,
-        )  # fmt: skip
+        return Snapshot(**{name: getattr(self, name) for name in _KEPT})
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
-        for field in dataclasses.fields(Snapshot):
-            setattr(self, field.name, getattr(snapshot, field.name))
+        for name in _KEPT:
+            setattr(self, name, getattr(snapshot, name))
 
     def memories(self) -> dict[str, SolverMemory]:
         """Return what the solvers have learnt, by the length of their step."""
@@ -172,8 +150,7 @@ class Stepper:
 
     def clear(self) -> None:
         """Begin the sums anew."""
-        self.sums = self.sums.copy()
-        ledger.clear(self.sums)
+        self.sums = Sums()
         self.mean_pressure = np.zeros_like(self.mean_pressure)
 
     def step_to(self, end: float, step: float) -> None:
@@ -212,35 +189,26 @@ class Stepper:
         system, state = self.system, self.state
         moving, solver = self.stepping(step)
         surface_motion, base = system.surface_motion(state.time, end)
-        far = state.drive[mo.REACH] + system.drive_velocity * step
-        result, coordinates, drive, (lost, damped) = take_step(
-            moving, solver, surface_motion, state.contact.state, state.coordinates,
-            state.drive, (far, system.drive_velocity, state.load),
+        velocity = system.drive_velocity
+        imposed = Imposed(state.drive.reach + velocity * step, velocity, state.load)
+        result, coordinates, drive, taken = take_step(
+            moving, solver, surface_motion, state.contact.state, state.coordinates, state.drive,
+            imposed,
         )  # fmt: skip
         if system.mechanism.drive is None and system.mechanism.held[0]:
-            drive[mo.FORCE] = coordinates[hht.REACTION, 0]
-            drive[mo.WAY] = drive[mo.REACH] = coordinates[hht.PLACE, 0]
-        forces = resultants(system, result, coordinates, state.load)
-        shaking = system.shaking
-        seen = shaking.transfer if shaking is not None and shaking.on_body else 1.0
-        imposed = np.array([
-            step, end, base[0], base[1], base[2], state.load, state.load, lost,
-            float(result.iterations), seen, system.full_friction, base[3],
-            system.friction.mu / system.friction.limit, damped,
-        ])  # fmt: skip
-        before = state.contact
-        # Copies, so that whoever stops in the middle of a step finds the state before it whole.
-        sums, mean_pressure = self.sums.copy(), self.mean_pressure.copy()
-        ledger.account(
-            sums, imposed, state.forces, forces, state.drive, drive,
-            before.displacement, result.displacement, before.force, result.force,
-            before.pressure, before.traction, before.normal, before.distance,
-            before.state.deflection,
-            result.pressure, result.traction, result.normal, result.distance,
-            result.state.deflection,
-            result.slip_1, result.slip_2, system.weights, system.normal.numbers, mean_pressure,
-        )  # fmt: skip
-        self.sums, self.mean_pressure = sums, mean_pressure
+            place = float(coordinates.place[0])
+            drive = DriveState(place, place, float(coordinates.reaction[0]))
+        forces = contact_resultants(system, result)
+        after = SystemState(end, coordinates, drive, result, forces, state.load)
+        mean = self.mean_pressure + 0.5 * step * (state.contact.pressure + result.pressure)
+        broke = drive.force >= system.full_friction
+        # All at once, so that whoever stops in the middle of a step finds the state before it.
+        self.sums, self.mean_pressure = (
+            self.sums + over_step(system, state, after, base, taken),
+            mean,
+        )
+        if self.breakaway is None and broke:
+            self.breakaway = end
         self.unconverged += result.residual > solver.problem.tolerance
         self.residual_max = max(self.residual_max, float(result.residual))
-        self.state = SystemState(end, coordinates, drive, result, forces, state.load)
+        self.state = after

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,8 +13,9 @@ from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface
-from asperity.contact.motion import hht, ledger
-from asperity.contact.motion import mechanism as mo
+from asperity.contact.motion.hht import ALPHA, Coordinates, coefficients
+from asperity.contact.motion.mechanism import DriveState, Mechanism, MotionStep, motion_step
+from asperity.contact.motion.works import Resultants
 from asperity.vibration import Shape, fill_increments
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
@@ -56,6 +58,17 @@ class Shaking:
         return float(room[0])
 
 
+class BaseMotion(NamedTuple):
+    """Displacement of the base over a step, m."""
+
+    x: float = 0.0
+    y: float = 0.0
+    """As far as the contact sees it."""
+    whole_y: float = 0.0
+    z: float = 0.0
+    """Upwards."""
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class System:
     """A condensed body, what holds and loads it, and what it slides on.
@@ -82,7 +95,7 @@ class System:
         Parameter of the time integration.
     """
 
-    mechanism: mo.Mechanism
+    mechanism: Mechanism
     surface: ContactSurface
     counter: RigidSurface
     normal: NormalLaw
@@ -91,16 +104,16 @@ class System:
     shaking: Shaking | None = None
     drive_velocity: float = 0.0
     full_friction: float = np.inf
-    alpha: float = hht.ALPHA
+    alpha: float = ALPHA
 
     @functools.cached_property
     def weights(self) -> FloatArray:
         """Area of each point of the surface, m^2."""
         return np.ascontiguousarray(self.surface.weights.ravel())
 
-    def motion_step(self, step: float) -> mo.MotionStep:
+    def motion_step(self, step: float) -> MotionStep:
         """What a length of the step makes of the body."""
-        return mo.motion_step(self.mechanism, step, alpha=self.alpha, impact=self.impact(step))
+        return motion_step(self.mechanism, step, alpha=self.alpha, impact=self.impact(step))
 
     @functools.cached_property
     def bounce(self) -> float:
@@ -134,7 +147,7 @@ class System:
 
     def newmark_beta(self, step: float) -> float:
         """Return the parameter the time integration takes for a length of the step."""
-        return hht.coefficients(self.alpha, impact=self.impact(step))[0]
+        return coefficients(self.alpha, impact=self.impact(step))[0]
 
     def increments(self, compliance: FloatArray, step: float) -> IncrementProblem:
         """Return what the increments of a contact with this flexibility have in common."""
@@ -142,17 +155,23 @@ class System:
             compliance, self.surface, self.counter, self.normal, self.friction, step
         )
 
-    def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, FloatArray]:
-        """Motion of the base over a step, and its displacement: x, y as far as seen, whole y, z.
+    @property
+    def unseen(self) -> float:
+        """Share of the body's own lateral motion that the contact does not see."""
+        shaking = self.shaking
+        return 1.0 - shaking.transfer if shaking is not None and shaking.on_body else 0.0
+
+    def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, BaseMotion]:
+        """Return how the base moves over a step.
 
         A body that is shaken is one at rest on a base that moves the other way, but for the share
         of its own lateral motion that the contact sees.
         """
         shaking = self.shaking
         if shaking is None:
-            return SurfaceMotion(pose=self.pose), np.zeros(4)
+            return SurfaceMotion(pose=self.pose), BaseMotion()
         way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.amplitude)
-        x, y, z = shaking.increment(begin, end) * way
+        x, y, z = map(float, shaking.increment(begin, end) * way)
         pose = self.pose
         if way[2] != 0.0:
             height = shaking.increment(shaking.start, end) * way[2]
@@ -166,7 +185,7 @@ class System:
             np.diag([1.0, 0.0, 1.0]) if shaking.on_body else np.eye(3),
             np.diag([0.0, shaking.transfer, 0.0]) if shaking.on_body else np.zeros((3, 3)),
             one_sided,
-        ), np.array([x, through, y, z])
+        ), BaseMotion(x, through, y, z)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -177,33 +196,21 @@ class SystemState:
     ----------
     time : float
         s.
-    coordinates : ndarray, shape (6, m)
-        Rows as in `asperity.contact.motion.hht`.
-    drive : ndarray, shape (6,)
-        Places as in `asperity.contact.motion.mechanism`.
+    coordinates : Coordinates
+        Of the body.
+    drive : DriveState
+        Of what pulls it.
     contact : IncrementResult
         Of the last increment.
-    forces : ndarray, shape (6,)
-        Resultants, see `asperity.contact.motion.ledger`.
+    forces : Resultants
+        Of the contact.
     load : float
         Share of the loads.
     """
 
     time: float
-    coordinates: FloatArray
-    drive: FloatArray
+    coordinates: Coordinates
+    drive: DriveState
     contact: IncrementResult
-    forces: FloatArray
+    forces: Resultants
     load: float
-
-    def energies(self, system: System) -> ledger.Energies:
-        """Energies of body and contact."""
-        contact = self.contact
-        over, asperities = ledger.surface_energies(
-            contact.pressure, contact.distance, contact.state.deflection, system.weights,
-            system.normal.numbers, system.friction.mu, system.friction.limit,
-        )  # fmt: skip
-        kinetic, elastic, spring = ledger.body_energies(
-            system.mechanism, self.coordinates, self.drive, contact.force, self.load
-        )
-        return ledger.Energies(kinetic, elastic, spring, float(over), float(asperities))

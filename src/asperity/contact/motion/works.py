@@ -1,0 +1,179 @@
+"""Works and energies at the points of a surface in contact, as kernels."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.contact.interface.normal import HARD, TWO_STAGE, pressure
+
+
+class Resultants(NamedTuple):
+    """What a contact does as a whole."""
+
+    friction_x: float
+    """Friction against the slip, N."""
+    friction_y: float
+    normal: float
+    """Normal force, N."""
+    deflection_x: float
+    """Of the asperities, mean by pressure, m."""
+    deflection_y: float
+
+
+class SurfaceWorks(NamedTuple):
+    """Works over a step, J, and the greatest pressure at its end, Pa."""
+
+    slip: float
+    """Of friction on the slip, trapezoidal."""
+    asperities: float
+    """Put into the asperities."""
+    pressure: float
+    """Put into the overclosure, trapezoidal."""
+    overclosure: float
+    """Put into the overclosure, by the law along the way."""
+    greatest: float
+
+
+@kernel
+def resultants(pressure, traction, normal, deflection, weights):
+    """Friction, normal force and mean deflection of a contact."""
+    fx = 0.0
+    fy = 0.0
+    fn = 0.0
+    sx = 0.0
+    sy = 0.0
+    for q in range(weights.size):
+        p = pressure[q]
+        if p <= 0.0:
+            continue
+        w = weights[q]
+        fx -= w * (traction[q, 0] - p * normal[q, 0])
+        fy -= w * (traction[q, 1] - p * normal[q, 1])
+        fn += w * p
+        sx += w * p * deflection[q, 0]
+        sy += w * p * deflection[q, 1]
+    share = 1.0 / fn if fn > 0.0 else 0.0
+    return Resultants(fx, fy, fn, share * sx, share * sy)
+
+
+@kernel
+def overclosure_work(begin, end, law):
+    """Work per area of a pressure law without memory from one overclosure to another, J/m^2.
+
+    By Simpson's rule between the kinks of the law's pressure, which is exact: it is at most
+    quadratic there. The hard law stores nothing, see `potential`.
+    """
+    if law.code == HARD:
+        return 0.0
+    work = 0.0
+    least = 0.0
+    for part in range(3):
+        most = np.inf
+        if law.code == TWO_STAGE and part < 2:
+            most = law.start if part == 0 else law.end
+        low = min(max(begin, least), most)
+        high = min(max(end, least), most)
+        if low != high:
+            p0, _ = pressure(low, 0.0, law)
+            middle, _ = pressure(0.5 * (low + high), 0.0, law)
+            p1, _ = pressure(high, 0.0, law)
+            work += (p0 + 4.0 * middle + p1) * (high - low) / 6.0
+        if most == np.inf:
+            break
+        least = most
+    return work
+
+
+@kernel
+def works(
+    pressure_0, traction_0, normal_0, distance_0, deflection_0,
+    pressure_1, traction_1, normal_1, distance_1, deflection_1, slip, weights, law, bristle,
+):  # fmt: skip
+    """Works over a step.
+
+    Parameters
+    ----------
+    pressure_0, traction_0, normal_0, distance_0, deflection_0, \
+    pressure_1, traction_1, normal_1, distance_1, deflection_1 : ndarray
+        Of the points of the surface at both ends.
+    slip : ndarray, shape (q, 3)
+        Between them, m.
+    weights : ndarray, shape (q,)
+        Area of each point, m^2.
+    law : PressureLaw
+        Of `asperity.contact.interface.normal`.
+    bristle : float
+        mu over the deflection at full friction, 1/m.
+    """
+    on_slip = 0.0
+    into_asperities = 0.0
+    trapezoidal = 0.0
+    by_law = 0.0
+    most = 0.0
+    for q in range(weights.size):
+        p0 = pressure_0[q]
+        p1 = pressure_1[q]
+        if p0 <= 0.0 and p1 <= 0.0:
+            continue
+        w = weights[q]
+        most = max(most, p1)
+        work = 0.0
+        # k s^2 / 2 grows by this, k = mu p / s_max, however far p and s go in the step.
+        k0 = bristle * max(p0, 0.0)
+        k1 = bristle * max(p1, 0.0)
+        into = 0.0
+        for c in range(3):
+            s0 = deflection_0[q, c]
+            s1 = deflection_1[q, c]
+            into += (k0 * s0 + k1 * s1) * (s1 - s0) + (k1 - k0) * s0 * s1
+            work -= slip[q, c] * (
+                traction_0[q, c] - p0 * normal_0[q, c] + traction_1[q, c] - p1 * normal_1[q, c]
+            )
+        on_slip += 0.5 * w * work
+        into_asperities += 0.5 * w * into
+        trapezoidal += 0.5 * w * (p0 + p1) * (distance_0[q] - distance_1[q])
+        by_law += w * overclosure_work(-distance_0[q], -distance_1[q], law)
+    return SurfaceWorks(on_slip, into_asperities, trapezoidal, by_law, most)
+
+
+@kernel
+def potential(over, law):
+    """Energy of the overclosure per area for a pressure law without memory, J/m^2.
+
+    The multipliers of the hard law make it depend on its history: it stores nothing.
+    """
+    if over <= 0.0 or law.code == HARD:
+        return 0.0
+    stiffness = law.stiffness
+    if law.code != TWO_STAGE:
+        return 0.5 * stiffness * over * over
+    soft = law.initial
+    first = law.start
+    last = law.end
+    if over <= first:
+        return 0.5 * soft * over * over
+    rise = (stiffness - soft) / (last - first)
+    way = min(over, last) - first
+    upto = first + way
+    energy = 0.5 * soft * upto * upto + rise * way * way * way / 6.0
+    if over > last:
+        further = over - last
+        pressure = soft * last + 0.5 * rise * way * way
+        energy += pressure * further + 0.5 * stiffness * further * further
+    return energy
+
+
+@kernel
+def surface_energies(pressure, distance, deflection, weights, law, mu, limit):
+    """Energy in the overclosure and in the asperities of a contact, J."""
+    over = 0.0
+    bristles = 0.0
+    for q in range(weights.size):
+        over += weights[q] * potential(-distance[q], law)
+        if limit > 0.0 and pressure[q] > 0.0:
+            size = 0.0
+            for c in range(3):
+                size += deflection[q, c] * deflection[q, c]
+            bristles += 0.5 * weights[q] * mu * pressure[q] / limit * size
+    return over, bristles
