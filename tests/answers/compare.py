@@ -12,6 +12,13 @@ It holds from a processor without fused multiplication or wide vectors to one wi
 TOLERANCES = (
     (
         "block *",
+        "block_*.vtu:friction_Pa",
+        5e-6,
+        "as of all of a block, below; at one instant it moved by 0.9e-6 between two processors "
+        "and by 2.5e-6 where sums were added up in another order",
+    ),
+    (
+        "block *",
         "*",
         1e-6,
         "an increment is iterated to 1e-9 of the load; whether the iteration that comes just below "

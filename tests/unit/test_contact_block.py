@@ -414,7 +414,7 @@ def test_a_flipped_bit_in_what_is_kept_is_found_told_and_gone_on_without(tmp_pat
     march = stopped(problem(), 20, tmp_path / "kept.npz")
     Keeper(path, march_key(march.problem), told.append).keep(march.state())
     whole = bytearray(path.read_bytes())
-    whole[whole.find(march.stepper.state.coordinates.tobytes())] ^= 1
+    whole[whole.find(march.stepper.state.coordinates.place.tobytes())] ^= 1
     path.write_bytes(whole)
     again = BlockMarch(problem(), run=Run(notify=told.append, folder=tmp_path))
     assert not again.resume()
