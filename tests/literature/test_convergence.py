@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 from asperity.compiled import kernel
 from asperity.friction import SPLIT, UNSPLIT, VECTOR, update
+from asperity.friction.loaded import STIFFNESS, advance_loaded
 from asperity.friction.two_phase import phases
 
 END = 6.0
@@ -65,6 +66,17 @@ def walk_in_two_phases(slips_1, slips_2, exponent):
     return size * ax, size * ay
 
 
+@kernel
+def walk_under_load(slips_1, slips_2, limits, exponent, law):
+    sx, sy = 0.0, 0.0
+    for n in range(len(slips_1)):
+        sx, sy, _, _ = advance_loaded(
+            sx, sy, slips_1[n, 0], slips_1[n, 1], slips_2[n, 0], slips_2[n, 1],
+            limits[n], limits[n + 1], exponent, law, STIFFNESS,
+        )  # fmt: skip
+    return sx, sy
+
+
 def reached(steps, walker, *arguments):
     slips = [
         np.ascontiguousarray(np.diff(way, axis=1).T) for way in ways(np.linspace(0, END, steps + 1))
@@ -113,6 +125,23 @@ def test_split_and_unsplit_converge_with_order_two_on_average_over_a_decade(law,
     steps = np.unique(np.geomspace(100, 1000, 40).astype(int))
     truth = exact(exponent, law)
     errors = [np.abs(reached(n, walk, exponent, law) - truth).max() for n in steps]
+    assert observed_order(steps, errors) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_under_a_load_that_swings_the_order_is_two_on_average_over_a_decade(law, exponent):
+    # Eight phases of the load, so that the end falls on rising, falling, stuck and sliding.
+    steps = np.unique(np.geomspace(60, 1000, 24).astype(int))
+    errors = np.zeros(len(steps))
+    for phase in np.arange(8) * np.pi / 4:
+
+        def friction(steps, phase=phase):
+            limits = 1.0 + 0.6 * np.sin(3.0 * np.linspace(0.0, END, steps + 1) + phase)
+            return reached(steps, walk_under_load, limits, exponent, law)
+
+        truth = friction(200_000)
+        errors += [np.abs(friction(n) - truth).max() for n in steps]
     assert observed_order(steps, errors) == pytest.approx(2.0, abs=0.1)
 
 

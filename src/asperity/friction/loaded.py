@@ -18,7 +18,7 @@ force, :math:`F_N/F_{N,ref}` where friction is proportional to the load (its pow
 import math
 
 from asperity.compiled import kernel
-from asperity.friction.dahl import TINY, advance
+from asperity.friction.dahl import TINY, VECTOR, advance
 
 STIFFNESS = 0
 DEFLECTION = 1
@@ -37,13 +37,48 @@ def mean_limit(limit_0, limit_1, exponent):
 
 
 @kernel
-def lowered_limit(sx, sy, limit_0, limit_1):
-    """Size beyond which an asperity slips back as its limit falls.
+def turning_rate(sx, sy, dx, dy, limit_1, exponent, law):
+    """How an asperity at its limit turns to the slip, over the part of the slip across it.
 
-    It is the limit of the end; a deflection above the limit of the start (LuGre's, when the slip
-    speeds up) shrinks in proportion, so that a load that hardly falls hardly moves it.
+    It is that for exponent 1 and along the asperity; otherwise it goes as the power of the distance
+    to the slip's direction, which grows with the size too: half the power for each part of it.
     """
-    return limit_1 * max(1.0, math.sqrt(sx * sx + sy * sy) / limit_0)
+    if law != VECTOR or exponent == 1.0:
+        return 1.0
+    length = math.sqrt(dx * dx + dy * dy)
+    cosine = (dx * sx + dy * sy) / (length * math.sqrt(sx * sx + sy * sy))
+    rate = max(2.0 - 2.0 * cosine, 0.0) ** (0.5 * (exponent - 1.0))
+    # A step turns the asperity no further than to the slip.
+    return max(0.5 * (3.0 - exponent), 0.0) * min(rate, limit_1 / length)
+
+
+@kernel
+def slip_back(wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law):
+    r"""Deflection ``w`` that a step from ``s`` came to, brought back to a limit that fell.
+
+    A deflection above the limit of the start (LuGre's, when the slip speeds up) may stay above in
+    proportion, so that a load that hardly falls hardly moves it.
+
+    Held at the limit all along, the asperity turns faster than one that is held at the end, which
+    is too long by half the overshoot :math:`o` on average: it is turned on by
+    :math:`o/(s_{max,0} + s_{max,1})` of the slip, times the share of the step in which it is held.
+    The scheme is of order two by it, and since friction turns towards the slip, loses no less.
+    """
+    start = math.sqrt(sx * sx + sy * sy)
+    size = math.sqrt(wx * wx + wy * wy)
+    above = max(1.0, start / limit_0)
+    most = limit_1 * above
+    over = size - most
+    if over <= 0.0:
+        return wx, wy
+    if exponent != 0.0 and sx * dy != sy * dx:
+        gap = max(limit_0 - start, 0.0)
+        turn = turning_rate(sx, sy, dx, dy, limit_1, exponent, law)
+        turn *= over * over / ((over + gap) * (limit_0 + limit_1) * above)
+        wx += turn * dx
+        wy += turn * dy
+        size = math.sqrt(wx * wx + wy * wy)
+    return wx * (most / size), wy * (most / size)
 
 
 @kernel
@@ -81,12 +116,8 @@ def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, 
     )
     wx *= limit
     wy *= limit
-    square = wx * wx + wy * wy
-    if limit_1 < limit_0 and square > limit_1 * limit_1:
-        back = lowered_limit(sx, sy, limit_0, limit_1) / math.sqrt(square)
-        if back < 1.0:
-            wx *= back
-            wy *= back
+    if limit_1 < limit_0 and wx * wx + wy * wy > limit_1 * limit_1:
+        wx, wy = slip_back(wx, wy, sx, sy, d1x + d2x, d1y + d2y, limit_0, limit_1, exponent, law)
     return wx, wy, wx, wy
 
 

@@ -7,24 +7,71 @@ friction follows the pressure and not the other way about, so the tangent is not
 import math
 
 from asperity.compiled import kernel
-from asperity.friction.dahl import TINY
-from asperity.friction.loaded import DEFLECTION, friction_loss, lowered_limit, mean_limit
+from asperity.friction.dahl import TINY, VECTOR
+from asperity.friction.loaded import DEFLECTION, friction_loss, mean_limit, slip_back, turning_rate
 from asperity.friction.tangent import limit_slope, update
 
 _NONE = (0.0, 0.0, 0.0, 0.0)
 
 
 @kernel
-def _turned_back(tangent, ex, ey, turn):
-    """Rows of ``turn (I - e e^T) T``: what is left of a derivative on a circle."""
-    along_x = ex * tangent[0] + ey * tangent[2]
-    along_y = ex * tangent[1] + ey * tangent[3]
-    return (
-        turn * (tangent[0] - ex * along_x),
-        turn * (tangent[1] - ex * along_y),
-        turn * (tangent[2] - ey * along_x),
-        turn * (tangent[3] - ey * along_y),
-    )
+def _turning_slope(sx, sy, dx, dy, limit_1, exponent, law):
+    """Logarithmic derivative of `loaded.turning_rate` by the slip (two) and by the limit."""
+    if law != VECTOR or exponent == 1.0:
+        return 0.0, 0.0, 0.0
+    length = math.sqrt(dx * dx + dy * dy)
+    start = math.sqrt(sx * sx + sy * sy)
+    nx = dx / length
+    ny = dy / length
+    cosine = (nx * sx + ny * sy) / start
+    square = 2.0 - 2.0 * cosine
+    if square <= 0.0 or square ** (0.5 * (exponent - 1.0)) >= limit_1 / length:
+        return -nx / length, -ny / length, 1.0 / limit_1
+    bend = (1.0 - exponent) / (square * length)
+    return bend * (sx / start - cosine * nx), bend * (sy / start - cosine * ny), 0.0
+
+
+@kernel
+def _slip_back_slope(
+    wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law, ux, uy, tx, ty, rise
+):  # fmt: skip
+    """Derivative of `loaded.slip_back` for ``w`` changing by u, the slip by t, the limit by one."""
+    start = math.sqrt(sx * sx + sy * sy)
+    size = math.sqrt(wx * wx + wy * wy)
+    above = max(1.0, start / limit_0)
+    most = limit_1 * above
+    over = size - most
+    if over <= 0.0:
+        return ux, uy
+    if exponent != 0.0 and sx * dy != sy * dx:
+        gap = max(limit_0 - start, 0.0)
+        rate = turning_rate(sx, sy, dx, dy, limit_1, exponent, law)
+        rate /= (over + gap) * (limit_0 + limit_1) * above
+        turn = rate * over * over
+        qx, qy, grow = _turning_slope(sx, sy, dx, dy, limit_1, exponent, law)
+        over_t = (wx * ux + wy * uy) / size - above * rise
+        turn_t = rate * over * (over + 2.0 * gap) / (over + gap) * over_t
+        turn_t += turn * (qx * tx + qy * ty + (grow - 1.0 / (limit_0 + limit_1)) * rise)
+        ux += turn * tx + turn_t * dx
+        uy += turn * ty + turn_t * dy
+        wx += turn * dx
+        wy += turn * dy
+        size = math.sqrt(wx * wx + wy * wy)
+    ex = wx / size
+    ey = wy / size
+    along = ex * ux + ey * uy
+    back = most / size
+    out = above * rise
+    return back * (ux - ex * along) + ex * out, back * (uy - ey * along) + ey * out
+
+
+@kernel
+def _held(tangent, fall):
+    """Derivative by the slip after `loaded.slip_back`, of what was ``tangent`` before."""
+    xx, xy, yx, yy = tangent
+    xx, yx = _slip_back_slope(*fall, xx, yx, 1.0, 0.0, 0.0)
+    xy, yy = _slip_back_slope(*fall, xy, yy, 0.0, 1.0, 0.0)
+    return xx, xy, yx, yy
 
 
 @kernel
@@ -76,19 +123,11 @@ def update_loaded(deflection, slip_1, slip_2, limit_0, limit_1, exponent, law, k
     if exponent != 0.0:
         hx *= 0.5
         hy *= 0.5
-    size = math.sqrt(wx * wx + wy * wy)
-    if limit_1 < limit_0 and size > limit_1:
-        most = lowered_limit(sx, sy, limit_0, limit_1)
-        if most < size:
-            ex = wx / size
-            ey = wy / size
-            turn = most / size
-            wx *= turn
-            wy *= turn
-            tangent_1 = _turned_back(tangent_1, ex, ey, turn)
-            tangent_2 = _turned_back(tangent_2, ex, ey, turn)
-            along = ex * hx + ey * hy
-            hx = turn * (hx - ex * along) + ex * most / limit_1
-            hy = turn * (hy - ey * along) + ey * most / limit_1
+    if limit_1 < limit_0 and wx * wx + wy * wy > limit_1 * limit_1:
+        fall = (wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law)
+        tangent_1 = _held(tangent_1, fall)
+        tangent_2 = _held(tangent_2, fall)
+        hx, hy = _slip_back_slope(*fall, hx, hy, 0.0, 0.0, 1.0)
+        wx, wy = slip_back(*fall)
     loss = friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps)
     return (wx, wy), (wx, wy), loss, (tangent_1, tangent_2), (hx, hy)
