@@ -18,7 +18,7 @@ force, :math:`F_N/F_{N,ref}` where friction is proportional to the load (its pow
 import math
 
 from asperity.compiled import kernel
-from asperity.friction.dahl import TINY, VECTOR, advance
+from asperity.friction.dahl import TINY, VECTOR, advance, relaxation
 
 STIFFNESS = 0
 DEFLECTION = 1
@@ -111,11 +111,20 @@ def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, 
         wx, wy = advance(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
         return wx, wy, limit_1 * wx, limit_1 * wy
     limit = mean_limit(limit_0, limit_1, exponent)
-    wx, wy = advance(
-        sx / limit, sy / limit, d1x / limit, d1y / limit, d2x / limit, d2y / limit, exponent, law
-    )
-    wx *= limit
-    wy *= limit
+    if law == VECTOR and exponent == 1.0:
+        # `dahl.closed_form`, in which only the length of the slip needs the limit.
+        dx = d1x + d2x
+        dy = d1y + d2y
+        decay, gain = relaxation(math.sqrt(dx * dx + dy * dy) / limit)
+        wx = sx * decay + dx * gain
+        wy = sy * decay + dy * gain
+    else:
+        wx, wy = advance(
+            sx / limit, sy / limit, d1x / limit, d1y / limit, d2x / limit, d2y / limit,
+            exponent, law,
+        )  # fmt: skip
+        wx *= limit
+        wy *= limit
     if limit_1 < limit_0 and wx * wx + wy * wy > limit_1 * limit_1:
         wx, wy = slip_back(wx, wy, sx, sy, d1x + d2x, d1y + d2y, limit_0, limit_1, exponent, law)
     return wx, wy, wx, wy
