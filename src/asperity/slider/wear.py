@@ -87,11 +87,11 @@ class Wear(Table):
         return self
 
 
-@formula(symbol="V'", unit="m3/s", equation="K/H <F_N |v - s'|>", source=ARCHARD)
+@formula(symbol="V'", unit="m3/s", equation="K/H <F_N v_s>", source=ARCHARD)
 def wear_rate(
     coefficient: Annotated[Real, Symbol("K", "", positive)],
     hardness: Annotated[Real, Symbol("H", "Pa", positive)],
-    integral: Annotated[Real, Symbol("<F_N |v - s'|>", "W", not_negative)],
+    integral: Annotated[Real, Symbol("<F_N v_s>", "W", not_negative)],
 ) -> Real:
     """Volume worn off the foot in time.
 
@@ -166,7 +166,7 @@ class WearAndHeat(Quantities):
     """Wear and heat of a contact, as far as the table [wear] says what is needed."""
 
     wear_integral: float = quantity(
-        "<F_N |v - s'|>", "W", "mean of normal force times slip speed of the foot"
+        "<F_N v_s>", "W", "mean of normal force times slip speed of the foot"
     )
     wear_rate: float | None = quantity("V'", "m3/s", "volume worn off in time", default=None)
     wear_depth_per_cycle: float | None = quantity(
@@ -177,7 +177,14 @@ class WearAndHeat(Quantities):
     )
     peclet: float | None = quantity("Pe", "", "Peclet number of the slip", default=None)
     warming_time: float | None = quantity("t_h", "s", "time to warm through", default=None)
-    heated_by: str | None = quantity("", "", "what heats the contact", default=None)
+    heated_by: str | None = quantity(
+        "",
+        "",
+        "whether the mean or the peak of a cycle heats",
+        default=None,
+        only="json",
+        shown=False,
+    )
 
     @property
     def notes(self) -> tuple[str, ...]:
