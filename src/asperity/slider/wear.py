@@ -40,7 +40,7 @@ v = Annotated[Real, Symbol("v", "m/s", not_negative)]
 
 
 class Wear(Table):
-    """What a contact wears and heats by; without it only the integral of wear is told.
+    """What a contact wears and heats by.
 
     Parameters
     ----------
@@ -165,9 +165,6 @@ def warming_time(contact_radius: A, diffusivity: kappa) -> Real:
 class WearAndHeat(Quantities):
     """Wear and heat of a contact, as far as the table [wear] says what is needed."""
 
-    wear_integral: float = quantity(
-        "<F_N v_s>", "W", "mean of normal force times slip speed of the foot"
-    )
     wear_rate: float | None = quantity("V'", "m3/s", "volume worn off in time", default=None)
     wear_depth_per_cycle: float | None = quantity(
         "h_c", "m", "depth worn off in a cycle", default=None
@@ -189,39 +186,44 @@ class WearAndHeat(Quantities):
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the temperature should know."""
-        if self.heated_by is None or self.warming_time is None:
+        if self.warming_time is None:
             return ()
-        compared = "longer" if self.heated_by == "mean" else "shorter"
-        heat = "mean heat of a cycle" if self.heated_by == "mean" else "greatest heat in a cycle"
+        warms = f"the contact warms through in {self.warming_time:.2g} s,"
         return (
-            f"the contact warms through in {self.warming_time:.2g} s, {compared} than a cycle: the "
-            f"flash temperature is that of the {heat}",
+            {
+                "mean": f"{warms} longer than a cycle: its flash temperature is that of the "
+                "cycle's mean heat",
+                "peak": f"{warms} shorter than a cycle: its flash temperature is that of the "
+                "greatest heat in the cycle",
+                "unresolved": f"{warms} shorter than a cycle: its flash temperature rises above "
+                "the one given, which is that of the cycle's mean heat",
+            }[self.heated_by or "mean"],
         )
 
 
 def wear_and_heat(
-    wear: Wear | None,
+    wear: Wear,
     integral: float,
     mean: tuple[float, float],
-    peak: tuple[float, float],
     frequency: float,
+    peak: tuple[float, float] | None = None,
 ) -> WearAndHeat:
     r"""Wear and heat from what a solution counts over whole cycles.
 
     Parameters
     ----------
-    wear : Wear or None
-        None: the integral alone.
+    wear : Wear
+        The table of the case.
     integral : float
         :math:`\langle F_N|v - s'|\rangle`, W.
-    mean, peak : tuple of 2 floats
-        Power of friction, W, and slip speed, m/s: means over the cycle, and what they are where
-        the power is greatest. The peak counts where a cycle is longer than the warming time.
+    mean : tuple of 2 floats
+        Power of friction, W, and slip speed, m/s, in the mean of a cycle.
     frequency : float
         Of the vibration, Hz; 0 without one: then there is no depth of a cycle, and the mean heats.
+    peak : tuple of 2 floats, optional
+        Power and slip speed where the power is greatest, which count where a cycle is longer than
+        the contact takes to warm through.
     """
-    if wear is None:
-        return WearAndHeat(wear_integral=integral)
     found: dict[str, Any] = {}
     if wear.coefficient is not None and wear.hardness is not None:
         found["wear_rate"] = wear_rate(wear.coefficient, wear.hardness, integral)
@@ -229,23 +231,26 @@ def wear_and_heat(
             found["wear_depth_per_cycle"] = wear_depth_per_cycle(
                 found["wear_rate"], wear.contact_radius, frequency
             )
-    return WearAndHeat(wear_integral=integral, **found, **_heat(wear, mean, peak, frequency))
+    return WearAndHeat(**found, **_heat(wear, mean, frequency, peak))
 
 
 def _heat(
-    wear: Wear, mean: tuple[float, float], peak: tuple[float, float], frequency: float
+    wear: Wear,
+    mean: tuple[float, float],
+    frequency: float,
+    peak: tuple[float, float] | None,
 ) -> Mapping[str, Any]:
     radius = wear.contact_radius
     if wear.conductivity is None or wear.diffusivity is None or radius is None:
         return {}
     warming = warming_time(radius, wear.diffusivity)
     slow = 0.0 < frequency * warming < 1.0
-    power, speed = peak if slow else mean
+    power, speed = peak if slow and peak is not None else mean
     peclet = peclet_number(speed, radius, wear.diffusivity)
     flux = power / (np.pi * radius**2)
     return {
         "flash_temperature": flash_temperature(flux, radius, wear.conductivity, peclet),
         "peclet": peclet,
         "warming_time": warming,
-        "heated_by": "peak" if slow else "mean",
+        "heated_by": "mean" if not slow else "unresolved" if peak is None else "peak",
     }
