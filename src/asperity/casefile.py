@@ -16,6 +16,7 @@ from pydantic_core import ErrorDetails
 
 from asperity import store
 from asperity.errors import InputError, choices, is_plain, nearest, plain, shown, suggestion
+from asperity.shipped import shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
 Raw = dict[str, dict[str, Any]]
@@ -249,21 +250,6 @@ def told(case: Case) -> Iterator[None]:
             origin = case.origin(key.group()) if key else case.source
             error.args = (f"{origin}: {text}", *error.args[1:])
         raise
-
-
-def shipped_cases() -> dict[str, Path]:
-    """Return the files of the cases that ship, by name."""
-    package = Path(__file__).parent
-    # In an editable checkout the folder stands at the root, beside `src`.
-    folders = [package / "cases", package.parents[1] / "cases"]
-    folder = next((folder for folder in folders if folder.is_dir()), folders[0])
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
-
-
-def describe(path: str | os.PathLike[str]) -> str:
-    """Return the comment in the first line of a case file."""
-    first, _, _ = store.read_text(path).partition("\n")
-    return first.removeprefix("#").strip() if first.startswith("#") else ""
 
 
 def read_case(

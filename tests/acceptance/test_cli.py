@@ -323,7 +323,7 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
     ("arguments", "absent"),
     [
         (["--help"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
-        (["cases"], {"numpy", "numba", "matplotlib", "xarray", "scipy"}),
+        (["cases"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
         (["rate", "gearset-3"], {"numba", "llvmlite", "matplotlib", "pint"}),
         (["sensitivity", "gearset-3"], {"numba", "llvmlite", "matplotlib", "pint"}),
         (["methods", "gearset-3"], {"numba", "llvmlite", "matplotlib", "pint"}),

@@ -19,11 +19,12 @@ from typing import get_args
 
 import pytest
 
-from asperity.casefile import names_file, shipped_cases
+from asperity.casefile import names_file
 from asperity.cli import show
 from asperity.cli.main import main
 from asperity.commands import case_tables
 from asperity.runs import run
+from asperity.shipped import shipped_cases
 from asperity.units import quantity_of, split_unit
 
 pytestmark = pytest.mark.slow

@@ -11,10 +11,11 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution.march import solve_block
-from asperity.casefile import read_case, shipped_cases
+from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
+from asperity.shipped import shipped_cases
 from asperity.slider.march import march
 from asperity.thesis.contact.blocks import in_series
 from asperity.thesis.contact.elastic import LIGHT, ElasticBlock

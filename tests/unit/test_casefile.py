@@ -8,8 +8,9 @@ from typing import Annotated, ClassVar, Literal
 import pydantic
 import pytest
 
-from asperity.casefile import Table, describe, read_case, shipped_cases, told
+from asperity.casefile import Table, read_case, told
 from asperity.errors import InputError
+from asperity.shipped import describe, shipped_cases
 from asperity.units import Quantity
 
 

@@ -5,12 +5,13 @@ from math import cos
 
 import pytest
 
-from asperity.casefile import describe, read_case, shipped_cases
+from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.gearset.lubricants import lubricant
 from asperity.rating.parameters import Operation
+from asperity.shipped import describe, shipped_cases
 
 STEEL, BRONZE = "case-hardened steel", "CuAl10Fe5Ni5-C-GZ"
 MACRO = {

@@ -181,8 +181,8 @@ def thesis(
 @reported
 def cases(as_json: JsonOption = False) -> None:
     """List the cases that ship; their names work wherever a file does."""
-    from asperity.casefile import describe, shipped_cases
     from asperity.cli import show
+    from asperity.shipped import describe, shipped_cases
 
     shipped = {name: describe(path) for name, path in shipped_cases().items()}
     if as_json:
@@ -197,9 +197,13 @@ def cases(as_json: JsonOption = False) -> None:
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
     hold_streams()
+    command: Any = typer.main.get_command(app)
+    # Left without a value, the option for help would load all of pydantic to convert none.
+    no_help: dict[str, Any] = {"help": False}
+    no_help |= dict.fromkeys(command.commands, no_help.copy())
     try:
-        code: int | None = typer.main.get_command(app).main(
-            arguments, prog_name="asperity", standalone_mode=False
+        code: int | None = command.main(
+            arguments, prog_name="asperity", standalone_mode=False, default_map=no_help
         )
     except USAGE_ERROR as error:
         tell(usage(error))

@@ -138,10 +138,10 @@ def _command(case: str, settings: Sequence[str]) -> str:
 
 
 def _once(block: ElasticBlock | BlockFromRest, of: type[T], solve: Callable[[], T]) -> T:
-    from asperity.casefile import shipped_cases
     from asperity.runs.cache import Cache
     from asperity.runs.key import code_key, key
     from asperity.runs.tree import from_tree, to_tree
+    from asperity.shipped import shipped_cases
 
     case = shipped_cases()[block.case].read_bytes()
     name = key(code_key(f"{_ROOM}.blocks"), of.__name__, case, *block.settings)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity import __version__
-from asperity.casefile import shipped_cases
+from asperity.shipped import shipped_cases
 from asperity.store import write_atomically, write_dataset, write_text
 from asperity.thesis.exhibits import Exhibit, FigureOf, Grid, TableOf
 from asperity.thesis.ledger import Claim, Entry
