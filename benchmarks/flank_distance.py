@@ -12,7 +12,8 @@ import numpy as np
 from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
-from asperity.flanks.worm.distance import distance_each, distance_only_each
+from asperity.compiled import kernel
+from asperity.flanks.worm.distance import distance, distance_only_each
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry
@@ -22,6 +23,14 @@ MINIMISED = 200
 REPEATS = 7
 TARGETS_NS = {"ZI": (35.0, 70.0)}
 GENERAL_NS = (350.0, 350.0)
+
+
+@kernel
+def distance_each(points, thread, out):
+    """`distance` of every point, into the rows of ``out``."""
+    for i in range(points.shape[0]):
+        for j, number in enumerate(distance(points[i, 0], points[i, 1], points[i, 2], thread)):
+            out[i, j] = number
 
 
 def cloud(worm):
@@ -64,12 +73,12 @@ def main():
     report = {}
     for kind in TYPES:
         worm = Helicoid.worm(geometry, kind)
-        points, params = cloud(worm), worm.distance_params(1)
+        points, thread = cloud(worm), worm.facing(1)
         alone, every = np.empty(POINTS), np.empty((POINTS, 10))
-        distance_only_each(points, params, alone)
-        distance_each(points, params, every)
-        bare = best(lambda a=(points, params, alone): distance_only_each(*a), REPEATS) / POINTS
-        whole = best(lambda a=(points, params, every): distance_each(*a), REPEATS) / POINTS
+        distance_only_each(points, thread, alone)
+        distance_each(points, thread, every)
+        bare = best(lambda a=(points, thread, alone): distance_only_each(*a), REPEATS) / POINTS
+        whole = best(lambda a=(points, thread, every): distance_each(*a), REPEATS) / POINTS
         began = time.thread_time()
         found = [minimised(point, worm) for point in points[:MINIMISED]]
         slow = (time.thread_time() - began) / MINIMISED

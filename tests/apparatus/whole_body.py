@@ -290,7 +290,7 @@ class WholeSystem:
         interface = Interface(
             np.ascontiguousarray(surface.faces), np.ascontiguousarray(surface.shapes),
             system.weights, np.ascontiguousarray(surface.points.reshape(-1, 3)),
-            system.counter.parameters, system.normal.numbers,
+            system.counter.numbers, system.normal.numbers,
             system.friction.numbers(step.length or 0.0),
         )  # fmt: skip
         tractions(

@@ -27,7 +27,6 @@ from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.parameters import Hob, Mount
-from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
@@ -81,8 +80,8 @@ def test_identical_hob_every_point_touches_when_it_was_cut(flank, side):
     # The rest lies deeper than the worm's flank, whose tip is rounded.
     within = kinematics(pair, grid, side).reach > 0.0
     assert within.mean() > 0.9
-    given = (0.0, kernels.TURN, float(side), pair.worm.distance_params(side))
-    mount = cut_params(pair.ratio, pair.mounting)
+    given = (0.0, kernels.TURN, float(side), pair.worm.facing(side))
+    mount = pair.mount
     touches = [
         side * kernels.measure(*point, phase / pair.ratio, *given, mount)
         for point, phase in zip(grid.points[within], grid.phase[within], strict=True)

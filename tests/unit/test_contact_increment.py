@@ -106,7 +106,7 @@ def laid_on(problem, pose, lift=0.0):
     u = np.zeros((problem.nodes, 3))
     for _ in range(20):
         local = (problem.surface.positions + u - pose.translation) @ pose.rotation
-        found = np.array([distance(*point, problem.counter.parameters)[:4] for point in local])
+        found = np.array([distance(*point, problem.counter.numbers)[:4] for point in local])
         u[:, 2] -= (found[:, 0] - lift) / (found[:, 1:] @ pose.rotation.T)[:, 2]
     return u.ravel()
 

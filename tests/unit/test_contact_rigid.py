@@ -34,7 +34,7 @@ def points(kind, count=40):
 
 
 def parts(point, surface):
-    d, gx, gy, gz, hxx, hyy, hzz, hxy, hxz, hyz = distance(*point, surface.parameters)
+    d, gx, gy, gz, hxx, hyy, hzz, hxy, hxz, hyz = distance(*point, surface.numbers)
     hessian = np.array([[hxx, hxy, hxz], [hxy, hyy, hyz], [hxz, hyz, hzz]])
     return d, np.array([gx, gy, gz]), hessian
 

@@ -21,7 +21,6 @@ from asperity.flanks.meshing.pattern.area import areas, crossings, node_areas, p
 from asperity.flanks.meshing.pattern.marking import pattern
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.parameters import Hob, Mount
-from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
@@ -90,8 +89,8 @@ def brute_force(search, beta, side):
     """The least turn over a dense grid of points: never less than the true one."""
     pair = search.pair
     points = search.flank.grid(120, 121).points
-    given = (0.0, kernels.TURN, float(side), pair.worm.distance_params(side))
-    given = (*given, cut_params(pair.ratio, pair.mounting), np.empty(121))
+    given = (0.0, kernels.TURN, float(side), pair.worm.facing(side))
+    given = (*given, pair.mount, np.empty(121))
     return [kernels.scan(points, b, *given) - side * pair.ratio * b for b in beta]
 
 

@@ -9,10 +9,8 @@ from scipy.spatial import cKDTree
 
 from asperity.errors import InputError
 from asperity.flanks.parameters import Hob, Modification
-from asperity.flanks.worm import curve
 from asperity.flanks.worm.distance import (
     distance,
-    distance_each,
     distance_only,
     distances,
 )
@@ -70,10 +68,9 @@ def test_newtons_method_agrees_with_the_closed_form_of_zi():
     worm = WORMS["ZI"]
     points, _, _ = offset_points(worm)
     closed = distances_with_derivatives(points, worm)
-    general = worm.distance_params()
-    general[curve.BASE] = 0.0
-    out = np.empty((len(points), 10))
-    distance_each(points, general, out)
+    general = worm.facing()
+    general.form["base"] = 0.0
+    out = np.array([distance(*point, general) for point in points])
     assert np.abs(out[:, 0] - closed.distance).max() < 5e-15
     hessian = closed.hessian
     for column, (i, j) in enumerate([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)], start=4):
@@ -83,11 +80,11 @@ def test_newtons_method_agrees_with_the_closed_form_of_zi():
 def test_newtons_method_takes_two_or_three_steps_near_the_flank():
     for kind in ("ZA", "ZN", "ZK", "ZC"):
         worm = WORMS[kind]
-        params = worm.distance_params()
+        thread = worm.facing()
         for rho in np.linspace(worm.root_radius + 0.5, worm.flank_end - 0.2, 7):
             w = float(worm.width(rho)[0])
             for off in (-0.02, 0.05, 0.1):
-                assert on_flank(rho, w - off, params, False)[5] <= 3
+                assert on_flank(rho, w - off, thread, False)[5] <= 3
 
 
 def test_the_gradient_has_unit_length_and_lies_in_the_kernel_of_the_hessian(worm):
@@ -169,7 +166,7 @@ def test_a_side_is_found_on_either_side_of_its_flank():
             w = float(worm.width(rho)[0])
             for off in (-0.4, 2.4):
                 z = side * (w - off)
-                found = distance_only(rho, 0.0, z, worm.distance_params(side))
+                found = distance_only(rho, 0.0, z, worm.facing(side))
                 assert found == pytest.approx(off * math.cos(GEOMETRY.base_lead_angle), abs=2e-15)
 
 
@@ -233,12 +230,10 @@ def test_off_the_rounding_the_hessian_is_the_difference_of_gradients():
 
 def test_over_the_land_and_in_the_space_over_the_core_the_distance_is_radial():
     worm = WORMS["ZI"]
-    over = distance(worm.tip_radius + 0.5, 0.0, worm.half_pitch, worm.distance_params())
+    over = distance(worm.tip_radius + 0.5, 0.0, worm.half_pitch, worm.facing())
     assert over[0] == pytest.approx(0.5)
     assert over[1:4] == (1.0, 0.0, 0.0)
-    core = distance(
-        0.0, worm.root_radius + 0.1, math.pi / 2 * worm.reduced_lead, worm.distance_params()
-    )
+    core = distance(0.0, worm.root_radius + 0.1, math.pi / 2 * worm.reduced_lead, worm.facing())
     assert core[0] == pytest.approx(0.1)
     assert core[1:4] == pytest.approx((0.0, 1.0, 0.0), abs=1e-15)
     assert core[4] == pytest.approx(1.0 / (worm.root_radius + 0.1))
@@ -288,11 +283,11 @@ def test_far_and_odd_points_have_finite_distances():
 
 def test_the_foot_on_the_rounding_is_found_from_afar():
     worm = Helicoid.worm(GEOMETRY, "ZI", Modification(tip_rounding="0.2"))
-    params = worm.distance_params()
+    thread = worm.facing()
     _, z, _, _ = worm.curve(1.5)
     for far in (0.5, 2.0, 5.0):
-        beta, _, steps = on_arc(worm.tip_radius + far, float(z), params)
-        assert -0.5 <= beta <= params[curve.ARC_ANGLE] + 0.5
+        beta, _, steps = on_arc(worm.tip_radius + far, float(z), thread)
+        assert -0.5 <= beta <= thread.form["arc_angle"] + 0.5
         assert steps < 20
 
 

@@ -252,7 +252,7 @@ def test_a_left_handed_worm_is_the_mirror_image_of_the_right_handed_one(kind):
 def test_the_hand_changes_neither_hob_nor_its_tilt():
     right, left = (Pair.of(gearset(hand=hand), OVERSIZED) for hand in ("right", "left"))
     assert right.cutting == left.cutting
-    assert (right.hob.params == left.hob.params).all()
+    assert right.hob.thread.form == left.hob.thread.form
 
 
 def test_the_conjugate_pair_has_an_identical_hob_in_nominal_position():

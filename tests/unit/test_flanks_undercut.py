@@ -48,7 +48,7 @@ def test_hob_leaves_all_of_an_undercut_tooth(make, side):
     pair, flank = wheel.pair, wheel.flank(side)
     face = flank.grid(16, 13)
     for part in (face, flank.fillet(8, face.z[0])):
-        least = gaps(part, pair.hob, pair.cutting, pair.ratio)
+        least = gaps(part, pair.hob, pair.cut)
         assert np.abs(least).max() < 1e-12
 
 

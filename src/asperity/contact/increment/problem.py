@@ -143,7 +143,7 @@ class IncrementProblem:
             np.ascontiguousarray(self.surface.shapes),
             np.ascontiguousarray(self.surface.weights.ravel()),
             np.ascontiguousarray(self.surface.points.reshape(-1, 3)),
-            self.counter.parameters,
+            self.counter.numbers,
             self.normal.numbers,
             self.friction.numbers(self.step),
         )

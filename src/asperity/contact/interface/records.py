@@ -9,6 +9,7 @@ import numpy as np
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.interface.friction import PointNumbers
 from asperity.contact.interface.normal import PressureLaw
+from asperity.contact.interface.rigid import Numbers
 
 
 class Interface(NamedTuple):
@@ -24,8 +25,8 @@ class Interface(NamedTuple):
         Area of each point, m^2.
     places : ndarray, shape (q, 3)
         Undeformed positions, m.
-    counter : ndarray
-        `asperity.contact.interface.rigid.RigidSurface.parameters`.
+    counter : Numbers
+        `asperity.contact.interface.rigid.RigidSurface.numbers`.
     law : PressureLaw
         Pressure against overclosure.
     friction : PointNumbers
@@ -36,7 +37,7 @@ class Interface(NamedTuple):
     shapes: FloatArray
     weights: FloatArray
     places: FloatArray
-    counter: FloatArray
+    counter: Numbers
     law: PressureLaw
     friction: PointNumbers
 

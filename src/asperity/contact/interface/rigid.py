@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,11 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.flanks.worm import distance as worm
-from asperity.flanks.worm.helicoid import Helicoid
+from asperity.flanks.worm.curve import FORM, Thread
+
+if TYPE_CHECKING:
+    # No kernel follows from it.
+    from asperity.flanks.worm.helicoid import Helicoid
 
 PLANE = 0
 SPHERE = 1
@@ -24,6 +29,28 @@ WORM = 3
 
 # The flanks are in mm.
 _MM = 1e3
+
+# Of a surface that is no worm.
+_NO_WORM = Thread(np.zeros((), FORM)[()], np.empty((0, 3)))
+
+
+class Numbers(NamedTuple):
+    """A surface as the kernels take it.
+
+    Attributes
+    ----------
+    kind : int
+        `PLANE`, `SPHERE`, `CYLINDER` or `WORM`.
+    radius, side : float
+        Of sphere and cylinder: m; -1 where the material is outside.
+    worm : Thread
+        The worm, in mm.
+    """
+
+    kind: int
+    radius: float = 0.0
+    side: float = 1.0
+    worm: Thread = _NO_WORM
 
 
 @kernel
@@ -34,44 +61,43 @@ def distance(x, y, z, surface):
     ----------
     x, y, z : float
         The point, m.
-    surface : ndarray
-        `RigidSurface.parameters`.
+    surface : Numbers
+        `RigidSurface.numbers`.
 
     Returns
     -------
     tuple of 10 floats
         Distance, m; gradient (3); Hessian (xx, yy, zz, xy, xz, yz), 1/m.
     """
-    code = int(surface[0])
-    if code == SPHERE:
+    if surface.kind == SPHERE:
         size = math.sqrt(x * x + y * y + z * z)
-        side = surface[2]
+        side = surface.side
         if size == 0.0:
-            return -side * surface[1], 0.0, 0.0, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            return -side * surface.radius, 0.0, 0.0, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         nx = x / size
         ny = y / size
         nz = z / size
         bend = side / size
         return (
-            side * (size - surface[1]), side * nx, side * ny, side * nz,
+            side * (size - surface.radius), side * nx, side * ny, side * nz,
             bend * (1.0 - nx * nx), bend * (1.0 - ny * ny), bend * (1.0 - nz * nz),
             -bend * nx * ny, -bend * nx * nz, -bend * ny * nz,
         )  # fmt: skip
-    if code == CYLINDER:
+    if surface.kind == CYLINDER:
         size = math.sqrt(x * x + y * y)
-        side = surface[2]
+        side = surface.side
         if size == 0.0:
-            return -side * surface[1], side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            return -side * surface.radius, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         nx = x / size
         ny = y / size
         bend = side / size
         return (
-            side * (size - surface[1]), side * nx, side * ny, 0.0,
+            side * (size - surface.radius), side * nx, side * ny, 0.0,
             bend * ny * ny, bend * nx * nx, 0.0, -bend * nx * ny, 0.0, 0.0,
         )  # fmt: skip
-    if code == WORM:
+    if surface.kind == WORM:
         d, nx, ny, nz, hxx, hyy, hzz, hxy, hxz, hyz = worm.distance(
-            _MM * x, _MM * y, _MM * z, surface[1:]
+            _MM * x, _MM * y, _MM * z, surface.worm
         )
         return (
             d / _MM, nx, ny, nz,
@@ -88,17 +114,17 @@ class RigidSurface:
     ----------
     name : str
         What it is.
-    parameters : ndarray
-        Code and numbers, as `distance` takes them.
+    numbers : Numbers
+        As `distance` takes them.
     """
 
     name: str
-    parameters: FloatArray
+    numbers: Numbers
 
     @classmethod
     def plane(cls) -> RigidSurface:
         """Plane z = 0 with the material below."""
-        return cls("plane", np.array([float(PLANE)]))
+        return cls("plane", Numbers(PLANE))
 
     @classmethod
     def sphere(cls, radius: float, *, inside: bool = False) -> RigidSurface:
@@ -113,13 +139,13 @@ class RigidSurface:
     @classmethod
     def worm(cls, helicoid: Helicoid, *, side: int = 0) -> RigidSurface:
         """Worm about the z axis; ``side``: flank 1 or -1, 0 for the nearest."""
-        return cls("worm", np.concatenate([[float(WORM)], helicoid.distance_params(side)]))
+        return cls("worm", Numbers(WORM, worm=helicoid.facing(side)))
 
 
-def _round(code: int, radius: float, inside: bool) -> FloatArray:
+def _round(kind: int, radius: float, inside: bool) -> Numbers:
     if not (math.isfinite(radius) and radius > 0.0):
         raise InputError(f"radius is {radius:g} m; it must be positive")
-    return np.array([float(code), radius, -1.0 if inside else 1.0])
+    return Numbers(kind, float(radius), -1.0 if inside else 1.0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,6 @@ import numpy.typing as npt
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import kinematics as rows
-from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import MAP, RESOLVED, FlankGrid
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, labelled, quantity
@@ -121,13 +120,11 @@ def kinematics(
     shape = grid.phase.shape
     points = np.ascontiguousarray(grid.points.reshape(-1, 3))
     own = np.ascontiguousarray(grid.phase.reshape(-1))
-    cut = cut_params(pair.ratio, pair.cutting)
-    mount = cut_params(pair.ratio, pair.mounting)
     made = np.empty(own.size, rows.MEETING)
-    rows.meet_each(points, own, 0.0, cut, pair.hob.distance_params(side), made)
+    rows.meet_each(points, own, 0.0, pair.cut, pair.hob.facing(side), made)
     met = np.empty_like(made)
     guess = own - pair.ratio * ahead
-    rows.approach_each(points, guess, ahead, mount, pair.worm.distance_params(side), met)
+    rows.approach_each(points, guess, ahead, pair.mount, pair.worm.facing(side), met)
     lost = int(np.count_nonzero(~met["converged"] & (met["reach"] > 0.0)))
     if lost:
         raise ConvergenceError(

@@ -20,8 +20,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import transmission as kernels
-from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
-from asperity.flanks.wheel.cutting.conjugate import cut_params
+from asperity.flanks.wheel.cutting.bracket import minimum
 from asperity.flanks.wheel.flank import RESOLVED, FlankGrid, WheelFlank
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, labelled, quantity
@@ -86,11 +85,11 @@ class ToothSearch:
             phase,
             mode,
             float(side),
-            pair.hob.params,
-            cut_params(pair.ratio, pair.cutting),
+            pair.hob.thread,
+            pair.cut,
             worm,
-            cut_params(pair.ratio, pair.mounting),
-            blank.numbers,
+            pair.mount,
+            blank,
             near,
             out,
         )
@@ -104,14 +103,14 @@ class ToothSearch:
         """
         nominal = self.flank.side * self.pair.ratio * beta
         near = np.full(beta.size, math.inf) if exact is None else exact + nominal
-        worm = self.pair.worm.distance_params(self.flank.side)
+        worm = self.pair.worm.facing(self.flank.side)
         found = self._least(kernels.TURN, worm, beta, np.zeros(beta.size), near)
         found[:, 0] -= nominal
         return found
 
     def gap(self, beta: FloatArray, phase: FloatArray, exact: FloatArray) -> FloatArray:
         """Return by rows the least distance to the worm's thread, mm, and where, as `lead` does."""
-        worm = self.pair.worm.distance_params(self.flank.side, core=False)
+        worm = self.pair.worm.facing(self.flank.side, core=False)
         return self._least(kernels.NEAR, worm, beta, phase, exact)
 
 
@@ -307,14 +306,7 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
         k = int(np.argmin(values))
         a, b, c = (k - 1) * step, k * step, (k + 1) * step
         fa, fb, fc = values[k - 1], values[k], values[(k + 1) % lead.size]
-        narrow = _FINE * step
-        older = old = math.inf
-        for _ in range(_STEPS):
-            if c - a <= 2.5 * narrow:
-                break
-            t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
-            older, old = old, c - a
-            a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, at(t, sign))
-        return float(fb)
+        bracket = (a, fa, b, fb, c, fc)
+        return float(minimum(at, (sign,), *bracket, _FINE * step, _STEPS, -math.inf)[1])
 
     return -extreme(-1.0) - extreme(1.0)

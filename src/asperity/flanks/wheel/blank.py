@@ -5,7 +5,6 @@ axis in its nominal place, the cylinder of the outside diameter, and two plane f
 in mm.
 """
 
-import dataclasses
 import math
 from typing import NamedTuple
 
@@ -16,17 +15,8 @@ from asperity.arrays import FloatArray
 from asperity.gearset import Geometry
 
 
-class Turned(NamedTuple):
-    """The blank's profile as the kernels take it, mm."""
-
-    centre_distance: float
-    throat_radius: float
-    outside_radius: float
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Blank:
-    r"""The turned blank of a wheel.
+class Blank(NamedTuple):
+    r"""The turned blank of a wheel; the kernels take it as it is.
 
     Attributes
     ----------
@@ -63,11 +53,6 @@ class Blank:
         depth2 = self.throat_radius**2 - np.square(np.asarray(z, dtype=np.float64))
         throat = self.centre_distance - np.sqrt(np.maximum(depth2, 0.0))
         return np.minimum(throat, self.outside_radius)
-
-    @property
-    def numbers(self) -> Turned:
-        """What the kernels take of it."""
-        return Turned(self.centre_distance, self.throat_radius, self.outside_radius)
 
     @property
     def kink(self) -> float | None:

@@ -104,7 +104,7 @@ class Wheel:
         flank = self.flank(1)
         z = self.blank.columns(_UNCUT_COLUMNS)
         for part in (flank.at_shares(np.linspace(0.0, 1.0, _UNCUT_ROWS), z), flank.fillet(3, z)):
-            least = np.min(gaps(part, pair.hob, pair.cutting, pair.ratio), axis=0)
+            least = np.min(gaps(part, pair.hob, pair.cut), axis=0)
             if np.min(least) < -_LEFT:
                 place = float(z[np.argmin(least)])
                 raise InputError(refusal(pair, CUT_AGAIN, place, None))

@@ -14,9 +14,10 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting import areas as wheel_section
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
-from asperity.flanks.wheel.cutting.conjugate import Stand, conjugate_each, cut_params
+from asperity.flanks.wheel.cutting.conjugate import conjugate_each
 from asperity.flanks.wheel.refusal import refusal, widest_face
-from asperity.flanks.worm.setting import Pair
+from asperity.flanks.worm.curve import Thread
+from asperity.flanks.worm.setting import Pair, Stand
 from asperity.results import Quantities, quantity
 
 MAP = ("row", "column")
@@ -122,9 +123,8 @@ class WheelFlank:
         return Blank.of(self.pair.geometry)
 
     @functools.cached_property
-    def _hob(self) -> tuple[float, FloatArray, Stand]:
-        cutting = cut_params(self.pair.ratio, self.pair.cutting)
-        return float(self.side), self.pair.hob.params, cutting
+    def _hob(self) -> tuple[float, Thread, Stand]:
+        return float(self.side), self.pair.hob.thread, self.pair.cut
 
     def tip_radius(self, z: npt.ArrayLike) -> FloatArray:
         """Return the radius of the blank at places ``z``, mm."""

@@ -1,17 +1,21 @@
 """Least distances of points of a wheel to a worm or hob that turns with it, over all phases."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
-from asperity.flanks.wheel.cutting.conjugate import cut_params
-from asperity.flanks.wheel.flank import FlankGrid
+from asperity.flanks.wheel.cutting.bracket import compiled_minimum
+from asperity.flanks.wheel.cutting.conjugate import to_axes, turned
 from asperity.flanks.worm.distance import distance_only
-from asperity.flanks.worm.helicoid import Helicoid
-from asperity.flanks.worm.setting import Setting
+
+if TYPE_CHECKING:
+    # No kernel follows from them.
+    from asperity.flanks.wheel.flank import FlankGrid
+    from asperity.flanks.worm.helicoid import Helicoid
+    from asperity.flanks.worm.setting import Stand
 
 LONGEST_STEP = 0.07
 STEPS = 40
@@ -22,17 +26,19 @@ _LEAST_WINDOW = 1.6
 
 
 @kernel
-def gap_at(phase, x, y, z, worm, stand):
-    """Distance to the worm of a point of the wheel when the worm has turned by ``phase``."""
+def gap_at(point, cosine, sine, phase, worm, stand):
+    """Distance to the worm of a point of the wheel, both turned, mm."""
+    x, y, z = turned(point, cosine, sine)
+    a, b, c = to_axes(x, y, z, stand)
+    # A turn of a helicoid is a shift along its axis.
+    return distance_only(a, b, c + worm.form.lead * phase, worm)
+
+
+@kernel
+def gap_of(phase, point, worm, stand):
+    """`gap_at` a phase of the worm with which the wheel turns in the exact ratio."""
     turn = phase / stand.ratio
-    c, s = math.cos(turn), math.sin(turn)
-    px = x * c - y * s
-    py = y * c + x * s - stand.centre_distance
-    pz = z - stand.axial_offset
-    ey = stand.sine * px - stand.cosine * pz
-    ez = stand.cosine * px + stand.sine * pz
-    c, s = math.cos(phase), math.sin(phase)
-    return distance_only(s * ey - c * py, c * ey + s * py, ez, worm)
+    return gap_at(point, math.cos(turn), math.sin(turn), phase, worm, stand)
 
 
 @kernel
@@ -41,51 +47,28 @@ def least_gaps(points, phases, window, worm, stand, out):
     count = math.ceil(2.0 * window / LONGEST_STEP)
     step = 2.0 * window / count
     for k in range(phases.size):
-        x, y, z = points[k, 0], points[k, 1], points[k, 2]
+        given = (points[k], worm, stand)
         best, least = 0.0, math.inf
         for j in range(count + 1):
             phase = phases[k] - window + j * step
-            gap = gap_at(phase, x, y, z, worm, stand)
+            gap = gap_of(phase, *given)
             if gap < least:
                 best, least = phase, gap
-        a, b, c = best - step, best, best + step
-        fa, fc = gap_at(a, x, y, z, worm, stand), gap_at(c, x, y, z, worm, stand)
-        older = old = math.inf
-        for _ in range(STEPS):
-            if c - a <= 2.5 * NARROW:
-                break
-            phase = next_place(a, fa, b, least, c, fc, NARROW, c - a > 0.5 * older)
-            older, old = old, c - a
-            gap = gap_at(phase, x, y, z, worm, stand)
-            a, fa, b, least, c, fc = narrowed(a, fa, b, least, c, fc, phase, gap)
-        out[k] = least
+        a, c = best - step, best + step
+        fa, fc = gap_of(a, *given), gap_of(c, *given)
+        out[k] = compiled_minimum(
+            gap_of, given, a, fa, best, least, c, fc, NARROW, STEPS, -math.inf
+        )[1]
 
 
-def gaps(grid: FlankGrid, helicoid: Helicoid, setting: Setting, ratio: float) -> FloatArray:
-    """Return the least distances of points to a helicoid that turns in the exact ratio.
+def gaps(grid: "FlankGrid", helicoid: "Helicoid", stand: "Stand") -> FloatArray:
+    """Return the least distances of points to a helicoid that turns in the exact ratio, mm.
 
-    Parameters
-    ----------
-    grid : FlankGrid
-        The points; phases near their own are searched, as far as the thread is near them.
-    helicoid, setting : Helicoid, Setting
-        Worm or hob, and how it stands.
-    ratio : float
-        :math:`z_2/z_1`.
-
-    Returns
-    -------
-    ndarray
-        Shaped as the grid, mm; negative inside.
+    Phases near those at which the points are cut are searched, as far as the thread is near them.
+    Shaped as the grid; negative inside.
     """
     window = max(_WINDOW / helicoid.starts, _LEAST_WINDOW)
     out = np.empty(grid.phase.size)
-    least_gaps(
-        grid.points.reshape(-1, 3),
-        grid.phase.reshape(-1),
-        window,
-        helicoid.distance_params(),
-        cut_params(ratio, setting),
-        out,
-    )
+    points, phases = grid.points.reshape(-1, 3), grid.phase.reshape(-1)
+    least_gaps(points, phases, window, helicoid.facing(), stand, out)
     return out.reshape(grid.phase.shape)

@@ -58,6 +58,4 @@ def interference(wheel: Wheel, side: int = 1, n_radial: int = 12, n_face: int = 
     z = face.z[0]
     parts = (face, flank.fillet(n_radial, z), flank.root(n_radial, z))
     pair = wheel.pair
-    return Interference(
-        *parts, *(gaps(part, pair.worm, pair.mounting, pair.ratio) for part in parts)
-    )
+    return Interference(*parts, *(gaps(part, pair.worm, pair.mount) for part in parts))

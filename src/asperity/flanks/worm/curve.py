@@ -1,43 +1,56 @@
 """The generating curve of a worm or hob: flank, tip rounding and tip land, as compiled functions.
 
-A helicoid is one array of numbers here, laid out by the indices below, with those of its
-`AxialProfile` at the end. The thread space's middle is at ``zeta = p theta``; ``z`` is the distance
-from there, so that both sides have the same curve.
+The thread space's middle is at ``zeta = p theta``; ``z`` is the distance from there, so that both
+sides have the same curve.
 """
 
 import math
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from asperity.arrays import FloatArray
 from asperity.compiled import kernel
-from asperity.flanks.worm.profiles import axial_at
+from asperity.flanks.worm.profiles import SECTION, axial
 
-SIDE = 0
-LEAD = 1
-HALF_PITCH = 2
-SHIFT = 3
-ROOT = 4
-TIP = 5
-ROUNDING = 6
-ARC_RADIUS = 7
-ARC_Z = 8
-ARC_ANGLE = 9
-FLANK_END = 10
-RELIEF_FROM = 11
-RELIEF = 12
-BASE = 13
-COS_BASE = 14
-SIN_BASE = 15
-CLOSED_TO = 16
-PROFILE = 17
+FORM = np.dtype(
+    [
+        *(
+            (name, np.float64)
+            for name in (
+                *("side", "lead", "half_pitch", "shift", "root", "tip", "rounding"),
+                *("arc_radius", "arc_z", "arc_angle", "flank_end", "relief_from", "relief"),
+                *("base", "cos_base", "sin_base", "closed_to"),
+            )
+        ),
+        ("section", SECTION),
+    ]
+)
+"""Numbers of a helicoid, lengths in mm.
+
+``side`` is the flank that counts, 0 for the nearest; ``lead`` is for one radian; ``shift`` is what
+the axial section lacks to half the thread space; the arc is that of the tip's rounding, with its
+middle's radius and axial place; ``closed_to`` is how far along its generator from the base cylinder
+the distance to an involute helicoid is a closed form.
+"""
+
+
+class Thread(NamedTuple):
+    """A helicoid as the kernels take it: a record of `FORM`, and the table of its axial section."""
+
+    form: Any
+    table: FloatArray
 
 
 @kernel
-def width(rho, params):
+def width(rho, worm):
     """``(w, w', w'')``: half the thread space at a radius, as the flank goes on."""
-    w, w1, w2 = axial_at(rho, params, PROFILE)
-    w += params[SHIFT]
-    x = rho - params[RELIEF_FROM]
+    form = worm.form
+    w, w1, w2 = axial(rho, form.section, worm.table)
+    w += form.shift
+    x = rho - form.relief_from
     if x > 0.0:
-        c = params[RELIEF]
+        c = form.relief
         w += c * x * x * x
         w1 += 3.0 * c * x * x
         w2 += 6.0 * c * x
@@ -45,45 +58,46 @@ def width(rho, params):
 
 
 @kernel
-def curve(u, params):
+def curve(u, worm):
     """``(rho, z, rho', z', rho'', z'')`` of the generating curve, derivatives by ``u``.
 
     ``u`` runs from 0 at the root to 1 at the end of the flank, to 2 round the tip, and to 3 in the
     middle of the thread. Direction and normal have no jump; the derivatives' size has, at 1 and 2.
     """
+    form = worm.form
     if u <= 1.0:
-        root = params[ROOT]
-        length = params[FLANK_END] - root
+        root = form.root
+        length = form.flank_end - root
         rho = root + u * length
-        w, w1, w2 = width(rho, params)
+        w, w1, w2 = width(rho, worm)
         return rho, w, length, w1 * length, 0.0, w2 * length * length
     if u <= 2.0:
-        r = params[ROUNDING]
-        whole = params[ARC_ANGLE]
+        r = form.rounding
+        whole = form.arc_angle
         beta = whole * (2.0 - u)
         cosine = r * math.cos(beta)
         sine = r * math.sin(beta)
         return (
-            params[ARC_RADIUS] + cosine,
-            params[ARC_Z] - sine,
+            form.arc_radius + cosine,
+            form.arc_z - sine,
             sine * whole,
             cosine * whole,
             -cosine * whole * whole,
             sine * whole * whole,
         )
-    length = params[HALF_PITCH] - params[ARC_Z]
-    return params[TIP], params[ARC_Z] + (u - 2.0) * length, 0.0, length, 0.0, 0.0
+    length = form.half_pitch - form.arc_z
+    return form.tip, form.arc_z + (u - 2.0) * length, 0.0, length, 0.0, 0.0
 
 
 @kernel
-def curve_each(u, params, out):
+def curve_each(u, worm, out):
     """`curve` at every ``u``, by columns of ``out``."""
     for i in range(u.size):
-        out[0, i], out[1, i], out[2, i], out[3, i], out[4, i], out[5, i] = curve(u[i], params)
+        out[0, i], out[1, i], out[2, i], out[3, i], out[4, i], out[5, i] = curve(u[i], worm)
 
 
 @kernel
-def width_each(rho, params, out):
+def width_each(rho, worm, out):
     """`width` at every radius, by columns of ``out``."""
     for i in range(rho.size):
-        out[0, i], out[1, i], out[2, i] = width(rho[i], params)
+        out[0, i], out[1, i], out[2, i] = width(rho[i], worm)

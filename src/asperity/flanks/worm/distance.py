@@ -17,6 +17,7 @@ turned by :math:`\varphi` is the same solid moved by :math:`-p\,\varphi` along i
 """
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -24,25 +25,11 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import InputError
-from asperity.flanks.worm.curve import (
-    ARC_ANGLE,
-    ARC_RADIUS,
-    ARC_Z,
-    BASE,
-    CLOSED_TO,
-    COS_BASE,
-    FLANK_END,
-    HALF_PITCH,
-    LEAD,
-    ROOT,
-    ROUNDING,
-    SHIFT,
-    SIDE,
-    SIN_BASE,
-    TIP,
-)
 from asperity.flanks.worm.foot import on_arc, on_flank
-from asperity.flanks.worm.helicoid import Helicoid
+
+if TYPE_CHECKING:
+    # No kernel follows from it.
+    from asperity.flanks.worm.helicoid import Helicoid
 
 CLOSED = 0
 FLANK = 1
@@ -52,15 +39,16 @@ CYLINDER = 3
 
 # Both are small once inlined, and a call of each costs as much as what it does.
 @kernel(inline="always")
-def place(x, y, z, params):
+def place(x, y, z, worm):
     """``(s, v)``: the side that is nearest or asked for, and the axial place mirrored to s = 1.
 
     The place counts from the middle of the thread space that the point is in or next to.
     """
-    pitch = 2.0 * params[HALF_PITCH]
-    side = params[SIDE]
+    form = worm.form
+    pitch = 2.0 * form.half_pitch
+    side = form.side
     # The wheel is where x is positive, and there the quotient's angle is twice as fast.
-    q = z - params[LEAD] * (math.atan(y / x) if x > 0.0 else math.atan2(y, x))
+    q = z - form.lead * (math.atan(y / x) if x > 0.0 else math.atan2(y, x))
     q -= pitch * math.floor(q / pitch + 0.5)
     if side == 0.0:
         side = -1.0 if q < 0.0 else 1.0
@@ -68,26 +56,27 @@ def place(x, y, z, params):
 
 
 @kernel
-def search(rho, v, params, radial):
+def search(rho, v, worm, radial):
     """`nearest` where there is no closed form."""
-    tip = params[TIP]
-    p = params[LEAD]
-    if rho <= 0.5 * params[ROOT]:
-        return CYLINDER, rho - params[ROOT], rho, 0.0, 0.0, 0.0
-    if rho >= tip and v >= params[ARC_Z]:
+    form = worm.form
+    tip = form.tip
+    p = form.lead
+    if rho <= 0.5 * form.root:
+        return CYLINDER, rho - form.root, rho, 0.0, 0.0, 0.0
+    if rho >= tip and v >= form.arc_z:
         return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
     kind = FLANK
-    r, theta, w, w1, w2, _ = on_flank(rho, v, params, radial)
+    r, theta, w, w1, w2, _ = on_flank(rho, v, worm, radial)
     a, b = 1.0, w1
-    if r > params[FLANK_END]:
-        beta, theta, _ = on_arc(rho, v, params)
+    if r > form.flank_end:
+        beta, theta, _ = on_arc(rho, v, worm)
         if beta < 0.0:
             return CYLINDER, rho - tip, rho, 0.0, 0.0, 0.0
         kind = ARC
-        w1 = min(beta, params[ARC_ANGLE])
+        w1 = min(beta, form.arc_angle)
         a, b = math.sin(w1), math.cos(w1)
-        r = params[ARC_RADIUS] + params[ROUNDING] * b
-        w = params[ARC_Z] - params[ROUNDING] * a
+        r = form.arc_radius + form.rounding * b
+        w = form.arc_z - form.rounding * a
     dr = rho * math.cos(theta) - r
     dt = -rho * math.sin(theta)
     dz = v - w - p * theta
@@ -97,13 +86,14 @@ def search(rho, v, params, radial):
 
 
 @kernel(inline="always")
-def nearest(rho, v, params):
+def nearest(rho, v, worm):
     """``(kind, d, r, theta, w', w'')``: which surface is nearest, how far, and where its foot is.
 
     On the flank ``r`` is the foot's radius and the derivatives are the flank's; on the tip's
     rounding the fifth number is the arc's angle; on a cylinder ``r`` is the point's radius.
     """
-    base = params[BASE]
+    form = worm.form
+    base = form.base
     t2 = rho * rho - base * base
     closed = radial = False
     kind = CLOSED
@@ -114,18 +104,18 @@ def nearest(rho, v, params):
         if not radial:
             t = math.sqrt(t2)
             x = t / base
-            d = params[COS_BASE] * (params[LEAD] * (x - math.atan(x)) + params[SHIFT] - v)
-            foot = t - d * params[SIN_BASE]
+            d = form.cos_base * (form.lead * (x - math.atan(x)) + form.shift - v)
+            foot = t - d * form.sin_base
             radial = foot < 0.0
-            closed = not radial and foot <= params[CLOSED_TO]
-            w1 = params[LEAD] * x / rho
-            w2 = params[LEAD] / (x * rho * rho)
+            closed = not radial and foot <= form.closed_to
+            w1 = form.lead * x / rho
+            w2 = form.lead / (x * rho * rho)
     if not closed:
-        kind, d, r, theta, w1, w2 = search(rho, v, params, radial)
-    if d < 0.0 and v >= params[ARC_Z] and rho - params[TIP] > d:
-        return CYLINDER, rho - params[TIP], rho, 0.0, 0.0, 0.0
-    if rho - params[ROOT] < d:
-        return CYLINDER, rho - params[ROOT], rho, 0.0, 0.0, 0.0
+        kind, d, r, theta, w1, w2 = search(rho, v, worm, radial)
+    if d < 0.0 and v >= form.arc_z and rho - form.tip > d:
+        return CYLINDER, rho - form.tip, rho, 0.0, 0.0, 0.0
+    if rho - form.root < d:
+        return CYLINDER, rho - form.root, rho, 0.0, 0.0, 0.0
     return kind, d, r, theta, w1, w2
 
 
@@ -154,31 +144,32 @@ def bend(a, b, a2, b2, r, p, gr, gt, gz, d):
 
 
 @kernel
-def distance_only(x, y, z, params):
-    """Distance of a point to the worm, mm; ``params`` from `Helicoid.distance_params`."""
+def distance_only(x, y, z, worm):
+    """Distance of a point to the worm, mm; ``worm`` from `Helicoid.facing`."""
     rho = math.sqrt(x * x + y * y)
-    _, v = place(x, y, z, params)
-    _, d, _, _, _, _ = nearest(rho, v, params)
+    _, v = place(x, y, z, worm)
+    _, d, _, _, _, _ = nearest(rho, v, worm)
     return d
 
 
 @kernel
-def distance(x, y, z, params):
+def distance(x, y, z, worm):
     """``(d, gx, gy, gz, hxx, hyy, hzz, hxy, hxz, hyz)`` of the distance to the worm, in mm.
 
-    ``params`` from `Helicoid.distance_params`. The gradient has unit length.
+    ``worm`` from `Helicoid.facing`. The gradient has unit length.
     """
+    form = worm.form
     rho = math.sqrt(x * x + y * y)
-    s, v = place(x, y, z, params)
-    kind, d, r, theta, w1, w2 = nearest(rho, v, params)
+    s, v = place(x, y, z, worm)
+    kind, d, r, theta, w1, w2 = nearest(rho, v, worm)
     cosine = 1.0
     sine = 0.0
     if rho > 0.0:
         cosine = x / rho
         sine = y / rho
-    p = params[LEAD]
+    p = form.lead
     if kind == CLOSED:
-        size = params[COS_BASE]
+        size = form.cos_base
         gr = size * w1
         gt = size * s * p / rho
         gz = -size * s
@@ -189,12 +180,12 @@ def distance(x, y, z, params):
     elif kind == CYLINDER:
         gr = 1.0
         gt = gz = hrr = hrt = hrz = htz = hzz = 0.0
-        htt = 1.0 / max(rho, 1e-9 * params[TIP])
+        htt = 1.0 / max(rho, 1e-9 * form.tip)
     else:
         if kind == FLANK:
             a, b, a2, b2 = 1.0, w1, 0.0, w2
         else:
-            arc = params[ROUNDING]
+            arc = form.rounding
             a, b = arc * math.sin(w1), arc * math.cos(w1)
             a2, b2 = -b, a
         lean = p * a / r
@@ -232,28 +223,10 @@ def distance(x, y, z, params):
 
 
 @kernel
-def distance_only_each(points, params, out):
+def distance_only_each(points, worm, out):
     """`distance_only` of every row of ``points``."""
     for i in range(points.shape[0]):
-        out[i] = distance_only(points[i, 0], points[i, 1], points[i, 2], params)
-
-
-@kernel
-def distance_each(points, params, out):
-    """`distance` of every row of ``points``."""
-    for i in range(points.shape[0]):
-        (
-            out[i, 0],
-            out[i, 1],
-            out[i, 2],
-            out[i, 3],
-            out[i, 4],
-            out[i, 5],
-            out[i, 6],
-            out[i, 7],
-            out[i, 8],
-            out[i, 9],
-        ) = distance(points[i, 0], points[i, 1], points[i, 2], params)
+        out[i] = distance_only(points[i, 0], points[i, 1], points[i, 2], worm)
 
 
 def _rows(points: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
@@ -265,7 +238,7 @@ def _rows(points: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     return np.ascontiguousarray(given.reshape(-1, 3)), given.shape[:-1]
 
 
-def distances(points: npt.ArrayLike, helicoid: Helicoid, side: int = 0) -> FloatArray:
+def distances(points: npt.ArrayLike, helicoid: "Helicoid", side: int = 0) -> FloatArray:
     """Return the distances of points to a worm.
 
     Parameters
@@ -289,5 +262,5 @@ def distances(points: npt.ArrayLike, helicoid: Helicoid, side: int = 0) -> Float
     """
     rows, shape = _rows(points)
     out = np.empty(rows.shape[0])
-    distance_only_each(rows, helicoid.distance_params(side), out)
+    distance_only_each(rows, helicoid.facing(side), out)
     return out.reshape(shape)

@@ -9,17 +9,7 @@ Newton's method with the surface's curvature, and without it where that would le
 import math
 
 from asperity.compiled import kernel
-from asperity.flanks.worm.curve import (
-    ARC_ANGLE,
-    ARC_RADIUS,
-    ARC_Z,
-    LEAD,
-    ROOT,
-    ROUNDING,
-    SHIFT,
-    TIP,
-    width,
-)
+from asperity.flanks.worm.curve import width
 
 MOST_ITERATIONS = 60
 # A step this small, as a part of the tip radius, leaves nothing after it but rounding.
@@ -44,20 +34,27 @@ def newton_step(e1, e2, i11, i12, i22, c11, c12, c22):
 
 
 @kernel
-def on_flank(rho, v, params, radial):
+def width_of(r, worm, radial):
+    """`width`, or that of the radial flank below the base cylinder of ZI."""
+    if radial:
+        return worm.form.shift, 0.0, 0.0
+    return width(r, worm)
+
+
+@kernel
+def on_flank(rho, v, worm, radial):
     """``(r, theta, w, w', w'', steps)`` of the foot on the flank, as if it had no end.
 
     ``radial`` takes the flank as it is below the base cylinder of ZI.
     """
-    p = params[LEAD]
-    tip = params[TIP]
-    reach = tip - params[ROOT]
+    form = worm.form
+    p = form.lead
+    tip = form.tip
+    reach = tip - form.root
     most = tip + reach
-    least = 0.1 * params[ROOT]
+    least = 0.1 * form.root
     r = min(rho, most)
-    w, w1, w2 = width(r, params)
-    if radial:
-        w, w1, w2 = params[SHIFT], 0.0, 0.0
+    w, w1, w2 = width_of(r, worm, radial)
     gap = (w - v) / (1.0 + w1 * w1 + p * p / (r * r))
     theta = -gap * p / (r * r)
     r -= gap * w1
@@ -65,9 +62,7 @@ def on_flank(rho, v, params, radial):
     while steps < MOST_ITERATIONS:
         steps += 1
         r = min(max(r, least), most)
-        w, w1, w2 = width(r, params)
-        if radial:
-            w, w1, w2 = params[SHIFT], 0.0, 0.0
+        w, w1, w2 = width_of(r, worm, radial)
         dr = rho * math.cos(theta) - r
         dt = -rho * math.sin(theta)
         dz = v - w - p * theta
@@ -87,23 +82,22 @@ def on_flank(rho, v, params, radial):
         theta += turn
         if step * step + r * r * turn * turn <= (_SMALL * tip) ** 2:
             break
-    w, w1, w2 = width(r, params)
-    if radial:
-        w, w1, w2 = params[SHIFT], 0.0, 0.0
+    w, w1, w2 = width_of(r, worm, radial)
     return r, theta, w, w1, w2, steps
 
 
 @kernel
-def on_arc(rho, v, params):
+def on_arc(rho, v, worm):
     """``(beta, theta, steps)`` of the foot on the tip's rounding; ``beta`` is 0 at the land."""
-    p = params[LEAD]
-    arc = params[ROUNDING]
-    centre = params[ARC_RADIUS]
-    whole = params[ARC_ANGLE]
-    beta = math.atan2(params[ARC_Z] - v, rho - centre)
+    form = worm.form
+    p = form.lead
+    arc = form.rounding
+    centre = form.arc_radius
+    whole = form.arc_angle
+    beta = math.atan2(form.arc_z - v, rho - centre)
     beta = min(max(beta, 0.0), whole)
     r = centre + arc * math.cos(beta)
-    theta = p * (v - params[ARC_Z] + arc * math.sin(beta)) / (r * r + p * p)
+    theta = p * (v - form.arc_z + arc * math.sin(beta)) / (r * r + p * p)
     steps = 0
     while steps < MOST_ITERATIONS:
         steps += 1
@@ -112,7 +106,7 @@ def on_arc(rho, v, params):
         r = centre + cosine
         dr = rho * math.cos(theta) - r
         dt = -rho * math.sin(theta)
-        dz = v - params[ARC_Z] + sine - p * theta
+        dz = v - form.arc_z + sine - p * theta
         step, turn = newton_step(
             -sine * dr - cosine * dz,
             r * dt + p * dz,
@@ -129,6 +123,6 @@ def on_arc(rho, v, params):
         beta = min(max(beta + step, -0.5), whole + 0.5)
         theta += turn
         step = arc * (beta - before)
-        if step * step + r * r * turn * turn <= (_SMALL * params[TIP]) ** 2:
+        if step * step + r * r * turn * turn <= (_SMALL * form.tip) ** 2:
             break
     return beta, theta, steps

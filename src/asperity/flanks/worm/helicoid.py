@@ -8,6 +8,7 @@ and the material lies beyond them. Lengths are in mm, angles in rad.
 import dataclasses
 import functools
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +18,8 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.parameters import HOB_TIP_RADIUS, Disc, Hob, Modification, size_in_mm
 from asperity.flanks.worm import curve
-from asperity.flanks.worm.profiles import AxialProfile
+from asperity.flanks.worm.curve import FORM, Thread
+from asperity.flanks.worm.profiles import AxialProfile, record, sampled
 from asperity.flanks.worm.types import profile
 from asperity.gearset.geometry import Flank, Geometry
 
@@ -51,8 +53,8 @@ class Helicoid:
         :math:`\gamma` at the pitch radius, :math:`\alpha_n`.
     tip_relief : float
         What is missing at the tip, axially, mm.
-    relief_radius : float, optional
-        Where the tip relief begins, mm.
+    relief_radius : float
+        Where the tip relief begins, mm; infinite where there is none.
     name : str
         ``worm`` or ``hob``, as it appears in messages.
     """
@@ -68,12 +70,12 @@ class Helicoid:
     lead_angle: float
     pressure_angle: float
     tip_relief: float = 0.0
-    relief_radius: float | None = None
+    relief_radius: float = math.inf
     name: str = "worm"
 
     def __post_init__(self) -> None:
         # What cannot be a solid is refused before anything is cut with it.
-        _ = self.params
+        _ = self.thread
 
     @classmethod
     def worm(
@@ -81,23 +83,9 @@ class Helicoid:
         geometry: Geometry,
         flank: Flank,
         modification: Modification | None = None,
-        half_space: float | None = None,
         disc: Disc | None = None,
     ) -> "Helicoid":
-        r"""Return the worm of a gearset.
-
-        Parameters
-        ----------
-        geometry : Geometry
-            The gearset.
-        flank : {'ZI', 'ZA', 'ZN', 'ZK', 'ZC'}
-            Type of the flank.
-        modification : Modification, optional
-            Deviation from that type.
-        half_space : float, optional
-            :math:`w_{ref}`, mm; :math:`\pi m_{x1}/4` if left out.
-        disc : Disc, optional
-            What grinds ZK and ZC.
+        r"""Return the worm of a gearset; its thread spaces are :math:`\pi m_{x1}/2` wide.
 
         Raises
         ------
@@ -105,7 +93,7 @@ class Helicoid:
             The thread is pointed, or the disc cannot grind it.
         """
         given = modification or Modification()
-        r = geometry.worm_pitch_diameter / 2.0
+        r, tip = geometry.worm_pitch_diameter / 2.0, geometry.worm_tip_diameter / 2.0
         gamma = geometry.lead_angle + given.lead_correction
         if not 0.0 < gamma < math.pi / 2.0:
             raise InputError(
@@ -113,42 +101,24 @@ class Helicoid:
                 f"the worm's lead angle is {math.degrees(geometry.lead_angle):.4g} deg, and both "
                 "together must lie between 0 and 90 deg"
             )
-        tip = geometry.worm_tip_diameter / 2.0
-        root = geometry.worm_root_diameter / 2.0
         start = r + given.tip_relief_start * (tip - r)
-        normal = math.cos(gamma) * math.cos(geometry.pressure_angle)
-        module = geometry.axial_module
-        nominal = math.pi * module / 4.0
-        shape = profile(
+        draft = _draft(
+            geometry,
             flank,
-            pitch_radius=r,
-            lead_angle=gamma,
-            pressure_angle=geometry.pressure_angle,
-            half_space=nominal,
-            reach=(root, r - geometry.wheel_addendum, tip),
-            module=module,
-            disc=disc,
-        )
-        draft = cls(
-            starts=geometry.starts,
-            reduced_lead=r * math.tan(gamma),
+            disc,
             pitch_radius=r,
             tip_radius=tip,
-            root_radius=root,
-            tip_rounding=0.0,
-            profile=shape,
-            half_space=nominal if half_space is None else half_space,
+            root_radius=geometry.worm_root_diameter / 2.0,
+            half_space=math.pi * geometry.axial_module / 4.0,
             lead_angle=gamma,
-            pressure_angle=geometry.pressure_angle,
-            tip_relief=given.tip_relief * _MILLIMETRES / normal,
-            relief_radius=start if given.tip_relief else None,
+            tip_relief=given.tip_relief
+            * _MILLIMETRES
+            / (math.cos(gamma) * math.cos(geometry.pressure_angle)),
+            relief_radius=start if given.tip_relief else math.inf,
         )
-        draft = _opened(draft, r - geometry.wheel_addendum)
-        rounding = size_in_mm(given.tip_rounding, module)
-        most = draft.largest_rounding()
-        if "tip_rounding" in given.model_fields_set and rounding > most:
-            raise InputError(_too_round("modification.tip_rounding", rounding, most))
-        return dataclasses.replace(draft, tip_rounding=min(rounding, most))
+        asked = "tip_rounding" in given.model_fields_set
+        rounding = size_in_mm(given.tip_rounding, geometry.axial_module)
+        return _rounded(draft, rounding, "modification.tip_rounding" if asked else None)
 
     @classmethod
     def hob(
@@ -160,17 +130,6 @@ class Helicoid:
         its lead angle is :math:`\sin\gamma_0 = z_1 m_n/(2 r_0)`, with the axial module
         :math:`\tan\gamma_0 = z_1 m_{x1}/(2 r_0)`. Its tip reaches the wheel's root, its root has
         the depth of the worm's, and its threads are as thick as its spaces.
-
-        Parameters
-        ----------
-        geometry : Geometry
-            The gearset.
-        flank : {'ZI', 'ZA', 'ZN', 'ZK', 'ZC'}
-            Type of the flank.
-        hob : Hob, optional
-            Oversize, rule and tip; the worm's own size if left out.
-        disc : Disc, optional
-            What grinds ZK and ZC.
 
         Raises
         ------
@@ -185,42 +144,21 @@ class Helicoid:
             gamma = math.asin(geometry.starts * geometry.normal_module / (2.0 * r))
         else:
             gamma = math.atan(geometry.starts * geometry.axial_module / (2.0 * r))
-        p = r * math.tan(gamma)
-        half_space = math.pi * p / (2.0 * geometry.starts)
-        tip = r + geometry.wheel_dedendum
-        root = r - geometry.worm_dedendum
-        module = geometry.axial_module
-        draft = cls(
-            starts=geometry.starts,
-            reduced_lead=p,
+        draft = _draft(
+            geometry,
+            flank,
+            disc,
             pitch_radius=r,
-            tip_radius=tip,
-            root_radius=root,
-            tip_rounding=0.0,
-            profile=profile(
-                flank,
-                pitch_radius=r,
-                lead_angle=gamma,
-                pressure_angle=geometry.pressure_angle,
-                half_space=half_space,
-                reach=(root, r - geometry.wheel_addendum, tip),
-                module=module,
-                disc=disc,
-            ),
-            half_space=half_space,
+            tip_radius=r + geometry.wheel_dedendum,
+            root_radius=r - geometry.worm_dedendum,
+            half_space=math.pi * (r * math.tan(gamma)) / (2.0 * geometry.starts),
             lead_angle=gamma,
-            pressure_angle=geometry.pressure_angle,
             name="hob",
         )
-        draft = _opened(draft, r - geometry.wheel_addendum)
-        most = draft.largest_rounding()
         if given.tip_radius is None:
-            rounding = min(HOB_TIP_RADIUS * module, most)
-        else:
-            rounding = size_in_mm(given.tip_radius, module)
-            if rounding > most:
-                raise InputError(_too_round("hob.tip_radius", rounding, most))
-        return dataclasses.replace(draft, tip_rounding=rounding)
+            return _rounded(draft, HOB_TIP_RADIUS * geometry.axial_module, None)
+        rounding = size_in_mm(given.tip_radius, geometry.axial_module)
+        return _rounded(draft, rounding, "hob.tip_radius")
 
     @property
     def half_pitch(self) -> float:
@@ -230,68 +168,63 @@ class Helicoid:
     @property
     def flank_end(self) -> float:
         """Radius where the flank goes over into the tip's rounding, mm."""
-        return float(self.params[curve.FLANK_END])
+        return float(self.thread.form["flank_end"])
 
     def with_half_space(self, half_space: float) -> "Helicoid":
         """Return the same flanks with threads of another thickness; ``half_space`` in mm."""
         return dataclasses.replace(self, half_space=half_space)
 
     @functools.cached_property
-    def params(self) -> FloatArray:
-        """The numbers that the compiled functions of `asperity.flanks.worm.curve` take."""
-        r1, p = self.pitch_radius, self.reduced_lead
-        base = self.profile.base_radius
-        amount, start = self._relief()
-        numbers = np.zeros(curve.PROFILE + self.profile.params.size)
-        numbers[curve.LEAD] = p
-        numbers[curve.HALF_PITCH] = self.half_pitch
-        numbers[curve.SHIFT] = self.half_space - float(self.profile(r1))
-        numbers[curve.ROOT] = self.root_radius
-        numbers[curve.TIP] = self.tip_radius
-        numbers[curve.ROUNDING] = self.tip_rounding
-        numbers[curve.RELIEF_FROM] = start
-        numbers[curve.RELIEF] = amount / (self.tip_radius - start) ** 3 if amount else 0.0
-        numbers[curve.PROFILE :] = self.profile.params
-        end, middle, angle = self._tip_arc(numbers, self.tip_rounding)
+    def thread(self) -> Thread:
+        """The helicoid as the compiled functions take it."""
+        p, base = self.reduced_lead, self.profile.base_radius
+        form = record(
+            FORM,
+            lead=p,
+            half_pitch=self.half_pitch,
+            shift=self.half_space - float(self.profile(self.pitch_radius)),
+            root=self.root_radius,
+            tip=self.tip_radius,
+            rounding=self.tip_rounding,
+            relief_from=self.relief_radius,
+            relief=self.tip_relief / (self.tip_radius - self.relief_radius) ** 3,
+            section=self.profile.section,
+        )
+        thread = Thread(form, self.profile.table)
+        end, middle, angle = self._tip_arc(thread, self.tip_rounding)
         if middle >= self.half_pitch:
             raise InputError(_pointed(self))
-        numbers[curve.FLANK_END] = end
-        numbers[curve.ARC_RADIUS] = self.tip_radius - self.tip_rounding
-        numbers[curve.ARC_Z] = middle
-        numbers[curve.ARC_ANGLE] = angle
+        form["flank_end"] = end
+        form["arc_radius"] = self.tip_radius - self.tip_rounding
+        form["arc_z"] = middle
+        form["arc_angle"] = angle
         if base is not None:
-            numbers[curve.BASE] = base
-            numbers[curve.COS_BASE] = base / math.hypot(base, p)
-            numbers[curve.SIN_BASE] = p / math.hypot(base, p)
-            last = min(end, start)
-            numbers[curve.CLOSED_TO] = math.sqrt(max(last * last - base * base, 0.0))
-        return numbers
+            form["base"] = base
+            form["cos_base"] = base / math.hypot(base, p)
+            form["sin_base"] = p / math.hypot(base, p)
+            last = min(end, self.relief_radius)
+            form["closed_to"] = math.sqrt(max(last * last - base * base, 0.0))
+        return thread
 
-    def _relief(self) -> tuple[float, float]:
-        if self.relief_radius is None or self.tip_relief == 0.0:
-            return 0.0, math.inf
-        return self.tip_relief, self.relief_radius
-
-    def _tip_arc(self, numbers: FloatArray, r: float) -> tuple[float, float, float]:
+    def _tip_arc(self, thread: Thread, r: float) -> tuple[float, float, float]:
         """Radius at the flank's end, axial place of the arc's centre, angle of the arc."""
         low, tip = self.tip_radius - r, self.tip_radius
 
         def above(rho: float) -> float:
-            _, slope, _ = curve.width(rho, numbers)
+            _, slope, _ = curve.width(rho, thread)
             return float(rho - r * slope / math.hypot(1.0, slope) - low)
 
         end = tip if r == 0.0 else float(brentq(above, low, tip, xtol=1e-14, rtol=1e-15))
-        w, slope, _ = curve.width(end, numbers)
+        w, slope, _ = curve.width(end, thread)
         middle = w + r / math.hypot(1.0, slope)
         return end, float(middle), math.pi / 2.0 - math.atan(slope)
 
     def largest_rounding(self) -> float:
         """Return the largest rounding that the tip has room for, mm, leaving a little land."""
         limit = self.half_pitch * (1.0 - _LEAST_LAND)
-        numbers = self.params
 
         def over(r: float) -> float:
-            return self._tip_arc(numbers, r)[1] - limit
+            return self._tip_arc(self.thread, r)[1] - limit
 
         if over(0.0) >= 0.0:
             raise InputError(_pointed(self))
@@ -299,54 +232,65 @@ class Helicoid:
         return most if over(most) <= 0.0 else float(brentq(over, 0.0, most, xtol=1e-12))
 
     def curve(self, u: npt.ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        r"""Return the generating curve of one side.
+        r"""Return :math:`\rho` and :math:`z` (mm) of one side's curve, and both by ``u``.
 
-        Parameters
-        ----------
-        u : array_like
-            0 to 1 flank, from the root to its end; to 2 the rounding of the tip; to 3 the tip
-            land, to the middle of the thread.
-
-        Returns
-        -------
-        tuple of ndarray
-            :math:`\rho`, :math:`z` (mm) and their derivatives by ``u``, shaped as ``u``.
+        ``u`` is 0 to 1 on the flank, from the root to its end; to 2 on the rounding of the tip; to
+        3 on the tip land, to the middle of the thread.
         """
-        places = np.asarray(u, dtype=np.float64)
-        out = np.empty((6, places.size))
-        curve.curve_each(np.ascontiguousarray(places).reshape(-1), self.params, out)
-        rho, z, drho, dz, _, _ = out.reshape(6, *places.shape)
+        rho, z, drho, dz, _, _ = sampled(curve.curve_each, u, 6, self.thread)
         return rho, z, drho, dz
 
     def width(self, radius: npt.ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
         r"""Return :math:`w` (mm), :math:`w'` and :math:`w''` (1/mm) of the flank at radii in mm."""
-        rho = np.asarray(radius, dtype=np.float64)
-        out = np.empty((3, rho.size))
-        curve.width_each(np.ascontiguousarray(rho).reshape(-1), self.params, out)
-        w, w1, w2 = out.reshape(3, *rho.shape)
+        w, w1, w2 = sampled(curve.width_each, radius, 3, self.thread)
         return w, w1, w2
 
-    def distance_params(self, side: int = 0, *, core: bool = True) -> FloatArray:
-        """Return the numbers of `~asperity.flanks.worm.distance`.
+    def facing(self, side: int = 0, *, core: bool = True) -> Thread:
+        """Return what `~asperity.flanks.worm.distance` takes.
 
-        Parameters
-        ----------
-        side : {0, 1, -1}
-            The flank of the thread space that counts; 0: the nearest.
-        core : bool
-            Whether the core counts too; else the flanks go on below the root.
+        ``side`` is the flank of the thread space that counts, 1 or -1, 0 for the nearest; without
+        the ``core`` the flanks go on below the root.
         """
-        numbers = self.params.copy()
-        numbers[curve.SIDE] = side
+        form = np.array(self.thread.form)[()]
+        form["side"] = side
         if not core:
-            numbers[curve.ROOT] *= _DEEP
-        return numbers
+            form["root"] *= _DEEP
+        return Thread(form, self.profile.table)
 
 
-def _too_round(key: str, given: float, most: float) -> str:
-    return (
-        f"{key} is {given:.4g} mm; the tip has room for at most {most:.4g} mm: take a smaller one"
+def _draft(geometry: Geometry, flank: Flank, disc: Disc | None, **numbers: Any) -> Helicoid:
+    """A helicoid without rounding, its root where the thread space has some width."""
+    r, gamma = numbers["pitch_radius"], numbers["lead_angle"]
+    needed = r - geometry.wheel_addendum
+    draft = Helicoid(
+        starts=geometry.starts,
+        reduced_lead=r * math.tan(gamma),
+        tip_rounding=0.0,
+        profile=profile(
+            flank,
+            pitch_radius=r,
+            lead_angle=gamma,
+            pressure_angle=geometry.pressure_angle,
+            half_space=numbers["half_space"],
+            reach=(numbers["root_radius"], needed, numbers["tip_radius"]),
+            module=geometry.axial_module,
+            disc=disc,
+        ),
+        pressure_angle=geometry.pressure_angle,
+        **numbers,
     )
+    return _opened(draft, needed)
+
+
+def _rounded(draft: Helicoid, rounding: float, key: str | None) -> Helicoid:
+    """Round the tip as far as there is room; refuse what was asked for by a key and has none."""
+    most = draft.largest_rounding()
+    if key is not None and rounding > most:
+        raise InputError(
+            f"{key} is {rounding:.4g} mm; the tip has room for at most {most:.4g} mm: take a "
+            "smaller one"
+        )
+    return dataclasses.replace(draft, tip_rounding=min(rounding, most))
 
 
 def _pointed(helicoid: Helicoid) -> str:

@@ -20,59 +20,72 @@ Lengths are in mm.
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.compiled import Kernel, kernel
 
-RULED = 0.0
-TABULATED = 1.0
+SECTION = np.dtype(
+    [(name, np.float64) for name in ("reduced_lead", "offset", "slope", "excess", "first", "step")]
+)
+"""Numbers of an axial section: the line of a ruled flank, or the radii of a table (mm)."""
 
-_HEADER = 4
+
+def record(dtype: np.dtype[Any], **values: Any) -> Any:
+    """Return a record with what is not given at zero."""
+    made = np.zeros((), dtype)
+    for name, value in values.items():
+        made[name] = value
+    return made[()]
+
+
+def sampled(each: Kernel, places: npt.ArrayLike, count: int, *given: Any) -> FloatArray:
+    """Return so many numbers that a kernel finds at each place, before the places' own shape."""
+    at = np.asarray(places, dtype=np.float64)
+    out = np.empty((count, at.size))
+    each(np.ascontiguousarray(at).reshape(-1), *given, out)
+    return out.reshape(count, *at.shape)
 
 
 @kernel
-def ruled(rho, params, at):
+def ruled(rho, section):
     """``(f, f', f'')`` of a ruled flank; below the line's offset it goes on radially."""
-    p = params[at + 1]
-    h = params[at + 2]
-    slope = params[at + 3]
-    excess = params[at + 4]
+    p = section.reduced_lead
+    h = section.offset
     t2 = rho * rho - h * h
     if t2 <= 0.0:
         return -p * math.atan2(0.0, h), 0.0, 0.0
     t = math.sqrt(t2)
-    f = slope * t - p * math.atan2(t, h)
-    lean = excess * h / t
-    f1 = (slope * t + lean) / rho
+    f = section.slope * t - p * math.atan2(t, h)
+    lean = section.excess * h / t
+    f1 = (section.slope * t + lean) / rho
     f2 = -lean / t2 + p * h / (rho * rho * t)
     return f, f1, f2
 
 
 @kernel
-def tabulated(rho, params, at):
+def tabulated(rho, section, table):
     """``(f, f', f'')`` of a tabulated flank; straight lines go on beyond the ends."""
-    first = params[at + 1]
-    step = params[at + 2]
-    count = int(params[at + 3])
-    place = (rho - first) / step
-    if place < 0.0 or place > count - 1:
-        k = at + _HEADER
+    step = section.step
+    last = table.shape[0] - 1
+    place = (rho - section.first) / step
+    if place < 0.0 or place > last:
+        k = 0
         if place > 0.0:
-            k += 3 * (count - 1)
-            rho -= (count - 1) * step
-        return params[k] + params[k + 1] * (rho - first), params[k + 1], 0.0
-    i = min(int(place), count - 2)
+            k = last
+            rho -= last * step
+        return table[k, 0] + table[k, 1] * (rho - section.first), table[k, 1], 0.0
+    i = min(int(place), last - 1)
     x = place - i
-    k = at + _HEADER + 3 * i
-    a0 = params[k]
-    a1 = params[k + 1] * step
-    a2 = 0.5 * params[k + 2] * step * step
-    b1 = params[k + 4] * step
-    b2 = params[k + 5] * step * step
-    left0 = params[k + 3] - a0 - a1 - a2
+    a0 = table[i, 0]
+    a1 = table[i, 1] * step
+    a2 = 0.5 * table[i, 2] * step * step
+    b1 = table[i + 1, 1] * step
+    b2 = table[i + 1, 2] * step * step
+    left0 = table[i + 1, 0] - a0 - a1 - a2
     left1 = b1 - a1 - 2.0 * a2
     left2 = b2 - 2.0 * a2
     a3 = 10.0 * left0 - 4.0 * left1 + 0.5 * left2
@@ -85,24 +98,18 @@ def tabulated(rho, params, at):
 
 
 @kernel
-def axial_at(rho, params, at):
-    """`axial`, with the numbers of the profile from a place on: a view would cost more."""
-    if params[at] == RULED:
-        return ruled(rho, params, at)
-    return tabulated(rho, params, at)
+def axial(rho, section, table):
+    """``(f, f', f'')`` of a flank at a radius, by its table where that has rows."""
+    if table.shape[0] > 0:
+        return tabulated(rho, section, table)
+    return ruled(rho, section)
 
 
 @kernel
-def axial(rho, params):
-    """``(f, f', f'')`` of a flank at a radius, from the numbers of an `AxialProfile`."""
-    return axial_at(rho, params, 0)
-
-
-@kernel
-def axial_each(rho, params, out):
+def axial_each(rho, section, table, out):
     """`axial` at every radius, by columns of ``out``."""
     for i in range(rho.size):
-        out[0, i], out[1, i], out[2, i] = axial(rho[i], params)
+        out[0, i], out[1, i], out[2, i] = axial(rho[i], section, table)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -113,14 +120,17 @@ class AxialProfile:
     ----------
     flank : str
         ZI, ZA, ZN, ZK or ZC.
-    params : ndarray
-        The numbers `axial` takes: the form (ruled or tabulated) and what defines it.
+    section : record of `SECTION`
+        The numbers of its form.
+    table : ndarray, shape (n, 3)
+        :math:`f`, :math:`f'` and :math:`f''` by radius, mm; without rows for a ruled flank.
     base_radius : float or None
         Radius of the base cylinder of ZI, mm, below which the flank goes on radially.
     """
 
     flank: str
-    params: FloatArray = dataclasses.field(repr=False)
+    section: Any = dataclasses.field(repr=False)
+    table: FloatArray = dataclasses.field(repr=False, default_factory=lambda: np.empty((0, 3)))
     base_radius: float | None = None
 
     def derivatives(self, radius: npt.ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -128,10 +138,7 @@ class AxialProfile:
 
         The constant in :math:`f` has no meaning.
         """
-        rho = np.asarray(radius, dtype=np.float64)
-        out = np.empty((3, rho.size))
-        axial_each(np.ascontiguousarray(rho).reshape(-1), self.params, out)
-        f, f1, f2 = out.reshape(3, *rho.shape)
+        f, f1, f2 = sampled(axial_each, radius, 3, self.section, self.table)
         return f, f1, f2
 
     def __call__(self, radius: npt.ArrayLike) -> FloatArray:
@@ -142,17 +149,6 @@ class AxialProfile:
 def tabulate(
     flank: str, first: float, step: float, f: FloatArray, f1: FloatArray, f2: FloatArray
 ) -> AxialProfile:
-    """Return the profile through values and derivatives at equally spaced radii.
-
-    Parameters
-    ----------
-    flank : str
-        Name of the type.
-    first, step : float
-        The first radius and the distance to the next, mm.
-    f, f1, f2 : ndarray
-        Values (mm) and the first two derivatives, by radius.
-    """
-    header = np.array([TABULATED, first, step, f.size], dtype=np.float64)
-    table = np.column_stack([f, f1, f2]).astype(np.float64)
-    return AxialProfile(flank, np.concatenate([header, table.reshape(-1)]))
+    """Return the profile through values (mm) and two derivatives at radii ``step`` apart."""
+    table = np.ascontiguousarray(np.column_stack([f, f1, f2]), dtype=np.float64)
+    return AxialProfile(flank, record(SECTION, first=first, step=step), table)

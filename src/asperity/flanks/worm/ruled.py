@@ -6,10 +6,8 @@ along its way. Names of the types as in ISO/TR 10828; lengths in mm, angles in r
 
 import math
 
-import numpy as np
-
 from asperity.errors import ConvergenceError
-from asperity.flanks.worm.profiles import RULED, AxialProfile
+from asperity.flanks.worm.profiles import SECTION, AxialProfile, record
 from asperity.gearset import relations
 
 
@@ -21,7 +19,8 @@ def _line(
     excess: float,
     base_radius: float | None = None,
 ) -> AxialProfile:
-    return AxialProfile(flank, np.array([RULED, reduced_lead, offset, slope, excess]), base_radius)
+    line = record(SECTION, reduced_lead=reduced_lead, offset=offset, slope=slope, excess=excess)
+    return AxialProfile(flank, line, base_radius=base_radius)
 
 
 def involute(pitch_radius: float, lead_angle: float, pressure_angle: float) -> AxialProfile:

@@ -7,6 +7,7 @@ right-handed one: `Pair.mirror` is the sign that Z has to be multiplied by at th
 
 import dataclasses
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +19,16 @@ from asperity.gearset import Gearset, Geometry
 from asperity.gearset.geometry import Flank
 
 _MILLIMETRES = 1e3
+
+
+class Stand(NamedTuple):
+    """How a hob cuts or a worm runs, as the kernels take it: ratio :math:`i`, lengths in mm."""
+
+    ratio: float
+    centre_distance: float
+    axial_offset: float
+    cosine: float
+    sine: float
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,6 +48,12 @@ class Setting:
     centre_distance: float
     axial_offset: float = 0.0
     tilt: float = 0.0
+
+    def stand(self, ratio: float) -> Stand:
+        """Return how a helicoid stands and turns, as the kernels take it."""
+        cosine, sine = math.cos(self.tilt), math.sin(self.tilt)
+        place = float(self.centre_distance), float(self.axial_offset)
+        return Stand(float(ratio), *place, cosine, sine)
 
     @property
     def axes(self) -> FloatArray:
@@ -140,6 +157,16 @@ class Pair:
     def ratio(self) -> float:
         """Turns of the worm for one of the wheel, :math:`z_2/z_1`."""
         return self.geometry.gear_ratio
+
+    @property
+    def cut(self) -> Stand:
+        """How the hob cuts, as the kernels take it."""
+        return self.cutting.stand(self.ratio)
+
+    @property
+    def mount(self) -> Stand:
+        """How the worm runs, as the kernels take it."""
+        return self.mounting.stand(self.ratio)
 
     @property
     def mirror(self) -> int:

@@ -24,7 +24,7 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.worm.curve import FLANK_END, LEAD
+from asperity.flanks.wheel.cutting.conjugate import to_axes, turned
 from asperity.flanks.worm.distance import distance
 
 MEETING = np.dtype(
@@ -51,36 +51,20 @@ _LARGEST_STEP = 0.1
 
 
 @kernel
-def to_axes(x, y, z, mount):
-    """Coordinates of a point of the wheel's standing frame in the helicoid's standing axes."""
-    dz = z - mount.axial_offset
-    return (
-        mount.centre_distance - y,
-        x * mount.sine - dz * mount.cosine,
-        x * mount.cosine + dz * mount.sine,
-    )
-
-
-@kernel
-def turned(point, beta):
-    """Coordinates of a point of the wheel once the wheel has turned by ``beta``."""
-    c, s = math.cos(beta), math.sin(beta)
-    return point[0] * c - point[1] * s, point[0] * s + point[1] * c, point[2]
-
-
-@kernel
 def fill(three, a, b, c):
     """Write three numbers."""
     three[0], three[1], three[2] = a, b, c
 
 
 @kernel
-def meet(point, phase, ahead, mount, params, row):
+def meet(point, phase, ahead, mount, worm, row):
     """Fill a `MEETING` with what holds at a phase."""
     ratio = mount.ratio
-    x, y, z = turned(point, phase / ratio + ahead)
+    turn = phase / ratio + ahead
+    x, y, z = turned(point, math.cos(turn), math.sin(turn))
     a, b, c = to_axes(x, y, z, mount)
-    d, ga, gb, gc, haa, hbb, hcc, hab, hac, hbc = distance(a, b, c + params[LEAD] * phase, params)
+    along = c + worm.form.lead * phase
+    d, ga, gb, gc, haa, hbb, hcc, hab, hac, hbc = distance(a, b, along, worm)
     ce, se = mount.cosine / ratio, mount.sine / ratio
     # The wheel's own turning and the place seen from its axis, in the helicoid's axes.
     wheel_a = a - mount.centre_distance
@@ -108,20 +92,20 @@ def meet(point, phase, ahead, mount, params, row):
     row.second = wa * ha + wb * hb + wc * hc + ga * aa + gb * ab + gc * ac
     fill(row.place, a, b, c)
     foot = math.hypot(a - d * ga, b - d * gb)
-    row.reach = params[FLANK_END] - foot
+    row.reach = worm.form.flank_end - foot
     return ga * wa + gb * wb + gc * wc, row.second
 
 
 @kernel
-def meet_each(points, phases, ahead, mount, params, rows):
+def meet_each(points, phases, ahead, mount, worm, rows):
     """`meet` of points each at its own phase."""
     for k in range(points.shape[0]):
-        meet(points[k], phases[k], ahead, mount, params, rows[k])
+        meet(points[k], phases[k], ahead, mount, worm, rows[k])
         rows[k].converged = True
 
 
 @kernel
-def approach_each(points, phases, ahead, mount, params, rows):
+def approach_each(points, phases, ahead, mount, worm, rows):
     """`meet` of points at the phase of nearest approach, by Newton's method from a guess.
 
     It is bracketed, since the curvature jumps where the worm's flank goes over into its tip.
@@ -131,7 +115,7 @@ def approach_each(points, phases, ahead, mount, params, rows):
         low, high = -math.inf, math.inf
         rows[k].converged = False
         for n in range(_STEPS):
-            rate, second = meet(points[k], phase, ahead, mount, params, rows[k])
+            rate, second = meet(points[k], phase, ahead, mount, worm, rows[k])
             if rate < 0.0:
                 low = phase
             else:

@@ -5,10 +5,8 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.meshing.kernels.kinematics import to_axes
-from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
-from asperity.flanks.worm.curve import LEAD
-from asperity.flanks.worm.distance import distance_only
+from asperity.flanks.wheel.cutting.bracket import compiled_minimum
+from asperity.flanks.wheel.gaps import gap_at
 
 _STEPS = 40
 # In parts of the step between places; what is left counts with its square.
@@ -16,16 +14,7 @@ _NARROW = 1e-3
 
 
 @kernel
-def gap_at(point, cosine, sine, phase, worm, mount):
-    """Distance of a point of the wheel to the worm, both turned, mm."""
-    x = point[0] * cosine - point[1] * sine
-    y = point[0] * sine + point[1] * cosine
-    a, b, c = to_axes(x, y, point[2], mount)
-    return distance_only(a, b, c + worm[LEAD] * phase, worm)
-
-
-@kernel
-def gap_between(point, t, betas, phases, worm, mount):
+def gap_between(t, point, betas, phases, worm, mount):
     """`gap_at` at ``t`` steps from the first place; the worm follows linearly between places."""
     n = min(max(int(t), 0), betas.size - 2)
     share = t - n
@@ -48,16 +37,20 @@ def smallest_gap(points, betas, phases, worm, mount, gap, at):
             if value < best:
                 best, n = value, j
         low, high = max(n - 1, 0), min(n + 1, last)
-        a, b, c = float(low), float(n), float(high)
         fa = gap_at(points[k], cosines[low], sines[low], phases[low], worm, mount)
         fc = gap_at(points[k], cosines[high], sines[high], phases[high], worm, mount)
-        older = old = math.inf
-        for _ in range(_STEPS):
-            if c - a <= 2.5 * _NARROW:
-                break
-            t = next_place(a, fa, b, best, c, fc, _NARROW, c - a > 0.5 * older)
-            older, old = old, c - a
-            ft = gap_between(points[k], t, betas, phases, worm, mount)
-            a, fa, b, best, c, fc = narrowed(a, fa, b, best, c, fc, t, ft)
-        gap[k] = best
+        given = (points[k], betas, phases, worm, mount)
+        b, gap[k] = compiled_minimum(
+            gap_between,
+            given,
+            float(low),
+            fa,
+            float(n),
+            best,
+            float(high),
+            fc,
+            _NARROW,
+            _STEPS,
+            -math.inf,
+        )
         at[k] = betas[0] + b * (betas[1] - betas[0])

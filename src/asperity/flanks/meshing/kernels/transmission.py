@@ -20,12 +20,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.meshing.kernels.kinematics import to_axes
-from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
-from asperity.flanks.wheel.cutting.conjugate import Stand, conjugate
+from asperity.flanks.wheel.cutting.bracket import compiled_minimum
+from asperity.flanks.wheel.cutting.conjugate import conjugate, to_axes
 from asperity.flanks.wheel.cutting.trim import NODE, NODES, REACHED, keep, locate
 from asperity.flanks.wheel.cutting.undercut import section
-from asperity.flanks.worm.curve import ARC_RADIUS, ARC_Z, FLANK_END, LEAD, ROUNDING, TIP, width
+from asperity.flanks.worm.curve import width
 from asperity.flanks.worm.distance import distance_only
 
 TURN = 0
@@ -48,20 +47,21 @@ class Search(NamedTuple):
     mode: int
     side: float
     hob: Any
-    cut: Stand
+    cut: Any
     worm: Any
-    mount: Stand
+    mount: Any
 
 
 @kernel
 def half_space(rho, worm):
     """Half the axial width of the worm's thread space, the tip's rounding included."""
-    if rho <= worm[FLANK_END]:
+    form = worm.form
+    if rho <= form.flank_end:
         return width(rho, worm)[0]
-    if rho >= worm[TIP]:
+    if rho >= form.tip:
         return math.inf
-    x = rho - worm[ARC_RADIUS]
-    return worm[ARC_Z] - math.sqrt(max(worm[ROUNDING] ** 2 - x * x, 0.0))
+    x = rho - form.arc_radius
+    return form.arc_z - math.sqrt(max(form.rounding**2 - x * x, 0.0))
 
 
 @kernel
@@ -70,8 +70,9 @@ def measure(x, y, z, beta, phase, mode, side, worm, mount):
     c, s = math.cos(beta), math.sin(beta)
     a, b, q = to_axes(x * c - y * s, x * s + y * c, z, mount)
     if mode == NEAR:
-        return distance_only(a, b, q + worm[LEAD] * phase, worm)
-    return side * math.atan2(b, a) + (half_space(math.hypot(a, b), worm) - side * q) / worm[LEAD]
+        return distance_only(a, b, q + worm.form.lead * phase, worm)
+    way = half_space(math.hypot(a, b), worm) - side * q
+    return side * math.atan2(b, a) + way / worm.form.lead
 
 
 @kernel
@@ -85,7 +86,7 @@ def of_node(u, psi, given):
 @kernel
 def resolution(given):
     """How much less a measure may be between points of a grid than at them."""
-    return _DEEPER if given.mode == NEAR else _DEEPER / given.worm[LEAD]
+    return _DEEPER if given.mode == NEAR else _DEEPER / given.worm.form.lead
 
 
 @kernel
@@ -96,31 +97,28 @@ def tip_radius(z, blank):
 
 
 @kernel
+def at_radius(radius, z, given, nodes, flank, last):
+    """`measure` at a radius of a section."""
+    u, psi = locate(radius, flank, last, z, given.side, given.hob, given.cut, nodes)
+    return of_node(u, psi, given)
+
+
+@kernel
 def least_between(low, k, high, values, z, given, nodes, flank, last):
-    """``(value, radius)`` of the least measure round the node ``k`` of a section."""
-    a, fa = nodes[low].radius, values[low]
-    b, fb = nodes[k].radius, values[k]
-    c, fc = nodes[high].radius, values[high]
-    side, hob, cut = given.side, given.hob, given.cut
+    """``(radius, value)`` of the least measure round the node ``k`` of a section."""
+    a, b, c = nodes[low].radius, nodes[k].radius, nodes[high].radius
+    fa, fb, fc = values[low], values[k], values[high]
+    section = (z, given, nodes, flank, last)
     narrow = _NARROW * (c - a)
-    older = old = math.inf
-    for _ in range(_STEPS):
-        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
-            break
-        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
-        older, old = old, c - a
-        u, psi = locate(t, flank, last, z, side, hob, cut, nodes)
-        ft = of_node(u, psi, given)
-        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
-    return fb, b
+    return compiled_minimum(at_radius, section, a, fa, b, fb, c, fc, narrow, _STEPS, _EVEN)
 
 
 @kernel
 def least_on_column(z, given, blank, nodes, values):
     """``(value, radius)`` of the least measure on the flank at a place ``z``; inf if there is none.
 
-    ``given`` is a `Search`. The nodes of the traced section bracket
-    every minimum; ``values`` is room for theirs.
+    ``given`` is a `Search`. The nodes of the traced section bracket every minimum; ``values`` is
+    room for theirs.
     """
     side, hob, cut = given.side, given.hob, given.cut
     stop = tip_radius(z, blank)
@@ -143,10 +141,19 @@ def least_on_column(z, given, blank, nodes, values):
         # Of two equal ones the first.
         behind = values[low] > values[k] or low == k
         if behind and values[high] >= values[k] and values[k] <= limit:
-            value, at = least_between(low, k, high, values, z, given, nodes, flank, last)
+            at, value = least_between(low, k, high, values, z, given, nodes, flank, last)
             if value < best:
                 best, radius = value, at
     return best, radius
+
+
+@kernel
+def of_column(z, given, blank, nodes, values, lowest):
+    """The value of `least_on_column`; the ``lowest`` and its radius are kept."""
+    value, radius = least_on_column(z, given, blank, nodes, values)
+    if value <= lowest[0]:
+        lowest[0], lowest[1] = value, radius
+    return value
 
 
 @kernel
@@ -158,19 +165,11 @@ def least_near(j, columns, found, given, blank, nodes, values):
     low, high = max(j - 1, 0), min(j + 1, columns.size - 1)
     a, b, c = columns[low], columns[j], columns[high]
     fa, fb, fc = found[0, low], found[0, j], found[0, high]
-    radius = found[1, j]
+    lowest = np.array([fb, found[1, j]])
+    column = (given, blank, nodes, values, lowest)
     narrow = _NARROW * (c - a)
-    older = old = math.inf
-    for _ in range(_STEPS):
-        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= _EVEN * (1.0 + abs(fb)):
-            break
-        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
-        older, old = old, c - a
-        ft, at = least_on_column(t, given, blank, nodes, values)
-        if ft <= fb:
-            radius = at
-        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
-    return fb, radius, b
+    z, value = compiled_minimum(of_column, column, a, fa, b, fb, c, fc, narrow, _STEPS, _EVEN)
+    return value, lowest[1], z
 
 
 @kernel

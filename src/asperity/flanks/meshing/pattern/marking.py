@@ -12,7 +12,6 @@ from asperity.arrays import BoolArray, FloatArray
 from asperity.flanks.meshing.kernels.pattern import smallest_gap
 from asperity.flanks.meshing.pattern.area import part_below
 from asperity.flanks.meshing.transmission import Transmission
-from asperity.flanks.wheel.cutting.conjugate import cut_params
 from asperity.flanks.wheel.flank import MAP, FlankGrid
 from asperity.results import Quantities, quantity
 
@@ -71,8 +70,8 @@ def pattern(mesh: Transmission, grid: FlankGrid, thickness: float = MARKING) -> 
         np.ascontiguousarray(grid.points.reshape(-1, 3)),
         beta,
         phase,
-        pair.worm.distance_params(side),
-        cut_params(pair.ratio, pair.mounting),
+        pair.worm.facing(side),
+        pair.mount,
         gap.reshape(-1),
         at.reshape(-1),
     )

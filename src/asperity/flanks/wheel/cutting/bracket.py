@@ -1,6 +1,9 @@
-"""Where to look next for a least value between three places, of which the middle one is lowest."""
+"""The least value of a function between three places, of which the middle one is lowest."""
 
-from asperity.compiled import kernel
+import math
+from typing import Any
+
+from asperity.compiled import Kernel, kernel
 
 _GOLDEN = 0.381966011250105
 
@@ -34,3 +37,36 @@ def narrowed(a, fa, b, fb, c, fc, t, ft):
     if t > b:
         return a, fa, b, fb, t, ft
     return t, ft, b, fb, c, fc
+
+
+def minimum(
+    function: Kernel,
+    given: tuple[Any, ...],
+    a: float,
+    fa: float,
+    b: float,
+    fb: float,
+    c: float,
+    fc: float,
+    narrow: float,
+    steps: int,
+    even: float,
+) -> tuple[float, float]:
+    """``(place, value)`` of the least value of a function of a place and what is ``given``.
+
+    It is found to ``narrow``, or until all three values are ``even``: as alike as that, relative to
+    1 and to themselves; -inf to look on regardless.
+    """
+    older = old = math.inf
+    for _ in range(steps):
+        if c - a <= 2.5 * narrow or fa + fc - 2.0 * fb <= even * (1.0 + abs(fb)):
+            break
+        t = next_place(a, fa, b, fb, c, fc, narrow, c - a > 0.5 * older)
+        older, old = old, c - a
+        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, function(t, *given))
+    return b, fb
+
+
+# Inlined, since a kernel that is given another is otherwise compiled anew in every process.
+compiled_minimum = kernel(inline="always")(minimum)
+"""`minimum` for kernels."""

@@ -12,36 +12,31 @@ with :math:`r` perpendicular to the hob's axis. Then
 :math:`\varphi_1 = \psi - (\zeta - s z)/p`, and the wheel has turned by :math:`\varphi_1/i`. The
 pole :math:`n_Y = 0` is where the hob would have to be infinitely long.
 
-Lengths are in mm, angles in rad; the frame is that of the right-handed gearset.
+Lengths are in mm, angles in rad; the frame is that of the right-handed gearset. ``hob`` is a
+`~asperity.flanks.worm.curve.Thread`, ``cut`` a `~asperity.flanks.worm.setting.Stand`.
 """
 
 import math
-from typing import NamedTuple
 
 from asperity.compiled import kernel
-from asperity.flanks.worm.curve import LEAD, curve
-from asperity.flanks.worm.setting import Setting
+from asperity.flanks.worm.curve import curve
 
 
-class Stand(NamedTuple):
-    """How a hob cuts or a worm runs, as the kernels take it: ratio :math:`i`, lengths in mm."""
-
-    ratio: float
-    centre_distance: float
-    axial_offset: float
-    cosine: float
-    sine: float
-
-
-def cut_params(ratio: float, setting: Setting) -> Stand:
-    """Return how a hob or worm stands and turns, as the kernels take it."""
-    return Stand(
-        ratio=float(ratio),
-        centre_distance=float(setting.centre_distance),
-        axial_offset=float(setting.axial_offset),
-        cosine=math.cos(setting.tilt),
-        sine=math.sin(setting.tilt),
+@kernel
+def to_axes(x, y, z, stand):
+    """Coordinates of a point of the wheel's standing frame in the helicoid's standing axes."""
+    dz = z - stand.axial_offset
+    return (
+        stand.centre_distance - y,
+        x * stand.sine - dz * stand.cosine,
+        x * stand.cosine + dz * stand.sine,
     )
+
+
+@kernel
+def turned(point, cosine, sine):
+    """Coordinates of a point of the wheel once the wheel has turned by an angle."""
+    return point[0] * cosine - point[1] * sine, point[0] * sine + point[1] * cosine, point[2]
 
 
 @kernel
@@ -51,7 +46,7 @@ def conjugate(u, psi, side, hob, cut):
     Returns ``(x, y, z, phase, nx, ny, nz)``; the unit normal points out of the wheel's tooth.
     """
     rho, place, rho1, place1, _, _ = curve(u, hob)
-    p = hob[LEAD]
+    p = hob.form.lead
     ce, se = cut.cosine, cut.sine
     c, s = math.cos(psi), math.sin(psi)
     nr = -side * place1 * rho
@@ -85,7 +80,7 @@ def conjugate_rates(u, psi, side, hob, cut):
     ``zeta`` is infinite.
     """
     rho, _, rho1, place1, rho2, place2 = curve(u, hob)
-    p = hob[LEAD]
+    p = hob.form.lead
     ratio = cut.ratio
     ce, se = cut.cosine, cut.sine
     c, s = math.cos(psi), math.sin(psi)

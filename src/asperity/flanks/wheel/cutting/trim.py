@@ -16,7 +16,7 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.conjugate import conjugate_rates
-from asperity.flanks.worm.curve import BASE, FLANK_END, ROOT, curve
+from asperity.flanks.worm.curve import curve
 
 REACHED = 0
 SHORT = 1
@@ -100,7 +100,8 @@ def keep(node, u, psi, radius, regularity):
 @kernel
 def base_break(hob):
     """``u`` a little below the base cylinder, where the flank is radial without doubt."""
-    return (hob[BASE] * (1.0 - 1e-14) - hob[ROOT]) / (hob[FLANK_END] - hob[ROOT])
+    form = hob.form
+    return (form.base * (1.0 - 1e-14) - form.root) / (form.flank_end - form.root)
 
 
 @kernel

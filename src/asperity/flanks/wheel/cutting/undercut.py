@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.flanks.wheel.cutting.bracket import narrowed, next_place
+from asperity.flanks.wheel.cutting.bracket import compiled_minimum
 from asperity.flanks.wheel.cutting.conjugate import conjugate
 from asperity.flanks.wheel.cutting.trim import (
     LOST,
@@ -61,13 +61,19 @@ def on_chord(t, k, z, side, hob, cut, nodes):
 
 
 @kernel
+def chord_regularity(t, k, z, side, hob, cut, nodes):
+    """The regularity of `on_chord`."""
+    return on_chord(t, k, z, side, hob, cut, nodes).regularity
+
+
+@kernel
 def insert_cusp(k, count, z, side, hob, cut, nodes):
     """Insert the turning point between ``k`` and the next node, on its regular side."""
     rising = nodes[k + 1].regularity > 0.0
     low, high = 0.0, 1.0
     for _ in range(60):
         t = 0.5 * (low + high)
-        if (on_chord(t, k, z, side, hob, cut, nodes).regularity > 0.0) == rising:
+        if (chord_regularity(t, k, z, side, hob, cut, nodes) > 0.0) == rising:
             high = t
         else:
             low = t
@@ -78,19 +84,12 @@ def insert_cusp(k, count, z, side, hob, cut, nodes):
 @kernel
 def least_on_chord(k, z, side, hob, cut, nodes):
     """The share of the chord from node ``k`` to the next where the regularity is least."""
-    a = 0.0
     fa, fc = nodes[k].regularity, nodes[k + 1].regularity
-    c = 1.0
-    b, fb = (a, fa) if fa <= fc else (c, fc)
-    older = old = math.inf
-    for _ in range(STEPS):
-        if c - a <= 2.5 * NARROW:
-            break
-        t = next_place(a, fa, b, fb, c, fc, NARROW, c - a > 0.5 * older)
-        older, old = old, c - a
-        ft = on_chord(t, k, z, side, hob, cut, nodes).regularity
-        a, fa, b, fb, c, fc = narrowed(a, fa, b, fb, c, fc, t, ft)
-    return b
+    b, fb = (0.0, fa) if fa <= fc else (1.0, fc)
+    given = (k, z, side, hob, cut, nodes)
+    return compiled_minimum(
+        chord_regularity, given, 0.0, fa, b, fb, 1.0, fc, NARROW, STEPS, -math.inf
+    )[0]
 
 
 @kernel
