@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from asperity.gearset import Gearset, relations
-from asperity.gearset.materials import wheel_material, worm_material
+from asperity.gearset.library import find
+from asperity.gearset.materials import WheelMaterial, WormMaterial
 from asperity.rating import Operation, RatingOptions, rate, variants
 from asperity.rating import iso14521 as iso
 from asperity.rating.iso14521.film_failure import film_limits
@@ -206,7 +207,7 @@ def test_efficiency_is_that_of_the_inclined_plane(gamma, mu, forward):
     ],
 )
 def test_equivalent_modulus_against_case_hardened_steel_is_the_printed_one(name, modulus):
-    worm, wheel = worm_material("case-hardened steel"), wheel_material(name)
+    worm, wheel = find(WormMaterial, "case-hardened steel"), find(WheelMaterial, name)
     ours = iso.reduced_modulus(
         worm.youngs_modulus * 1e-6,
         worm.poisson_ratio,

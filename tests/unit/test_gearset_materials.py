@@ -5,10 +5,11 @@ import os
 import pytest
 
 from asperity.errors import InputError
-from asperity.gearset.bearings import Bearings, bearings
-from asperity.gearset.library import VARIABLE, names
-from asperity.gearset.lubricants import base_oil, lubricant
-from asperity.gearset.materials import wheel_material, worm_material
+from asperity.gearset import library
+from asperity.gearset.bearings import Bearings
+from asperity.gearset.library import VARIABLE, find, resolve
+from asperity.gearset.lubricants import BaseOil, Lubricant
+from asperity.gearset.materials import WheelMaterial, WormMaterial
 
 OWN = """
 [source.maker]
@@ -30,10 +31,17 @@ loss_coefficient = 0.02
 
 
 @pytest.fixture
-def own_file(tmp_path):
+def own_file(tmp_path, monkeypatch):
     path = tmp_path / "own.toml"
     path.write_text(OWN)
+    monkeypatch.setenv(VARIABLE, str(path))
     return path
+
+
+def names(model):
+    return [
+        name for section, name in library._library(library._stamps()) if section == model.section
+    ]
 
 
 @pytest.mark.parametrize(
@@ -48,29 +56,23 @@ def own_file(tmp_path):
     ],
 )
 def test_with_a_steel_worm_each_wheel_has_the_printed_reduced_modulus(name, reduced_modulus):
-    parts = (wheel_material(name), worm_material("case-hardened steel"))
+    parts = (find(WheelMaterial, name), find(WormMaterial, "case-hardened steel"))
     compliance = sum((1 - part.poisson_ratio**2) / part.youngs_modulus for part in parts)
     assert 2e-6 / compliance == pytest.approx(reduced_modulus, abs=0.5)
 
 
 def test_every_value_that_ships_has_a_source():
-    for section, find in (
-        ("wheel", wheel_material),
-        ("worm", worm_material),
-        ("lubricant", lubricant),
-        ("base_oil", base_oil),
-        ("bearings", bearings),
-    ):
-        assert names(section)
-        for name in names(section):
-            thing = find(name)
+    for model in (WheelMaterial, WormMaterial, Lubricant, BaseOil, Bearings):
+        assert names(model)
+        for name in names(model):
+            thing = find(model, name)
             keys = thing.model_fields_set - {"name", "sources", "assumption"}
             assert keys <= set(thing.sources), name
             assert all(thing.source(key).note != "given by the user" for key in keys), name
 
 
 def test_aluminium_bronze_counts_as_centrifugal_phosphor_bronze_and_says_so():
-    material = wheel_material("CuAl10Fe5Ni5-C-GZ")
+    material = find(WheelMaterial, "CuAl10Fe5Ni5-C-GZ")
     assert material.bs721 == "phosphor bronze centrifugal"
     assert material.agma6034 == "centrifugal"
     assert "no row for aluminium bronze" in material.source("bs721").note
@@ -79,34 +81,34 @@ def test_aluminium_bronze_counts_as_centrifugal_phosphor_bronze_and_says_so():
 
 def test_iron_is_not_in_the_tables_of_agma():
     for name in ("EN-GJS-400-15", "EN-GJL-250"):
-        assert wheel_material(name).agma6034 is None
-    assert wheel_material("EN-GJS-400-15").bs721 is None
-    assert "no row" in wheel_material("EN-GJS-400-15").source("bs721").note
+        assert find(WheelMaterial, name).agma6034 is None
+    assert find(WheelMaterial, "EN-GJS-400-15").bs721 is None
+    assert "no row" in find(WheelMaterial, "EN-GJS-400-15").source("bs721").note
 
 
-def test_a_file_of_your_own_adds_names_and_replaces_them(own_file):
-    material = wheel_material("our bronze", [own_file])
+def test_a_file_of_your_own_adds_names_and_replaces_them(own_file, monkeypatch):
+    material = find(WheelMaterial, "our bronze")
     assert material.youngs_modulus == 95e9
     assert material.source("shear_strength").name == "data sheet"
     assert material.source("youngs_modulus").note == "given by the user"
-    assert bearings("fixed-floating", [own_file]).loss_coefficient == 0.02
-    assert bearings("fixed-floating").loss_coefficient == 0.013
+    assert find(Bearings, "fixed-floating").loss_coefficient == 0.02
+    monkeypatch.delenv(VARIABLE)
+    assert find(Bearings, "fixed-floating").loss_coefficient == 0.013
 
 
 def test_the_environment_names_files_of_your_own(own_file, monkeypatch):
-    monkeypatch.setenv(VARIABLE, str(own_file))
-    assert "our bronze" in names("wheel")
-    assert wheel_material("our bronze").name == "our bronze"
+    assert "our bronze" in names(WheelMaterial)
+    assert find(WheelMaterial, "our bronze").name == "our bronze"
     monkeypatch.delenv(VARIABLE)
-    assert "our bronze" not in names("wheel")
+    assert "our bronze" not in names(WheelMaterial)
 
 
 def test_a_changed_file_is_read_again(own_file):
-    assert bearings("fixed-floating", [own_file]).loss_coefficient == 0.02
+    assert find(Bearings, "fixed-floating").loss_coefficient == 0.02
     stamp = own_file.stat().st_mtime_ns + 10**9
     own_file.write_text(OWN.replace("0.02", "0.025"))
     os.utime(own_file, ns=(stamp, stamp))
-    assert bearings("fixed-floating", [own_file]).loss_coefficient == 0.025
+    assert find(Bearings, "fixed-floating").loss_coefficient == 0.025
 
 
 @pytest.mark.parametrize(
@@ -126,27 +128,28 @@ def test_a_changed_file_is_read_again(own_file):
         ("[wheel.x]\nfamily = 'tin bronze'", r'own.toml: \[wheel."x"\]: .*youngs_modulus is miss'),
     ],
 )
-def test_a_bad_file_of_your_own_is_named_in_one_line(text, message, tmp_path):
+def test_a_bad_file_of_your_own_is_named_in_one_line(text, message, tmp_path, monkeypatch):
     path = tmp_path / "own.toml"
     path.write_text(text)
+    monkeypatch.setenv(VARIABLE, str(path))
     with pytest.raises(InputError, match=message) as refused:
-        wheel_material("x", [path])
+        find(WheelMaterial, "x")
     assert "\n" not in str(refused.value)
 
 
 def test_a_missing_file_of_your_own_is_named(tmp_path, monkeypatch):
     monkeypatch.setenv(VARIABLE, str(tmp_path / "gone.toml"))
     with pytest.raises(InputError, match=r"gone\.toml cannot be read"):
-        wheel_material("CuSn12-C-GZ")
+        find(WheelMaterial, "CuSn12-C-GZ")
 
 
 def test_a_name_that_is_not_known_brings_the_near_one_or_all():
     with pytest.raises(InputError, match="did you mean 'preloaded'"):
-        bearings("preload")
+        find(Bearings, "preload")
     with pytest.raises(InputError, match=r"allowed: 'fixed-floating', 'preloaded'"):
-        bearings("x")
+        find(Bearings, "x")
     with pytest.raises(InputError, match=r"operation\.lubricant is .*did you mean 'ISO VG 220 min"):
-        lubricant("ISO VG 220 mineal")
+        resolve(Lubricant, "ISO VG 220 mineal")
 
 
 def test_bearings_of_your_own_are_a_class():
@@ -154,16 +157,17 @@ def test_bearings_of_your_own_are_a_class():
 
 
 def test_the_oil_of_the_thesis_is_a_stand_in_and_says_so():
-    oil = lubricant("Fuchs Titan Gear MP SAE 80")
+    oil = resolve(Lubricant, "Fuchs Titan Gear MP SAE 80")
     assert "stands in" in oil.assumed["lubricant"]
     assert oil.source("viscosity_40").confidence == "from memory"
-    assert lubricant("ISO VG 220 mineral").assumed == {}
+    assert resolve(Lubricant, "ISO VG 220 mineral").assumed == {}
 
 
 def test_a_lubricant_of_your_own_takes_its_density_from_the_base_oil():
-    oil = lubricant(
+    oil = resolve(
+        Lubricant,
         {"base_oil": "polyglycol", "viscosity_40": "460 cSt", "viscosity_100": "77 mm^2/s"},
-        text_only=True,
+        {"text_only": True},
     )
     assert oil.viscosity_40 == 460e-6
     assert oil.density(288.15) == pytest.approx(1050.0, rel=1e-12)
@@ -184,4 +188,4 @@ def test_a_lubricant_of_your_own_takes_its_density_from_the_base_oil():
 def test_a_lubricant_that_is_none_is_refused(changes, message):
     given = {"base_oil": "mineral", "viscosity_40": "68 mm^2/s", "viscosity_100": "8.7 mm^2/s"}
     with pytest.raises(InputError, match=rf"^operation\.lubricant\.{message}"):
-        lubricant({**given, **changes}, text_only=True)
+        resolve(Lubricant, {**given, **changes}, {"text_only": True})

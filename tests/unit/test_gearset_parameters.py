@@ -9,7 +9,6 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import Gearset
-from asperity.gearset.lubricants import lubricant
 from asperity.rating.parameters import Operation
 from asperity.shipped import describe, shipped_cases
 
@@ -188,7 +187,7 @@ def test_the_thesis_gearsets_ship_with_its_sliding_velocities(
     assert radius * run.worm_speed / cos(g.lead_angle) == pytest.approx(sliding_velocity, abs=5e-4)
     assert g.profile_shift == pytest.approx(profile_shift, abs=5e-5)
     assert run.output_torque == torque
-    assert lubricant(run.lubricant).base_oil == "mineral"
+    assert run.lubricant.base_oil == "mineral"
     assert "Gearset" in describe(shipped_cases()[name])
 
 

@@ -16,14 +16,16 @@ key ``from`` names the source of each value by key, with ``"*"`` for all others:
     from = { "*" = "maker" }
 
 Files of your own are named in the environment variable ``ASPERITY_MATERIALS`` (several with the
-separator of ``PATH``), or given as ``files``. The last file that has a name wins.
+separator of ``PATH``). The last file that has a name wins.
 """
 
 import functools
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar
+
+from pydantic import Field
 
 from asperity import store
 from asperity.casefile import Table
@@ -47,8 +49,26 @@ _SHIPPED = Path(__file__).parent / "data"
 _TEXT_ONLY = {"text_only": True}
 
 
-T = TypeVar("T", bound=Table)
-Files = Iterable[str | os.PathLike[str]]
+class Sourced(Table):
+    """What a data file holds by name, each value with its source.
+
+    Attributes
+    ----------
+    section : str
+        The table of a data file that holds it.
+    """
+
+    section: ClassVar[str]
+
+    name: str = ""
+    sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
+
+    def source(self, key: str) -> Source:
+        """Return where a value comes from."""
+        return self.sources.get(key, GIVEN)
+
+
+T = TypeVar("T", bound=Sourced)
 
 
 class _Entry(NamedTuple):
@@ -60,42 +80,24 @@ class _Entry(NamedTuple):
 _Library = Mapping[tuple[str, str], _Entry]
 
 
-def find(section: str, name: str, model: type[T], files: Files = ()) -> T:
-    """Return a named thing.
-
-    Parameters
-    ----------
-    section : {'wheel', 'worm', 'base_oil', 'lubricant', 'bearings'}
-        What it is.
-    name : str
-        Its name in a data file.
-    model : type
-        The class that holds it.
-    files : iterable of path
-        Data files of your own, beside those of the environment variable.
+def find(model: type[T], name: str) -> T:
+    """Return a thing by the name it has in a data file.
 
     Raises
     ------
     InputError
         There is none of that name, or a data file is wrong.
     """
-    found = _find(section, name, model, _stamps(files))
+    found = _find(model, name, _stamps())
     assert isinstance(found, model)
     return found
 
 
-def names(section: str, files: Files = ()) -> tuple[str, ...]:
-    """Return the names that :func:`find` knows."""
-    return tuple(name for kind, name in _library(_stamps(files)) if kind == section)
-
-
-def resolve(
-    section: str, value: object, model: type[T], context: Any = None, files: Files = ()
-) -> T:
+def resolve(model: type[T], value: object, context: Any = None) -> T:
     """Return the thing that a name or an inline table of a case stands for."""
     if isinstance(value, str):
         try:
-            return find(section, value, model, files)
+            return find(model, value)
         except InputError as error:
             raise InputError(f"{model.table} is {value!r}; {error}") from None
     if isinstance(value, Mapping):
@@ -111,8 +113,8 @@ _Stamps = tuple[tuple[Path, int], ...]
 
 
 @functools.lru_cache(maxsize=256)
-def _find(section: str, name: str, model: type[Table], stamps: _Stamps) -> Table:
-    library = _library(stamps)
+def _find(model: type[Sourced], name: str, stamps: _Stamps) -> Sourced:
+    section, library = model.section, _library(stamps)
     if (section, name) not in library:
         known = [other for kind, other in library if kind == section]
         raise InputError(f"no {SECTIONS[section]} of that name is known{nearest(name, known)}")
@@ -125,11 +127,9 @@ def _find(section: str, name: str, model: type[Table], stamps: _Stamps) -> Table
         raise InputError(f'{entry.file}: [{section}."{name}"]: {error}') from None
 
 
-def _stamps(files: Files) -> _Stamps:
-    own = [Path(text) for text in os.environ.get(VARIABLE, "").split(os.pathsep) if text]
-    own += [Path(file) for file in files]
+def _stamps() -> _Stamps:
     stamps = []
-    for path in own:
+    for path in map(Path, filter(None, os.environ.get(VARIABLE, "").split(os.pathsep))):
         try:
             stamps.append((path.absolute(), path.stat().st_mtime_ns))
         except OSError as error:

@@ -1,15 +1,13 @@
 """Base oils and lubricants, in SI units, each value with its source."""
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from asperity.casefile import Table
 from asperity.errors import InputError
 from asperity.gearset import oil
-from asperity.gearset.library import GIVEN, Files, find, resolve
+from asperity.gearset.library import Sourced, find
 from asperity.gearset.materials import BaseOilName
 from asperity.gearset.symbols import THINNEST
 from asperity.sources import Source
@@ -29,7 +27,7 @@ Viscosity = Annotated[
 ]
 
 
-class BaseOil(Table):
+class BaseOil(Sourced):
     r"""A class of base oils.
 
     Parameters
@@ -51,8 +49,8 @@ class BaseOil(Table):
     """
 
     table: ClassVar[str] = "base_oil"
+    section: ClassVar[str] = "base_oil"
 
-    name: str
     pressure_viscosity: Annotated[
         float, Quantity("m^2/N", what="a coefficient", example="1.7e-8 m^2/N", gt=0)
     ]
@@ -64,14 +62,9 @@ class BaseOil(Table):
         float, Quantity("K", what="a temperature", example="90 degC", gt=_ZERO_CELSIUS)
     ]
     density_15: Density
-    sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
-
-    def source(self, key: str) -> Source:
-        """Return where a value comes from."""
-        return self.sources.get(key, GIVEN)
 
 
-class Lubricant(Table):
+class Lubricant(Sourced):
     r"""A lubricating oil.
 
     Parameters
@@ -91,14 +84,13 @@ class Lubricant(Table):
     """
 
     table: ClassVar[str] = "operation.lubricant"
+    section: ClassVar[str] = "lubricant"
 
-    name: str = ""
     base_oil: BaseOilName
     viscosity_40: Viscosity
     viscosity_100: Viscosity
     density_15: Density | None = None
     assumption: str | None = None
-    sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
 
     @model_validator(mode="after")
     def _thinner_when_hot(self) -> Self:
@@ -113,12 +105,12 @@ class Lubricant(Table):
         """Return where a value comes from."""
         if key == "density_15" and self.density_15 is None:
             return self.base.source(key)
-        return self.sources.get(key, GIVEN)
+        return super().source(key)
 
     @property
     def base(self) -> BaseOil:
         """The class of its base oil."""
-        return base_oil(self.base_oil)
+        return find(BaseOil, self.base_oil)
 
     @property
     def assumed(self) -> Mapping[str, str]:
@@ -130,7 +122,7 @@ class Lubricant(Table):
             assumed["lubricant.density_15"] = (
                 f"{self.base.density_15:g} kg/m^3, typical of {self.base_oil} oil"
             )
-        return MappingProxyType(assumed)
+        return assumed
 
     def kinematic_viscosity(self, temperature: Any) -> Any:
         """Kinematic viscosity in m²/s at a temperature in K; a number or an array.
@@ -159,28 +151,3 @@ class Lubricant(Table):
             oil.VISCOSITY.violation(nu),
         )
         return [sentence for sentence in found if sentence is not None]
-
-
-def base_oil(name: str, files: Files = ()) -> BaseOil:
-    """Return a class of base oils by name."""
-    return find("base_oil", name, BaseOil, files)
-
-
-def lubricant(given: object, files: Files = (), *, text_only: bool = False) -> Lubricant:
-    """Return the lubricant that a name or a table of values stands for.
-
-    Parameters
-    ----------
-    given : str or mapping or Lubricant
-        As in ``operation.lubricant``.
-    files : iterable of path
-        Data files of your own.
-    text_only : bool
-        Whether quantities of a table must be text with a unit, as in a case file.
-
-    Raises
-    ------
-    InputError
-        It is not known (with the near name), or its values cannot be used.
-    """
-    return resolve("lubricant", given, Lubricant, {"text_only": text_only}, files)

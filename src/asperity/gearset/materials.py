@@ -3,11 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from asperity.casefile import Table
-from asperity.gearset.library import GIVEN, Files, find
-from asperity.sources import Source
+from asperity.gearset.library import Sourced
 from asperity.units import Quantity
 
 Modulus = Annotated[float, Quantity("Pa", what="a modulus", example="122.6 GPa", gt=0)]
@@ -26,7 +22,7 @@ WormClass = Literal["cast iron", "0.4C steel", "0.55C steel", "case-hardened C s
 Casting = Literal["sand", "chill", "centrifugal"]
 
 
-class Material(Table):
+class Material(Sourced):
     r"""What worm and wheel have in common.
 
     Parameters
@@ -41,14 +37,8 @@ class Material(Table):
         Where each value comes from, by key.
     """
 
-    name: str = ""
     youngs_modulus: Modulus
     poisson_ratio: Poisson
-    sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
-
-    def source(self, key: str) -> Source:
-        """Return where a value comes from."""
-        return self.sources.get(key, GIVEN)
 
 
 class WheelMaterial(Material):
@@ -75,6 +65,7 @@ class WheelMaterial(Material):
     """
 
     table: ClassVar[str] = "gearset.wheel_material"
+    section: ClassVar[str] = "wheel"
 
     family: Family
     material_factor: Factor
@@ -99,16 +90,7 @@ class WormMaterial(Material):
     """
 
     table: ClassVar[str] = "gearset.worm_material"
+    section: ClassVar[str] = "worm"
 
     bs721: WormClass | None = None
     hardened: bool = False
-
-
-def wheel_material(name: str, files: Files = ()) -> WheelMaterial:
-    """Return a wheel material by name; ``files`` are data files of your own."""
-    return find("wheel", name, WheelMaterial, files)
-
-
-def worm_material(name: str, files: Files = ()) -> WormMaterial:
-    """Return a worm material by name; ``files`` are data files of your own."""
-    return find("worm", name, WormMaterial, files)

@@ -6,7 +6,7 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula
-from asperity.gearset.symbols import k_rho, nu_40, nu_100, nu_M, rho_15, rho_M, theta
+from asperity.gearset.symbols import k_rho, nu_40, nu_100, rho_15, theta
 from asperity.sources import Range, Source
 
 FORMULAS = Source("ISO/TR 14521:2010, DIN 3996:2012", "one source")
@@ -59,15 +59,3 @@ def density(oil_temperature: theta, density_15: rho_15, density_coefficient: k_r
     862.82
     """
     return density_15 / (1.0 + density_coefficient * (oil_temperature - 15.0))
-
-
-@formula(symbol="eta_0M", unit="Pa s", equation="1e-6 nu_M rho_M", source=FORMULAS)
-def dynamic_viscosity(kinematic_viscosity: nu_M, density: rho_M) -> Real:
-    """Dynamic viscosity.
-
-    Examples
-    --------
-    >>> round(dynamic_viscosity(100.0, 890.0), 12)
-    0.089
-    """
-    return kinematic_viscosity * density * 1e-6

@@ -154,10 +154,10 @@ class Gearset(Table):
         if not isinstance(data, Mapping):
             return data
         named = dict(data)
-        for section, model in (("worm", WormMaterial), ("wheel", WheelMaterial)):
-            key = f"{section}_material"
+        for model in (WormMaterial, WheelMaterial):
+            key = f"{model.section}_material"
             if key in named:
-                named[key] = resolve(section, named[key], model, info.context)
+                named[key] = resolve(model, named[key], info.context)
         return named
 
     @model_validator(mode="after")

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 from asperity.casefile import Table
 from asperity.errors import InputError, shown
 from asperity.gearset.bearings import Bearings
-from asperity.gearset.library import resolve
+from asperity.gearset.library import find, resolve
 from asperity.gearset.lubricants import Lubricant
 from asperity.units import Quantity
 
@@ -134,9 +134,7 @@ class Operation(Table):
     lubrication: Literal["bath", "spray"] = "bath"
     oil_temperature: Temperature | None = None
     ambient_temperature: Temperature = 293.15
-    bearings: Bearings = Field(
-        default_factory=lambda: resolve("bearings", "fixed-floating", Bearings)
-    )
+    bearings: Bearings = Field(default_factory=lambda: find(Bearings, "fixed-floating"))
     bearing_span: (
         Annotated[float, Quantity("m", what="a length", example="110 mm", gt=0)] | None
     ) = None
@@ -153,12 +151,12 @@ class Operation(Table):
             return data
         named = dict(data)
         if "lubricant" in named:
-            named["lubricant"] = resolve("lubricant", named["lubricant"], Lubricant, info.context)
+            named["lubricant"] = resolve(Lubricant, named["lubricant"], info.context)
         if named.get("duty_cycle") is not None:
             named["duty_cycle"] = _steps(named["duty_cycle"], info.context)
         if "bearings" in named:
             try:
-                named["bearings"] = resolve("bearings", named["bearings"], Bearings, info.context)
+                named["bearings"] = resolve(Bearings, named["bearings"], info.context)
             except InputError as error:
                 raise InputError(f"operation.{error}") from None
         return named
