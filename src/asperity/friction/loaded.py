@@ -61,8 +61,8 @@ def slip_back(wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law):
 
     Held at the limit all along, the asperity turns faster than one that is held at the end, which
     is too long by half the overshoot :math:`o` on average: it is turned on by
-    :math:`o/(s_{max,0} + s_{max,1})` of the slip, times the share of the step in which it is held.
-    The scheme is of order two by it, and since friction turns towards the slip, loses no less.
+    :math:`o/(s_{max,0} + s_{max,1})` of the slip. The scheme is of order two by it, and since
+    friction turns towards the slip, loses no less.
     """
     start = math.sqrt(sx * sx + sy * sy)
     size = math.sqrt(wx * wx + wy * wy)
@@ -72,9 +72,8 @@ def slip_back(wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law):
     if over <= 0.0:
         return wx, wy
     if exponent != 0.0 and sx * dy != sy * dx:
-        gap = max(limit_0 - start, 0.0)
         turn = turning_rate(sx, sy, dx, dy, limit_1, exponent, law)
-        turn *= over * over / ((over + gap) * (limit_0 + limit_1) * above)
+        turn *= over / ((limit_0 + limit_1) * above)
         wx += turn * dx
         wy += turn * dy
         size = math.sqrt(wx * wx + wy * wy)

@@ -44,13 +44,12 @@ def _slip_back_slope(
     if over <= 0.0:
         return ux, uy
     if exponent != 0.0 and sx * dy != sy * dx:
-        gap = max(limit_0 - start, 0.0)
         rate = turning_rate(sx, sy, dx, dy, limit_1, exponent, law)
-        rate /= (over + gap) * (limit_0 + limit_1) * above
-        turn = rate * over * over
+        rate /= (limit_0 + limit_1) * above
+        turn = rate * over
         qx, qy, grow = _turning_slope(sx, sy, dx, dy, limit_1, exponent, law)
         over_t = (wx * ux + wy * uy) / size - above * rise
-        turn_t = rate * over * (over + 2.0 * gap) / (over + gap) * over_t
+        turn_t = rate * over_t
         turn_t += turn * (qx * tx + qy * ty + (grow - 1.0 / (limit_0 + limit_1)) * rise)
         ux += turn * tx + turn_t * dx
         uy += turn * ty + turn_t * dy
