@@ -5,7 +5,7 @@ import pytest
 
 from asperity.compiled import kernel
 from asperity.errors import InputError
-from asperity.friction import LAWS, SPLIT, UNSPLIT, VECTOR, Friction, update
+from asperity.friction import KEEPS, LAWS, SPLIT, UNSPLIT, VECTOR, Friction, update
 from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import (
     OVERSHOOT_BOUND,
@@ -295,3 +295,35 @@ def test_coulomb_friction_needs_no_limit_and_has_none():
 )
 def test_friction_that_makes_no_sense_is_refused(entries, message):
     assert message in refusal(mu=0.1, max_deflection=1e-7, **entries)
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        ({"model": "springs", "exponent": 0.5}, "friction.exponent is 0.5; springs have none"),
+        ({"model": "springs", "law": "split"}, "friction.law is 'split'; springs"),
+        ({"model": "springs", "keeps": "deflection"}, "springs keep their stiffness"),
+        ({"model": "dahl", "springs": 8}, "friction.springs is for model 'springs'"),
+        ({"model": "springs", "springs": 0}, "friction.springs is 0"),
+        ({"model": "springs", "springs": 257}, "friction.springs is 257"),
+        ({"model": "springs", "springs": 8.5}, "friction.springs is 8.5"),
+        ({"load_exponent": 0.0}, "friction.load_exponent is 0"),
+        ({"load_exponent": 2.5}, "friction.load_exponent is 2.5"),
+        ({"keeps": "all"}, "friction.keeps is 'all'"),
+    ],
+)
+def test_springs_and_loads_are_checked(entries, words):
+    assert words in refusal(mu=0.1, max_deflection=1e-7, **entries)
+
+
+def test_coulomb_friction_keeps_nothing():
+    assert "friction.keeps is for asperities" in refusal(
+        model="coulomb", mu=0.1, keeps="deflection"
+    )
+
+
+@pytest.mark.parametrize("model", ["dahl", "lugre"])
+def test_an_asperity_keeps_its_stiffness_unless_told(model):
+    assert Friction(model=model, mu=0.1, max_deflection=1e-7).keeps_code == KEEPS["stiffness"]
+    kept = Friction(model=model, mu=0.1, max_deflection=1e-7, keeps="deflection")
+    assert kept.keeps_code == KEEPS["deflection"]

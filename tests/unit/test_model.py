@@ -219,3 +219,10 @@ def test_a_square_wave_needs_a_fine_step_only_for_its_flanks():
     model = body(friction=DAHL | {"max_deflection": 1e-6}, vibration=square)
     assert model.step == pytest.approx(2e-6)
     assert 0.0 < solve(model, history=False).ratio < 1.0
+
+
+@pytest.mark.parametrize("entry", [{"model": "springs"}, {"load_exponent": 2 / 3}])
+def test_what_a_changing_normal_force_is_needed_for_is_refused_under_a_constant_one(entry):
+    assert "that of [slider] is constant" in refusal(body, friction=DAHL | entry).replace(
+        "the normal force of", "that of"
+    )

@@ -2,11 +2,12 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
 from asperity.friction.dahl import LAWS
+from asperity.friction.loaded import KEEPS
 from asperity.units import Quantity
 
 
@@ -15,9 +16,9 @@ class Friction(Table):
 
     Parameters
     ----------
-    model : {'coulomb', 'dahl', 'lugre'}
-        Rigid Coulomb friction, Dahl's elastic asperity, or LuGre (Dahl with a Stribeck curve and
-        damping).
+    model : {'coulomb', 'dahl', 'lugre', 'springs'}
+        Rigid Coulomb friction, Dahl's elastic asperity, LuGre (Dahl with a Stribeck curve and
+        damping), or plastic asperities at the heights that carry the normal law.
     mu : float
         Coefficient of kinetic friction :math:`\mu > 0`.
     max_deflection : float or str, optional
@@ -38,6 +39,14 @@ class Friction(Table):
         LuGre: :math:`v_s`, m/s; 0 for no Stribeck effect.
     contact_damping, viscous_damping : float or str
         LuGre: :math:`h_t` on the deflection's rate and :math:`h_v` on the slip, N s/m.
+    keeps : {'stiffness', 'deflection'}
+        What Dahl's and LuGre's asperities keep where the normal force changes, see
+        `asperity.friction.loaded`. ``deflection`` gains energy.
+    springs : int
+        Number of springs, 1..256.
+    load_exponent : float
+        :math:`n` of friction :math:`\sim F_N^n` where the normal force changes, above 0 to 2; 1 is
+        Coulomb's, 2/3 an area that grows as that of Hertz.
     """
 
     table: ClassVar[str] = "friction"
@@ -45,7 +54,7 @@ class Friction(Table):
         ("max_deflection", "tangential_stiffness"),
     )
 
-    model: Literal["coulomb", "dahl", "lugre"] = "dahl"
+    model: Literal["coulomb", "dahl", "lugre", "springs"] = "dahl"
     mu: Annotated[
         float, Quantity("", what="a coefficient of friction", example="0.1", gt=0, le=100)
     ]
@@ -72,6 +81,12 @@ class Friction(Table):
         float, Quantity("N s/m", what="a damping", example="0.4 N s/m", ge=0)
     ] = 0.0
 
+    keeps: Literal["stiffness", "deflection"] = "stiffness"
+    springs: Annotated[int, Field(strict=True, ge=1, le=256)] = 16
+    load_exponent: Annotated[
+        float, Quantity("", what="an exponent", example="0.667", gt=0, le=2)
+    ] = 1.0
+
     @model_validator(mode="after")
     def _consistent(self) -> "Friction":
         given = self.model_fields_set
@@ -81,6 +96,18 @@ class Friction(Table):
                 f"friction.max_deflection is missing; model '{self.model}' needs it, or "
                 "friction.tangential_stiffness"
             )
+        if self.model != "springs" and "springs" in given:
+            raise InputError(
+                f"friction.springs is for model 'springs'; the model is '{self.model}': leave it "
+                "out or change friction.model"
+            )
+        if self.model == "coulomb" and "keeps" in given:
+            raise InputError(
+                "friction.keeps is for asperities that deflect; those of model 'coulomb' do not, "
+                "and their friction follows the normal force: leave it out"
+            )
+        if self.model == "springs":
+            self._as_springs()
         if self.model != "lugre":
             for key in ("static_mu", "stribeck_velocity", "contact_damping", "viscous_damping"):
                 if key in given and getattr(self, key):
@@ -102,10 +129,33 @@ class Friction(Table):
             )
         return self
 
+    def _as_springs(self) -> None:
+        """Refuse what springs have none of."""
+        if self.exponent != 1.0:
+            raise InputError(
+                f"friction.exponent is {self.exponent:g}; springs have none, how they yield "
+                "follows from the normal law (linear as exponent 0, hertz 1/3, rough 1): leave it "
+                "out"
+            )
+        if self.law != "vector":
+            raise InputError(
+                f"friction.law is '{self.law}'; springs yield along their deflection, which is "
+                "'vector': leave it out"
+            )
+        if self.keeps != "stiffness":
+            raise InputError(
+                f"friction.keeps is '{self.keeps}'; springs keep their stiffness: leave it out"
+            )
+
     @property
     def law_code(self) -> int:
         """Number of the law in the compiled kernels."""
         return LAWS[self.law]
+
+    @property
+    def keeps_code(self) -> int:
+        """Number of what the asperities keep in the compiled kernels."""
+        return KEEPS[self.keeps]
 
     def deflection_limit(self, normal_force: float) -> float:
         r""":math:`s_{max}`, m, under a normal force in N."""

@@ -66,6 +66,17 @@ class Model:
     def __post_init__(self) -> None:
         if self.vibration is not None and self.shape is None:
             object.__setattr__(self, "shape", self.vibration.shape())
+        if self.friction.model == "springs":
+            raise InputError(
+                "friction.model is 'springs', which follow a normal force that changes; that of "
+                "[slider] is constant: use 'dahl', whose exponents 0, 1/3 and 1 are the first "
+                "loadings of flat, Hertz and rough contacts"
+            )
+        if self.friction.load_exponent != 1.0:
+            raise InputError(
+                f"friction.load_exponent is {self.friction.load_exponent:g}; the normal force of "
+                "[slider] is constant, so that nothing follows from it: leave it out"
+            )
         if self.solve.scheme == "two-phase" and (
             self.friction.model != "dahl" or self.friction.law != "split"
         ):
