@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from asperity.compiled import kernel
+from asperity.contact.interface.friction import PointFriction
 from asperity.errors import InputError
 from asperity.friction import KEEPS, LAWS, SPLIT, UNSPLIT, VECTOR, Friction, update
 from asperity.friction.coulomb import mean_share, project
@@ -327,3 +328,11 @@ def test_an_asperity_keeps_its_stiffness_unless_told(model):
     assert Friction(model=model, mu=0.1, max_deflection=1e-7).keeps_code == KEEPS["stiffness"]
     kept = Friction(model=model, mu=0.1, max_deflection=1e-7, keeps="deflection")
     assert kept.keeps_code == KEEPS["deflection"]
+
+
+def test_a_point_of_an_elastic_contact_does_not_claim_to_keep_its_stiffness():
+    given = {"mu": 0.1, "max_deflection": 1e-7}
+    for entries in ({}, {"keeps": "deflection"}):
+        assert PointFriction.of(Friction(**given, **entries), 55.0).limit == 1e-7
+    with pytest.raises(InputError, match="keep their deflection so far"):
+        PointFriction.of(Friction(**given, keeps="stiffness"), 55.0)

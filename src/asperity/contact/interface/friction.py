@@ -270,6 +270,11 @@ class PointFriction:
         two_phase : bool
             Advance Dahl's law by the thesis's explicit phases.
         """
+        if "keeps" in friction.model_fields_set and friction.keeps == "stiffness":
+            raise InputError(
+                "friction.keeps is 'stiffness'; the points of an elastic contact keep their "
+                "deflection so far: leave it out or give 'deflection'"
+            )
         full = friction.mu * normal_force
         if not full > 0.0:
             raise InputError(f"normal force is {normal_force:g} N; it must be positive")
