@@ -18,7 +18,7 @@ from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
 from asperity.casefile import read_case
-from asperity.flanks.export.brep import require_cad
+from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.step import write_step
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body

@@ -142,34 +142,6 @@ def test_area_of_facets_converges_with_order_two_to_that_of_the_flank(flank):
     assert orders[-1] == pytest.approx(2.0, abs=0.1)
 
 
-def _polygon(points):
-    x, y = points.T
-    return 0.5 * float(np.sum(np.roll(x, -1) * y - x * np.roll(y, -1)))
-
-
-def test_section_of_a_tooth_converges_with_order_two_to_its_area(wheel):
-    exact = wheel.section_area([2.0])[0]
-    errors = []
-    for n in (10, 20, 40, 80):
-        outline = np.vstack([wheel.outline(2.0, n), [0.0, 0.0]])
-        errors.append(_polygon(outline) - exact)
-    orders = np.log2(np.abs(np.array(errors[:-1]) / errors[1:]))
-    assert orders[-1] == pytest.approx(2.0, abs=0.1)
-
-
-def test_volume_of_a_tooth_converges_and_falls_by_the_bore(wheel):
-    g = wheel.pair.geometry
-    volume = wheel.volume()
-    assert wheel.volume(points=24) == pytest.approx(volume, rel=1e-9)
-    inner = g.wheel_root_diameter / 2.0 - g.rim_thickness
-    ring = math.pi * ((inner + 1.0) ** 2 - inner**2) * g.wheel_face_width / g.wheel_teeth
-    assert volume - wheel.volume(inner + 1.0) == pytest.approx(ring, rel=1e-12)
-    # A tooth and its space share the height about half and half.
-    full = math.pi / g.wheel_teeth * g.wheel_face_width
-    disc = full * ((g.wheel_reference_diameter / 2.0) ** 2 - inner**2)
-    assert volume == pytest.approx(disc, rel=0.1)
-
-
 def _cases():
     drawn = random.Random(4)
     for _ in range(60):

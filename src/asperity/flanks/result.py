@@ -38,13 +38,7 @@ _WORST = {
 
 
 class ToothMesh(Quantities):
-    """One tooth with its share of the rim, and how good its hexahedra are.
-
-    Attributes
-    ----------
-    hexahedra : HexMesh
-        The mesh, mm.
-    """
+    """One tooth with its share of the rim in mm, and how good its hexahedra are."""
 
     density: str = quantity("", "", "density", shown=False)
     element_size: float = quantity("", "mm", "element size on the flank")
@@ -230,15 +224,7 @@ class FlankStudy(Result):
                 yield f"{words}: {listed}"
 
     def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
-        """Write numbers, pictures, meshes and bodies to a folder that exists; return their names.
-
-        Raises
-        ------
-        MissingExtraError
-            STEP is asked for and the ``cad`` extra is not installed.
-        StorageError
-            A file cannot be written.
-        """
+        """Write numbers, pictures, meshes and bodies to a folder that exists; return names."""
         from asperity.flanks.export.files import write_bodies
 
         return [

@@ -7,8 +7,7 @@ from typing import TypeVar
 from asperity.casefile import Case, Table
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
-from asperity.flanks.export.brep import require_cad
-from asperity.flanks.export.views import require_view
+from asperity.flanks.export.extras import require_cad, require_view
 from asperity.flanks.mesh.density import read_density
 from asperity.flanks.mesh.tooth import element_size, tooth
 from asperity.flanks.meshing import lubrication
@@ -41,24 +40,8 @@ T = TypeVar("T", bound=Table)
 class Prepared:
     """What a study begins with; what can be refused without much work has been.
 
-    Attributes
-    ----------
-    gearset : Gearset
-        The gearset.
-    hob, disc : Hob, Disc or None
-        How it is cut and ground.
-    wheel : Wheel
-        The wheel as it is cut.
-    mesh : ToothMesh
-        One tooth.
-    seconds : float
-        What it took.
-    load : Load or None
-        What it runs under.
-    notes : tuple of str
-        What is to be said of the load.
-    step : bool
-        Whether its files are to hold tooth and worm as STEP.
+    The notes are of the load; ``step`` says whether its files are to hold tooth and worm as STEP,
+    ``seconds`` what it took.
     """
 
     gearset: Gearset

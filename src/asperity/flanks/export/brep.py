@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import ConvergenceError, MissingExtraError
+from asperity.errors import ConvergenceError
+from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body, Patch
 
 SEWING_TOLERANCE = 1e-6
@@ -22,20 +23,9 @@ _INTEGRATION = 1e-9
 
 @dataclass(frozen=True)
 class Check:
-    """What is known of a solid.
+    """What is known of a solid, in mm; its volume is positive where its outside is outside.
 
-    Attributes
-    ----------
-    valid : bool
-        Whether Open CASCADE finds nothing wrong with it.
-    free_edges : int
-        Edges that do not join exactly two faces; none in a closed solid.
-    faces : int
-        Number of its faces.
-    volume : float
-        Its volume, mm^3; positive where it is oriented with its outside outside.
-    area : float
-        The area of its skin, mm^2.
+    Free edges do not join exactly two faces: a closed solid has none.
     """
 
     valid: bool
@@ -45,33 +35,9 @@ class Check:
     area: float
 
 
-def require_cad() -> None:
-    """Raise unless the ``cad`` extra is installed.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not.
-    """
-    try:
-        import OCP.Geom  # noqa: F401
-    except ImportError as error:
-        raise MissingExtraError(
-            f"STEP needs the cad extra ({error}): pip install asperity[cad]"
-        ) from error
-
-
 @dataclass(frozen=True)
 class Solid:
-    """A solid and what is known of it.
-
-    Attributes
-    ----------
-    shape : OCP.TopoDS.TopoDS_Solid
-        As Open CASCADE knows it.
-    check : Check
-        What was found when it was made.
-    """
+    """A solid as Open CASCADE knows it, and what was found when it was made."""
 
     shape: Any
     check: Check
@@ -82,8 +48,6 @@ def solid(body: Body) -> Solid:
 
     Raises
     ------
-    MissingExtraError
-        The ``cad`` extra is not installed.
     ConvergenceError
         The faces do not close, or the solid is not valid.
     """

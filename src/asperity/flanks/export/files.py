@@ -5,7 +5,7 @@ from pathlib import Path
 
 from asperity.errors import MissingExtraError
 from asperity.flanks.export import views
-from asperity.flanks.export.brep import require_cad
+from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.step import write_step
 from asperity.flanks.export.together import centred_teeth, mounted_worm
 from asperity.flanks.export.tooth import tooth_body
@@ -21,32 +21,10 @@ _TEETH = 5
 
 
 def write_bodies(wheel: Wheel, mesh: HexMesh, folder: Path, *, step: bool = False) -> list[str]:
-    """Write worm and wheel to a folder that exists, each file whole or not at all.
+    """Write worm and wheel to a folder that exists, each file whole or not at all; return names.
 
-    Views in space are left out where the ``view`` extra is not installed: `views.require_view`.
-
-    Parameters
-    ----------
-    wheel : Wheel
-        The wheel, and with its pair the worm.
-    mesh : HexMesh
-        One tooth.
-    folder : path
-        The folder.
-    step : bool
-        Also the tooth and the worm as STEP.
-
-    Returns
-    -------
-    list of str
-        Names of the files.
-
-    Raises
-    ------
-    MissingExtraError
-        STEP is asked for and the ``cad`` extra is not installed.
-    StorageError
-        A file cannot be written.
+    Views in space are left out where the ``view`` extra is not installed: `extras.require_view`.
+    ``step`` writes the tooth and the worm as STEP too, and needs the ``cad`` extra.
     """
     if step:
         require_cad()

@@ -76,14 +76,10 @@ class Patch:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body bounded by smooth patches and by planes, mm.
+    """A body bounded by smooth patches and by planes, mm; its name is for the files that hold it.
 
     Attributes
     ----------
-    name : str
-        What it is, for the files that hold it.
-    patches : sequence of Patch
-        Its smooth faces.
     rings : sequence of sequences of ndarray, shape (k, 3)
         The boundary of each plane face, counterclockwise seen from outside: rows of points, each
         the edge of a patch, that begins where the one before it ends.

@@ -6,25 +6,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from asperity.errors import StorageError
-from asperity.flanks.export.brep import Solid, require_cad, solid
+from asperity.flanks.export.brep import Solid, solid
+from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body
 from asperity.store import write_atomically
 
 
 def write_step(path: str | os.PathLike[str], body: Body) -> Solid:
-    """Write a body as one closed solid, atomically.
-
-    Parameters
-    ----------
-    path : path
-        File to write, usually ``*.step``.
-    body : Body
-        A worm, a tooth or a wheel; its name becomes the product's.
-
-    Returns
-    -------
-    Solid
-        What was written, with its volume and area.
+    """Write a body as one closed solid, atomically; its name becomes the product's.
 
     Raises
     ------
@@ -32,8 +21,6 @@ def write_step(path: str | os.PathLike[str], body: Body) -> Solid:
         The ``cad`` extra is not installed.
     ConvergenceError
         The body's faces do not close.
-    StorageError
-        The file cannot be written.
     """
     require_cad()
     from OCP.APIHeaderSection import APIHeaderSection_MakeHeader

@@ -8,14 +8,13 @@ from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.frame import turned
 
 
 def centred_teeth(wheel: Wheel, teeth: int) -> Body:
     """Return teeth on both sides of the one that stands in the worm's thread space."""
     angle = -2.0 * math.pi * (teeth // 2) / wheel.pair.geometry.wheel_teeth
-    cosine, sine = math.cos(angle), math.sin(angle)
-    back = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-    return tooth_body(wheel, teeth).moved(back)
+    return tooth_body(wheel, teeth).moved(turned(angle))
 
 
 def mounted_worm(wheel: Wheel) -> Body:

@@ -8,6 +8,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.frame import on_cylinder, turned
 
 FLANK_ERROR = 4e-7
 """Largest distance of the spline surfaces from the flanks, mm, but for corners of undercut."""
@@ -34,26 +35,10 @@ def tooth_body(wheel: Wheel, teeth: int = 1) -> Body:
     """Return teeth with the rim below them, cut in the middle of the tooth spaces.
 
     The first tooth is the one that stands in the worm's thread space at phase 0; each further one
-    follows on the side of the flank s = +1.
-
-    Parameters
-    ----------
-    wheel : Wheel
-        The cut wheel.
-    teeth : int
-        Number of teeth, 1 to that of the wheel; a whole wheel has no cuts.
-
-    Returns
-    -------
-    Body
-        In the gearset's own frame, mm, mirrored if it is left-handed. For each tooth and each part
-        of the face width between the kinks of the blank: roots, fillets, flanks, tip, inside of
-        the rim; i runs round the tooth, j along the wheel's axis.
-
-    Raises
-    ------
-    InputError
-        A number of teeth that the wheel has not, or a flank that cannot be cut.
+    follows on the side of the flank s = +1, and a whole wheel has no cuts. In the gearset's own
+    frame, mm, mirrored if it is left-handed. For each tooth and each part of the face width between
+    the kinks of the blank there are roots, fillets, flanks, tip and inside of the rim; i runs round
+    the tooth, j along the wheel's axis.
     """
     most = wheel.pair.geometry.wheel_teeth
     if not 1 <= teeth <= most:
@@ -73,7 +58,7 @@ def tooth_body(wheel: Wheel, teeth: int = 1) -> Body:
         # The whole wheel closes: its first cut is its last.
         inside = {"cut_minus"} if number or teeth == most else set()
         inside |= {"cut_plus"} if number + 1 < teeth or teeth == most else set()
-        turn = _turned(2.0 * math.pi * number / most)
+        turn = turned(2.0 * math.pi * number / most)
         for band in bands:
             kept = [grid for name, grid in band.items() if name not in inside]
             patches += [Patch(grid @ turn.T) for grid in kept]
@@ -123,11 +108,11 @@ def _outline(wheel: Wheel, z: FloatArray, steps: int) -> dict[str, FloatArray]:
     first, last = sides[-1][0].angle[0], sides[1][0].angle[0]
     left, right = sides[-1][2].angle[-1], sides[1][2].angle[-1]
     tip = wheel.blank.tip_radius(z)
-    below = [_cylinder(inner, angle[None], z) for angle in (first, last)]
+    below = [on_cylinder(inner, angle[None], z) for angle in (first, last)]
     share = np.linspace(0.0, 1.0, _ON_ARC)[:, None]
     middle = {
-        "tip": _cylinder(tip, right + share * (left - right), z),
-        "inner": _cylinder(inner, first + share * (last - first), z),
+        "tip": on_cylinder(tip, right + share * (left - right), z),
+        "inner": on_cylinder(inner, first + share * (last - first), z),
     }
     plus = [grid.points for grid in sides[1]]
     minus = [grid.points for grid in sides[-1]]
@@ -147,14 +132,3 @@ def _outline(wheel: Wheel, z: FloatArray, steps: int) -> dict[str, FloatArray]:
 
 def _rows(count: int, steps: int) -> int:
     return steps * (count - 1) + 1
-
-
-def _cylinder(radius: FloatArray | float, angle: FloatArray, z: FloatArray) -> FloatArray:
-    points = [radius * np.sin(angle), radius * np.cos(angle), np.broadcast_to(z, angle.shape)]
-    return np.stack(points, axis=-1)
-
-
-def _turned(angle: float) -> FloatArray:
-    """The matrix that turns from +Y towards +X."""
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.errors import MissingExtraError
+from asperity.flanks.export.extras import require_view
 from asperity.flanks.export.together import centred_teeth, mounted_worm
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
@@ -20,35 +20,9 @@ SIZE = (1600, 1200)
 _LIGHT = {"ambient": 0.2, "diffuse": 0.8, "specular": 0.25, "specular_power": 20.0}
 
 
-def require_view() -> None:
-    """Raise unless the ``view`` extra is installed.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not.
-    """
-    try:
-        import pyvista  # noqa: F401
-    except ImportError as error:
-        raise MissingExtraError(
-            f"pictures in space need the view extra ({error}): pip install asperity[view]"
-        ) from error
-
-
 @dataclass(frozen=True)
 class Camera:
-    """Where a picture is seen from.
-
-    Attributes
-    ----------
-    towards : tuple of 3 float
-        Direction from the body to the eye.
-    up : tuple of 3 float
-        What points up in the picture.
-    zoom : float
-        Enlargement of what just fits.
-    """
+    """Direction from the body to the eye, what points up, enlargement of what just fits."""
 
     towards: tuple[float, float, float]
     up: tuple[float, float, float]
@@ -61,15 +35,7 @@ _WHOLE = replace(_WHEEL, zoom=1.0)
 
 
 def pair_view(path: str | os.PathLike[str], wheel: Wheel, teeth: int = 9) -> Path:
-    """Draw the worm at phase 0 in several teeth of the wheel, as PNG.
-
-    Raises
-    ------
-    MissingExtraError
-        The ``view`` extra is not installed.
-    StorageError
-        The file cannot be written.
-    """
+    """Draw the worm at phase 0 in several teeth of the wheel, as PNG."""
     with _plotter(path, _WHEEL) as plotter:
         _add(plotter, mounted_worm(wheel).surface(), STEEL)
         _add(plotter, centred_teeth(wheel, teeth).surface(), BRONZE)
@@ -77,7 +43,7 @@ def pair_view(path: str | os.PathLike[str], wheel: Wheel, teeth: int = 9) -> Pat
 
 
 def mesh_view(path: str | os.PathLike[str], mesh: HexMesh) -> Path:
-    """Draw a mesh of teeth about the wheel's axis with its edges, as PNG; errors as above."""
+    """Draw a mesh of teeth about the wheel's axis with its edges, as PNG."""
     with _plotter(path, _WHOLE) as plotter:
         plotter.add_mesh(
             _polygons(mesh.points, mesh.skin()),

@@ -20,26 +20,12 @@ _ROOT_SPACING = 0.2
 
 
 def worm_body(pair: Pair, length: float | None = None) -> Body:
-    """Return the worm of a pair between two planes across its axis.
+    """Return the worm of a pair between two planes across its axis, of its own length or another.
 
-    Parameters
-    ----------
-    pair : Pair
-        The gearset; its worm is taken as it is, with the thickness that the backlash asks for.
-    length : float, optional
-        Length along the axis, mm; that of the gearset's worm if left out.
-
-    Returns
-    -------
-    Body
-        About the z axis, mm, the middle of a thread space at z = 0 on the x axis; mirrored if the
-        gearset is left-handed. For each start root, flank, rounding of the tip, land, rounding and
-        flank up to the root of the next; i runs round the axis, j along it.
-
-    Raises
-    ------
-    InputError
-        The length is not positive.
+    About the z axis, mm, the middle of a thread space at z = 0 on the x axis; mirrored if the
+    gearset is left-handed. Its threads are as thick as the backlash asks for. For each start root,
+    flank, rounding of the tip, land, rounding and flank up to the root of the next; i runs round
+    the axis, j along it.
     """
     worm = pair.worm
     length = pair.geometry.worm_face_width if length is None else length

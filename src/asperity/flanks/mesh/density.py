@@ -8,18 +8,7 @@ _MILLIMETRES = 1e3
 
 
 def read_density(text: str) -> str | float:
-    """Return a density by its name, or an element size on the flank in mm.
-
-    Parameters
-    ----------
-    text : str
-        ``coarse``, ``intermediate``, ``fine``, or a length such as ``0.5 mm``.
-
-    Raises
-    ------
-    InputError
-        It is neither.
-    """
+    """Return a density by its name, or an element size on the flank in mm from text."""
     if text in DENSITIES:
         return text
     expected = (

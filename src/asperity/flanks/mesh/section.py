@@ -41,17 +41,10 @@ def fill(
 ) -> Blocks:
     """Fill cross-sections with two blocks of quadrilaterals.
 
-    Parameters
-    ----------
-    first, second : ndarray, shape (k + 1, sections, 2)
-        The outline on each side of the tooth, from the cut to the tip; the angles of ``second``
-        are the larger ones.
-    split : int
-        Point of the outlines at which the tooth's block begins, in the middle of the fillets.
-    across, layers : int
-        Quadrilaterals through the tooth's thickness and through the rim.
-    inner : float
-        Inner radius of the rim, mm, below all of the outline.
+    ``first`` and ``second``, shape (k + 1, sections, 2), are the outlines on both sides of the
+    tooth from the cut to the tip, ``second`` at the larger angles. At their point ``split``, in the
+    middle of the fillets, the tooth's block begins. ``across`` the tooth and in ``layers`` of the
+    rim so many quadrilaterals lie; ``inner`` is the inner radius, mm, below all of the outline.
     """
     share = np.linspace(0.0, 1.0, across + 1)[None, :, None, None]
     low, high = first[split:, None], second[split:, None]

@@ -10,6 +10,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, choices, suggestion
 from asperity.flanks.mesh.section import Blocks, fill
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.frame import on_cylinder, turned
 from asperity.mesh import HexMesh
 from asperity.mesh.shape import REFERENCE_NODES
 
@@ -37,18 +38,8 @@ _OVER_FACE = 0.8
 class Counts(NamedTuple):
     """Hexahedra of one tooth along its directions.
 
-    Attributes
-    ----------
-    flank : int
-        Up the flank.
-    face : int
-        Over the face width.
-    thickness : int
-        Through the tooth.
-    rim : int
-        Through the rim.
-    land, low_fillet, high_fillet : int
-        Along half the root, and along the fillet's parts below and beside the tooth's block.
+    ``land`` is along half the root, ``low_fillet`` and ``high_fillet`` along the fillet's parts
+    below and beside the tooth's block.
     """
 
     flank: int
@@ -74,13 +65,7 @@ class Counts(NamedTuple):
 
 
 def element_size(wheel: Wheel, density: str) -> float:
-    """Return the element size of a named density, mm.
-
-    Raises
-    ------
-    InputError
-        There is no such density.
-    """
+    """Return the element size of a named density, mm."""
     if density not in DENSITIES:
         raise InputError(
             f"density is {density!r}; it must be one of {choices(DENSITIES)}"
@@ -121,11 +106,12 @@ def tooth(
     order: int = 1,
     memory: float = MEMORY,
 ) -> HexMesh:
-    """Return a mesh of structured hexahedra of wheel teeth with fillets and rim.
+    """Return a mesh of structured hexahedra of wheel teeth with fillets and rim, in mm.
 
     The nodes of the flanks, the fillets and the root lie on the exact surfaces, those of the tip on
     the blank. The first tooth is the one that stands in the worm's thread space at phase 0; each
-    further tooth follows at the pitch angle of the side ``s = +1`` and shares its cut face.
+    further tooth follows at the pitch angle of the side ``s = +1`` and shares its cut face, and a
+    whole wheel closes on itself.
 
     Parameters
     ----------
@@ -134,7 +120,7 @@ def tooth(
     size : float, {'coarse', 'intermediate', 'fine'} or Counts
         Element size on the flank, mm, a named density, or the numbers of elements themselves.
     teeth : int
-        Number of teeth, 1 to that of the wheel; a whole wheel closes on itself.
+        Number of teeth, 1 to that of the wheel.
     order : {1, 2}
         8 or 27 nodes a hexahedron.
     memory : float
@@ -143,16 +129,15 @@ def tooth(
     Returns
     -------
     HexMesh
-        In mm. Face and node sets: ``flank_plus`` and ``flank_minus`` (``s = +1, -1``),
-        ``fillet_plus``, ``fillet_minus`` (with the root), ``tip``, ``inner`` (the rim's inside),
-        ``cut_minus`` and ``cut_plus`` (in the middle of the tooth spaces), ``face_low`` and
-        ``face_high`` (the ends); with several teeth also ``flank_plus_0``, ``flank_plus_1`` ...
+        Face and node sets: ``flank_plus`` and ``flank_minus`` (``s = +1, -1``), ``fillet_plus``,
+        ``fillet_minus`` (with the root), ``tip``, ``inner`` (the rim's inside), ``cut_minus`` and
+        ``cut_plus`` (in the middle of the tooth spaces), ``face_low`` and ``face_high`` (the ends);
+        with several teeth also ``flank_plus_0``, ``flank_plus_1`` ...
 
     Raises
     ------
     InputError
-        A density or a number of teeth that does not exist, a mesh beyond the memory bound, or a
-        rim that leaves no valid elements.
+        A mesh beyond the memory bound, or a rim that leaves no valid elements.
     """
     most = wheel.pair.geometry.wheel_teeth
     if not 1 <= teeth <= most:
@@ -254,12 +239,9 @@ def _numbered(filled: tuple[Blocks, FloatArray]) -> tuple[FloatArray, _Lattice]:
     tooth: IntArray = np.empty(blocks.tooth.shape[:3], dtype=np.int64)
     tooth[0] = rim[blocks.first : blocks.first + tooth.shape[1], -1, :]
     tooth[1:] = rim.size + np.arange(upper[..., 0].size).reshape(*upper.shape[:3])
-    points = []
-    for block in (blocks.rim, upper):
-        radius, angle = block[..., 0], block[..., 1]
-        place = np.broadcast_to(z, radius.shape)
-        xyz = np.stack([radius * np.sin(angle), radius * np.cos(angle), place], axis=-1)
-        points.append(xyz.reshape(-1, 3))
+    points = [
+        on_cylinder(block[..., 0], block[..., 1], z).reshape(-1, 3) for block in (blocks.rim, upper)
+    ]
     return np.concatenate(points), _Lattice(rim, tooth.transpose(1, 0, 2))
 
 
@@ -310,9 +292,7 @@ def _repeated(one: HexMesh, lattice: _Lattice, teeth: int, most: int) -> HexMesh
     points = [one.points]
     maps = [np.arange(nodes)]
     for k in range(1, teeth):
-        turned = 2.0 * math.pi * k / most
-        cosine, sine = math.cos(turned), math.sin(turned)
-        matrix = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        turn = turned(2.0 * math.pi * k / most)
         number = np.empty(nodes, dtype=np.int64)
         number[low] = maps[-1][high]
         mine = own
@@ -321,7 +301,7 @@ def _repeated(one: HexMesh, lattice: _Lattice, teeth: int, most: int) -> HexMesh
             number[high] = low
             mine = np.setdiff1d(own, high)
         number[mine] = sum(map(len, points)) + np.arange(len(mine))
-        points.append(one.points[mine] @ matrix.T)
+        points.append(one.points[mine] @ turn.T)
         maps.append(number)
     whole = teeth == most
     sets = {}

@@ -62,22 +62,8 @@ class FlankAnalysis(Quantities):
 
     Attributes
     ----------
-    side : int
-        :math:`s`, 1 or -1.
-    transmission : Transmission
-        Transmission error over a pitch.
-    ease_off : EaseOff
-        Against the wheel of an identical hob.
-    pattern : Pattern
-        Contact pattern and smallest gap.
-    grid : FlankGrid
-        Points of the flank.
     motion : Kinematics
         Velocities and curvatures where each point is nearest to the worm.
-    share : VibrationShare
-        What each vibration direction touches of the sliding.
-    play : Play
-        Backlash and axial clearance.
     loaded : tuple of LoadedLines
         Contact lines under load at angles of the worm over a pitch; empty without a load.
     """
@@ -181,18 +167,10 @@ class FlankAnalysis(Quantities):
 
 
 class Analysis(Quantities):
-    """Both flanks of a wheel.
+    """Both flanks of a wheel, by side: 1 and -1.
 
-    Attributes
-    ----------
-    base_radius, base_lead_angle : float or None
-        None for flanks without a base cylinder.
-    play : Play
-        Backlash and axial clearance.
-    pair : Pair
-        Worm and wheel, the worm with the threads that leave the backlash asked for.
-    flanks : mapping of int to FlankAnalysis
-        By side, 1 and -1.
+    The worm of the pair has the threads that leave the backlash asked for. Base radius and base
+    lead angle are None for flanks without a base cylinder.
     """
 
     lead_angle: float = quantity("gamma", "deg", "lead angle")
@@ -222,25 +200,12 @@ def analyse(
     worm_speed: float = 1.0,
     load: Load | None = None,
 ) -> Analysis:
-    r"""Analyse the contact of a worm with its wheel, on both flanks.
+    """Analyse the contact of a worm with its wheel, on both flanks.
 
-    Parameters
-    ----------
-    pair : Pair
-        The worm and how it stands. Where it asks for a backlash, the thickness of its threads is
-        solved for; else it is as it is.
-    wheel : Wheel
-        The wheel as it is cut.
-    rows, columns : int
-        Points of the maps over a flank.
-    samples : int
-        Places of the wheel in a pitch.
-    thickness : float
-        Of the marking compound, mm.
-    worm_speed : float
-        :math:`\omega_1` of the velocities, rad/s; that of the load where there is one.
-    load : Load, optional
-        For load, pressure and film along the contact lines.
+    Where the pair asks for a backlash, the thickness of the worm's threads is solved for. Maps have
+    ``rows`` and ``columns`` of points, a pitch ``samples`` places of the wheel; the marking
+    compound is so thick (mm). Velocities are at the worm's speed (rad/s), that of the load where
+    there is one; with a load there are load, pressure and film along the contact lines.
 
     Raises
     ------

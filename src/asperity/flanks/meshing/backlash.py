@@ -19,6 +19,7 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.transmission import ToothSearch, Transmission
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.flank import RESOLVED
+from asperity.flanks.wheel.frame import on_cylinder
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, labelled, quantity
 
@@ -33,12 +34,8 @@ _CLOSE, _SWEPT = 201, 0.2
 class Play(Quantities):
     """The play of a worm between both flanks of the wheel, the least over a pitch.
 
-    Attributes
-    ----------
-    normal : dict of int to float
-        Normal backlash by the flank that bears, mm.
-    worm_angle, wheel_angle : float
-        Turn of the worm, the wheel held, and of the wheel, the worm held, rad.
+    The normal backlash is by the flank that bears, mm; the angles are the worm's turn with the
+    wheel held, and the wheel's with the worm held, rad.
     """
 
     normal: dict[int, float]
@@ -78,13 +75,7 @@ def normal_backlash(bearing: Transmission, other: ToothSearch) -> float:
 
 
 def play(meshes: dict[int, Transmission]) -> Play:
-    """Return the play of a mesh.
-
-    Parameters
-    ----------
-    meshes : dict of int to Transmission
-        The transmission on both flanks, 1 and -1, over the same places of the wheel.
-    """
+    """Return the play of a mesh from the transmission on both flanks, over the same places."""
     pair = meshes[1].search.pair
     turn = float((meshes[1].lead + meshes[-1].lead).min())
     return Play(
@@ -98,21 +89,12 @@ def play(meshes: dict[int, Transmission]) -> Play:
 def core_clearance(pair: Pair, blank: Blank) -> float:
     """Return the least distance of the wheel's tips to the worm's core as it is mounted, mm."""
     z, turn = blank.columns(_CLOSE), np.linspace(-_SWEPT, _SWEPT, _CLOSE)[:, None]
-    radius = blank.tip_radius(z)
-    tips = np.stack(np.broadcast_arrays(radius * np.sin(turn), radius * np.cos(turn), z), axis=-1)
-    place = pair.mounting.to_helicoid(tips)
+    place = pair.mounting.to_helicoid(on_cylinder(blank.tip_radius(z), turn, z))
     return float(np.hypot(place[..., 0], place[..., 1]).min()) - pair.worm.root_radius
 
 
 def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, Transmission]:
-    """Return a mesh whose worm threads have the thickness that leaves a normal backlash.
-
-    Parameters
-    ----------
-    meshes : dict of int to Transmission
-        The transmission on both flanks.
-    backlash : float
-        Least normal backlash with either flank bearing, mm.
+    """Return a mesh whose worm threads leave a normal backlash (mm), the least with either flank.
 
     Raises
     ------

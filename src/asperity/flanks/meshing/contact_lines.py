@@ -62,19 +62,7 @@ class ContactLines:
 def contact_lines(
     motion: Kinematics, grid: FlankGrid, starts: int, worm_angle: float
 ) -> ContactLines:
-    r"""Return the contact lines at an angle of the worm.
-
-    Parameters
-    ----------
-    motion : Kinematics
-        What holds at the points of a grid over the flank.
-    grid : FlankGrid
-        The grid.
-    starts : int
-        :math:`z_1`.
-    worm_angle : float
-        :math:`\varphi_1`, rad.
-    """
+    """Return the contact lines at an angle of the worm, rad, from what holds at a grid's points."""
     pitch = 2.0 * math.pi / starts
     first = math.ceil((float(motion.phase.min()) - worm_angle) / pitch)
     last = math.floor((float(motion.phase.max()) - worm_angle) / pitch)

@@ -41,14 +41,7 @@ class EaseOff(Quantities):
 
 
 def ease_off(flank: WheelFlank, grid: FlankGrid) -> EaseOff:
-    """Return the ease-off of a flank.
-
-    Parameters
-    ----------
-    flank : WheelFlank
-        The flank.
-    grid : FlankGrid
-        Points of it, a grid from `WheelFlank.grid`.
+    """Return the ease-off of a flank at the points of a grid over it.
 
     Raises
     ------

@@ -97,20 +97,10 @@ class Kinematics(Quantities):
 def kinematics(
     pair: Pair, grid: FlankGrid, side: int, worm_speed: float = 1.0, ahead: float = 0.0
 ) -> Kinematics:
-    r"""Return velocities and curvatures of the mesh at points of the wheel's flank.
+    r"""Return velocities and curvatures of the mesh at points of the wheel's flank ``side``.
 
-    Parameters
-    ----------
-    pair : Pair
-        Worm, hob, and how both stand.
-    grid : FlankGrid
-        Points of the flank.
-    side : {1, -1}
-        Which flank.
-    worm_speed : float
-        :math:`\omega_1`, rad/s.
-    ahead : float
-        Transmission error: by how much the wheel is turned further than :math:`\varphi_1 z_1/z_2`.
+    The worm turns at a speed of :math:`\omega_1`, rad/s; the wheel is turned ``ahead`` of
+    :math:`\varphi_1 z_1/z_2` by the transmission error, rad.
 
     Raises
     ------

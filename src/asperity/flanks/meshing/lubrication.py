@@ -81,17 +81,7 @@ class Load:
 
     @classmethod
     def of(cls, gearset: Gearset, operation: Operation, oil_temperature: float) -> "Load":
-        """Return the load of a gearset in operation.
-
-        Parameters
-        ----------
-        gearset : Gearset
-            Gives the materials.
-        operation : Operation
-            Gives torque, speed and lubricant.
-        oil_temperature : float
-            K.
-        """
+        """Return the load of a gearset in operation, its oil at a temperature in K."""
         worm, wheel = gearset.worm_material, gearset.wheel_material
         modulus = hertz.contact_modulus(
             worm.youngs_modulus * _MPA,
@@ -195,21 +185,12 @@ class LoadedLines:
 
 
 def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedLines:
-    """Return load, pressure and film along contact lines.
-
-    Parameters
-    ----------
-    mesh : Transmission
-        The mesh on the flank.
-    lines : ContactLines
-        Contact lines on it.
-    load : Load
-        Torque, speed, materials and oil.
+    """Return load, pressure and film along contact lines of a mesh.
 
     Raises
     ------
     InputError
-        No contact line lies on the flank at this angle of the worm.
+        No contact line lies on the flank at this angle of the worm, or none has a lever.
     """
     # The middles of the pieces are brought onto the flank, for curvatures as they are there.
     flank = mesh.search.flank
@@ -251,12 +232,7 @@ def film_thickness(
 ) -> FloatArray:
     """Return the least film thickness of line contacts, um; 0 where there is no load.
 
-    Parameters
-    ----------
-    load : Load
-        Oil and materials.
-    line_load, radius, entrainment : ndarray
-        N/mm, mm, mm/s.
+    Line load in N/mm, radius in mm, entrainment in mm/s.
     """
     some = line_load > 0.0
     w = np.where(some, line_load, 1.0) * 1e3

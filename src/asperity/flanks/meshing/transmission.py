@@ -41,15 +41,7 @@ _FINE = 1e-4
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ToothSearch:
-    """The flank of one tooth, and the worm it is to meet.
-
-    Attributes
-    ----------
-    pair : Pair
-        Worm, and how it stands.
-    flank : WheelFlank
-        The flank.
-    """
+    """The flank of one tooth, and the worm it is to meet with how both stand."""
 
     pair: Pair
     flank: WheelFlank
@@ -193,12 +185,10 @@ class Transmission(Quantities):
         return 2.0 * RESOLVED / self.search.pair.geometry.wheel_mean_diameter
 
     def contact_ratio(self, gap: float = 0.0) -> float:
-        r"""Mean number of teeth that bear, to about one place in the pitch.
+        """Mean number of teeth that bear, to about one place in the pitch.
 
-        Parameters
-        ----------
-        gap : float
-            What still counts as bearing, normal to the flanks, mm; 0: rigid teeth.
+        What is nearer than the ``gap``, normal to the flanks, mm, counts as bearing; 0 is for rigid
+        teeth.
         """
         pair = self.search.pair
         worm = pair.worm
@@ -236,16 +226,7 @@ class Transmission(Quantities):
 
 
 def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Transmission:
-    """Return the transmission of a pair on one flank of its wheel.
-
-    Parameters
-    ----------
-    pair : Pair
-        Worm, and how it stands.
-    flank : WheelFlank
-        The flank of the wheel it runs with.
-    samples : int
-        Places of the wheel in a pitch.
+    """Return the transmission of a pair on one flank, at so many places of the wheel in a pitch.
 
     Raises
     ------

@@ -49,13 +49,7 @@ class VibrationShare(Quantities):
         return np.asarray(picked)
 
     def mean(self, weights: FloatArray) -> dict[str, dict[str, float]]:
-        """Return the root mean square of every part, by direction and part.
-
-        Parameters
-        ----------
-        weights : ndarray
-            What each point counts, such as the area of the flank around it; not all zero.
-        """
+        """Return the root mean square of every part by direction and part, weighted as by areas."""
         share = weights / np.sum(weights)
         square = np.tensordot(share, self.parts**2, axes=share.ndim)
         return {
@@ -65,15 +59,7 @@ class VibrationShare(Quantities):
 
 
 def vibration_share(pair: Pair, motion: Kinematics) -> VibrationShare:
-    """Return the parts of each vibration direction at points of a flank.
-
-    Parameters
-    ----------
-    pair : Pair
-        Worm, wheel, and how they stand.
-    motion : Kinematics
-        From `asperity.flanks.meshing.kinematics.kinematics`.
-    """
+    """Return the parts of each vibration direction at points of a flank."""
     axis, radius = pair.mounting.axes[2], pair.worm.pitch_radius
     swept = np.cross(axis, motion.position - pair.mounting.origin)
     axial = np.broadcast_to(axis, swept.shape)

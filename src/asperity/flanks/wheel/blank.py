@@ -16,18 +16,10 @@ from asperity.gearset import Geometry
 
 
 class Blank(NamedTuple):
-    r"""The turned blank of a wheel; the kernels take it as it is.
+    """The turned blank of a wheel, mm; the kernels take it as it is.
 
-    Attributes
-    ----------
-    centre_distance : float
-        :math:`a`, mm.
-    throat_radius : float
-        :math:`r_k`, throat form radius, mm.
-    outside_radius : float
-        :math:`d_{e2}/2`, mm.
-    face_width : float
-        :math:`b_2`, mm.
+    Its throat form radius is :math:`r_k`, its outside radius :math:`d_{e2}/2`, its face width
+    :math:`b_2`.
     """
 
     centre_distance: float

@@ -9,13 +9,12 @@ import dataclasses
 import functools
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting.trim import UNDERCUT
-from asperity.flanks.wheel.flank import GAUSS, FlankGrid, UndercutMap, WheelFlank
+from asperity.flanks.wheel.flank import FlankGrid, UndercutMap, WheelFlank
 from asperity.flanks.wheel.gaps import gaps
 from asperity.flanks.wheel.refusal import CUT_AGAIN, POINTED, refusal, widest_face
 from asperity.flanks.worm.setting import Pair
@@ -33,13 +32,7 @@ _LEFT = 1e-6
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Wheel:
-    """A wheel as it is cut.
-
-    Attributes
-    ----------
-    pair : Pair
-        The gearset, its hob and how it cuts.
-    """
+    """A wheel as it is cut, of a gearset with its hob."""
 
     pair: Pair
 
@@ -126,50 +119,3 @@ class Wheel:
         """Whether the hob undercuts anywhere on the face."""
         # The other flank is this one, turned by 180 deg about Y.
         return bool(np.any(self.flank(1).undercut_at(self.blank.columns(_UNDERCUT_COLUMNS))))
-
-    def outline(self, z: float, n: int = 24) -> FloatArray:
-        """Return the section of a tooth at a place on the axis, ``(m, 2)`` in X and Y, mm.
-
-        It goes from the middle of the tooth space at -X over root, fillet, flank and tip down to
-        the middle of the next one, with ``n`` points on each of them.
-        """
-        sides = []
-        for side in (-1, 1):
-            flank = self.flank(side)
-            parts = (flank.root(n, [z]), flank.fillet(n, [z]), flank.grid(n, 1, [z]))
-            whole = np.concatenate([part.points[:, 0, :2] for part in parts])
-            # The parts share their ends.
-            sides.append(np.delete(whole, [n, 2 * n], axis=0))
-        left, right = (np.arctan2(side[-1, 0], side[-1, 1]) for side in sides)
-        angle = np.linspace(left, right, n)[1:-1]
-        tip = self.blank.tip_radius(z) * np.column_stack([np.sin(angle), np.cos(angle)])
-        return np.concatenate([sides[0], tip, sides[1][::-1]])
-
-    def section_area(self, z: npt.ArrayLike, points: int = GAUSS) -> FloatArray:
-        """Return the areas of a pitch of the wheel, from its axis to its surface, mm^2, by ``z``.
-
-        By Gauss's rule of ``points`` on flank, fillet and root.
-        """
-        places = np.ascontiguousarray(z, dtype=np.float64).reshape(-1)
-        total = np.zeros(places.size)
-        for side in (1, -1):
-            total += self.flank(side).section_area(places, points)
-        return total
-
-    def volume(self, inner_radius: float | None = None, points: int = GAUSS) -> float:
-        """Return the volume of a tooth with its share of the rim, mm^3.
-
-        Parameters
-        ----------
-        inner_radius : float, optional
-            Inner radius of the rim, mm; the rim's thickness below the root if left out.
-        points : int
-            Of Gauss's rule in each direction and on each part.
-        """
-        g = self.pair.geometry
-        inner = g.wheel_root_diameter / 2.0 - g.rim_thickness
-        if inner_radius is not None:
-            inner = inner_radius
-        z, weight = self.blank.quadrature(points)
-        core = np.pi / g.wheel_teeth * inner**2
-        return float(np.sum(weight * (self.section_area(z, points) - core)))

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import BoolArray, FloatArray, IntArray
+from asperity.compiled import Kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.wheel.blank import Blank
-from asperity.flanks.wheel.cutting import areas as wheel_section
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
 from asperity.flanks.wheel.cutting.conjugate import conjugate_each
 from asperity.flanks.wheel.refusal import refusal, widest_face
@@ -74,17 +74,9 @@ class UndercutMap:
     """The criterion of undercut over the part of the hob's flank that cuts the blank.
 
     All arrays have rows from the end of the hob's flank to the wheel's tip and columns along the
-    wheel's axis.
-
-    Attributes
-    ----------
-    u : ndarray
-        Place on the hob's curve, 1 at the end of the flank.
-    radius, z : ndarray
-        Where it cuts, mm.
-    regularity : ndarray
-        Area on the wheel for an area on the hob, along the normal; where it is negative the hob
-        undercuts.
+    wheel's axis: place ``u`` on the hob's curve, 1 at the end of the flank; where it cuts, mm; and
+    ``regularity``, the area on the wheel for an area on the hob, along the normal. Where that is
+    negative the hob undercuts.
     """
 
     u: FloatArray
@@ -100,15 +92,7 @@ class UndercutMap:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class WheelFlank:
-    r"""One side of the wheel's tooth: flank, fillet and root.
-
-    Attributes
-    ----------
-    pair : Pair
-        What cuts it.
-    side : int
-        :math:`s`, 1 or -1.
-    """
+    """One side :math:`s`, 1 or -1, of the wheel's tooth: flank, fillet and root."""
 
     pair: Pair
     side: int
@@ -155,20 +139,27 @@ class WheelFlank:
         status = self._limits(places, self.tip_radius(places))[2]
         return bool(np.all(status == trim.REACHED))
 
+    def _made(
+        self, fill: Kernel, rows: FloatArray, places: FloatArray, *stop: FloatArray, count: int = 2
+    ) -> list[FloatArray]:
+        """What a kernel fills in by row and column, if the hob cuts all columns."""
+        out = [np.empty((rows.size, places.size)) for _ in range(count)]
+        status = np.empty(places.size, dtype=np.int64)
+        fill(places, *stop, *self._hob, rows, *out, status)
+        self._refuse(status, places)
+        return out
+
     def _points(self, u: FloatArray, psi: FloatArray) -> FlankGrid:
         side, hob, cut = self._hob
-        points = np.empty((u.size, 3))
-        normals = np.empty((u.size, 3))
-        phase = np.empty(u.size)
-        conjugate_each(u.reshape(-1), psi.reshape(-1), side, hob, cut, points, normals, phase)
-        shape = u.shape
-        points = points.reshape(*shape, 3)
+        points, normals, phase = np.empty((*u.shape, 3)), np.empty((*u.shape, 3)), np.empty(u.shape)
+        rows = points.reshape(-1, 3), normals.reshape(-1, 3), phase.reshape(-1)
+        conjugate_each(u.reshape(-1), psi.reshape(-1), side, hob, cut, *rows)
         return FlankGrid(
             radius=np.hypot(points[..., 0], points[..., 1]),
             z=points[..., 2].copy(),
             points=points,
-            normals=normals.reshape(*shape, 3),
-            phase=phase.reshape(shape),
+            normals=normals,
+            phase=phase,
             u=u,
             psi=psi,
         )
@@ -176,13 +167,8 @@ class WheelFlank:
     def grid(self, n_radial: int, n_face: int, z: npt.ArrayLike | None = None) -> FlankGrid:
         """Return a grid over the flank, from the end of the fillet to the tip.
 
-        Parameters
-        ----------
-        n_radial, n_face : int
-            Rows, evenly spaced in radius on each column, and columns.
-        z : array_like, optional
-            The columns' places, mm, instead of ``n_face`` of them with the blank's kinks among
-            them.
+        Rows are evenly spaced in radius on each column. The columns lie at ``z``, mm, or are so
+        many with the blank's kinks among them.
 
         Raises
         ------
@@ -201,12 +187,7 @@ class WheelFlank:
         if not np.all((rows >= 0.0) & (rows <= 1.0)):
             raise InputError("the shares of the flank's height must lie within 0 and 1")
         places, stop = self._columns(0, z)
-        u = np.empty((rows.size, places.size))
-        psi = np.empty_like(u)
-        status = np.empty(places.size, dtype=np.int64)
-        radius = np.empty_like(u)
-        trim_grid.flank_grid(places, stop, *self._hob, rows, u, psi, radius, status)
-        self._refuse(status, places)
+        u, psi, radius = self._made(trim_grid.flank_grid, rows, places, stop, count=3)
         grid = self._points(u, psi)
         residual = max(np.abs(grid.radius - radius).max(), np.abs(grid.z - places).max())
         # Written so that a NaN is refused as well.
@@ -223,23 +204,12 @@ class WheelFlank:
         """
         places, stop = self._columns(0, z)
         share = np.linspace(0.0, 1.0, n)
-        u = np.empty((n, places.size))
-        psi = np.empty_like(u)
-        status = np.empty(places.size, dtype=np.int64)
-        trim_grid.fillet_grid(places, stop, *self._hob, share, u, psi, status)
-        self._refuse(status, places)
-        return self._points(u, psi)
+        return self._points(*self._made(trim_grid.fillet_grid, share, places, stop))
 
     def root(self, n: int, z: npt.ArrayLike) -> FlankGrid:
         """Return ``n`` rows of the root from the middle of the tooth space to the fillet."""
         places, _ = self._columns(0, z)
-        share = np.linspace(0.0, 1.0, n)
-        u = np.empty((n, places.size))
-        psi = np.empty_like(u)
-        status = np.empty(places.size, dtype=np.int64)
-        trim_grid.root_grid(places, *self._hob, share, u, psi, status)
-        self._refuse(status, places)
-        return self._points(u, psi)
+        return self._points(*self._made(trim_grid.root_grid, np.linspace(0.0, 1.0, n), places))
 
     def limits(self, z: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the radii where the flank begins and ends at places ``z``, mm."""
@@ -263,34 +233,19 @@ class WheelFlank:
         return start, cut_under, status
 
     def undercut_map(self, n_radial: int, n_face: int) -> UndercutMap:
-        """Return the undercut criterion over all that the hob's flank cuts, trimmed or not.
-
-        Raises
-        ------
-        InputError
-            The hob's flank does not touch the wheel.
-        """
+        """Return the undercut criterion over all that the hob's flank cuts, trimmed or not."""
         places, stop = self._columns(n_face, None)
-        u, radius, regularity = (np.empty((n_radial, places.size)) for _ in range(3))
-        status = np.empty(places.size, dtype=np.int64)
         share = np.linspace(0.0, 1.0, n_radial)
-        undercut.regularity_map(places, stop, *self._hob, share, u, radius, regularity, status)
-        self._refuse(status, places)
+        u, radius, regularity = self._made(undercut.regularity_map, share, places, stop, count=3)
         return UndercutMap(u, radius, np.broadcast_to(places, u.shape), regularity)
 
     def at(self, radius: npt.ArrayLike, z: npt.ArrayLike) -> FlankGrid:
-        """Return the points of flank or fillet at radii and places, broadcast, mm.
-
-        Raises
-        ------
-        InputError
-            A point lies outside the blank or below the fillet.
-        """
+        """Return the points of flank or fillet at radii and places, broadcast, mm."""
         r, places = np.broadcast_arrays(
             np.asarray(radius, dtype=np.float64), np.asarray(z, dtype=np.float64)
         )
         flat, stop = self._columns(0, places)
-        radii = np.ascontiguousarray(r).reshape(-1)
+        radii = r.reshape(-1)
         # Points of one column follow each other, so that each section is traced once.
         order = np.argsort(flat, kind="stable")
         u = np.empty(flat.size)
@@ -323,13 +278,3 @@ class WheelFlank:
         around = np.abs(grid.normals[..., 0] * y - grid.normals[..., 1] * x) / grid.radius
         inner = 0.5 * (stop - start) * np.sum(weights[:, None] / around, axis=0)
         return float(np.sum(weight * inner))
-
-    def section_area(self, z: npt.ArrayLike, points: int = GAUSS) -> FloatArray:
-        """Return this side's areas of sections, from the axis to the surface, mm^2, by ``z``."""
-        places, stop = self._columns(0, z)
-        knots, weights = np.polynomial.legendre.leggauss(points)
-        areas = np.empty(places.size)
-        status = np.empty(places.size, dtype=np.int64)
-        wheel_section.side_areas(places, stop, *self._hob, knots, weights, areas, status)
-        self._refuse(status, places)
-        return areas

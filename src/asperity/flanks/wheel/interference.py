@@ -13,14 +13,9 @@ from asperity.flanks.wheel.gaps import gaps
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Interference:
-    """Gaps between worm and wheel at exact ratio, on one side of the tooth.
+    """Gaps between worm and wheel at exact ratio on one side of the tooth, mm, and their points.
 
-    Attributes
-    ----------
-    flank, fillet, root : FlankGrid
-        The points, on the same columns.
-    flank_gap, fillet_gap, root_gap : ndarray
-        The gaps, mm; negative where the worm would cut in.
+    They are negative where the worm would cut in. All parts are on the same columns.
     """
 
     flank: FlankGrid
@@ -37,21 +32,12 @@ class Interference:
 
 
 def interference(wheel: Wheel, side: int = 1, n_radial: int = 12, n_face: int = 13) -> Interference:
-    """Return the gaps of a side of the tooth to the worm as it is mounted.
+    """Return the gaps of a side of the tooth, 1 or -1, to the worm as it is mounted.
 
     Parameters
     ----------
-    wheel : Wheel
-        The wheel, and with its pair the worm.
-    side : {1, -1}
-        Side of the tooth.
     n_radial, n_face : int
         Rows of each part and columns.
-
-    Raises
-    ------
-    InputError
-        A grid that small does not exist, or there is no such side.
     """
     flank = wheel.flank(side)
     face = flank.grid(n_radial, n_face)

@@ -26,12 +26,8 @@ _REMEDIES = {
 def widest_face(sound: Callable[[float], bool], half: float) -> float | None:
     """Return the face width up to which all is sound, mm, rounded down; None if none is.
 
-    Parameters
-    ----------
-    sound : callable
-        Whether a tooth can be cut at a distance from mid-face, mm, on both sides of it.
-    half : float
-        Half the face width asked for, mm.
+    ``sound`` tells whether a tooth can be cut at a distance from mid-face, mm, on both sides of it,
+    ``half`` is half the face width asked for, mm.
     """
     good, bad = -1.0, half
     for k in range(_STEPS + 1):
@@ -90,18 +86,10 @@ def _cause(pair: Pair, status: int, z: float) -> str:
 
 
 def refusal(pair: Pair, status: int, z: float, widest: float | None) -> str:
-    """Return the one line that says why there is no tooth at ``z`` and what to do.
+    """Return the one line that says why there is no tooth at ``z`` (mm) and what to do.
 
-    Parameters
-    ----------
-    pair : Pair
-        The gearset and its hob.
-    status : int
-        How the section ended, of `asperity.flanks.wheel.cutting.trim`, or `POINTED`.
-    z : float
-        Where, mm.
-    widest : float or None
-        The widest face that can be cut, mm.
+    ``status`` is how the section ended, of `asperity.flanks.wheel.cutting.trim`, or of this module;
+    ``widest`` the widest face that can be cut, mm.
     """
     remedy = _REMEDIES[status]
     if pair.cutting.tilt != 0.0 and status != POINTED:

@@ -239,21 +239,9 @@ def _rows(points: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
 
 
 def distances(points: npt.ArrayLike, helicoid: "Helicoid", side: int = 0) -> FloatArray:
-    """Return the distances of points to a worm.
+    """Return the distances of points (..., 3) in the worm's own frame, mm, positive outside.
 
-    Parameters
-    ----------
-    points : array_like
-        ``(..., 3)`` in the worm's own frame, mm.
-    helicoid : Helicoid
-        The worm.
-    side : {0, 1, -1}
-        The flank of the thread space that counts; 0: the nearest.
-
-    Returns
-    -------
-    ndarray
-        ``(...)``, mm, positive outside.
+    ``side`` is the flank of the thread space that counts, 1 or -1; 0: the nearest.
 
     Raises
     ------

@@ -133,13 +133,7 @@ def _meshing(p: float, at: Surface, point: FloatArray, normal: FloatArray) -> Fl
 
 
 def contact(disc: GrindingDisc, radius: npt.ArrayLike) -> Contact:
-    """Return where a disc touches the flank at radii of the worm, mm.
-
-    Raises
-    ------
-    InputError
-        The disc does not reach a radius.
-    """
+    """Return where a disc touches the flank at radii of the worm, mm; InputError if it cannot."""
     rho = np.atleast_1d(np.asarray(radius, dtype=np.float64))
     p = disc.reduced_lead
     sigma = (disc.pitch_radius - rho) / math.cos(disc.pressure_angle)
@@ -223,10 +217,7 @@ def fit(
 def lowest(disc: GrindingDisc, root: float, needed: float) -> float:
     """Return the least radius, from the root on, that a disc grinds, mm.
 
-    Raises
-    ------
-    InputError
-        It lies above the radius down to which the flank is needed.
+    InputError where it lies above the radius down to which the flank is needed.
     """
 
     def reaches(radius: float) -> bool:
@@ -256,11 +247,6 @@ def ground(
     The table is refined until it is within 1e-12 mm of the disc half-way between its radii. The
     disc must grind the flank from the radius ``needed`` on; where it does not grind down to the
     root, a straight line goes on.
-
-    Raises
-    ------
-    InputError
-        The disc does not reach so far.
     """
     inner = lowest(disc, root, needed)
     count = _FIRST_COUNT

@@ -116,20 +116,7 @@ class Pair:
         modification: Modification | None = None,
         disc: Disc | None = None,
     ) -> "Pair":
-        """Return the pair of a gearset, with worm threads of nominal thickness.
-
-        Parameters
-        ----------
-        gearset : Gearset
-            The gearset.
-        hob, mount, modification, disc : Hob, Mount, Modification, Disc, optional
-            How it is cut, mounted, modified and ground; each has its defaults if left out.
-
-        Raises
-        ------
-        InputError
-            The numbers do not belong together, or make no solid worm or hob.
-        """
+        """Return the pair of a gearset, with worm threads of nominal thickness, or refuse it."""
         g = gearset.require_consistent().geometry
         given_hob, given = hob or Hob(), mount or Mount()
         cutter = Helicoid.hob(g, gearset.flank, given_hob, disc)

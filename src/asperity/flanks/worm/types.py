@@ -24,27 +24,11 @@ def profile(
     module: float,
     disc: Disc | None = None,
 ) -> AxialProfile:
-    r"""Return the axial section of a flank, in mm and rad.
+    """Return the axial section of a flank, in mm and rad.
 
-    Parameters
-    ----------
-    flank : {'ZI', 'ZA', 'ZN', 'ZK', 'ZC'}
-        The type.
-    pitch_radius, lead_angle, pressure_angle : float
-        :math:`r_1`, :math:`\gamma`, :math:`\alpha_n`.
-    half_space : float
-        Half the axial width of the thread space at the pitch radius.
-    reach : tuple of float
-        Radii of the root, down to which the flank is needed, and of the tip.
-    module : float
-        Axial module of the worm, in which the disc's profile radius counts if it is left out.
-    disc : Disc, optional
-        What grinds ZK and ZC.
-
-    Raises
-    ------
-    InputError
-        Unknown type, or the disc cannot grind it.
+    ``half_space`` is half the axial width of the thread space at the pitch radius; ``reach`` the
+    radii of the root, down to which the flank is needed, and of the tip; the disc that grinds ZK
+    and ZC has its profile radius in axial modules where that is left out.
     """
     match flank:
         case "ZI":

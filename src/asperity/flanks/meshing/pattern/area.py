@@ -12,16 +12,10 @@ from asperity.arrays import FloatArray, IntArray
 
 
 class Part(NamedTuple):
-    """A part of a surface.
+    """A part of a surface: its area in the square of the points' unit, and its share of the whole.
 
-    Attributes
-    ----------
-    area : float
-        In the square of the points' unit.
-    fraction : float
-        Of the whole surface.
-    centroid : ndarray
-        Mean of the coordinates given over the part; of the lowest point where it has no area.
+    The centroid is the mean of the coordinates over the part; of the lowest point where it has no
+    area.
     """
 
     area: float
@@ -55,18 +49,9 @@ def node_areas(points: FloatArray) -> FloatArray:
 def part_below(
     points: FloatArray, values: FloatArray, level: float, coordinates: FloatArray
 ) -> Part:
-    """Return the part of a surface where values lie below a level.
+    """Return the part of a surface of points (rows, columns, 3) where values lie below a level.
 
-    Parameters
-    ----------
-    points : ndarray
-        (rows, columns, 3).
-    values : ndarray
-        (rows, columns).
-    level : float
-        The level.
-    coordinates : ndarray
-        (rows, columns, k): what the centroid is the mean of.
+    The centroid is the mean of the coordinates, (rows, columns, k).
     """
     corners = triangles(*values.shape)
     whole = areas(points)
@@ -113,14 +98,10 @@ def part_below(
 
 
 def crossings(values: FloatArray, level: float) -> tuple[IntArray, FloatArray]:
-    """Return the pieces of the line on which values have a level.
+    """Return the pieces of the line on which values have a level, as corners and weights.
 
-    Returns
-    -------
-    corners : ndarray
-        (n, 3): the triangle that each piece crosses, as indices into the points of the grid.
-    weights : ndarray
-        (n, 2, 3): what each corner counts at both ends of the piece.
+    The corners, (n, 3), are those of the triangle that each piece crosses, as indices into the
+    points of the grid; the weights, (n, 2, 3), are what each counts at both ends of the piece.
     """
     flat = values.ravel()
     corners = triangles(*values.shape)

@@ -22,13 +22,8 @@ MARKING = 6e-3
 class Pattern(Quantities):
     """The contact pattern on one flank.
 
-    Attributes
-    ----------
-    wheel_angle : ndarray
-        Angle of the wheel where each gap is smallest, rad.
-    centre : tuple of 2 floats
-        Centroid of the marked area: from mid-face along the wheel's axis and from the pitch radius
-        outwards, mm.
+    The wheel's angle is that at which each gap is smallest, rad; the centre is the centroid of the
+    marked area, from mid-face along the wheel's axis and from the pitch radius outwards, mm.
     """
 
     gap: FloatArray = quantity("", "mm", "smallest gap over all phases and teeth", dims=MAP)
@@ -50,17 +45,7 @@ class Pattern(Quantities):
 
 
 def pattern(mesh: Transmission, grid: FlankGrid, thickness: float = MARKING) -> Pattern:
-    """Return the contact pattern of a flank.
-
-    Parameters
-    ----------
-    mesh : Transmission
-        The mesh on this flank.
-    grid : FlankGrid
-        Points of the flank, a grid from `WheelFlank.grid`.
-    thickness : float
-        Of the marking compound, mm.
-    """
+    """Return the contact pattern of a flank on a grid from `WheelFlank.grid`; thickness in mm."""
     pair, side = mesh.search.pair, mesh.search.flank.side
     beta = mesh.tooth_angle
     phase = pair.ratio * beta + side * mesh.along_tooth()
