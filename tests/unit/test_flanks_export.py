@@ -98,10 +98,18 @@ def test_every_edge_of_worm_tooth_teeth_and_wheel_joins_two_faces(wheel):
     assert [body.name for body in bodies] == ["worm", "tooth", "teeth", "wheel"]
 
 
+def finer(body):
+    """A body with each step of its patches' grids halved."""
+    rings = [
+        [Patch(np.stack([row, row])).finer(2).points[0] for row in ring] for ring in body.rings
+    ]
+    return Body(body.name, [patch.finer(2) for patch in body.patches], rings)
+
+
 def test_the_triangles_of_a_body_are_closed_and_hold_its_volume(wheel, tmp_path):
     for body in (tooth_body(wheel), worm_body(wheel.pair, 10.0)):
         volume = write_step(tmp_path / "a.step", body).check.volume
-        surfaces = [body.surface(), body.finer(2).surface()]
+        surfaces = [body.surface(), finer(body).surface()]
         for surface in surfaces:
             assert trimesh.Trimesh(surface.points, surface.triangles, process=False).is_volume
         errors = [abs(surface.volume() / volume - 1) for surface in surfaces]

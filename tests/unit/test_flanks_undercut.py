@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from apparatus.gearsets import of_module_2
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -14,30 +15,14 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 
-def _gearset(**changed):
-    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
-    return Gearset(
-        axial_module="2 mm",
-        worm_material=given.worm_material,
-        wheel_material=given.wheel_material,
-        **changed,
-    )
-
-
 def _small(teeth=17):
-    gearset = _gearset(starts=1, wheel_teeth=teeth, diameter_factor=10, pressure_angle="14.5 deg")
+    gearset = of_module_2(1, teeth, 10, "14.5 deg")
     return Wheel.cut(Pair.of(gearset))
 
 
 def _edged():
     """A wheel with an edge on its flank: the base tangent plane is at the pitch cylinder."""
-    gearset = _gearset(
-        starts=4,
-        wheel_teeth=82,
-        diameter_factor=8,
-        pressure_angle="14.5 deg",
-        profile_shift=-0.5,
-    )
+    gearset = of_module_2(4, 82, 8, "14.5 deg", -0.5)
     return Wheel.cut(Pair.of(gearset))
 
 
@@ -99,13 +84,7 @@ def test_map_has_the_hob_s_end_first_and_the_tip_last():
 
 
 def test_wheel_that_its_hob_cuts_again_is_refused():
-    gearset = _gearset(
-        starts=6,
-        wheel_teeth=60,
-        diameter_factor=8,
-        pressure_angle="17.5 deg",
-        profile_shift=-0.5,
-    )
+    gearset = of_module_2(6, 60, 8, "17.5 deg", -0.5)
     with pytest.raises(InputError, match="undercuts the flank again"):
         Wheel.cut(Pair.of(gearset))
 

@@ -6,6 +6,7 @@ import random
 
 import numpy as np
 import pytest
+from apparatus.gearsets import of_module_2
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -17,16 +18,6 @@ from asperity.gearset import Gearset
 
 OVERSIZE = Hob(oversize=1.12, tilt="2 deg")
 CAUSES = ("undercut", "pointed", "hob too short", "does not reach")
-
-
-def _gearset(**changed):
-    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
-    return Gearset(
-        axial_module="2 mm",
-        worm_material=given.worm_material,
-        wheel_material=given.wheel_material,
-        **changed,
-    )
 
 
 def _pair(hand="right", hob=OVERSIZE):
@@ -165,7 +156,7 @@ def test_every_case_is_cut_exactly_or_refused_with_its_cause():
     cut = 0
     for given, hob in _cases():
         try:
-            wheel = Wheel.cut(Pair.of(_gearset(**given), hob))
+            wheel = Wheel.cut(Pair.of(of_module_2(**given), hob))
         except InputError as error:
             refused = str(error)
         else:
@@ -187,7 +178,7 @@ def test_every_case_is_cut_exactly_or_refused_with_its_cause():
 def test_every_case_of_a_usual_wheel_is_cut():
     for starts in (1, 2, 4):
         for teeth in (30, 60, 82):
-            gearset = _gearset(starts=starts, wheel_teeth=teeth, diameter_factor=10)
+            gearset = of_module_2(starts, teeth, 10)
             assert not Wheel.cut(Pair.of(gearset)).undercut
 
 
@@ -214,21 +205,14 @@ def test_refusal_names_the_cause_and_a_face_width_that_can_be_cut(
     }
     hob = Hob(oversize=1.12, tilt=f"{tilt} deg")
     with pytest.raises(InputError, match=cause) as refused:
-        Wheel.cut(Pair.of(_gearset(**given), hob))
+        Wheel.cut(Pair.of(of_module_2(**given), hob))
     widest = str(refused.value).split("at most ")[1]
-    wheel = Wheel.cut(Pair.of(_gearset(**given, wheel_face_width=widest), hob))
+    wheel = Wheel.cut(Pair.of(of_module_2(**given, wheel_face_width=widest), hob))
     assert wheel.flank(1).area() > 0.0
 
 
 def test_involute_that_ends_before_the_tip_of_the_wheel_is_refused():
-    gearset = _gearset(
-        starts=6,
-        wheel_teeth=50,
-        diameter_factor=10,
-        pressure_angle="14.5 deg",
-        profile_shift=-0.25,
-        tooth_proportions="iso",
-    )
+    gearset = of_module_2(6, 50, 10, "14.5 deg", -0.25, tooth_proportions="iso")
     with pytest.raises(InputError, match="involute of the hob ends at its base radius"):
         Wheel.cut(Pair.of(gearset, Hob(tilt="1 deg")))
 

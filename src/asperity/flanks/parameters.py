@@ -59,6 +59,16 @@ def size_in_mm(size: str, module: float) -> float:
     return float(size) * module
 
 
+def _angle(example: str, most: float) -> Quantity:
+    """An angle of up to so many degrees to either side."""
+    most = math.radians(most)
+    return Quantity("rad", what="an angle", example=example, ge=-most, le=most)
+
+
+def _length(example: str, **bounds: float) -> Quantity:
+    return Quantity("m", what="a length", example=example, **bounds)
+
+
 class Hob(Table):
     r"""The hob that cuts the wheel; left out, it is the worm with a longer thread.
 
@@ -84,16 +94,7 @@ class Hob(Table):
         float, Quantity("", what="a ratio of diameters", example="1.12", ge=1.0, le=2.0)
     ] = 1.0
     rule: Literal["normal-module", "axial-module"] = "normal-module"
-    tilt: Annotated[
-        float,
-        Quantity(
-            "rad",
-            what="an angle",
-            example="2 deg",
-            ge=-math.radians(20.0),
-            le=math.radians(20.0),
-        ),
-    ] = 0.0
+    tilt: Annotated[float, _angle("2 deg", 20.0)] = 0.0
     tip_radius: Size | None = None
 
 
@@ -113,12 +114,8 @@ class Disc(Table):
 
     table: ClassVar[str] = "disc"
 
-    diameter: Annotated[float, Quantity("m", what="a length", example="500 mm", gt=0, le=5.0)] = (
-        DISC_DIAMETER
-    )
-    profile_radius: (
-        Annotated[float, Quantity("m", what="a length", example="13 mm", gt=0, le=5.0)] | None
-    ) = None
+    diameter: Annotated[float, _length("500 mm", gt=0, le=5.0)] = DISC_DIAMETER
+    profile_radius: Annotated[float, _length("13 mm", gt=0, le=5.0)] | None = None
 
 
 class Modification(Table):
@@ -141,15 +138,8 @@ class Modification(Table):
 
     table: ClassVar[str] = "modification"
 
-    lead_correction: Annotated[
-        float,
-        Quantity(
-            "rad", what="an angle", example="0.05 deg", ge=-math.radians(5.0), le=math.radians(5.0)
-        ),
-    ] = 0.0
-    tip_relief: Annotated[
-        float, Quantity("m", what="a length", example="10 um", ge=0.0, le=1e-2)
-    ] = 0.0
+    lead_correction: Annotated[float, _angle("0.05 deg", 5.0)] = 0.0
+    tip_relief: Annotated[float, _length("10 um", ge=0.0, le=1e-2)] = 0.0
     tip_relief_start: Annotated[
         float, Quantity("", what="a fraction of the addendum", example="0.5", ge=0.0, le=0.95)
     ] = 0.5
@@ -175,18 +165,7 @@ class Mount(Table):
 
     table: ClassVar[str] = "mount"
 
-    centre_distance_error: Annotated[
-        float, Quantity("m", what="a length", example="0.05 mm", ge=-0.01, le=0.01)
-    ] = 0.0
-    axial_offset: Annotated[
-        float, Quantity("m", what="a length", example="0.1 mm", ge=-0.01, le=0.01)
-    ] = 0.0
-    shaft_angle_error: Annotated[
-        float,
-        Quantity(
-            "rad", what="an angle", example="0.1 deg", ge=-math.radians(5.0), le=math.radians(5.0)
-        ),
-    ] = 0.0
-    backlash: (
-        Annotated[float, Quantity("m", what="a length", example="0.05 mm", ge=0.0, le=0.01)] | None
-    ) = None
+    centre_distance_error: Annotated[float, _length("0.05 mm", ge=-0.01, le=0.01)] = 0.0
+    axial_offset: Annotated[float, _length("0.1 mm", ge=-0.01, le=0.01)] = 0.0
+    shaft_angle_error: Annotated[float, _angle("0.1 deg", 5.0)] = 0.0
+    backlash: Annotated[float, _length("0.05 mm", ge=0.0, le=0.01)] | None = None

@@ -70,15 +70,9 @@ class FlankStudy(Result):
 
     Attributes
     ----------
-    name : str
-        Of the gearset.
     wheel : Wheel
         The wheel as it is cut, with the pair it belongs to; the worm's threads are as thick as the
         backlash asks for.
-    analysis : Analysis
-        How both flanks touch.
-    mesh : ToothMesh
-        One tooth with its share of the rim.
     assumed, from_memory : mapping of str to str
         What was not given, and what no document at hand confirms.
     step : bool

@@ -65,14 +65,8 @@ def prepare_gearset(
 ) -> Prepared:
     """Cut the wheel of a gearset, and mesh a tooth of it.
 
-    Parameters
-    ----------
-    gearset : Gearset
-        The gearset.
-    hob, mount, modification, disc : Hob, Mount, Modification, Disc, optional
-        How it is cut, mounted, modified and ground; each has its defaults if left out.
-    density : str or float
-        Density of the mesh: its name, or the element size on the flank in mm.
+    How it is cut, mounted, modified and ground has defaults; the density is a name, or the element
+    size on the flank in mm.
 
     Raises
     ------
@@ -94,8 +88,6 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
 
     Parameters
     ----------
-    case : Case
-        The case.
     density : str or float
         Of the mesh: ``coarse``, ``intermediate``, ``fine``, or the element size on the flank, as
         text with its unit or in mm.
@@ -105,7 +97,7 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     Raises
     ------
     InputError
-        There is no such wheel, with the reason, or no such mesh, or it would take too much memory.
+        As from `prepare_gearset`.
     MissingExtraError
         STEP is asked for and the ``cad`` extra is not installed.
     """

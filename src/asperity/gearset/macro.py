@@ -29,17 +29,10 @@ def complete(
     worm_pitch_diameter: float | None = None,
     profile_shift: float | None = None,
 ) -> Macro:
-    r"""Return module, diameter factor and profile shift from those that are given.
+    """Return module, diameter factor and profile shift from those that are given; lengths in mm.
 
-    Parameters
-    ----------
-    wheel_teeth : int
-        :math:`z_2`.
-    centre_distance, axial_module, worm_pitch_diameter : float, optional
-        :math:`a`, :math:`m_{x1}`, :math:`d_{m1}`, mm.
-    diameter_factor, profile_shift : float, optional
-        :math:`q_1` (in place of :math:`d_{m1}`), :math:`x_2`; the profile shift is zero where it
-        neither is given nor follows.
+    The worm is given by its diameter factor or its pitch diameter. The profile shift is zero where
+    it neither is given nor follows.
 
     Raises
     ------

@@ -46,8 +46,6 @@ class WheelMaterial(Material):
 
     Parameters
     ----------
-    name, youngs_modulus, poisson_ratio, sources
-        See `Material`.
     family : {'tin bronze', 'aluminium bronze', 'grey iron', 'nodular iron'}
         Decides on friction and wear in ISO/TR 14521.
     material_factor : float
@@ -81,8 +79,6 @@ class WormMaterial(Material):
 
     Parameters
     ----------
-    name, youngs_modulus, poisson_ratio, sources
-        See `Material`.
     bs721 : str, optional
         Row and column of BS 721's tables of stress factors; left out where none fits.
     hardened : bool

@@ -51,7 +51,11 @@ def _count(least: int) -> Any:
     return BeforeValidator(lambda value: check(_whole(value)))
 
 
-Length = Annotated[float, Quantity("m", what="a length", example="13.3 mm", gt=0)]
+def _length(example: str) -> Quantity:
+    return Quantity("m", what="a length", example=example, gt=0)
+
+
+Length = Annotated[float, _length("13.3 mm")]
 
 
 class Gearset(Table):
@@ -113,18 +117,12 @@ class Gearset(Table):
     name: str = ""
     starts: Annotated[int, _count(1)]
     wheel_teeth: Annotated[int, _count(3)]
-    centre_distance: (
-        Annotated[float, Quantity("m", what="a length", example="75 mm", gt=0)] | None
-    ) = None
-    axial_module: (
-        Annotated[float, Quantity("m", what="a length", example="2.2 mm", gt=0)] | None
-    ) = None
+    centre_distance: Annotated[float, _length("75 mm")] | None = None
+    axial_module: Annotated[float, _length("2.2 mm")] | None = None
     diameter_factor: Annotated[float, Quantity("", what="a factor", example="8.2", gt=0)] | None = (
         None
     )
-    worm_pitch_diameter: (
-        Annotated[float, Quantity("m", what="a length", example="18 mm", gt=0)] | None
-    ) = None
+    worm_pitch_diameter: Annotated[float, _length("18 mm")] | None = None
     profile_shift: (
         Annotated[
             float,

@@ -97,14 +97,6 @@ class Body:
             rings = [[row[::-1] for row in reversed(ring)] for ring in rings]
         return Body(self.name, [patch.moved(matrix) for patch in self.patches], rings)
 
-    def finer(self, factor: int) -> "Body":
-        """Return the body with each step of its patches' grids cut into equal ones."""
-        rings = [
-            [Patch(np.stack([row, row])).finer(factor).points[0] for row in ring]
-            for ring in self.rings
-        ]
-        return Body(self.name, [patch.finer(factor) for patch in self.patches], rings)
-
     def surface(self) -> Surface:
         """Return the body's skin as triangles, closed, with its outside outside."""
         parts = [Surface.of_grid(patch.points, "mm") for patch in self.patches]

@@ -19,20 +19,16 @@ from asperity.flanks.wheel.enveloped import FlankGrid
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ContactLines:
-    """The contact lines on all teeth at one angle of the worm, as straight pieces.
+    """The contact lines on all teeth at one angle of the worm (rad), as n straight pieces.
 
     Attributes
     ----------
-    worm_angle : float
-        Angle of the worm, rad.
     tooth : ndarray of int
         (n,) which tooth each piece lies on: 0 is in the middle of the mesh at angle 0.
     corners, weights : ndarray
         (n, 3) points of the grid around each piece, and (n, 2, 3) their weights at its ends.
-    points : ndarray
-        (n, 2, 3) ends of the pieces in space, mm.
-    radius, z : ndarray
-        (n,) where on the flank the middles lie: distance from the wheel's axis, place on it, mm.
+    points, radius, z : ndarray
+        (n, 2, 3) ends of the pieces in space, and (n,) where on the flank their middles lie, mm.
     """
 
     worm_angle: float
@@ -52,11 +48,6 @@ class ContactLines:
     def length(self) -> FloatArray:
         """Length of each piece, mm."""
         return np.asarray(np.linalg.norm(self.points[:, 1] - self.points[:, 0], axis=1))
-
-    @property
-    def teeth(self) -> int:
-        """Number of teeth with a contact line."""
-        return int(np.unique(self.tooth).size)
 
 
 def contact_lines(

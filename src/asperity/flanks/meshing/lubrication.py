@@ -52,18 +52,12 @@ class Load:
 
     Attributes
     ----------
-    wheel_torque : float
-        :math:`T_2`, N m.
-    worm_speed : float
-        :math:`\omega_1`, rad/s.
-    contact_modulus : float
-        :math:`E^* = E_{red}/2`, MPa.
-    line_stiffness : float
-        :math:`c`, N/mm per mm of contact line.
-    dynamic_viscosity : float
-        :math:`\eta`, Pa s.
-    pressure_viscosity : float
-        :math:`\alpha`, m²/N.
+    wheel_torque, worm_speed : float
+        :math:`T_2`, N m; :math:`\omega_1`, rad/s.
+    contact_modulus, line_stiffness : float
+        :math:`E^* = E_{red}/2`, MPa; :math:`c`, N/mm per mm of contact line.
+    dynamic_viscosity, pressure_viscosity : float
+        :math:`\eta`, Pa s; :math:`\alpha`, m²/N.
     """
 
     wheel_torque: float
@@ -123,16 +117,11 @@ class LoadedLines:
 
     Attributes
     ----------
-    lines : ContactLines
-        The lines.
     twist : float
         :math:`\vartheta`, by which the wheel yields, rad.
-    load : ndarray
-        :math:`w`, N/mm; 0 where the load does not close the gap.
-    pressure : ndarray
-        Hertzian pressure, MPa.
-    film : ndarray
-        Least thickness of the oil film, um; 0 where there is no load.
+    load, pressure, film : ndarray
+        :math:`w`, N/mm; Hertzian pressure, MPa; least thickness of the oil film, um. 0 where the
+        load does not close the gap.
     sliding_speed, entrainment : ndarray
         mm/s.
     """

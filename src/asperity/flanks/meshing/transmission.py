@@ -111,15 +111,12 @@ class Transmission(Quantities):
 
     Attributes
     ----------
-    search : ToothSearch
-        The flank and the worm.
     lead : ndarray
         :math:`D` at each place: by how much the worm turns further than :math:`i\beta` until it
         touches, rad.
-    tooth_angle : ndarray
-        Angles of one tooth from where it enters the mesh to where it leaves it, rad.
-    tooth_lead : ndarray
-        :math:`D` of that tooth alone; infinite where the worm does not reach it.
+    tooth_angle, tooth_lead : ndarray
+        Angles of one tooth from where it enters the mesh to where it leaves it, rad, and :math:`D`
+        of that tooth alone; infinite where the worm does not reach it.
     contact : ndarray
         (n, 2) radius and z of the place that bears, on the tooth that bears, mm.
     """

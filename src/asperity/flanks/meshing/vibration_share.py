@@ -43,11 +43,6 @@ class VibrationShare(Quantities):
         variable="vibration", dims=(*MAP, "direction", "part"),
     )  # fmt: skip
 
-    def of(self, direction: str, part: str) -> FloatArray:
-        """Return one part of one direction, shaped as the points."""
-        picked = self.parts[..., DIRECTIONS.index(direction), PARTS.index(part)]
-        return np.asarray(picked)
-
     def mean(self, weights: FloatArray) -> dict[str, dict[str, float]]:
         """Return the root mean square of every part by direction and part, weighted as by areas."""
         share = weights / np.sum(weights)

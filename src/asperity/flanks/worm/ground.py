@@ -35,20 +35,15 @@ _ABOVE_LIMIT = 0.1
 
 @dataclasses.dataclass(frozen=True)
 class GrindingDisc:
-    r"""A disc set to grind the thread space of a worm.
+    r"""A disc set to grind the thread space of a worm of so large a pitch radius and lead angle.
 
     Attributes
     ----------
-    radius : float
-        :math:`R`, of the disc where it touches the pitch cylinder, mm.
-    half_width : float
-        Of the disc at that radius, mm.
-    pressure_angle : float
-        :math:`\alpha_n` of its profile there.
+    radius, half_width, pressure_angle : float
+        Of the disc where it touches the pitch cylinder: :math:`R` and half its width, mm, and
+        :math:`\alpha_n` of its profile.
     profile_radius : float
         Of its profile's arc, mm; infinite for a cone.
-    pitch_radius, lead_angle : float
-        :math:`r_1` and :math:`\gamma` of the worm.
     """
 
     radius: float

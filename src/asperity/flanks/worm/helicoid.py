@@ -32,31 +32,23 @@ _DEEP = 0.5
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Helicoid:
-    r"""A worm, or the worm that a hob is.
+    r"""A worm, or the worm that a hob is, in mm and rad; its name is that in messages.
 
     Attributes
     ----------
-    starts : int
-        :math:`z_1`.
     reduced_lead : float
         :math:`p`, mm/rad, positive: a left-handed one is computed as its mirror image.
     pitch_radius, tip_radius, root_radius : float
-        :math:`r_1`, :math:`r_{a1}`, :math:`r_{f1}`, mm. The root is higher than the gearset's
-        where the thread space would close above that.
+        :math:`r_1`, :math:`r_{a1}`, :math:`r_{f1}`. The root is higher than the gearset's where
+        the thread space would close above that.
     tip_rounding : float
-        Radius of the arc between flank and tip land in the axial section, mm.
-    profile : AxialProfile
-        Shape of the flank.
+        Radius of the arc between flank and tip land in the axial section.
     half_space : float
-        :math:`w_{ref}`, half the axial width of the thread space at the pitch radius, mm.
+        :math:`w_{ref}`, half the axial width of the thread space at the pitch radius.
     lead_angle, pressure_angle : float
         :math:`\gamma` at the pitch radius, :math:`\alpha_n`.
-    tip_relief : float
-        What is missing at the tip, axially, mm.
-    relief_radius : float
-        Where the tip relief begins, mm; infinite where there is none.
-    name : str
-        ``worm`` or ``hob``, as it appears in messages.
+    tip_relief, relief_radius : float
+        What is missing at the tip, axially, and where that begins; infinite where nothing is.
     """
 
     starts: int

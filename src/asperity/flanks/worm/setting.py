@@ -33,16 +33,9 @@ class Stand(NamedTuple):
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
-    r"""Where a helicoid stands.
+    r"""Where a helicoid stands: centre distance :math:`a` and offset along the wheel's axis, mm.
 
-    Attributes
-    ----------
-    centre_distance : float
-        :math:`a`, mm.
-    axial_offset : float
-        Offset along the wheel's axis, mm.
-    tilt : float
-        :math:`\eta`: the axis is :math:`e_z = \cos\eta\,X + \sin\eta\,Z`.
+    Its axis is tilted by :math:`\eta`: it is :math:`e_z = \cos\eta\,X + \sin\eta\,Z`.
     """
 
     centre_distance: float
@@ -79,22 +72,8 @@ class Setting:
 class Pair:
     """A worm, the hob that cuts its wheel, and how both stand to the wheel.
 
-    Attributes
-    ----------
-    geometry : Geometry
-        The gearset.
-    flank : str
-        Type of the flanks.
-    worm, hob : Helicoid
-        Right-handed.
-    cutting, mounting : Setting
-        How the hob cuts and the worm runs, in the right-handed frame.
-    hand : {'right', 'left'}
-        Of the gearset that is meant.
-    disc : Disc or None
-        What ground worm and hob.
-    backlash : float or None
-        Normal backlash that is asked for, mm.
+    Worm, hob, cutting and mounting are right-handed; ``hand`` is that of the gearset that is meant.
+    The disc ground worm and hob; the backlash is the normal one that is asked for, mm.
     """
 
     geometry: Geometry
