@@ -18,17 +18,11 @@ _SWEEPS = 30
 
 
 class Blocks(NamedTuple):
-    """The points of the two blocks of every section, polar.
+    """The points of the two blocks of every section, polar, shape (.., .., sections, 2).
 
-    Attributes
-    ----------
-    tooth : ndarray, shape (rows + 1, across + 1, sections, 2)
-        From the base, which is a stretch of the rim's outer side, to the tip; from the first
-        side to the second.
-    rim : ndarray, shape (along + 1, layers + 1, sections, 2)
-        From the first cut to the second; from the inner radius outwards.
-    first : int
-        Where along the rim's outer side the tooth's base begins.
+    ``tooth`` goes from the base, which is a stretch of the rim's outer side from its point
+    ``first`` on, to the tip, and from the first side to the second; ``rim`` from the first cut to
+    the second, and from the inner radius outwards.
     """
 
     tooth: FloatArray

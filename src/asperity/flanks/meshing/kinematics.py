@@ -21,22 +21,18 @@ from asperity.results import Quantities, labelled, quantity
 
 
 class Kinematics(Quantities):
-    r"""What holds at each point of a flank while the worm turns.
+    r"""What holds at each point of a flank while the worm turns at :math:`\omega_1`, rad/s.
 
     Arrays have the shape of the points given; vectors one more axis of 3. What is not described
     with its field:
 
     Attributes
     ----------
-    worm_speed : float
-        :math:`\omega_1`, rad/s.
     reach : ndarray
-        How far below the end of the worm's flank the nearest place lies, mm; negative where it is
-        on the worm's tip, and the point never touches.
-    gap : ndarray
-        The distance to the worm where it is nearest, mm.
-    position, normal : ndarray
-        The point in space then, mm; unit normal of the worm's surface, out of the worm.
+        Negative where the nearest place is on the worm's tip, and the point never touches.
+    gap, position, normal : ndarray
+        The distance to the worm where it is nearest and the point in space then, mm; unit normal of
+        the worm's surface, out of the worm.
     across, along : ndarray
         Unit vectors of the tangent plane, across and along the contact line.
     worm_curvature, wheel_curvature, relative_curvature : ndarray

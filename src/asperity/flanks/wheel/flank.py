@@ -35,18 +35,10 @@ _TOLERANCE = 0.1 * RESOLVED
 class FlankGrid(Quantities):
     """Points of the cut wheel, each with the phase at which the hob cuts it.
 
-    All arrays have the shape of the grid: rows from the inside out, columns along the wheel's axis.
-
-    Attributes
-    ----------
-    points, normals : ndarray
-        (..., 3), in the wheel, mm; unit normals out of the tooth.
-    radius, z : ndarray
-        Distance from the wheel's axis and place on it, mm.
-    phase : ndarray
-        Angle of the hob at which the point is cut; the wheel is then at its ``z_1/z_2``-fold.
-    u, psi : ndarray
-        Place on the hob's curve (0 to 1 flank, to 2 tip arc, to 3 land) and standing angle.
+    All arrays have the shape of the grid: rows from the inside out, columns along the wheel's axis;
+    points and normals one more axis of 3. The wheel is at the ``z_1/z_2``-fold of the hob's phase;
+    ``u`` is the place on the hob's curve (0 to 1 flank, to 2 tip arc, to 3 land), ``psi`` the
+    standing angle.
     """
 
     radius: FloatArray = quantity("", "mm", "distance from the wheel's axis", dims=MAP)
