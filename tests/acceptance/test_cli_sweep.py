@@ -72,7 +72,8 @@ def test_a_damaged_cache_costs_a_line_and_is_replaced(asperity, environment):
     code, output, errors = asperity(*SMALL)
     assert code == 0
     assert json.loads(output)["cached"] == 0
-    assert errors == f"{database} is damaged; moved to {database.name}.corrupt and started again\n"
+    aside = f"set aside as {database.name}.damaged"
+    assert errors == f"{database} is damaged; {aside} and started again\n"
     _, output, errors = asperity(*SMALL)
     assert (json.loads(output)["cached"], errors) == (3, "")
 
@@ -84,4 +85,4 @@ def test_a_cache_folder_that_cannot_be_written_costs_a_line(asperity, new_user):
     code, output, errors = asperity(*SMALL, env=environment)
     assert code == 0
     assert len(json.loads(output)["ratio"]) == 3
-    assert errors == "no cache folder can be written to; this sweep's results are not kept\n"
+    assert errors == "no cache folder can be written to; results are not kept\n"

@@ -178,6 +178,19 @@ def test_a_short_work_is_not_announced(monkeypatch):
     assert told == []
 
 
+def test_a_forecast_of_more_than_a_minute_is_announced_and_not_said_again(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
+    told = []
+    run = Run(notify=told.append)
+    run.forecast(20.0, "9 points")
+    run.forecast(810.0, "9e+09 steps")
+    for done in range(1, 100):
+        now[0] += 1.0
+        run.progress(done, 1000)
+    assert told == ["9e+09 steps take about 14 minutes"]
+
+
 @pytest.mark.parametrize(
     ("seconds", "words"),
     [(70.0, "70 seconds"), (600.0, "10 minutes"), (9e4, "25 hours"), (4e8, "4630 days")],

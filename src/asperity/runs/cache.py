@@ -10,7 +10,7 @@ from asperity.errors import StorageError
 from asperity.folders import cache_folder
 from asperity.runs.tree import DamagedError, Tree, read_tree, write_tree
 
-_KEPT_DAYS = 30
+KEPT_DAYS = 30
 _SUFFIX = ".npz"
 _ASIDE = ".damaged"
 
@@ -57,7 +57,7 @@ class Cache:
         if self.folder is not None:
             with contextlib.suppress(StorageError, OSError):
                 write_tree(self.folder / f"{key}{_SUFFIX}", tree)
-                _remove_old(self.folder)
+                remove_old(self.folder)
 
 
 def set_aside(path: Path) -> str:
@@ -70,8 +70,9 @@ def set_aside(path: Path) -> str:
     return f"set aside as {aside.name}"
 
 
-def _remove_old(folder: Path) -> None:
-    oldest = time.time() - _KEPT_DAYS * 86400
+def remove_old(folder: Path) -> None:
+    """Remove files that nobody asked for in a month."""
+    oldest = time.time() - KEPT_DAYS * 86400
     for path in (*folder.glob(f"*{_SUFFIX}"), *folder.glob(f"*{_ASIDE}")):
         with contextlib.suppress(OSError):
             if path.stat().st_mtime < oldest:

@@ -15,8 +15,8 @@ Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
 
 
-# A work that takes a minute is announced, once it has been looked at for a while; the estimate
-# wavers, so the line is drawn a little lower.
+# A work that takes a minute is announced: before, where there is a forecast, else once it has been
+# looked at for a while. The estimate wavers, so the line is drawn a little lower.
 _LONG_SECONDS = 50.0
 _LOOK_SECONDS = 2.0
 
@@ -60,13 +60,13 @@ class Run:
     def __init__(
         self,
         *,
-        progress: Progress = _silent,
-        notify: Notify = _silent,
+        progress: Progress | None = None,
+        notify: Notify | None = None,
         folder: Path | None = None,
         stem: str = "run",
     ) -> None:
-        self.notify = notify
-        self._progress = progress
+        self.notify = notify or _silent
+        self._progress = progress or _silent
         self._begun: tuple[float, int] | None = None
         self._announced = False
         self.folder = folder
@@ -74,6 +74,20 @@ class Run:
         self._path = None if folder is None else folder / f"{stem}.interrupted.npz"
         self._keeper: Keeper | None = None
         self._ears = Ears()
+
+    def forecast(self, seconds: float, what: str) -> None:
+        """Announce a work that will take long, before it begins.
+
+        Parameters
+        ----------
+        seconds : float
+            What it is estimated to take, s.
+        what : str
+            What takes it, in the plural: "9e+09 steps".
+        """
+        if seconds > _LONG_SECONDS and not self._announced:
+            self._announced = True
+            self.notify(f"{what} take about {duration(seconds)}")
 
     def progress(self, done: int, total: int) -> None:
         """Tell how much is done; once it can be seen, also that it will take long."""

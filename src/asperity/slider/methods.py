@@ -9,7 +9,7 @@ import numpy.typing as npt
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Run
-from asperity.slider.cost import ANNOUNCED, announcement, estimate
+from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.march import march
 from asperity.slider.model import Model
@@ -100,8 +100,7 @@ def prepare(case: Case) -> Model:
 
 def answer(model: Model, run: Run) -> SlideResult:
     """Solve a sliding body as `solve`, with its history where files are written."""
-    seconds = estimate(model)
-    if seconds > ANNOUNCED:
-        steps = Timetable(model).steps if model.solve.method == "march" else 0
-        run.notify(announcement(seconds, f"{steps:.3g} steps" if steps else "periodic states"))
+    marched = model.solve.method == "march"
+    what = f"{Timetable(model).steps:.3g} steps" if marched else "periodic states"
+    run.forecast(estimate(model), what)
     return solve(model, history=run.detailed, run=run)

@@ -2,7 +2,6 @@
 
 import dataclasses
 import functools
-import hashlib
 import math
 from collections.abc import Iterator, Sequence
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from asperity.casefile import Case, Table
 from asperity.errors import AsperityError, InputError
-from asperity.runs.key import code_key
+from asperity.runs.key import code_key, key
 from asperity.slider.model import Model
 from asperity.slider.tables import TABLES
 from asperity.slider.timetable import Timetable
@@ -32,15 +31,15 @@ class Point:
         Its place in the grid.
     model : Model
         What is solved.
-    key : bytes
-        What its result is kept under: a hash of the tables and of the package's sources.
+    key : str
+        What its result is kept under: a hash of the tables and of the sources it follows from.
     kind : tuple
         What two points must share to be marched in one batch.
     """
 
     index: int
     model: Model
-    key: bytes
+    key: str
     kind: tuple[object, ...]
 
 
@@ -101,8 +100,8 @@ class Grid:
         for name, members in self._members.items():
             tables[name], texts[name] = self._table(name, tuple(places[m] for m in members))
         model = Model.from_case(dataclasses.replace(self.case, tables=tables))
-        content = "\n".join((code_key(_SOLVER), *(texts[name] for name in sorted(texts))))
-        return Point(index, model, hashlib.sha256(content.encode()).digest(), _kind(model))
+        name = key(code_key(_SOLVER), *(texts[name] for name in sorted(texts)))
+        return Point(index, model, name, _kind(model))
 
     def _make_table(self, name: str, places: tuple[int, ...]) -> tuple[Table, str]:
         axes = (self.axes[member] for member in self._members[name])

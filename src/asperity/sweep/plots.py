@@ -1,21 +1,11 @@
 """Pictures of a sweep over one or two axes."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from asperity.errors import InputError
-from asperity.results.figures import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILION,
-    legend,
-    panels,
-)
+from asperity.results.figures import COLOURS, legend, panels
 from asperity.sweep.result import MOST_AXES
 
 if TYPE_CHECKING:
@@ -23,7 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _MOST_MARKED = 40
 
@@ -46,51 +35,32 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     curves = ratio.transpose(along.name, ...).values.reshape(along.size, -1)
     figure, (panel,) = panels()
     across = next((axis for axis in axes if axis.name != along.name), None)
-    if across is None:
-        _line(panel, along, curves[:, 0], BLUE, "o", None)
-    elif curves.shape[1] <= len(_COLOURS):
-        for place, colour in zip(range(curves.shape[1]), _COLOURS, strict=False):
-            value = across.values[place]
-            name = f"{value:.12g} {_unit(across)}".rstrip() if _is_numeric(across) else str(value)
-            _line(panel, along, curves[:, place], colour, _MARKERS[place], name)
-        legend(
-            panel,
-            title=_label(across, with_unit=False),
-            loc="upper left",
-            bbox_to_anchor=(1.0, 1.0),
-        )
+    if across is None or curves.shape[1] <= len(COLOURS):
+        names = [""] if across is None else [_text(across, value) for value in across.values]
+        for values, name, colour, marker in zip(curves.T, names, COLOURS, _MARKERS, strict=False):
+            _line(panel, along, values, color=colour, marker=marker, label=name or None)
+        if across is not None:
+            title = _label(across, with_unit=False)
+            legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
-        _many_lines(figure, panel, along, curves, across)
-    panel.set_xlabel(_label(along))
-    panel.set_ylabel(r"mean drive force over $\mu F_N$")
+        _many_lines(panel, along, curves, across)
+    panel.set(xlabel=_label(along), ylabel=r"mean drive force over $\mu F_N$")
     panel.set_ylim(bottom=min(0.0, float(np.nanmin(ratio))) if np.isfinite(ratio).any() else 0.0)
     return figure
 
 
-def _line(
-    panel: "Axes",
-    axis: "xr.DataArray",
-    values: np.ndarray,
-    colour: object,
-    marker: str,
-    name: str | None,
-) -> None:
+def _line(panel: "Axes", axis: "xr.DataArray", values: np.ndarray, **style: Any) -> None:
     # In rising order, since the axis may have been given in any.
     numeric = _is_numeric(axis)
     order = np.argsort(axis.values) if numeric else np.arange(len(values))
-    marked = marker if len(values) <= _MOST_MARKED else ""
-    panel.plot(
-        axis.values[order], values[order], color=colour, marker=marked,
-        markersize=4.0, label=name, linestyle="-" if numeric else "",
-    )  # fmt: skip
+    if len(values) > _MOST_MARKED:
+        style["marker"] = ""
+    line = "-" if numeric else ""
+    panel.plot(axis.values[order], values[order], markersize=4.0, linestyle=line, **style)
 
 
 def _many_lines(
-    figure: "Figure",
-    panel: "Axes",
-    axis: "xr.DataArray",
-    curves: np.ndarray,
-    across: "xr.DataArray",
+    panel: "Axes", axis: "xr.DataArray", curves: np.ndarray, across: "xr.DataArray"
 ) -> None:
     import matplotlib as mpl
     from matplotlib.cm import ScalarMappable
@@ -101,10 +71,14 @@ def _many_lines(
     numbers = across.values if _is_numeric(across) else places
     scale = Normalize(float(numbers.min()), float(numbers.max()))
     for place in places:
-        _line(panel, axis, curves[:, place], shades(scale(numbers[place])), "", None)
-    bar = figure.colorbar(ScalarMappable(scale, shades), ax=panel, label=_label(across))
+        _line(panel, axis, curves[:, place], color=shades(scale(numbers[place])))
+    bar = panel.figure.colorbar(ScalarMappable(scale, shades), ax=panel, label=_label(across))
     if not _is_numeric(across):
         bar.set_ticks(places.tolist(), labels=[str(value) for value in across.values])
+
+
+def _text(axis: "xr.DataArray", value: object) -> str:
+    return f"{value:.12g} {_unit(axis)}".rstrip() if _is_numeric(axis) else str(value)
 
 
 def _is_numeric(axis: "xr.DataArray") -> bool:

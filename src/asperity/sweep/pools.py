@@ -2,15 +2,15 @@
 
 import concurrent.futures as cf
 import logging
-import os
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from asperity.errors import AsperityError, InputError, MissingExtraError, StorageError
+from asperity.runs.rows import Row
+from asperity.runs.workers import cores
 from asperity.slider.model import Model
-from asperity.sweep.cache import Row
 from asperity.sweep.tasks import solve_remote, solve_task, versions
 
 _CONNECT_SECONDS = 5
@@ -19,53 +19,48 @@ _ROOM_PER_THREAD = 4
 _LEAST_ROOM = 32
 
 
-class Pool(Protocol):
-    """Solves tasks elsewhere than in the thread that asks."""
+class Pool:
+    """Solves tasks elsewhere than in the thread that asks.
 
-    @property
-    def room(self) -> int:
-        """How many tasks to hand in ahead, so that nobody waits and memory stays small."""
+    Attributes
+    ----------
+    room : int
+        How many tasks to hand in ahead, so that nobody waits and memory stays small.
+    """
+
+    room: int
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
         """Hand in a task."""
+        raise NotImplementedError
 
     def check(self) -> None:
         """Raise if the tasks handed in can never be solved; called now and then."""
 
     def failure(self, error: BaseException) -> BaseException:
         """Return what to raise for a task that raised."""
+        return error
 
     def stop(self) -> None:
         """Drop what has not begun and end what has, soon."""
+        raise NotImplementedError
 
     def close(self) -> None:
         """Give everything back."""
+        raise NotImplementedError
 
 
-class Cores:
+class Cores(Pool):
     """The cores of this machine: threads, since the compiled loops leave the interpreter free."""
 
     def __init__(self) -> None:
-        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-        self._cores = cores or 1
-        self._threads = cf.ThreadPoolExecutor(self._cores, thread_name_prefix="sweep")
+        self.room = 2 * cores()
+        self._threads = cf.ThreadPoolExecutor(cores(), thread_name_prefix="sweep")
         self._stop = np.zeros(1, dtype=np.int64)
-
-    @property
-    def room(self) -> int:
-        """See `Pool`."""
-        return 2 * self._cores
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
         """See `Pool`."""
         return self._threads.submit(solve_task, models, self._stop)
-
-    def check(self) -> None:
-        """See `Pool`."""
-
-    def failure(self, error: BaseException) -> BaseException:
-        """See `Pool`."""
-        return error
 
     def stop(self) -> None:
         """See `Pool`."""
@@ -77,7 +72,7 @@ class Cores:
         self._threads.shutdown(wait=True)
 
 
-class Cluster:
+class Cluster(Pool):
     """The workers of a Dask scheduler, which must have this version of the package.
 
     Parameters
@@ -117,12 +112,7 @@ class Cluster:
             ) from None
         self._executor = self._client.get_executor(pure=False, retries=_RETRIES)
         threads = sum(self._client.nthreads().values())
-        self._room: int = max(_LEAST_ROOM, _ROOM_PER_THREAD * threads)
-
-    @property
-    def room(self) -> int:
-        """See `Pool`."""
-        return self._room
+        self.room = max(_LEAST_ROOM, _ROOM_PER_THREAD * threads)
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
         """See `Pool`."""

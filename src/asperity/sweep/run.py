@@ -2,7 +2,6 @@
 
 import concurrent.futures as cf
 import dataclasses
-import os
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -12,11 +11,13 @@ import numpy as np
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
+from asperity.runs.rows import Row, Rows
+from asperity.runs.workers import cores
 from asperity.slider.batch import fits_batch
-from asperity.slider.cost import ANNOUNCED, announcement, estimate
+from asperity.slider.cost import estimate
+from asperity.slider.model import Model
 from asperity.slider.result import inputs
 from asperity.sweep.axes import Axis, parse_axes
-from asperity.sweep.cache import Cache, Row
 from asperity.sweep.grid import Grid, Point
 from asperity.sweep.pools import Cluster, Cores, Pool
 from asperity.sweep.result import Answers, SweepResult
@@ -27,18 +28,15 @@ _LOOK_SECONDS = 5.0
 _LOOK = 3e-4  # to validate a point and look for it, s
 _BATCHED = 10.0  # bodies a batch marches in the time of one
 
-Progress = Callable[[int, int], None]
-Notify = Callable[[str], None]
-
 
 def run(
     case: Case,
     axes: Sequence[Axis | str],
     *,
     cluster: str | None = None,
-    progress: Progress | None = None,
+    progress: Callable[[int, int], None] | None = None,
     cache: bool = True,
-    notify: Notify | None = None,
+    notify: Callable[[str], None] | None = None,
 ) -> SweepResult:
     """Solve a case at every point of a grid.
 
@@ -67,59 +65,18 @@ def run(
     asperity.runs.Interrupted
         Ctrl-C was pressed; what was done is in the cache.
     """
-    began = time.perf_counter()
-    grid = Grid(case, [*_parsed(axes, case)])
-    notify = notify or _to_standard_error
-    kept = Cache.of_this_user(notify) if cache else None
-    sweep = _Sweep(grid, kept, progress or _silent)
-    _announce(grid, cluster is not None, notify)
-    try:
-        sweep.look_up()
-        if sweep.missing:
-            sweep.solve(cluster, notify)
-    except KeyboardInterrupt:
-        is_kept = kept is not None and kept.usable
-        count = sweep.done if is_kept else 0
-        raise Interrupted(
-            f"interrupted: {count} of {grid.size} points are kept; the same command goes on from "
-            "there",
-            count,
-        ) from None
-    finally:
-        if kept is not None:
-            kept.close()
-    varied = {axis.path for axis in grid.axes}
-    first = next(grid.points([0])).model
-    answers = sweep.answers
-    return SweepResult(
-        source=case.source,
-        axes=grid.axes,
-        arrays={name: array.reshape(grid.shape) for name, array in answers.arrays.items()},
-        status=answers.status.reshape(grid.shape),
-        failures={grid.describe(index): why for index, why in sorted(answers.reasons.items())},
-        shared={path: value for path, value in inputs(first).items() if path not in varied},
-        cached=grid.size - len(sweep.missing),
-        seconds=time.perf_counter() - began,
-    )
+    problem = Problem(case, tuple(_parsed(axes, case)), cluster or "", cache)
+    return answer(problem, Run(progress=progress, notify=notify or _to_standard_error))
 
 
 @dataclasses.dataclass(frozen=True)
 class Problem:
-    """A grid to be solved.
-
-    Attributes
-    ----------
-    case : Case
-        What the axes vary.
-    axes : tuple of Axis
-        The grid.
-    cluster : str
-        Address of a Dask scheduler; empty: the cores of this machine.
-    """
+    """A grid to be solved, as `run` takes it."""
 
     case: Case
     axes: tuple[Axis, ...]
     cluster: str = ""
+    cache: bool = True
 
 
 def prepare(case: Case, *, over: Sequence[str], cluster: str = "") -> Problem:
@@ -129,24 +86,48 @@ def prepare(case: Case, *, over: Sequence[str], cluster: str = "") -> Problem:
 
 def answer(problem: Problem, doing: Run) -> SweepResult:
     """Solve a grid as `run`."""
-    found = run(
-        problem.case,
-        problem.axes,
-        cluster=problem.cluster or None,
-        progress=doing.progress,
-        notify=doing.notify,
+    began = time.perf_counter()
+    grid = Grid(problem.case, problem.axes)
+    first = next(grid.points([0])).model
+    doing.forecast(_seconds(grid, first, bool(problem.cluster)), f"{grid.size} points")
+    kept = Rows.of_this_user("sweep", doing.notify) if problem.cache else None
+    sweep = _Sweep(grid, kept, doing)
+    try:
+        sweep.look_up()
+        if sweep.missing:
+            sweep.solve(problem.cluster)
+    except KeyboardInterrupt:
+        count = sweep.done if kept is not None and kept.usable else 0
+        raise Interrupted(
+            f"interrupted: {count} of {grid.size} points are kept; the same command goes on from "
+            "there",
+            count,
+        ) from None
+    finally:
+        if kept is not None:
+            kept.close()
+    varied = {axis.path for axis in grid.axes}
+    answers = sweep.answers
+    return SweepResult(
+        source=problem.case.source,
+        axes=grid.axes,
+        arrays={name: array.reshape(grid.shape) for name, array in answers.arrays.items()},
+        status=answers.status.reshape(grid.shape),
+        failures={grid.describe(index): why for index, why in sorted(answers.reasons.items())},
+        shared={path: value for path, value in inputs(first).items() if path not in varied},
+        cached=grid.size - len(sweep.missing),
+        seconds=time.perf_counter() - began,
+        file=None if doing.folder is None else doing.folder / "sweep.nc",
     )
-    file = None if doing.folder is None else doing.folder / "sweep.nc"
-    return dataclasses.replace(found, file=file)
 
 
 class _Sweep:
     """A grid on its way to being solved."""
 
-    def __init__(self, grid: Grid, cache: Cache | None, progress: Progress) -> None:
+    def __init__(self, grid: Grid, kept: Rows | None, doing: Run) -> None:
         self.grid = grid
-        self.cache = cache
-        self.progress = progress
+        self.kept = kept
+        self.doing = doing
         self.answers = Answers(grid.size)
         self.missing: list[int] = []
         self._kinds: dict[tuple[object, ...], int] = {}
@@ -167,17 +148,17 @@ class _Sweep:
                 keys[point.index] = point.key
                 kind = self._kinds.setdefault(point.kind, len(self._kinds))
                 self._kind_of[point.index] = kind
-            rows = self.cache.get(list(keys.values())) if self.cache else {}
+            rows = self.kept.get(list(keys.values())) if self.kept else {}
             for index, key in keys.items():
                 if key in rows:
                     self._fill(index, rows[key])
                 else:
                     self.missing.append(index)
-        self.progress(self.done, self.grid.size)
+        self.doing.progress(self.done, self.grid.size)
 
-    def solve(self, cluster: str | None, notify: Notify) -> None:
+    def solve(self, cluster: str) -> None:
         """Solve what is missing."""
-        pool: Pool = Cores() if cluster is None else Cluster(cluster, notify)
+        pool: Pool = Cluster(cluster, self.doing.notify) if cluster else Cores()
         waiting: dict[cf.Future[list[Row]], list[Point]] = {}
         try:
             self._feed(pool, waiting)
@@ -224,8 +205,8 @@ class _Sweep:
 
     def _keep(self, points: Sequence[Point], rows: Sequence[Row]) -> None:
         solved = [pair for pair in zip(points, rows, strict=True) if REFUSED not in pair[1]]
-        if self.cache is not None:
-            self.cache.put({point.key: row for point, row in solved})
+        if self.kept is not None:
+            self.kept.put({point.key: row for point, row in solved})
         for point, row in solved:
             self._fill(point.index, row)
 
@@ -234,7 +215,7 @@ class _Sweep:
         for point, row in zip(points, rows, strict=True):
             if REFUSED in row:
                 raise InputError(f"{self.grid.describe(point.index)}: {row[REFUSED]}")
-        self.progress(self.done, self.grid.size)
+        self.doing.progress(self.done, self.grid.size)
 
     def _fill(self, index: int, row: Row) -> None:
         failed = row.get(FAILED)
@@ -242,17 +223,13 @@ class _Sweep:
         self.answers.put(index, row, None if failed is None else str(failed))
 
 
-def _announce(grid: Grid, distributed: bool, notify: Notify) -> None:
-    """Say how long a large grid may take; on a cluster, whose size is not known, that of one core.
+def _seconds(grid: Grid, first: Model, distributed: bool) -> float:
+    """How long a grid may take, as if all points were like the first and none known, s.
 
-    As if all points were like the first and none known.
+    On a cluster, whose size is not known, that of one core.
     """
-    first = next(grid.points([0])).model
     each = estimate(first) / (_BATCHED if fits_batch(first) else 1.0)
-    cores = 1 if distributed else os.cpu_count() or 1
-    seconds = grid.size * (_LOOK + each / cores)
-    if seconds > ANNOUNCED:
-        notify(announcement(seconds, f"{grid.size} points"))
+    return grid.size * (_LOOK + each / (1 if distributed else cores()))
 
 
 def _parsed(axes: Sequence[Axis | str], case: Case) -> Iterator[Axis]:
@@ -263,7 +240,3 @@ def _parsed(axes: Sequence[Axis | str], case: Case) -> Iterator[Axis]:
 
 def _to_standard_error(line: str) -> None:
     print(line, file=sys.stderr)
-
-
-def _silent(done: int, points: int) -> None:
-    pass

@@ -8,11 +8,11 @@ import numpy as np
 from asperity.closure import source_key
 from asperity.compiled import machine
 from asperity.errors import AsperityError, ConvergenceError, InputError
+from asperity.runs.rows import Row
 from asperity.slider.batch import fits_batch, solve_many
 from asperity.slider.batch_kernels import WIDTH
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.sweep.cache import Row
 
 FAILED = "failed"
 REFUSED = "refused"

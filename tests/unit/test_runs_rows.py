@@ -1,12 +1,12 @@
-"""Results kept on disk."""
+"""Rows kept on disk."""
 
 import sqlite3
 
 import pytest
 
-from asperity.sweep.cache import Cache
+from asperity.runs.rows import Rows
 
-KEYS = [bytes([n]) * 32 for n in range(2)]
+KEYS = ["00" * 16, "01" * 16]
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def open_cache(tmp_path, told):
     caches = []
 
     def open_(name="results.sqlite"):
-        caches.append(Cache(tmp_path / name, told.append))
+        caches.append(Rows(tmp_path / name, told.append))
         return caches[-1]
 
     yield open_
@@ -28,13 +28,13 @@ def open_cache(tmp_path, told):
 
 
 def keys(count):
-    return [n.to_bytes(32, "big") for n in range(count)]
+    return [f"{n:032x}" for n in range(count)]
 
 
 def test_what_was_put_is_found_by_another_who_opens_the_file(open_cache, told):
     rows = {key: {"ratio": 0.1 * n, "breakaway_time": None} for n, key in enumerate(keys(1200))}
     open_cache().put(rows)
-    assert open_cache().get([*rows, b"unknown"]) == rows
+    assert open_cache().get([*rows, "unknown"]) == rows
     assert told == []
 
 
@@ -52,9 +52,9 @@ def test_a_damaged_file_is_moved_aside_and_replaced(open_cache, told, tmp_path, 
     cache = open_cache()
     cache.put({KEYS[0]: {"ratio": 0.5}})
     assert cache.get(KEYS[:2]) == {KEYS[0]: {"ratio": 0.5}}
-    assert (tmp_path / "results.sqlite.corrupt").read_bytes() == content
+    assert (tmp_path / "results.sqlite.damaged").read_bytes() == content
     (line,) = told
-    assert "is damaged; moved to results.sqlite.corrupt" in line
+    assert "is damaged; set aside as results.sqlite.damaged and started again" in line
 
 
 def test_a_file_damaged_behind_its_head_costs_no_more_than_its_rows(open_cache, told, tmp_path):
@@ -120,6 +120,6 @@ def test_rows_older_than_a_month_are_forgotten(open_cache, tmp_path):
 def test_without_a_writable_cache_folder_there_is_no_cache(monkeypatch, tmp_path, told):
     (tmp_path / "file").touch()
     monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "file"))
-    assert Cache.of_this_user(told.append) is None
+    assert Rows.of_this_user("sweep", told.append) is None
     (line,) = told
     assert "not kept" in line
