@@ -41,9 +41,10 @@ def test_a_sweep_interrupted_and_then_killed_loses_nothing_that_was_done(
     interrupted = kept(environment)
     assert 0 < interrupted < POINTS
     assert (process.returncode, output) == (130, "")
-    assert errors == (
+    # Before it may stand how long it takes.
+    assert errors.splitlines()[-1] == (
         f"interrupted: {interrupted} of {POINTS} points are kept; the same command goes on from "
-        "there\n"
+        "there"
     )
 
     process = start_slowly(*LONG)

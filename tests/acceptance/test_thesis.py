@@ -58,8 +58,8 @@ def test_every_figure_of_elastic_blocks_has_a_picture_and_its_numbers(whole):
 
 def check_figures(result):
     for figure in result.figures:
-        assert figure.picture.read_bytes().startswith(b"\x89PNG")
-        dataset = read_dataset(figure.dataset)
+        assert figure.files[".png"].read_bytes().startswith(b"\x89PNG")
+        dataset = read_dataset(figure.files[".nc"])
         for name, variable in dataset.variables.items():
             assert variable.attrs["units"]
             assert variable.attrs["long_name"]
@@ -70,11 +70,11 @@ def check_figures(result):
 def test_every_table_has_its_rows_and_no_empty_number(result):
     assert [table.number for table in result.tables] == list(TABLES)
     for table in result.tables:
-        with table.path.open(encoding="utf-8", newline="") as file:
+        with table.files[".csv"].open(encoding="utf-8", newline="") as file:
             columns, *rows = csv.reader(file)
-        assert len(rows) == len(table.grid.rows) > 0
-        assert tuple(columns) == table.grid.columns
-        assert "nan" not in table.path.read_text("utf-8").replace("nanoparticles", "")
+        assert len(rows) == len(table.plain["rows"]) > 0
+        assert columns == list(table.plain["columns"])
+        assert "nan" not in table.files[".csv"].read_text("utf-8").replace("nanoparticles", "")
 
 
 VERDICTS = {
@@ -124,13 +124,13 @@ VERDICTS_OF_BLOCKS = {
 
 
 def test_each_claim_has_its_verdict(result):
-    assert {entry.number: entry.finding.verdict for entry in result.claims} == VERDICTS
+    assert {entry.number: entry.plain["verdict"] for entry in result.claims} == VERDICTS
 
 
 @pytest.mark.slow
 def test_each_claim_of_elastic_blocks_has_its_verdict(whole):
     assert not whole.failed
-    verdicts = {entry.number: entry.finding.verdict for entry in whole.claims}
+    verdicts = {entry.number: entry.plain["verdict"] for entry in whole.claims}
     assert verdicts == VERDICTS | VERDICTS_OF_BLOCKS
 
 
@@ -184,12 +184,12 @@ def test_each_claim_of_elastic_blocks_has_its_verdict(whole):
 )
 def test_the_ledger_has_the_reference_numbers(result, claim, name, value, tolerance):
     (entry,) = [entry for entry in result.claims if entry.number == claim]
-    assert entry.finding.numbers[name] == pytest.approx(value, rel=tolerance)
+    assert entry.plain["numbers"][name] == pytest.approx(value, rel=tolerance)
 
 
 def test_lugre_without_its_extras_is_dahl_to_the_last_bit(result):
     (entry,) = [entry for entry in result.claims if entry.number == "4.7"]
-    assert entry.finding.numbers["largest_difference"] < 1e-12
+    assert entry.plain["numbers"]["largest_difference"] < 1e-12
 
 
 @pytest.mark.parametrize(
@@ -205,18 +205,18 @@ def test_lugre_without_its_extras_is_dahl_to_the_last_bit(result):
 )
 def test_a_claim_that_rests_on_a_reconstruction_says_so(result, claim, words):
     (entry,) = [entry for entry in result.claims if entry.number == claim]
-    assert words in entry.finding.reason
+    assert words in entry.plain["reason"]
 
 
 def test_the_calculation_of_gearset_2_fails_where_the_thesis_says(result):
     (entry,) = [entry for entry in result.claims if entry.number == "3.4"]
-    assert 0.27 <= entry.finding.numbers["gear_ratio_rise"] < 0.28
-    assert 0.37 <= entry.finding.numbers["axial_module_rise"] < 0.38
+    assert 0.27 <= entry.plain["numbers"]["gear_ratio_rise"] < 0.28
+    assert 0.37 <= entry.plain["numbers"]["axial_module_rise"] < 0.38
 
 
 def figure(result, number):
     (files,) = [files for files in result.figures if files.number == number]
-    return read_dataset(files.dataset)
+    return read_dataset(files.files[".nc"])
 
 
 @pytest.mark.parametrize(
@@ -309,8 +309,8 @@ def test_the_optimum_raises_efficiency_and_keeps_the_permissible_torques(result)
 
 def cells(result, number, column):
     (table,) = [table for table in result.tables if table.number == number]
-    at = table.grid.columns.index(column)
-    return {row[0]: row[at] for row in table.grid.rows}
+    at = table.plain["columns"].index(column)
+    return {row[0]: row[at] for row in table.plain["rows"]}
 
 
 def test_the_tables_say_what_is_stated_what_inferred_and_what_lost(result):
@@ -354,7 +354,7 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
     page = result.index.read_text("utf-8")
     for entry in result.claims:
         assert f'id="claim-{entry.number}"' in page
-    holds = sum(entry.finding.verdict == "reproduced" for entry in result.claims)
+    holds = sum(entry.plain["verdict"] == "reproduced" for entry in result.claims)
     assert page.count("✓ reproduced") == holds
     assert page.count("≠ differs") == len(result.claims) - holds
     assert "asperity slide table-4.3 --set solve.method=periodic" in page
@@ -362,9 +362,9 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
 
 
 def test_every_command_named_is_a_command(result):
-    how = [entry.finding.how for entry in result.claims]
-    how += [figure.how for figure in result.figures]
-    how += [table.grid.how for table in result.tables]
+    how = [entry.plain["how"] for entry in result.claims]
+    how += [figure.plain["how"] for figure in result.figures]
+    how += [table.plain["how"] for table in result.tables]
     named = {line.split()[1] for lines in how for line in lines if line.startswith("asperity ")}
     known = set(typer.main.get_command(app).commands)
     assert {"rate", "methods", "sensitivity", "optimise", "slide", "sweep"} <= named <= known
@@ -387,14 +387,14 @@ def test_a_second_run_finds_everything_and_says_so(whole):
     lines = []
     again = run(whole.index.parent, progress=lines.append)
     assert all(files.reused for files in (*again.figures, *again.tables))
-    assert [entry.to_json() for entry in again.claims] == [e.to_json() for e in whole.claims]
+    assert [entry.plain for entry in again.claims] == [entry.plain for entry in whole.claims]
     assert len(lines) == len(FIGURES) + len(TABLES) + len(CLAIMS)
     assert all(line.endswith("there already") for line in lines)
 
 
 def test_a_wheel_bears_as_the_dye_shows_it(result):
     edge, askew, steep = (
-        next(entry.finding.numbers for entry in result.claims if entry.number == number)
+        next(entry.plain["numbers"] for entry in result.claims if entry.number == number)
         for number in ("2.1", "2.2", "2.3")
     )
     assert edge["end_without_tilt"] > 0.9 > edge["end_with_tilt"]
@@ -407,7 +407,7 @@ def test_a_wheel_bears_as_the_dye_shows_it(result):
 def test_the_inputs_of_the_thesis_are_those_of_the_shipped_cases(result):
     for table in result.tables:
         if table.number in ("4.3", "4.4"):
-            for _, quantity, _, thesis, here in table.grid.rows:
+            for _, quantity, _, thesis, here in table.plain["rows"]:
                 if thesis != "":
                     assert here == pytest.approx(thesis, rel=1e-4), (table.number, quantity)
 

@@ -14,8 +14,7 @@ from asperity.thesis.contact import blocks, elastic, pressed
 from asperity.thesis.contact import claims as claims_contact
 from asperity.thesis.contact.blocks import Settled
 from asperity.thesis.contact.elastic import LIGHT, BlockFromRest, ElasticBlock, from_rest
-from asperity.thesis.contact.figures import figure_7_9
-from asperity.thesis.contents import FIGURES
+from asperity.thesis.contents import CLAIMS, FIGURES
 
 K_2 = "vibration.velocity_ratio=2"
 STIFF = "block.youngs_modulus=20900 GPa"
@@ -114,8 +113,8 @@ def test_claims_of_equal_ratios_are_judged_by_the_ratio_too(monkeypatch, share, 
     monkeypatch.setattr(ElasticBlock, "settled", settled)
     monkeypatch.setattr(claims_contact.Body, "solve", lambda one: slid)
     monkeypatch.setattr(claims_contact.Sweep, "ratios", lambda one: np.full(8, 1.0 / 30.0))
-    for claim in (claims_contact.claim_5_1, claims_contact.claim_7_8):
-        finding = claim()
+    for number in ("5.1", "7.8"):
+        finding = CLAIMS[number].make()
         assert finding.verdict == verdict
         assert f"({share:.1%})" in finding.ours
 
@@ -137,7 +136,7 @@ def test_a_surface_touched_at_its_nodes_keeps_its_area():
 
 def test_a_figure_holds_block_and_sliding_body_at_the_same_points(monkeypatch):
     monkeypatch.setattr(elastic, "ALONG", (2.0,))
-    drawn = figure_7_9()
+    drawn = FIGURES["7.9"].make()
     assert list(drawn.dataset["shaken"].values) == ["base", "body"]
     assert drawn.dataset["slider"].values == pytest.approx(
         drawn.dataset["periodic"].sel(k=[2.0]).values, rel=1e-9

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from asperity.thesis.contents import FIGURES
-from asperity.thesis.sliding.figures import figure_2_7, figure_2_14, figure_2_15, figure_2_16
 
 
 def test_every_figure_asked_for_is_there():
@@ -15,28 +14,28 @@ def test_every_figure_asked_for_is_there():
 
 
 def test_dahl_from_rest_is_drawn_for_five_exponents():
-    drawn = figure_2_7()
+    drawn = FIGURES["2.7"].make()
     (axes,) = drawn.figure.axes
     assert len(axes.get_legend().get_texts()) == 5
     assert float(drawn.dataset["force"].max()) == pytest.approx(5.5)
 
 
 def test_rigid_friction_is_reversed_for_a_third_of_the_cycle_at_k_2():
-    friction = figure_2_14().dataset["friction_rigid_drive"].sel(axis="x").values
+    friction = FIGURES["2.14"].make().dataset["friction_rigid_drive"].sel(axis="x").values
     assert np.median(np.abs(friction)) == pytest.approx(5.08)
     assert np.mean(np.abs(friction) < 5.079) < 1e-3
     assert np.mean(friction < 0.0) == pytest.approx(1.0 / 3.0, abs=1e-3)
 
 
 def test_dahl_friction_falls_and_keeps_its_sign_just_above_k_1():
-    dataset = figure_2_15().dataset
+    dataset = FIGURES["2.15"].make().dataset
     for drive in ("compliant", "rigid"):
         least = float(dataset[f"friction_{drive}_drive"].sel(axis="x").min())
         assert 0.0 < least < 0.8 * float(dataset["full_force"])
 
 
 def test_rigid_friction_keeps_its_size_under_transverse_vibration():
-    dataset = figure_2_16().dataset
+    dataset = FIGURES["2.16"].make().dataset
     size = np.hypot(*(dataset["friction"].sel(axis=axis).values for axis in ("x", "y")))
     assert size == pytest.approx(np.full(size.shape, 5.08), rel=1e-6)
     # (2/pi) K(m)/sqrt(1 + k^2) at k = 2.

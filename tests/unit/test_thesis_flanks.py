@@ -4,19 +4,20 @@ import numpy as np
 import pytest
 
 from asperity.mesh import box
-from asperity.thesis.exhibits import labelled
+from asperity.thesis.contents import FIGURES
 from asperity.thesis.flanks import figures as figures_flanks
 from asperity.thesis.flanks import solids as figures_solids
 from asperity.thesis.flanks.drawings_solids import View, paint
 from asperity.thesis.flanks.meshing import meshing
 from asperity.thesis.flanks.shapes import Shape, joined
+from asperity.thesis.products import labelled
 
 IDENTICAL, MISALIGNED, MODIFIED = 0, 1, 2
 
 
 @pytest.fixture(scope="module")
 def formation():
-    return figures_flanks.figure_2_10().dataset
+    return FIGURES["2.10"].make().dataset
 
 
 def bearing_columns(dataset, design):
@@ -57,7 +58,7 @@ def test_what_touches_the_wheel_lies_on_the_worms_thread(formation):
 
 
 def test_each_correction_lowers_the_highest_pressure():
-    dataset = figures_flanks.figure_2_9().dataset
+    dataset = FIGURES["2.9"].make().dataset
     highest = {name: float(dataset[f"{name}_pressure"].max()) for name in figures_flanks.DESIGNS}
     assert highest["lead"] < 0.8 * highest["misaligned"]
     assert highest["relieved"] < 0.85 * highest["over_relieved"]
@@ -65,7 +66,7 @@ def test_each_correction_lowers_the_highest_pressure():
 
 
 def test_tilting_the_hob_brings_the_dye_from_the_edge_to_the_middle():
-    dataset = figures_flanks.figure_2_11().dataset
+    dataset = FIGURES["2.11"].make().dataset
     centre = np.abs(dataset["centre"].values)
     half = float(dataset["face"].max())
     assert centre[0] > 0.7 * half
@@ -76,7 +77,7 @@ def test_tilting_the_hob_brings_the_dye_from_the_edge_to_the_middle():
 
 
 def test_the_profile_is_modified_between_pitch_line_and_tip_alone():
-    dataset = figures_flanks.figure_2_13().dataset
+    dataset = FIGURES["2.13"].make().dataset
     radius, relief = dataset["radius"].values, dataset["relief"].values
     pitch, tip = float(dataset["pitch_radius"]), float(dataset["tip_radius"])
     assert relief[radius <= pitch] == pytest.approx(0.0, abs=1e-9)
@@ -96,7 +97,7 @@ def test_facets_shrink_with_the_square_of_the_step_and_never_cut_into_the_flank(
 
 
 def test_the_densities_are_a_half_and_three_quarters_of_the_coarse_size():
-    dataset = figures_solids.figure_7_11().dataset
+    dataset = FIGURES["7.11"].make().dataset
     size = dataset["element_size"].values
     assert size / size[0] == pytest.approx([1.0, 0.75, 0.5])
     assert np.all(np.diff(dataset["elements"].values) > 0)

@@ -6,20 +6,24 @@ import json
 
 import pytest
 
+from asperity import __version__
 from asperity.thesis.contents import CHAPTERS, CLAIMS, FIGURES, TABLES, chapter_of, everything
-from asperity.thesis.exhibits import Grid
+from asperity.thesis.products import Grid
 from asperity.thesis.rating.rated import GEARSET_2, RatedGear
 from asperity.thesis.reproduce import page as report
 
 GRID = Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("a, b", 60), ("gone", "")), ("how",))
 
 
-def test_a_table_loses_no_digit_in_csv_and_json():
+def test_a_table_loses_no_digit_in_csv_and_json(tmp_path):
     rows = list(csv.reader(io.StringIO(GRID.to_csv())))
     assert rows[0] == ["symbol", "value"]
     assert float(rows[1][1]) == 1.0 / 3.0
     assert rows[2] == ["a, b", "60"]
-    assert Grid.from_json(json.loads(json.dumps(GRID.to_json()))) == GRID
+    plain, (_, beside) = GRID.write(tmp_path / "table-9.1", {"title": "Table"})
+    kept = json.loads(beside.read_text("utf-8"))
+    assert [tuple(row) for row in kept["rows"]] == list(GRID.rows)
+    assert kept == {"title": "Table", "asperity": __version__, **json.loads(json.dumps(plain))}
 
 
 def test_a_row_has_a_cell_for_every_column():
@@ -63,8 +67,9 @@ def test_symbols_of_the_standards_are_set(plain, html):
     assert report.typeset(plain) == html
 
 
-def test_a_column_with_a_number_is_a_column_of_numbers():
-    assert GRID.numeric == (False, True)
+def test_columns_say_what_they_hold_of_a_thing_and_nothing_is_an_empty_cell():
+    grid = Grid.of([1, 2], {"number": float, "even": lambda n: None if n % 2 else "yes"}, "how")
+    assert grid == Grid(("number", "even"), ((1.0, ""), (2.0, "yes")), ("how",))
 
 
 def test_a_gearset_knows_its_command_and_its_numbers():

@@ -13,10 +13,9 @@ from asperity import closure
 from asperity.errors import InputError, StorageError
 from asperity.runs import Interrupted, key, workers
 from asperity.runs.workers import Task, done
-from asperity.thesis import contents
+from asperity.thesis import contents, exhibits
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, Chapter, everything, select
-from asperity.thesis.exhibits import FigureOf, TableOf
-from asperity.thesis.ledger import Claim
+from asperity.thesis.exhibits import Exhibit
 from asperity.thesis.reproduce import run as reproduction
 from asperity.thesis.reproduce.files import key_of
 from asperity.thesis.reproduce.run import run
@@ -25,8 +24,8 @@ MODULE = """
 import os, time
 import numpy as np
 from asperity.runs.workers import Task
-from asperity.thesis.exhibits import Drawn, Grid, labelled
-from asperity.thesis.ledger import Finding
+from asperity.thesis.exhibits import claim, figure, table
+from asperity.thesis.products import Finding, Grid, labelled
 
 HERE = os.path.dirname(__file__)
 
@@ -34,22 +33,29 @@ def note(name):
     with open(os.path.join(HERE, "made"), "a") as file:
         file.write(name + "\\n")
 
-def figure_9_1(full=False):
+def draw(dataset):
     from matplotlib.figure import Figure
-    note("figure 9.1" + " in full" * full)
-    return Drawn(Figure(), labelled(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"])
+    return Figure()
 
-def table_9_1():
+@figure("9.1", "Figure", "F.", draw, "figure 9.1")
+def drawn(name, full=False):
+    note(name + " in full" * full)
+    return labelled(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"]
+
+@table("9.1", "Table", "T.")
+def calculated():
     note("table 9.1")
     return Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("gone", "")), ("how",))
 
-def table_9_2():
+@table("9.2", "Table", "T.")
+def harmed():
     if os.path.exists(os.path.join(HERE, "harm")):
         raise ZeroDivisionError("nothing to divide by")
     note("table 9.2")
     return Grid(("symbol",), (("q_1",),), ())
 
-def claim_9_3():
+@claim("9.3", "9", "Text.", "1")
+def claimed():
     note("claim 9.3")
     return Finding.judged({"one": True}, "1", "Because.", {"ratio": 1.0}, ["asperity cases"])
 
@@ -58,6 +64,9 @@ class Shared:
 
 def shared(full):
     return [Shared()]
+
+def none(full):
+    return []
 """
 
 
@@ -73,12 +82,11 @@ def made(tmp_path, monkeypatch):
 
     name = module.__name__
     shelves = {
-        "FIGURES": [FigureOf("9.1", "Figure", "F.", module=name, has_full=True)],
+        "FIGURES": [Exhibit("figure", "9.1", name, parts=module.none)],
         "TABLES": [
-            TableOf("9.1", "Table", "T.", module=name, parts=module.shared),
-            TableOf("9.2", "Table", "T.", module=name, parts=module.shared),
+            Exhibit("table", number, name, parts=module.shared) for number in ("9.1", "9.2")
         ],
-        "CLAIMS": [Claim("9.3", "9", "Text.", "1", module=name)],
+        "CLAIMS": [Exhibit("claim", "9.3", name)],
     }
     for shelf, exhibits in shelves.items():
         monkeypatch.setattr(contents, shelf, {one.number: one for one in exhibits})
@@ -110,9 +118,9 @@ def test_a_run_makes_everything_once_and_the_next_finds_it(tmp_path, made, proce
         (*first.figures, *first.tables), (*again.figures, *again.tables), strict=True
     ):
         assert (one.reused, other.reused) == (False, True)
-    assert again.figures[0].how == ("asperity slide table-4.3",)
-    assert again.tables[0].grid.rows == (("m_x1", 1.0 / 3.0), ("gone", ""))
-    assert again.claims == first.claims
+    assert again.figures[0].plain["how"] == ["asperity slide table-4.3"]
+    assert again.tables[0].plain["rows"] == [["m_x1", 1.0 / 3.0], ["gone", ""]]
+    assert [one.plain for one in again.claims] == [one.plain for one in first.claims]
     assert json.loads((tmp_path / "claims.json").read_text())["claims"][0]["id"] == "9.3"
 
 
@@ -152,7 +160,7 @@ def test_a_note_of_what_was_made_that_is_damaged_costs_only_the_making(tmp_path,
     run(tmp_path, ["9.3"])
     for harm in ("", "[1", '[{"name": 1}]'):
         (tmp_path / "made.json").write_text(harm)
-        assert run(tmp_path, ["9.3"]).claims[0].finding.verdict == "reproduced"
+        assert run(tmp_path, ["9.3"]).claims[0].plain["verdict"] == "reproduced"
     assert made() == ["claim 9.3"] * 4
 
 
@@ -226,8 +234,10 @@ def test_a_number_asks_for_all_that_have_it_in_the_order_of_the_page():
 
 def test_everything_has_a_function_that_makes_it_and_cases_that_ship():
     for exhibit in everything():
-        assert callable(exhibit.function), exhibit.name
+        assert callable(exhibit.maker.make), exhibit.name
         assert len(key_of(exhibit)) == 32
+    marked = {name for name in exhibits._MAKERS if " 9." not in name}
+    assert marked == {exhibit.name for exhibit in everything()}
 
 
 @pytest.fixture

@@ -1,18 +1,13 @@
-"""All that is reproduced, chapter by chapter."""
+"""All that is reproduced, chapter by chapter, and the module that makes each of it."""
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeVar
+import functools
+from collections.abc import Callable, Mapping, Sequence
 
 from asperity.errors import InputError, nearest
-from asperity.thesis.contact import contents as contact
-from asperity.thesis.exhibits import Exhibit, FigureOf, TableOf
-from asperity.thesis.flanks import contents as flanks
-from asperity.thesis.ledger import Claim
-from asperity.thesis.rating import contents as rating
-from asperity.thesis.sliding import contents as sliding
-
-E = TypeVar("E", bound=Exhibit)
+from asperity.thesis.contact import elastic
+from asperity.thesis.contact.elastic import LONGITUDINAL, TRANSVERSE
+from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE, Exhibit, Part
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,14 +50,67 @@ CHAPTERS = (
 )  # fmt: skip
 """Those of which something is reproduced."""
 
+_MADE_IN = {
+    FIGURE: {
+        "sliding.figures": "2.7 2.14 2.15 2.16 4.3 4.4 4.17 4.18 4.19 4.20 4.21 4.22 4.23",
+        "rating.figures": "3.1 3.2 3.3 3.4 3.5",
+        "flanks.figures": "2.9 2.10 2.11 2.12 2.13",
+        "flanks.solids": "7.1 7.2 7.3 7.4 7.11",
+        "contact.figures": "5.2 5.3 5.5 5.6 5.7 5.8 5.9 5.10 5.11 7.8 7.9",
+    },
+    TABLE: {"sliding.tables": "4.1 4.3 4.4", "rating.tables": "3.2 3.3 3.4 3.5 3.6 3.7"},
+    CLAIM: {
+        "sliding.claims": "4.1 4.2 4.3 4.4 4.5 4.6 4.7 4.8",
+        "sliding.readings": "2.4 2.5 4.9 4.10 4.11 4.12 5.2",
+        "rating.claims": "3.1 3.2 3.3 3.4 3.5 3.6 3.7 3.8 7.1",
+        "rating.words": "1.1 2.6 3.9 3.10 3.11 3.12 3.13 3.14 7.9",
+        "flanks.claims": "2.1 2.2 2.3",
+        "contact.claims": "5.1 5.3 7.8",
+        "contact.derivatives": "7.14",
+    },
+}
 
-def _by_number(exhibits: Iterable[E]) -> dict[str, E]:
-    found = {exhibit.number: exhibit for exhibit in exhibits}
-    return {number: found[number] for number in sorted(found, key=_order)}
+_BODIES = (*(f"table-4.1-L{n}" for n in range(1, 7)), "table-4.3", "table-4.4")
+_CASES = {
+    "sliding": _BODIES,
+    "rating": ("gearset-2", "gearset-3"),
+    "flanks": ("gearset-3b",),
+    "contact": ("table-4.3", "table-4.4", LONGITUDINAL, TRANSVERSE),
+}
+
+_over_ratio, _from_rest = elastic.over_ratio, elastic.from_rest
+_PARTS: dict[str, Callable[[bool], Sequence[Part]]] = {
+    "figure 5.5": functools.partial(_over_ratio, LONGITUDINAL),
+    "figure 5.6": functools.partial(_from_rest, LONGITUDINAL),
+    "figure 5.7": functools.partial(_from_rest, LONGITUDINAL),
+    "figure 5.8": functools.partial(_over_ratio, TRANSVERSE),
+    "figure 5.9": functools.partial(_from_rest, TRANSVERSE),
+    "figure 5.10": functools.partial(_from_rest, TRANSVERSE),
+    "figure 5.11": elastic.over_direction,
+    "figure 7.8": functools.partial(_over_ratio, TRANSVERSE, on_body=True),
+    "figure 7.9": functools.partial(_over_ratio, LONGITUDINAL, on_body=True),
+    "claim 5.1": elastic.equal_ratios,
+    "claim 7.8": elastic.base_or_body,
+}
 
 
 def _order(number: str) -> tuple[int, ...]:
     return tuple(int(part) for part in number.split("."))
+
+
+def _shelf(kind: str) -> Mapping[str, Exhibit]:
+    found = {}
+    for module, numbers in _MADE_IN[kind].items():
+        cases = _CASES[module.partition(".")[0]]
+        for number in numbers.split():
+            parts = _PARTS.get(f"{kind} {number}")
+            given = {} if parts is None else {"parts": parts}
+            place = f"asperity.thesis.{module}"
+            found[number] = Exhibit(kind, number, place, cases, **given)
+    return {number: found[number] for number in sorted(found, key=_order)}
+
+
+CLAIMS, FIGURES, TABLES = (_shelf(kind) for kind in (CLAIM, FIGURE, TABLE))
 
 
 def chapter_of(number: str) -> str:
@@ -76,22 +124,12 @@ def chapter_of(number: str) -> str:
     return number.partition(".")[0]
 
 
-CLAIMS: Mapping[str, Claim] = _by_number(
-    (*sliding.CLAIMS, *rating.CLAIMS, *flanks.CLAIMS, *contact.CLAIMS)
-)
-FIGURES: Mapping[str, FigureOf] = _by_number(
-    (*sliding.FIGURES, *rating.FIGURES, *flanks.FIGURES, *contact.FIGURES)
-)
-TABLES: Mapping[str, TableOf] = _by_number((*sliding.TABLES, *rating.TABLES))
-
-
 def everything() -> list[Exhibit]:
     """Return all that is reproduced, in the order of the page."""
-    shelves: tuple[Mapping[str, Exhibit], ...] = (CLAIMS, FIGURES, TABLES)
     return [
         exhibit
         for chapter in CHAPTERS
-        for shelf in shelves
+        for shelf in (CLAIMS, FIGURES, TABLES)
         for number, exhibit in shelf.items()
         if chapter_of(number) == chapter.number
     ]

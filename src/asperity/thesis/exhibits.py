@@ -1,75 +1,101 @@
-"""What the thesis shows or says: a figure, a table or a claim, and where it is made here.
+"""What the thesis shows or says: a figure, a table or a claim, and the function that makes it here.
 
-All of these are plain data. What makes them is imported when they are made, so that a list of them
-costs nothing and one of them alone no more than its own room.
+A function that makes an exhibit says so, and what the page says beside it, by a decorator; it may
+be said several times, with what the function takes for each of them. An `Exhibit` knows its module
+alone, which is imported when it is made, so that a list of all costs nothing and one of them no
+more than its own room.
 """
 
-import csv
 import dataclasses
 import importlib
-import io
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from asperity.runs.workers import Task
+from asperity.thesis.products import Drawn, Finding, Grid, How
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-Cell = str | float | int
-"""A cell of a table; one without a value is an empty text."""
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+Computed = tuple["xr.Dataset", Sequence[How]]
+"""A figure's numbers, and how they are come by."""
+
+FIGURE, TABLE, CLAIM = "figure", "table", "claim"
 
 
 @dataclasses.dataclass(frozen=True)
-class Drawn:
-    """A figure, the numbers in it, and the commands and functions that give them."""
+class Maker:
+    """How an exhibit is made, and what the page says beside it."""
 
-    figure: "Figure"
-    dataset: "xr.Dataset"
-    how: Sequence[str]
+    words: Mapping[str, str]
+    make: Callable[..., Drawn | Grid | Finding]
 
 
-@dataclasses.dataclass(frozen=True)
-class Grid:
-    """A table's columns and rows, and the commands and functions that give its numbers."""
+_MAKERS: dict[str, Maker] = {}
 
-    columns: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
-    how: tuple[str, ...]
 
-    def __post_init__(self) -> None:
-        for row in self.rows:
-            if len(row) != len(self.columns):
-                raise ValueError(f"{row[0]!r} has {len(row)} cells for {len(self.columns)} columns")
+def figure(
+    number: str, title: str, caption: str, draw: "Callable[[xr.Dataset], Figure]", *arguments: Any
+) -> Callable[[Function], Function]:
+    """Mark what computes a figure: its dataset, and the commands and functions that give it.
 
-    @property
-    def numeric(self) -> tuple[bool, ...]:
-        """Which columns hold numbers."""
-        return tuple(
-            any(not isinstance(cell, str) for cell in column)
-            for column in zip(*self.rows, strict=True)
-        )
+    One that can be made in full, on finer meshes or at more points, takes ``full``.
 
-    def to_csv(self) -> str:
-        """As text, numbers to the last digit."""
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows((self.columns, *self.rows))
-        return text.getvalue()
+    Parameters
+    ----------
+    number, title, caption : str
+        What the page says.
+    draw : callable
+        Draws it from its dataset alone.
+    *arguments : object
+        What the function takes for it.
+    """
 
-    def to_json(self) -> dict[str, Any]:
-        """As plain values."""
-        return {
-            "columns": list(self.columns),
-            "rows": [list(row) for row in self.rows],
-            "how": list(self.how),
-        }
+    def marked(compute: Function) -> Function:
+        def make(**grade: bool) -> Drawn:
+            return Drawn.by(draw, *compute(*arguments, **grade))
 
-    @classmethod
-    def from_json(cls, plain: dict[str, Any]) -> "Grid":
-        """Undo `to_json`."""
-        rows = tuple(tuple(row) for row in plain["rows"])
-        return cls(tuple(plain["columns"]), rows, tuple(plain["how"]))
+        _MAKERS[f"{FIGURE} {number}"] = Maker({"title": title, "caption": caption}, make)
+        return compute
+
+    return marked
+
+
+def table(number: str, title: str, caption: str, *arguments: Any) -> Callable[[Function], Function]:
+    """Mark what calculates a table: a `Grid`; as `figure`."""
+
+    def marked(compute: Function) -> Function:
+        words = {"title": title, "caption": caption}
+        _MAKERS[f"{TABLE} {number}"] = Maker(words, lambda: compute(*arguments))
+        return compute
+
+    return marked
+
+
+def claim(number: str, section: str, text: str, thesis: str) -> Callable[[Function], Function]:
+    """Mark what tests a claim: it returns a `Finding`.
+
+    Parameters
+    ----------
+    number : str
+        Which never changes.
+    section : str
+        Where the thesis makes it.
+    text : str
+        What is claimed.
+    thesis : str
+        The thesis's number or word.
+    """
+
+    def marked(compute: Function) -> Function:
+        words = {"id": number, "section": section, "claim": text, "thesis": thesis}
+        _MAKERS[f"{CLAIM} {number}"] = Maker(words, compute)
+        return compute
+
+    return marked
 
 
 class Part(Protocol):
@@ -90,25 +116,22 @@ class Exhibit:
 
     Attributes
     ----------
-    number : str
-        Its number in the thesis.
+    kind, number : str
+        ``figure``, ``table`` or ``claim``, and its number in the thesis.
     module : str
-        Where the function stands that makes it; figure 4.23 is made by ``figure_4_23``.
+        Where the function stands that makes it.
     cases : tuple of str
-        Shipped cases it uses.
+        Shipped cases it may use.
     parts : callable
         Gives what it shares with others, or what takes so long that several processes are to work
         at it; takes whether it is made in full.
-    seconds : float
-        About how long it takes, s.
     """
 
-    kind: ClassVar[str]
+    kind: str
     number: str
-    module: str = dataclasses.field(kw_only=True)
-    cases: tuple[str, ...] = dataclasses.field(kw_only=True, default=())
-    parts: Callable[[bool], Sequence[Part]] = dataclasses.field(kw_only=True, default=_no_parts)
-    seconds: float = dataclasses.field(kw_only=True, default=1.0)
+    module: str
+    cases: tuple[str, ...] = ()
+    parts: Callable[[bool], Sequence[Part]] = _no_parts
 
     @property
     def name(self) -> str:
@@ -121,53 +144,16 @@ class Exhibit:
         return self.module.rpartition(".")[0]
 
     @property
-    def function(self) -> Callable[..., Any]:
-        """What makes it."""
-        name = self.name.replace(" ", "_").replace(".", "_")
-        made_by: Callable[..., Any] = getattr(importlib.import_module(self.module), name)
-        return made_by
+    def has_full(self) -> bool:
+        """Whether it can be made in full: what is drawn of parts."""
+        return self.kind == FIGURE and self.parts is not _no_parts
 
+    @property
+    def maker(self) -> Maker:
+        """How it is made."""
+        importlib.import_module(self.module)
+        return _MAKERS[self.name]
 
-@dataclasses.dataclass(frozen=True)
-class FigureOf(Exhibit):
-    """A figure of the thesis: what it shows.
-
-    One that ``has_full`` can be made in full: on finer meshes, at more points. Its function takes
-    ``full=True`` for that.
-    """
-
-    kind = "figure"
-    title: str
-    caption: str
-    has_full: bool = dataclasses.field(kw_only=True, default=False)
-
-    def make(self, *, full: bool = False) -> Drawn:
-        """Draw it."""
-        drawn: Drawn = self.function(full=True) if full and self.has_full else self.function()
-        return drawn
-
-
-@dataclasses.dataclass(frozen=True)
-class TableOf(Exhibit):
-    """A table of the thesis: what it shows."""
-
-    kind = "table"
-    title: str
-    caption: str
-
-    def make(self) -> Grid:
-        """Calculate it."""
-        grid: Grid = self.function()
-        return grid
-
-
-def labelled(**variables: tuple[tuple[str, ...], Any, str, str]) -> "xr.Dataset":
-    """Variables given as (dimensions, values, units, long name); a dimension's own is a coord."""
-    import xarray as xr
-
-    named = {
-        name: (dims, values, {"units": units, "long_name": long_name})
-        for name, (dims, values, units, long_name) in variables.items()
-    }
-    dimensions = {dim for dims, *_ in variables.values() for dim in dims}
-    return xr.Dataset(named).set_coords(sorted(dimensions & set(named)))
+    def make(self, *, full: bool = False) -> Any:
+        """Make it: a `Drawn`, a `Grid` or a `Finding`."""
+        return self.maker.make(full=True) if full and self.has_full else self.maker.make()

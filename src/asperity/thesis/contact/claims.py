@@ -5,8 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.block.problem import BlockProblem
-from asperity.casefile import read_case
-from asperity.commands import case_tables
 from asperity.thesis.contact.blocks import Settled
 from asperity.thesis.contact.elastic import (
     ACROSS,
@@ -17,11 +15,13 @@ from asperity.thesis.contact.elastic import (
     SLIDING,
     STIFF,
     TRANSVERSE,
+    ElasticBlock,
     from_rest,
     over_direction,
     over_ratio,
 )
-from asperity.thesis.ledger import Finding
+from asperity.thesis.exhibits import claim
+from asperity.thesis.products import Finding
 from asperity.thesis.sliding.bodies import PERIODIC, Body, Sweep
 
 _SAME = 0.01
@@ -47,8 +47,8 @@ def _apart(solved: Sequence[Settled]) -> tuple[float, float, float, float]:
     )
 
 
-def claim_5_1() -> Finding:
-    """Elastic blocks beside sliding bodies."""
+@claim("5.1", "5.3", "Finite element ratios equal chapter 4's.", "agree")
+def _equal_ratios() -> Finding:
     groups = {
         "longitudinal": over_ratio(LONGITUDINAL),
         "transverse": over_ratio(TRANSVERSE),
@@ -89,20 +89,19 @@ def claim_5_1() -> Finding:
             "slider_ratio_from_rest": slid,
         },
         [
-            *(b.how for blocks in groups.values() for b in blocks),
-            STIFF.how,
-            block.command,
-            body.command,
+            *(one for blocks in groups.values() for one in blocks),
+            STIFF,
+            block,
+            body,
         ],
     )
 
 
-def claim_5_3() -> Finding:
-    """Height of a block of steel of half a kilogram."""
+@claim("5.3", "5.3.1, App. A", "Height of the block of 0.5 kg.", "0.03 m; 0.053 m")
+def _height() -> Finding:
     mass, density = 0.5, 7850.0
-    length, width, height = BlockProblem.from_case(
-        read_case(LONGITUDINAL, case_tables())
-    ).block.size
+    block = ElasticBlock(LONGITUDINAL)
+    length, width, height = BlockProblem.from_case(block.read()).block.size
     steel = mass / (density * length * width)
     needed = mass / (length * width * height)
     return Finding.judged(
@@ -119,8 +118,8 @@ def claim_5_3() -> Finding:
     )
 
 
-def claim_7_8() -> Finding:
-    """The base shaken or the block."""
+@claim("7.8", "7.3.6", "Vibrating the body or the base gives the same ratios.", "agree")
+def _base_or_body() -> Finding:
     cases = (LONGITUDINAL, TRANSVERSE)
     blocks = {case: over_ratio(case, on_body=True) for case in cases}
     ours, theirs = (
@@ -159,5 +158,5 @@ def claim_7_8() -> Finding:
             "slider_transverse_largest_difference": slid,
             "guided_slider_transverse_largest_difference": held,
         },
-        [*(b.how for group in blocks.values() for b in group), *(s.command for s in guided)],
+        [*(block for group in blocks.values() for block in group), *guided],
     )

@@ -12,7 +12,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from asperity.thesis.ledger import Finding
+from asperity.thesis.exhibits import claim
+from asperity.thesis.products import Finding
 
 Values = Mapping[str, complex]
 
@@ -155,8 +156,8 @@ def worst() -> dict[str, float]:
     return off
 
 
-def claim_7_14() -> Finding:
-    """The printed derivatives against those of the scheme."""
+@claim("7.14", "7.3.5", "(98) to (141) are the partial derivatives of (79) to (97).", "yes")
+def _derivatives() -> Finding:
     off = worst()
     wrong = [number for number, error in off.items() if error > _EXACT]
     return Finding.judged(
@@ -169,7 +170,7 @@ def claim_7_14() -> Finding:
         "derivative of M'2N'1. Apart from derivatives, (82) divides by MN' where it should by "
         "MN'', so that sin and cos of alpha are not of one angle; here it is put right. Appendix E "
         "leaves eta out altogether.",
-        {f"error_{number.replace(', ', '_')}": error for number, error in off.items()
+        {f"error_{number}": error for number, error in off.items()
          if error > _EXACT},
         ["asperity.thesis.contact.derivatives.worst()"],
     )  # fmt: skip

@@ -4,15 +4,15 @@ Light, so that a run can hand them out before anything of theirs is imported.
 """
 
 import dataclasses
-import shlex
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.runs.workers import Task
-from asperity.thesis.exhibits import labelled
+from asperity.thesis.products import labelled
+from asperity.thesis.shipped import Shipped
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,12 +43,10 @@ _SETTLING, _MARCH = 4.0, 30.0  # s, about
 T = TypeVar("T")
 
 
-@dataclasses.dataclass(frozen=True)
-class ElasticBlock:
-    """A shipped case of an elastic block with settings, under steady vibration."""
+class ElasticBlock(Shipped):
+    """An elastic block under steady vibration."""
 
-    case: str
-    settings: tuple[str, ...] = ()
+    verb = "block"
 
     def settled(self) -> "Settled":
         """Its friction and that of the sliding bodies beside it, solved once for all runs."""
@@ -59,13 +57,11 @@ class ElasticBlock:
     @property
     def task(self) -> Task:
         """To settle it, for those that ask later."""
-        name = f"settle {self.case} {' '.join(self.settings)}"
-        return Task(name, self.settled, _ROOM, _SETTLING)
+        return Task(f"settle {self.name}", self.settled, _ROOM, _SETTLING)
 
-    @property
-    def how(self) -> str:
+    def command(self, verb: str = "", **options: tuple[str, ...]) -> str:
         """How to come by what it settles to, on the command line."""
-        return _command(self.case, (*self.settings, "solve.method=settled"))
+        return Shipped.command(self.plus("solve.method=settled"), verb, **options)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -107,12 +103,10 @@ class FromRest:
         )
 
 
-@dataclasses.dataclass(frozen=True)
-class BlockFromRest:
-    """A shipped case of an elastic block with settings, marched from rest."""
+class BlockFromRest(Shipped):
+    """An elastic block marched from rest."""
 
-    case: str
-    settings: tuple[str, ...] = ()
+    verb = "block"
 
     def marched(self) -> FromRest:
         """What is shown of its march, solved once for all runs."""
@@ -123,18 +117,7 @@ class BlockFromRest:
     @property
     def task(self) -> Task:
         """To march it, for those that ask later."""
-        name = f"march {self.case} {' '.join(self.settings)}"
-        return Task(name, self.marched, _ROOM, _MARCH)
-
-    @property
-    def command(self) -> str:
-        """The same on the command line."""
-        return _command(self.case, self.settings)
-
-
-def _command(case: str, settings: Sequence[str]) -> str:
-    words = ["asperity", "block", case, *(f"--set {shlex.quote(one)}" for one in settings)]
-    return " ".join(words)
+        return Task(f"march {self.name}", self.marched, _ROOM, _MARCH)
 
 
 def _once(block: ElasticBlock | BlockFromRest, of: type[T], solve: Callable[[], T]) -> T:

@@ -19,7 +19,7 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
-from asperity.thesis.gearsets import Gear
+from asperity.thesis.shipped import Shipped
 
 T = TypeVar("T", bound=Table)
 
@@ -27,6 +27,12 @@ _ROWS, _COLUMNS = 41, 61
 _SIDE = 1
 # Only the oil film depends on it, which is not drawn; K.
 _OIL = 353.15
+
+
+class Gear(Shipped):
+    """A shipped gearset with flanks."""
+
+    verb = "flank"
 
 
 def pair_of(gear: Gear) -> Pair:

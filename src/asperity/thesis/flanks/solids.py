@@ -14,11 +14,11 @@ from asperity.flanks.wheel.enveloped import FlankGrid, Wheel, WheelFlank
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
-from asperity.thesis.exhibits import Drawn, labelled
+from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.flanks import drawings_solids as drawings
-from asperity.thesis.flanks.meshing import pair_of, stood
+from asperity.thesis.flanks.meshing import Gear, pair_of, stood
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.gearsets import Gear
+from asperity.thesis.products import labelled
 
 GEAR = Gear("gearset-3b")
 
@@ -26,6 +26,7 @@ STEP = math.radians(30.0)
 """Turn of the hob between two cuts of the stepwise simulation."""
 
 _ENLARGED = 30.0
+_FLANK = GEAR.command()
 _SECTOR = 9
 _NOT_FLANK = (
     "flank_minus", "fillet_plus", "fillet_minus", "tip", "inner", "cut_minus", "cut_plus",
@@ -76,8 +77,15 @@ def facet_height(flank: WheelFlank, grid: FlankGrid, step: float) -> FloatArray:
     return height
 
 
-def figure_7_1() -> Drawn:
-    """The gearset, and a flank with and without facets."""
+@figure(
+    "7.1", "Gearset 3 in space, and what a machining simulation leaves of a flank",
+    "The thesis's CAD model is lost; this is gearset 3 as reconstructed, with a centre distance "
+    "of 2.9 in. Right: the exact flank, and one cut at every 30 deg of the hob alone, its facets "
+    "enlarged 30 times. Those of the thesis's model, at the edges of the teeth, came from its "
+    "tool's path, which is lost; shaft and hub are left out.",
+    drawings.gearset,
+)  # fmt: skip
+def _gearset() -> Computed:
     wheel = _wheel()
     teeth = wheel.pair.geometry.wheel_teeth
     ring = tooth(wheel, 1.2, teeth=teeth)
@@ -101,27 +109,44 @@ def figure_7_1() -> Drawn:
         "asperity.flanks.mesh.tooth, asperity.flanks.export.together.mounted_worm of gearset-3b",
         "asperity.thesis.flanks.solids.facet_height",
     ]
-    return Drawn(drawings.gearset(dataset), dataset, how)
+    return dataset, how
 
 
-def figure_7_2() -> Drawn:
-    """The worm in some teeth of the wheel."""
+@figure(
+    "7.2", "Gearset 3 simplified for a simulation",
+    "The thesis's CAD model is lost; this is gearset 3 as reconstructed, with a centre distance "
+    "of 2.9 in. The worm and nine teeth with their rim; shaft and hub are left out, as the thesis "
+    "does.",
+    drawings.sector,
+)  # fmt: skip
+def _sector() -> Computed:
     teeth = _centred(Shape.of_mesh(_mesh("coarse", _SECTOR)), _SECTOR)
     both = joined([teeth, Shape.of_body(mounted_worm(_wheel()), 1, every=(2, 1))])
     dataset = labelled(**both.variables("gearset"))
-    how = ["asperity flank gearset-3b --out out/flank"]
-    return Drawn(drawings.sector(dataset), dataset, how)
+    return dataset, [f"{_FLANK} --out out/flank"]
 
 
-def figure_7_3() -> Drawn:
-    """The worm's surface as a rigid shell."""
+@figure(
+    "7.3", "The worm as a rigid shell",
+    "Its surface alone, open at both ends, as quadrilaterals; every corner lies on the exact "
+    "surface. A simulation here takes the worm without facets, by its distance function; the mesh "
+    "is for others.",
+    drawings.shell,
+)  # fmt: skip
+def _shell() -> Computed:
     worm = Shape.of_body(worm_body(_wheel().pair), 1, every=(5, 1), ends=False)
     dataset = labelled(**worm.variables("worm"))
-    return Drawn(drawings.shell(dataset), dataset, ["asperity flank gearset-3b --out out/flank"])
+    return dataset, [f"{_FLANK} --out out/flank"]
 
 
-def figure_7_4() -> Drawn:
-    """The faces of a tooth, and its mesh."""
+@figure(
+    "7.4", "Topology and mesh of a wheel tooth",
+    "The thesis had to blend facets into one face a flank. Here each flank, fillet and tip is one "
+    "face from the start, and the corners of the mesh lie on it exactly. The mesh is of "
+    "structured hexahedra, of intermediate density.",
+    drawings.topology,
+)  # fmt: skip
+def _topology() -> Computed:
     mesh = _mesh("intermediate", 1)
     groups = (
         ("inner", "cut_minus", "cut_plus", "face_low", "face_high"),
@@ -134,12 +159,17 @@ def figure_7_4() -> Drawn:
         elements=((), len(mesh.cells), "1", "hexahedra"),
         scaled_jacobian=((), float(mesh.scaled_jacobian().min()), "1", "least scaled Jacobian"),
     )
-    how = ["asperity flank gearset-3b --density intermediate --out out/flank"]
-    return Drawn(drawings.topology(dataset), dataset, how)
+    return dataset, [f"{_FLANK} --density intermediate --out out/flank"]
 
 
-def figure_7_11() -> Drawn:
-    """Three mesh densities."""
+@figure(
+    "7.11", "Mesh densities of the wheel: coarse, intermediate, fine",
+    "As in the thesis the element sizes are 100, 75 and 50 % of the coarse one, which is a fifth "
+    "of the axial module here, as Table 7.4 is lost. A tooth of the wheel; the worm needs no "
+    "mesh.",
+    drawings.densities,
+)  # fmt: skip
+def _densities() -> Computed:
     meshes = {name: _mesh(name, 1) for name in DENSITIES}
     variables: dict[str, Any] = {}
     for name, mesh in meshes.items():
@@ -154,5 +184,4 @@ def figure_7_11() -> Drawn:
         scaled_jacobian=(("density",), least, "1", "least scaled Jacobian"),
         **variables,
     )
-    how = [f"asperity flank gearset-3b --density {name} --out out/flank" for name in DENSITIES]
-    return Drawn(drawings.densities(dataset), dataset, how)
+    return dataset, [f"{_FLANK} --density {name} --out out/flank" for name in DENSITIES]

@@ -1,28 +1,15 @@
 """The pictures of chapter 3, each drawn from its dataset alone."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILION,
-    legend,
-    panels,
-)
+from asperity.results.figures import BLACK, GREEN, ORANGE, SKY, legend, panels
+from asperity.thesis.drawing import DOTTED, line, marks
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
-
-_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
-_MARKERS = "osD^v"
-_DASHES = ((None, None), (6, 2), (2, 2), (6, 2, 2, 2), (4, 1))
 
 
 def friction(dataset: "xr.Dataset") -> "Figure":
@@ -31,26 +18,24 @@ def friction(dataset: "xr.Dataset") -> "Figure":
     velocity = dataset["velocity"]
     for index, name in enumerate(dataset["gearset"].values):
         own = dataset.sel(gearset=name)
-        style: dict[str, Any] = {"color": _COLOURS[index], "dashes": _DASHES[index]}
-        axes.plot(velocity, own["mu_zm"], label=rf"ISO $\mu_{{zm}}$, {name}", **style)
+        line(axes, index, velocity, own["mu_zm"], rf"ISO $\mu_{{zm}}$, {name}")
         for key in ("own_mu_zm", "own_mu_AGMA"):
-            axes.plot(
-                own["own_velocity"], own[key], linestyle="none", marker=_MARKERS[index],
-                color=_COLOURS[index], markersize=7, markeredgecolor="white",
+            marks(
+                axes, index, own["own_velocity"], own[key], filled=True, markersize=7,
+                markeredgecolor="white",
             )  # fmt: skip
-    axes.plot(velocity, dataset["mu_0T"], color=BLACK, dashes=(1, 1.5), label=r"ISO $\mu_{0T}$")
-    axes.plot(velocity, dataset["mu_AGMA"], color=GREEN, dashes=(6, 2, 2, 2), label="AGMA")
+    line(axes, 0, velocity, dataset["mu_0T"], r"ISO $\mu_{0T}$", color=BLACK, dashes=DOTTED)
+    line(axes, 3, velocity, dataset["mu_AGMA"], "AGMA", color=GREEN)
     axes.set_xscale("log")
-    axes.set_xlim(float(velocity[0]), float(velocity[-1]))
     axes.set_xticks([0.02, 0.1, 1.0, 10.0], ["0.02", "0.1", "1", "10"])
-    axes.set_ylim(0.0, None)
-    axes.set_xlabel("sliding velocity (m/s)")
-    axes.set_ylabel("coefficient of friction")
+    axes.set(
+        xlabel="sliding velocity (m/s)", xlim=(float(velocity[0]), float(velocity[-1])),
+        ylabel="coefficient of friction", ylim=(0.0, None),
+    )  # fmt: skip
     legend(axes, loc="upper right")
     return figure
 
 
-_HATCHES = ("", "///")
 _SHARES = {"eta_z": r"$\eta_{z1-2}$", "eta_AGMA": r"$\eta_{AGMA}$"}
 _TORQUES = {"M_26k": "$M_{26k}$", "M_w": "$M_w$", "M_s": "$M_s$", "T_G_all": "$T_{G,all}$"}
 
@@ -75,11 +60,10 @@ def _bars(dataset: "xr.Dataset", names: dict[str, str], label: str, shown: str) 
             heights = [float(dataset[name].sel(gearset=gearset, design=design)) for name in names]
             bars = axes.bar(
                 places + 0.4 * (index - 0.5), heights, 0.36, color=(SKY, ORANGE)[index],
-                edgecolor=BLACK, linewidth=0.6, hatch=_HATCHES[index], label=str(design),
+                edgecolor=BLACK, linewidth=0.6, hatch=("", "///")[index], label=str(design),
             )  # fmt: skip
-            axes.bar_label(
-                bars, [shown.format(height) for height in heights], padding=2, fontsize=9.5
-            )
+            texts = [shown.format(height) for height in heights]
+            axes.bar_label(bars, texts, padding=2, fontsize=9.5)
         axes.set_xticks(places, list(names.values()))
         axes.tick_params(axis="x", length=0.0, pad=6.0)
         axes.grid(visible=False, axis="x")

@@ -1,23 +1,22 @@
 """Shipped gearsets, their ratings, and the studies of these."""
 
-import dataclasses
 import functools
 from typing import Any
 
 from asperity.gearset import Gearset
-from asperity.rating import STANDARDS, Operation, Rated, RatingOptions, rate_case
-from asperity.rating.result import Rating
+from asperity.rating import Operation, Rated, RatingOptions, rate_case
 from asperity.studies.comparison import Comparison
 from asperity.studies.methods import compare_case
 from asperity.studies.optimise import Optimum, optimise
 from asperity.studies.reported import Method, reported_methods
 from asperity.studies.sensitivity import Sensitivity, sensitivity
-from asperity.thesis.gearsets import Gear
+from asperity.thesis.shipped import Shipped
 
 
-@dataclasses.dataclass(frozen=True)
-class RatedGear(Gear):
+class RatedGear(Shipped):
     """A shipped gearset with its ratings and the studies of them."""
+
+    verb = "rate"
 
     def tables(self) -> tuple[Gearset, Operation, RatingOptions]:
         """What the ratings and their studies take."""
@@ -25,21 +24,25 @@ class RatedGear(Gear):
         return case.require(Gearset), case.require(Operation), case.require(RatingOptions)
 
     def rated(self) -> Rated:
-        """Its rating by all standards."""
-        return _rated(self)
-
-    def ratings(self) -> dict[str, Rating]:
-        """Its ratings by the name of the standard, all of which must apply."""
-        rated = self.rated()
-        ratings = {name: getattr(rated, name) for name in STANDARDS}
+        """Its rating by all standards, all of which must apply."""
+        rated = _rated(self)
         if rated.notes:
             raise ValueError("; ".join(rated.notes))
-        return ratings
+        return rated
 
     def number(self, standard: str, key: str) -> float:
         """A number of its rating by a standard."""
-        value: Any = self.ratings()[standard][key]
-        return float(value)
+        return number(self.rated(), standard, key)
+
+    def numbers(self, standard: str, *keys: str) -> tuple[float, ...]:
+        """Several of them."""
+        return tuple(self.number(standard, key) for key in keys)
+
+
+def number(rated: Rated, standard: str, key: str) -> float:
+    """A number of a rating by a standard."""
+    value: Any = rated.found[standard][key]
+    return float(value)
 
 
 def methods_of_thesis() -> tuple[Method, ...]:
@@ -70,7 +73,40 @@ def _rated(gear: RatedGear) -> Rated:
     return rate_case(gear.read())
 
 
+@functools.cache
+def changes_at_optimum(gear: RatedGear) -> dict[str, float]:
+    """What becomes of some of its numbers, as a share of each."""
+    optimum = optimum_of(gear)
+    return {
+        symbol: number(optimum.after, *place) / number(optimum.before, *place) - 1.0
+        for symbol, place in _WATCHED.items()
+    }
+
+
+def besides() -> dict[str, bool]:
+    """What else 3.3.5 says of the optima, and whether it holds of gearsets 2 and 3."""
+    second, third = changes = [changes_at_optimum(gear) for gear in GEARSETS.values()]
+    return {
+        "M_w rises a little": all(0.0 < own["M_w"] < 0.1 for own in changes),
+        "M_s stays": all(abs(own["M_s"]) < 1e-6 for own in changes),
+        "eta_AGMA does not rise in all": min(own["eta_AGMA"] for own in changes) <= 0.0,
+        "q_1 rises for gearset 3 only": second["q_1"] <= 0.0 < third["q_1"],
+        "sigma_a rises for gearset 3 only": second["sigma_a"] <= 0.0 < third["sigma_a"],
+    }
+
+
+_WATCHED = {
+    "q_1": ("iso14521", "diameter_factor"),
+    "eta_AGMA": ("agma6034", "eta"),
+    "M_w": ("bs721", "M_w_Nm"),
+    "M_s": ("bs721", "M_s_Nm"),
+    "sigma_a": ("agma6034", "bending_stress_MPa"),
+}
+
 GEARSET_2 = RatedGear("gearset-2")
 GEARSET_3 = RatedGear("gearset-3")
 GEARSETS = {"gearset 2": GEARSET_2, "gearset 3": GEARSET_3}
 """The two of which enough survives."""
+
+OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
+"""How their optima are come by."""

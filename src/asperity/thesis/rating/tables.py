@@ -1,15 +1,19 @@
 """Tables 3.2 to 3.7, as far as their inputs survive, each row with what the thesis says of it."""
 
-import dataclasses
+import functools
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from asperity.rating import Rated
 from asperity.rating.result import Entry
-from asperity.thesis.exhibits import Cell, Grid
+from asperity.studies.optimise import Limit
+from asperity.thesis.exhibits import table
+from asperity.thesis.products import Grid
 from asperity.thesis.rating.rated import (
     GEARSET_2,
     GEARSETS,
+    OPTIMISED,
     comparison_of,
     methods_of_thesis,
     optimum_of,
@@ -28,9 +32,10 @@ class _Row(NamedTuple):
     here: str = "computed"
 
     def entry(self, rated: Rated) -> Entry:
-        entry = rated.found[self.standard].entry(self.key)
-        by = _BY.get(self.standard, "")
-        return dataclasses.replace(entry, meaning=f"{entry.meaning}{by}")
+        return rated.found[self.standard].entry(self.key)
+
+    def meaning(self, rated: Rated) -> str:
+        return f"{self.entry(rated).meaning}{_BY.get(self.standard, '')}"
 
 
 _FROM_ETA = "inferred from eta_z, with the other two of q_1, m_x1 and a"
@@ -69,40 +74,58 @@ _TABLE_3_2 = (
 )
 
 
-def table_3_3() -> Grid:
-    """Friction and efficiency of gearset 2 with each way to less friction."""
+@table(
+    "3.2", "Efficiency of gearset 2: inputs and results",
+    "By ISO/TR 14521. The thesis's table is lost; its column holds what the text repeats of it, "
+    "the last one where the number here is from.",
+)  # fmt: skip
+def _efficiency() -> Grid:
+    rated = GEARSET_2.rated()
+    return Grid.of(
+        _TABLE_3_2,
+        {
+            "symbol": lambda row: row.entry(rated).symbol,
+            "quantity": lambda row: row.meaning(rated),
+            "value": lambda row: row.entry(rated).value,
+            "unit": lambda row: row.entry(rated).unit,
+            "thesis": lambda row: row.thesis,
+            "here": lambda row: row.here,
+        },
+        GEARSET_2,
+    )
+
+
+@table(
+    "3.3", "Friction and efficiency of gearset 2 with each way to less friction",
+    "What the thesis has of the oils' viscosities is lost, and without influence on the "
+    "efficiency. Rows that are not in the thesis: oils by the formulas of ISO/TR 14521, and "
+    "vibration by our own friction model.",
+)  # fmt: skip
+def _methods() -> Grid:
     study = comparison_of(GEARSET_2)
-    quoted = {method.key: method for method in methods_of_thesis()}
-    rows = []
-    for row in study.rows:
-        method, thesis = quoted.get(row.key), "not in the thesis"
-        if row is study.rows[0]:
-            thesis = "0.0715"
-        elif method is not None and method.reduction is not None:
-            thesis = f"{100.0 * method.reduction:.0f} % less"
-        elif method is not None:
-            thesis = f"{method.base_friction:.4f}"
-        moved = row.vibration
-        rows.append(
-            (
-                row.name,
-                row.kind,
-                thesis,
-                row.base_friction,
-                row.friction,
-                row.efficiency,
-                100.0 * row.gain,
-                "" if moved is None else moved.velocity_ratio,
-                "" if moved is None else row.efficiency_with_vibration,
-                str(row.source),
-            )
-        )
-    columns = (
-        "method", "kind", "mu_0T by the thesis", "mu_0T", "mu_zm", "eta_z", "gain, points",
-        "v_a over v_g",
-        "eta_z with the vibration's power", "source",
-    )  # fmt: skip
-    return Grid(columns, tuple(rows), (GEARSET_2.command("methods"),))
+    quoted = {study.rows[0].key: "0.0715"}
+    for method in methods_of_thesis():
+        less = method.reduction
+        number = f"{method.base_friction:.4f}" if less is None else f"{100.0 * less:.0f} % less"
+        quoted.setdefault(method.key, number)
+    return Grid.of(
+        study.rows,
+        {
+            "method": lambda row: row.name,
+            "kind": lambda row: row.kind,
+            "mu_0T by the thesis": lambda row: quoted.get(row.key, "not in the thesis"),
+            "mu_0T": lambda row: row.base_friction,
+            "mu_zm": lambda row: row.friction,
+            "eta_z": lambda row: row.efficiency,
+            "gain, points": lambda row: 100.0 * row.gain,
+            "v_a over v_g": lambda row: row.vibration and row.vibration.velocity_ratio,
+            "eta_z with the vibration's power": lambda row: (
+                row.vibration and row.efficiency_with_vibration
+            ),
+            "source": lambda row: str(row.source),
+        },
+        GEARSET_2.command("methods"),
+    )
 
 
 _EFFECTS = {
@@ -114,6 +137,35 @@ _EFFECTS = {
     "axial_module": "lowers; fails above 37 %",
     "worm_roughness": "lowers, small",
 }
+
+
+@table(
+    "3.4", "What each input does to the efficiency of gearset 2",
+    "The thesis's table is lost; its column holds what the text of 3.2.3 says. Elasticity: "
+    "relative change of the efficiency over that of the input, at the gearset as it is.",
+)  # fmt: skip
+def _influences() -> Grid:
+    return Grid.of(
+        sensitivity_of(GEARSET_2).influences,
+        {
+            "symbol": lambda found: found.quantity.symbol,
+            "quantity": lambda found: found.quantity.meaning,
+            "value": lambda found: float(found.values[0]),
+            "unit": lambda found: found.quantity.unit,
+            "effect": lambda found: found.effect,
+            "size": lambda found: found.size,
+            "elasticity": lambda found: found.elasticity,
+            "eta_z at +40 %": lambda found: _number(float(found.efficiency[-1])),
+            "fails above, %": lambda found: found.fails_above and 100.0 * found.fails_above,
+            "thesis": lambda found: _EFFECTS[found.quantity.name],
+        },
+        GEARSET_2.command("sensitivity"),
+    )
+
+
+def _number(value: float) -> float | None:
+    return None if math.isnan(value) else value
+
 
 _INFERRED = "inferred"
 _TABLE_3_5 = (
@@ -155,52 +207,32 @@ _TABLE_3_5 = (
 )  # fmt: skip
 
 
-def table_3_2() -> Grid:
-    """Inputs and results of the efficiency of gearset 2."""
-    rows = []
-    for row in _TABLE_3_2:
-        entry = row.entry(GEARSET_2.rated())
-        rows.append((entry.symbol, entry.meaning, entry.value, entry.unit, row.thesis, row.here))
-    columns = ("symbol", "quantity", "value", "unit", "thesis", "here")
-    return Grid(columns, tuple(rows), (GEARSET_2.command(),))
+@table(
+    "3.5", "Efficiency and load capacity of gearsets 2 and 3 as they are",
+    "By ISO/TR 14521, AGMA 6034 and, from tables that are from memory, BS 721. The thesis's table "
+    "is lost, gearsets 1 and 4 with it. The required life is 500 000 turns of the wheel, a tenth "
+    "of it for strength (3.3.1).",
+)  # fmt: skip
+def _as_they_are() -> Grid:
+    rated = {name: gear.rated() for name, gear in GEARSETS.items()}
+    columns = _beside(rated) | {"here": lambda row: row.here}
+    return Grid.of(_TABLE_3_5, columns, *GEARSETS.values())
 
 
-def table_3_4() -> Grid:
-    """What each input does to the efficiency of gearset 2."""
-    rows = []
-    for found in sensitivity_of(GEARSET_2).influences:
-        what = found.quantity
-        last = float(found.efficiency[-1])
-        rows.append(
-            (
-                what.symbol,
-                what.meaning,
-                float(found.values[0]),
-                what.unit,
-                found.effect,
-                found.size,
-                found.elasticity,
-                "" if math.isnan(last) else last,
-                "" if found.fails_above is None else 100.0 * found.fails_above,
-                _EFFECTS[what.name],
-            )
-        )
-    columns = (
-        "symbol", "quantity", "value", "unit", "effect", "size", "elasticity",
-        "eta_z at +40 %", "fails above, %", "thesis",
-    )  # fmt: skip
-    return Grid(columns, tuple(rows), (GEARSET_2.command("sensitivity"),))
+def _beside(rated: dict[str, Rated]) -> dict[str, Callable[[_Row], Any]]:
+    """Columns of gearsets beside each other."""
+    first = next(iter(rated.values()))
+    return {
+        "symbol": lambda row: row.entry(first).symbol,
+        "quantity": lambda row: row.meaning(first),
+        "unit": lambda row: row.entry(first).unit,
+        **{name: functools.partial(_value, one) for name, one in rated.items()},
+        "thesis": lambda row: row.thesis,
+    }
 
 
-def table_3_5() -> Grid:
-    """Inputs and results of gearsets 2 and 3 as they are."""
-    rows = []
-    for row in _TABLE_3_5:
-        entries = [row.entry(gear.rated()) for gear in GEARSETS.values()]
-        first, values = entries[0], [entry.value for entry in entries]
-        rows.append((first.symbol, first.meaning, first.unit, *values, row.thesis, row.here))
-    columns = ("symbol", "quantity", "unit", *GEARSETS, "thesis", "here")
-    return Grid(columns, tuple(rows), tuple(gear.command() for gear in GEARSETS.values()))
+def _value(rated: Rated, row: _Row) -> Any:
+    return row.entry(rated).value
 
 
 _BOUNDS = {
@@ -215,35 +247,35 @@ _BOUNDS = {
 }
 
 
-def table_3_6() -> Grid:
-    """Constraints of the optimum."""
-    rows = []
+@table(
+    "3.6", "Constraints of the optimum",
+    "The thesis's table is lost. The bounds of alpha_n, q_1, m_x1, Ra_1 and x_2 are assumed; that "
+    "M_w and M_s may not fall is the thesis's.",
+)  # fmt: skip
+def _constraints() -> Grid:
+    limits: dict[tuple[str, str], list[Limit]] = {}
     for name, gear in GEARSETS.items():
-        limits = optimum_of(gear).limits
-        for symbol in dict.fromkeys(limit.symbol for limit in limits):
-            own = [limit for limit in limits if limit.symbol == symbol]
-            below: list[Cell] = [limit.bound for limit in own if limit.relation != "<="]
-            above: list[Cell] = [limit.bound for limit in own if limit.relation == "<="]
-            active = [limit for limit in own if limit.active]
-            unit, thesis, here = _BOUNDS[symbol]
-            rows.append(
-                (
-                    name,
-                    symbol,
-                    *(below or [""]),
-                    *(above or [""]),
-                    own[0].value,
-                    unit,
-                    "holds it back" if active else "",
-                    thesis,
-                    here,
-                )
-            )
-    columns = (
-        "gearset", "symbol", "at least", "at most", "optimum", "unit", "effect", "thesis",
-        "bounds here",
-    )  # fmt: skip
-    return Grid(columns, tuple(rows), _OPTIMISED)
+        for limit in optimum_of(gear).limits:
+            limits.setdefault((name, limit.symbol), []).append(limit)
+
+    def bound(own: list[Limit], *, above: bool) -> float | None:
+        return next((one.bound for one in own if (one.relation == "<=") is above), None)
+
+    return Grid.of(
+        limits,
+        {
+            "gearset": lambda at: at[0],
+            "symbol": lambda at: at[1],
+            "at least": lambda at: bound(limits[at], above=False),
+            "at most": lambda at: bound(limits[at], above=True),
+            "optimum": lambda at: limits[at][0].value,
+            "unit": lambda at: _BOUNDS[at[1]][0],
+            "effect": lambda at: "holds it back" if any(one.active for one in limits[at]) else "",
+            "thesis": lambda at: _BOUNDS[at[1]][1],
+            "bounds here": lambda at: _BOUNDS[at[1]][2],
+        },
+        *OPTIMISED,
+    )
 
 
 _TABLE_3_7 = (
@@ -266,18 +298,14 @@ _TABLE_3_7 = (
 )
 
 
-def table_3_7() -> Grid:
-    """Gearsets 2 and 3 as they are and at the optimum."""
+@table(
+    "3.7", "Efficiency and load capacity of gearsets 2 and 3 at the optimum",
+    "As Table 3.5, within the constraints of Table 3.6. The thesis's table is lost; its column "
+    "holds what the text of 3.3.5 says.",
+)  # fmt: skip
+def _at_the_optimum() -> Grid:
     designs: dict[str, Rated] = {}
     for name, gear in GEARSETS.items():
         optimum = optimum_of(gear)
         designs |= {name: optimum.before, f"{name}, optimum": optimum.after}
-    rows = []
-    for row in _TABLE_3_7:
-        entries = [row.entry(rated) for rated in designs.values()]
-        first, values = entries[0], [entry.value for entry in entries]
-        rows.append((first.symbol, first.meaning, first.unit, *values, row.thesis))
-    return Grid(("symbol", "quantity", "unit", *designs, "thesis"), tuple(rows), _OPTIMISED)
-
-
-_OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
+    return Grid.of(_TABLE_3_7, _beside(designs), *OPTIMISED)

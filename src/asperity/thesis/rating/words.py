@@ -1,17 +1,29 @@
 """Claims 1.1, 2.6, 3.9 to 3.14 and 7.9: what the thesis says of gearsets besides their numbers."""
 
 import math
-from typing import Any
 
-from asperity.rating import Rated
-from asperity.thesis.ledger import Finding
-from asperity.thesis.rating.rated import GEARSET_2, GEARSET_3, GEARSETS, RatedGear, optimum_of
+from asperity.thesis.exhibits import claim
+from asperity.thesis.products import Finding
+from asperity.thesis.rating.rated import (
+    GEARSET_2,
+    GEARSET_3,
+    GEARSETS,
+    OPTIMISED,
+    RatedGear,
+    besides,
+    changes_at_optimum,
+    number,
+    optimum_of,
+)
 
 _LOW, _HIGH = 0.05, 0.10
 
 
-def claim_1_1() -> Finding:
-    """Torque that an efficient gearset saves."""
+@claim(
+    "1.1", "1.1", "15:1, 150 N m: 80 % instead of 50 % efficiency saves torque and power.",
+    "20 to 12.5 N m, 37 %",
+)  # fmt: skip
+def _saving() -> Finding:
     output, ratio = 150.0, 15.0
     before, after = (output / (ratio * efficiency) for efficiency in (0.5, 0.8))
     saved = after / before - 1.0
@@ -27,8 +39,11 @@ def claim_1_1() -> Finding:
     )
 
 
-def claim_2_6() -> Finding:
-    """Friction of bronze on steel."""
+@claim(
+    "2.6", "2.4", "Friction of bronze on hardened steel at the most common sliding speeds.",
+    "0.05 to 0.10",
+)  # fmt: skip
+def _bronze_on_steel() -> Finding:
     keys = {
         "BS 721": ("bs721", "mu"),
         "AGMA 6034": ("agma6034", "mu"),
@@ -55,24 +70,23 @@ def claim_2_6() -> Finding:
         f"14521 has its base friction in the range, {second:.3f} and {third:.3f}, and raises it "
         "for size, geometry, material and roughness.",
         {
-            f"{gear.replace(' ', '_')}_{name.partition(' of ')[0].replace(' ', '_')}": mu
+            f"{gear}_{name.partition(' of ')[0]}": mu
             for name, both in found.items()
             for gear, mu in zip(GEARSETS, both, strict=True)
         },
-        [gear.command() for gear in GEARSETS.values()],
+        GEARSETS.values(),
     )  # fmt: skip
 
 
-def claim_3_9() -> Finding:
-    """The order of efficiencies and of torques."""
+@claim("3.9", "3.3.4", "eta_ges < eta_z; M_w and M_s > M_26k; M_w > T_2; M_s > T_R.", "order")
+def _orders() -> Finding:
     parts: dict[str, bool] = {}
     numbers: dict[str, float] = {}
     shown = []
     for name, gear in GEARSETS.items():
-        iso, bs = (gear.ratings()[standard] for standard in ("iso14521", "bs721"))
         keys = ("M_26k_Nm", "M_w_Nm", "M_s_Nm", "output_torque_Nm", "through_travel_torque_Nm")
-        long, wear, strength, rated, peak = (float(bs[key]) for key in keys)
-        mesh, gearbox = float(iso["eta_z1_2"]), float(iso["eta_ges"])
+        long, wear, strength, rated, peak = gear.numbers("bs721", *keys)
+        mesh, gearbox = gear.numbers("iso14521", "eta_z1_2", "eta_ges")
         parts |= {
             f"{name}: eta_ges < eta_z": gearbox < mesh,
             f"{name}: M_w, M_s > M_26k": min(wear, strength) > long,
@@ -81,7 +95,7 @@ def claim_3_9() -> Finding:
         }
         shown.append(f"{name}: {gearbox:.1%} < {mesh:.1%}; {wear:.0f}, {strength:.0f} > {long:.0f}")
         numbers |= {
-            f"{name.replace(' ', '_')}_{key}": value
+            f"{name}_{key}": value
             for key, value in (("eta_ges", gearbox), ("eta_z", mesh), ("M_26k_Nm", long),
                                ("M_w_Nm", wear), ("M_s_Nm", strength))
         }  # fmt: skip
@@ -91,41 +105,18 @@ def claim_3_9() -> Finding:
         "T_2 is the torque of through travel, a third of T_R as 3.2.1 has it. Of gearsets 2 and 3, "
         "which are reconstructed; 1 and 4 are lost.",
         numbers,
-        [gear.command() for gear in GEARSETS.values()],
+        GEARSETS.values(),
     )  # fmt: skip
 
 
-def claim_3_10() -> Finding:
-    """What the optimum does besides."""
-    before, after = (
-        {
-            name: {
-                "q_1": _number(rated, "iso14521", "diameter_factor"),
-                "eta_AGMA": _number(rated, "agma6034", "eta"),
-                "M_w": _number(rated, "bs721", "M_w_Nm"),
-                "M_s": _number(rated, "bs721", "M_s_Nm"),
-                "sigma_a": _number(rated, "agma6034", "bending_stress_MPa"),
-            }
-            for name, rated in designs.items()
-        }
-        for designs in (
-            {name: optimum_of(gear).before for name, gear in GEARSETS.items()},
-            {name: optimum_of(gear).after for name, gear in GEARSETS.items()},
-        )
-    )
-    change = {
-        name: {key: after[name][key] / value - 1.0 for key, value in own.items()}
-        for name, own in before.items()
-    }
-    second, third = change.values()
+@claim(
+    "3.10", "3.3.5", "At the optimum M_w rises a little, M_s stays; eta_AGMA does not rise in all "
+    "cases; q_1 and sigma_a rise for gearset 3 only.", "in words",
+)  # fmt: skip
+def _besides_the_optimum() -> Finding:
+    change = {name: changes_at_optimum(gear) for name, gear in GEARSETS.items()}
     return Finding.judged(
-        {
-            "M_w rises a little": all(0.0 < own["M_w"] < 0.1 for own in change.values()),
-            "M_s stays": all(abs(own["M_s"]) < 1e-6 for own in change.values()),
-            "eta_AGMA does not rise in all": min(own["eta_AGMA"] for own in change.values()) <= 0.0,
-            "q_1 rises for gearset 3 only": second["q_1"] <= 0.0 < third["q_1"],
-            "sigma_a rises for gearset 3 only": second["sigma_a"] <= 0.0 < third["sigma_a"],
-        },
+        besides(),
         "; ".join(
             f"{name}: " + ", ".join(f"{key} {share:+.1%}" for key, share in own.items())
             for name, own in change.items()
@@ -133,17 +124,17 @@ def claim_3_10() -> Finding:
         "The bounds of the optimum are assumed, Table 3.6 is lost, and where it lies within them "
         "hangs on them. Gearsets 2 and 3 only.",
         {
-            f"{name.replace(' ', '_')}_{key}_change": share
+            f"{name}_{key}_change": share
             for name, own in change.items()
             for key, share in own.items()
         },
-        [gear.command("optimise") for gear in GEARSETS.values()],
+        OPTIMISED,
     )
 
 
-def claim_3_11() -> Finding:
-    """Efficiency of gearset 2 at its optimum."""
-    efficiency = _number(optimum_of(GEARSET_2).after, "iso14521", "eta_z1_2")
+@claim("3.11", "3.4", "Efficiency of gearset 2 at its optimum.", "45 %")
+def _efficiency_at_the_optimum() -> Finding:
+    efficiency = number(optimum_of(GEARSET_2).after, "iso14521", "eta_z1_2")
     return Finding.judged(
         {"45 %, within one": abs(100.0 * efficiency - 45.0) < 1.0},
         f"{efficiency:.1%}",
@@ -153,8 +144,11 @@ def claim_3_11() -> Finding:
     )
 
 
-def claim_3_12() -> Finding:
-    """Sliding velocity over size."""
+@claim(
+    "3.12", "6.4.7, 3.3.4", "The sliding velocity of gearsets 1 to 4 rises with their size.",
+    "1.05 to 2.40 m/s",
+)  # fmt: skip
+def _velocity_over_size() -> Finding:
     sizes = [gear.number("iso14521", "centre_distance_mm") for gear in GEARSETS.values()]
     second, third = (gear.number("iso14521", "sliding_velocity_m_s") for gear in GEARSETS.values())
     return Finding.judged(
@@ -166,12 +160,15 @@ def claim_3_12() -> Finding:
         "Gearsets 1 and 4, the ends of the range, are lost. The velocity of gearset 3 is stated in "
         "7.2.4; that of gearset 2 follows from its friction.",
         {"gearset_2_v_g_m_s": second, "gearset_3_v_g_m_s": third},
-        [gear.command() for gear in GEARSETS.values()],
+        GEARSETS.values(),
     )
 
 
-def claim_3_13() -> Finding:
-    """Where the order of two permissible torques turns as a gearset grows."""
+@claim(
+    "3.13", "3.3.4", "Of gearset 4, the largest, M_26k > T_G,all, other than of 1 to 3.",
+    "the order turns",
+)  # fmt: skip
+def _order_over_size() -> Finding:
     from scipy.optimize import brentq
 
     def excess(scale: float) -> float:
@@ -202,12 +199,12 @@ def claim_3_13() -> Finding:
         "Gearset 4 is lost; gearset 3 stands in, grown with all its lengths at 1440 rpm. What the "
         "thesis's gearset 4 has beside its size, its ratio above all, is not known.",
         numbers,
-        [_grown(scale).command() for scale in scales],
+        map(_grown, scales),
     )
 
 
-def claim_3_14() -> Finding:
-    """The diameter factor that self-locking wants."""
+@claim("3.14", "3.2.1", "Self-locking wants q_1 as low as possible.", "yes")
+def _self_locking() -> Finding:
     gears = {q: _thick(q) for q in (6, 12)}
     angles, back = (
         {q: gear.number("iso14521", key) for q, gear in gears.items()}
@@ -221,12 +218,12 @@ def claim_3_14() -> Finding:
         "distance moved so that the profile shift stays.",
         {f"lead_angle_q_{q}_deg": angle for q, angle in angles.items()}
         | {f"eta_z2_1_q_{q}": efficiency for q, efficiency in back.items()},
-        [gear.command() for gear in gears.values()],
+        gears.values(),
     )
 
 
-def claim_7_9() -> Finding:
-    """Contact pressure at two torques."""
+@claim("7.9", "7.2.4", "Contact pressure of gearset 3 at 23 N m and 366 N m.", "194.3, 778 N/mm2")
+def _contact_pressure() -> Finding:
     gears = [RatedGear("gearset-3", _peak(torque)) for torque in (23, 366)]
     low, high = (gear.number("iso14521", "sigma_line_MPa") for gear in gears)
     return Finding.judged(
@@ -238,7 +235,7 @@ def claim_7_9() -> Finding:
         "As a Hertz line contact, though the thesis does not say that it is one; the pressure goes "
         "with the root of the torque. Not used to reconstruct gearset 3.",
         {"sigma_line_23_Nm_MPa": low, "sigma_line_366_Nm_MPa": high},
-        [gear.command() for gear in gears],
+        gears,
     )
 
 
@@ -250,34 +247,21 @@ def _peak(torque: float) -> tuple[str, str]:
 
 
 def _thick(diameter_factor: float) -> RatedGear:
-    module, distance, before = (
-        GEARSET_2.number("iso14521", key)
-        for key in ("axial_module_mm", "centre_distance_mm", "diameter_factor")
-    )
+    keys = ("axial_module_mm", "centre_distance_mm", "diameter_factor")
+    module, distance, before = GEARSET_2.numbers("iso14521", *keys)
     distance += 0.5 * module * (diameter_factor - before)
-    return RatedGear(
-        GEARSET_2.case,
-        (
-            f"gearset.diameter_factor={diameter_factor:g}",
-            f"gearset.centre_distance={distance:.6f} mm",
-        ),
+    settings = (
+        f"gearset.diameter_factor={diameter_factor:g}",
+        f"gearset.centre_distance={distance:.6f} mm",
     )
+    return RatedGear(GEARSET_2.case, settings)
 
 
 def _grown(scale: float) -> RatedGear:
-    distance, module = (
-        scale * GEARSET_3.number("iso14521", key)
-        for key in ("centre_distance_mm", "axial_module_mm")
+    keys = ("centre_distance_mm", "axial_module_mm")
+    distance, module = (scale * one for one in GEARSET_3.numbers("iso14521", *keys))
+    settings = (
+        f"gearset.centre_distance={distance:.6f} mm",
+        f"gearset.axial_module={module:.8f} mm",
     )
-    return RatedGear(
-        GEARSET_3.case,
-        (
-            f"gearset.centre_distance={distance:.6f} mm",
-            f"gearset.axial_module={module:.8f} mm",
-        ),
-    )
-
-
-def _number(rated: Rated, standard: str, key: str) -> float:
-    value: Any = rated.found[standard][key]
-    return float(value)
+    return RatedGear(GEARSET_3.case, settings)

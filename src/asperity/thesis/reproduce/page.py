@@ -4,17 +4,15 @@ import dataclasses
 import importlib.metadata
 import platform
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from asperity.thesis import contents
 from asperity.thesis.contents import Chapter, chapter_of
-from asperity.thesis.exhibits import Cell
-from asperity.thesis.ledger import Entry
-from asperity.thesis.reproduce.files import FigureFiles, Shown, TableFiles
-
-E = TypeVar("E", bound=Shown)
+from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE
+from asperity.thesis.products import Cell
+from asperity.thesis.reproduce.files import Shown
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 _GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "µ", "nu": "ν", "sigma": "σ"}
@@ -38,21 +36,19 @@ class Part:
     """A chapter with what is shown of it, the names of what is to come, and what failed and why."""
 
     chapter: Chapter
-    claims: list[Entry]
-    figures: list[FigureFiles]
-    tables: list[TableFiles]
+    shown: dict[str, list[Shown]]
     to_come: list[str]
     failed: dict[str, str]
 
     @property
     def empty(self) -> bool:
         """Whether there is nothing to say of it."""
-        return not any((self.claims, self.figures, self.tables, self.to_come, self.failed))
+        return not any((*self.shown.values(), self.to_come, self.failed))
 
     @property
     def differ(self) -> int:
         """How many of its claims do not hold."""
-        return sum(entry.finding.verdict == "differs" for entry in self.claims)
+        return sum(claim.plain["verdict"] == "differs" for claim in self.shown[CLAIM])
 
 
 def render(
@@ -62,7 +58,7 @@ def render(
 
     Parameters
     ----------
-    shown : sequence of FigureFiles, TableFiles and Entry
+    shown : sequence of Shown
         What is there, in any order.
     to_come : sequence of str
         Names of exhibits that are still being made; until there are none the page loads itself
@@ -82,26 +78,24 @@ def render(
     versions = {"asperity": version, "Python": platform.python_version()}
     versions |= {name: importlib.metadata.version(name) for name in _PACKAGES}
 
-    def of(kind: type[E], shelf: Iterable[str], chapter: Chapter) -> list[E]:
-        there = {one.number: one for one in shown if isinstance(one, kind)}
-        return [there[n] for n in shelf if n in there and chapter_of(n) == chapter.number]
-
+    there = {one.exhibit.name: one for one in shown}
+    order = [there[one.name] for one in contents.everything() if one.name in there]
     parts = [
         Part(
             chapter,
-            of(Entry, contents.CLAIMS, chapter),
-            of(FigureFiles, contents.FIGURES, chapter),
-            of(TableFiles, contents.TABLES, chapter),
+            {kind: [one for one in order if one.exhibit.kind == kind
+                    and chapter_of(one.number) == chapter.number]
+             for kind in (CLAIM, FIGURE, TABLE)},
             [name for name in to_come if _chapter(name) == chapter.number],
             {name: why for name, why in failed.items() if _chapter(name) == chapter.number},
         )
         for chapter in contents.CHAPTERS
-    ]
-    claims = [entry for part in parts for entry in part.claims]
+    ]  # fmt: skip
+    claimed = sum(len(part.shown[CLAIM]) for part in parts)
     return template.render(
         parts=[part for part in parts if not part.empty],
-        claimed=len(claims),
-        reproduced=sum(entry.finding.verdict == "reproduced" for entry in claims),
+        claimed=claimed,
+        reproduced=claimed - sum(part.differ for part in parts),
         to_come=len(to_come),
         failed=len(failed),
         versions=versions,

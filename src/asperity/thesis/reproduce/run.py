@@ -15,17 +15,8 @@ from asperity.runs import Interrupted
 from asperity.runs.workers import Task, cores, done
 from asperity.store import output_folder, write_text
 from asperity.thesis import contents
-from asperity.thesis.exhibits import Exhibit
-from asperity.thesis.ledger import Entry
-from asperity.thesis.reproduce.files import (
-    Collection,
-    FigureFiles,
-    Made,
-    Shown,
-    TableFiles,
-    key_of,
-    make,
-)
+from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE, Exhibit
+from asperity.thesis.reproduce.files import Collection, Made, Shown, key_of, make
 from asperity.thesis.reproduce.page import render
 
 Say = Callable[[str], None]
@@ -39,12 +30,10 @@ class ThesisResult:
     ----------
     index : pathlib.Path
         The page.
-    claims : tuple of Entry
+    claims : tuple of Shown
         The ledger; empty if only some figures were asked for and none was there.
-    figures : tuple of FigureFiles
-        The figures asked for.
-    tables : tuple of TableFiles
-        The tables asked for.
+    figures, tables : tuple of Shown
+        Those asked for.
     failed : mapping of str to str
         What could not be made, and why.
     seconds : float
@@ -52,41 +41,35 @@ class ThesisResult:
     """
 
     index: Path
-    claims: tuple[Entry, ...]
-    figures: tuple[FigureFiles, ...]
-    tables: tuple[TableFiles, ...]
+    claims: tuple[Shown, ...]
+    figures: tuple[Shown, ...]
+    tables: tuple[Shown, ...]
     failed: Mapping[str, str]
     seconds: float
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
+        files = {"picture": ".png", "dataset": ".nc"}
         return {
             "index": str(self.index),
-            "claims": [entry.to_json() for entry in self.claims],
-            "figures": [
-                {
-                    "number": figure.number,
-                    "title": figure.title,
-                    "picture": str(figure.picture),
-                    "dataset": str(figure.dataset),
-                    "how": list(figure.how),
-                    "reused": figure.reused,
-                }
-                for figure in self.figures
-            ],
+            "claims": [one.plain for one in self.claims],
+            "figures": [_plain(one, "title", "how", **files) for one in self.figures],
             "tables": [
-                {
-                    "number": table.number,
-                    "title": table.title,
-                    "path": str(table.path),
-                    **table.grid.to_json(),
-                    "reused": table.reused,
-                }
-                for table in self.tables
+                _plain(one, "title", "columns", "rows", "how", path=".csv") for one in self.tables
             ],
             "failed": dict(self.failed),
             "seconds": self.seconds,
         }
+
+
+def _plain(shown: Shown, *names: str, **files: str) -> dict[str, Any]:
+    """Some of what is shown of an exhibit, with its files by their suffix."""
+    return {
+        "number": shown.number,
+        **{name: shown.plain[name] for name in names},
+        **{name: str(shown.files[suffix]) for name, suffix in files.items()},
+        "reused": shown.reused,
+    }
 
 
 def run(
@@ -140,13 +123,13 @@ def run(
         ) from None
     finally:
         work.show()
-    shown = [work.shown[exhibit.name] for exhibit in wanted if exhibit.name in work.shown]
-    entries = [work.shown.get(claim.name) for claim in contents.CLAIMS.values()]
+    asked = [work.shown[exhibit.name] for exhibit in wanted if exhibit.name in work.shown]
+    ledger = [claim.name for claim in contents.CLAIMS.values() if claim.name in work.shown]
     return ThesisResult(
         work.index,
-        tuple(one for one in entries if isinstance(one, Entry)),
-        tuple(one for one in shown if isinstance(one, FigureFiles)),
-        tuple(one for one in shown if isinstance(one, TableFiles)),
+        tuple(work.shown[name] for name in ledger),
+        tuple(one for one in asked if one.exhibit.kind == FIGURE),
+        tuple(one for one in asked if one.exhibit.kind == TABLE),
         work.failed,
         time.perf_counter() - began,
     )
@@ -204,7 +187,7 @@ class _Reproduction:
         key = key_of(exhibit, full=self._full)
         do = functools.partial(make, exhibit, self._folder, key, full=self._full)
         after = tuple(part.task.name for part in exhibit.parts(self._full))
-        return Task(exhibit.name, do, exhibit.room, exhibit.seconds, after)
+        return Task(exhibit.name, do, exhibit.room, after=after)
 
     def _take(self, name: str, made_by: Callable[[], Made]) -> None:
         exhibit = self.missing.pop(name)
@@ -223,6 +206,6 @@ class _Reproduction:
         shown = self._collection.show(exhibit, made, reused=False)
         if shown is not None:
             self.shown[name] = shown
-        verdict = f"{shown.finding.verdict}," if isinstance(shown, Entry) else "made in"
+        verdict = f"{made.plain['verdict']}," if exhibit.kind == CLAIM else "made in"
         self._say(f"{name}: {verdict} {made.seconds:.1f} s")
         self.show()

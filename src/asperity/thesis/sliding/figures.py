@@ -1,6 +1,5 @@
-"""Figures of chapters 2 and 4, each a few lines over the slider; drawn by `drawings_sliding`."""
+"""Figures of chapters 2 and 4, each a few lines over the slider; drawn by `drawings`."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -8,17 +7,32 @@ import numpy as np
 
 from asperity.slider import Model, SlideResult
 from asperity.slider.closed_forms import dahl_from_rest, longitudinal_ratio, transverse_ratio
-from asperity.thesis.exhibits import Drawn, labelled
+from asperity.thesis.exhibits import Computed, figure
+from asperity.thesis.products import labelled
 from asperity.thesis.sliding import drawings
-from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body, Sweep
-from asperity.thesis.sliding.claims import ALL_AROUND, DIRECTION, LUGRE, MARKED, PLOTTED, RATIO
+from asperity.thesis.sliding.bodies import (
+    DIRECTION,
+    PERIODIC,
+    RATIO,
+    TWO_PHASE,
+    Body,
+    Sweep,
+    history_of,
+)
+from asperity.thesis.sliding.claims import ALL_AROUND, LUGRE, MARKED, PLOTTED
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _DENSE = "0.1:20:0.1"
 _SCHEMES = ("exponential", "two-phase")
+_LINES = "Exponential scheme (full line) and two-phase scheme (dashed)"
 _CLOSED = "asperity.slider.closed_forms"
+CLOSED_FORMS: dict[str, tuple[Callable[[Any], Any], str]] = {
+    "table-4.3": (longitudinal_ratio, f"{_CLOSED}.longitudinal_ratio(k)"),
+    "table-4.4": (lambda k: transverse_ratio(0.71 * k), f"{_CLOSED}.transverse_ratio(0.71 * k)"),
+}
+"""The ratio of rigid Coulomb friction and a rigid drive over k, by case."""
 
 
 def side_by_side(
@@ -57,13 +71,13 @@ def two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
     return part.assign_coords(time=("time", part["time"].values - begin, attributes))
 
 
-def _schemes(case: str, ratio: str) -> list[Body]:
-    settings = (f"{RATIO}={ratio}",)
-    return [Body(case, settings), Body(case, (*settings, TWO_PHASE))]
-
-
-def figure_2_7() -> Drawn:
-    """Dahl's force over displacement."""
+@figure(
+    "2.7", "Dahl's friction force from rest",
+    "The exponent sets how the contact yields: 0 is elastic up to the full force, 2 creeps towards "
+    "it. Full force and deflection limit of Table 4.3.",
+    drawings.force_over_displacement,
+)  # fmt: skip
+def _dahl_from_rest() -> Computed:
     force, s_max = 5.5, 68.75e-9
     exponents = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
     x = np.linspace(0.0, 4.0 * s_max, 401)
@@ -75,51 +89,57 @@ def figure_2_7() -> Drawn:
         full_force=((), force, "N", "full friction force"),
         deflection_limit=((), s_max, "m", "deflection limit"),
     )
-    how = [f"{_CLOSED}.dahl_from_rest(x, 5.5, 68.75e-9, exponent)"]
-    return Drawn(drawings.force_over_displacement(dataset), dataset, how)
+    return dataset, [f"{_CLOSED}.dahl_from_rest(x, 5.5, 68.75e-9, exponent)"]
 
 
-def _cycle(bodies: Sequence[Body], names: Sequence[str]) -> Drawn:
+_SLOW = "vibration.velocity_amplitude=0.75 mm/s"
+_RIGID = (
+    "slider.normal_force=55 N", "friction.max_deflection=68.75 nm", "vibration.frequency=4 kHz",
+)  # fmt: skip
+
+
+@figure(
+    "2.14", "Rigid friction in a cycle of longitudinal vibration",
+    "While the base outruns the body, friction pushes the body forward. The thesis gives no "
+    "numbers; those of simulation L2 are used, with v_a = 2 v_d.",
+    drawings.cycle, {"rigid drive": Body("table-4.1-L2", (PERIODIC,))},
+)  # fmt: skip
+@figure(
+    "2.15", "Dahl friction in a cycle of longitudinal vibration",
+    "At 4 kHz and v_a = 0.75 mm/s against v_d = 0.5 mm/s the asperities give way before the force "
+    "can turn: it falls, but keeps its sign. The thesis gives no other numbers; those of Table 4.3 "
+    "are used, with its compliant drive and with a rigid one.",
+    drawings.cycle,
+    {
+        "compliant drive": Body("table-4.3", (_SLOW, PERIODIC)),
+        "rigid drive": Body("table-4.1-L4", (*_RIGID, _SLOW, PERIODIC)),
+    },
+)  # fmt: skip
+def _cycle(bodies: dict[str, Body]) -> Computed:
     """Base velocity and friction over one cycle of periodic states."""
-    results = [body.solve() for body in bodies]
-    dataset = _solved(names, results, "friction")
+    results = [body.solve() for body in bodies.values()]
+    dataset = _solved([*bodies], results, "friction")
     model = results[0].model
-    _, time = drawings.own_names("friction", names[0])
+    _, time = drawings.own_names("friction", next(iter(bodies)))
     base = np.cos(2.0 * np.pi * model.frequency * dataset[time].values)
     labels = {"units": "m/s", "long_name": "velocity of the base"}
     dataset["base_velocity"] = (time, model.peak_velocity * base, labels)
     labels = {"units": "m/s", "long_name": "drive velocity"}
     dataset["drive_velocity"] = ((), model.slider.drive_velocity, labels)
-    return Drawn(drawings.cycle(dataset), dataset, [body.command for body in bodies])
+    return dataset, [*bodies.values()]
 
 
-def figure_2_14() -> Drawn:
-    """Coulomb friction over a cycle."""
-    return _cycle([Body("table-4.1-L2", (PERIODIC,))], ["rigid drive"])
-
-
-def figure_2_15() -> Drawn:
-    """Dahl friction over a cycle."""
-    rigid = (
-        "slider.normal_force=55 N",
-        "friction.max_deflection=68.75 nm",
-        "vibration.frequency=4 kHz",
-        "vibration.velocity_amplitude=0.75 mm/s",
-    )
-    bodies = [
-        Body("table-4.3", ("vibration.velocity_amplitude=0.75 mm/s", PERIODIC)),
-        Body("table-4.1-L4", (*rigid, PERIODIC)),
-    ]
-    return _cycle(bodies, ["compliant drive", "rigid drive"])
-
-
-def figure_2_16() -> Drawn:
-    """Coulomb friction over a cycle of transverse vibration."""
+@figure(
+    "2.16", "Rigid friction in a cycle of transverse vibration",
+    "Friction keeps its size and opposes the slip, which swings about the drive: what is left "
+    "along the drive is smaller. The thesis gives no numbers; those of simulation L2 are used, "
+    "with the base moving across the drive.",
+    drawings.transverse_cycle,
+)  # fmt: skip
+def _transverse_cycle() -> Computed:
     body = Body("table-4.1-L2", (PERIODIC, f"{DIRECTION}=90 deg"))
     result = body.solve()
-    model, history = result.model, result.history
-    if history is None:
-        raise ValueError("solved without a history")
+    model, history = result.model, history_of(result)
     time = history.time
     dataset = labelled(
         time=(("time",), time, "s", "time"),
@@ -133,31 +153,46 @@ def figure_2_16() -> Drawn:
         mean_friction=((), result.friction_mean[0], "N", "mean friction along the drive"),
         full_force=((), result.static_drive_force, "N", "full friction force"),
     )  # fmt: skip
-    return Drawn(drawings.transverse_cycle(dataset), dataset, [body.command])
+    return dataset, [body]
 
 
-def _basic(names: Sequence[str]) -> Drawn:
+@figure(
+    "4.3", "Rigid drive, vibration slower than the drive",
+    "Simulations L1 (rigid friction) and L3 (asperities): the drive force stays at mu F_N once the "
+    "asperities are stretched.",
+    drawings.stacked, "L1", "L3",
+)  # fmt: skip
+@figure(
+    "4.4", "Rigid drive, vibration faster than the drive",
+    "Simulations L2 (rigid friction) and L4, L5, L6 with softer and softer asperities, from rest; "
+    "L6 has not settled yet at the end.",
+    drawings.stacked, "L2", "L4", "L5", "L6",
+)  # fmt: skip
+def _basic(*names: str) -> Computed:
     bodies = [Body(f"table-4.1-{name}", ("solve.duration=30 ms",)) for name in names]
-    dataset = _solved(names, [body.solve() for body in bodies], "drive_force")
-    return Drawn(drawings.stacked(dataset), dataset, [body.command for body in bodies])
+    return _solved(names, [body.solve() for body in bodies], "drive_force"), bodies
 
 
-def figure_4_3() -> Drawn:
-    """Drive force of L1 and L3."""
-    return _basic(["L1", "L3"])
-
-
-def figure_4_4() -> Drawn:
-    """Drive force of L2, L4, L5 and L6."""
-    return _basic(["L2", "L4", "L5", "L6"])
-
-
-def _over_ratio(case: str, laws: Sequence[str], closed: Callable[[Any], Any]) -> Drawn:
+@figure(
+    "4.17", "Longitudinal vibration: what is left of the drive force",
+    "Table 4.3. Line: periodic states; markers: 1 s marched with either scheme; dashed: rigid "
+    "friction and rigid drive.",
+    drawings.over_ratio, "table-4.3", "split",
+)  # fmt: skip
+@figure(
+    "4.20", "Transverse vibration: what is left of the drive force",
+    "Table 4.4. Lines: periodic states of the three relaxation laws; markers: 1 s marched with law "
+    "split and either scheme; dotted: rigid friction and rigid drive with the transferred part of "
+    "the vibration, eta_y k.",
+    drawings.over_ratio, "table-4.4", "split", "unsplit", "vector",
+)  # fmt: skip
+def _over_ratio(case: str, *laws: str) -> Computed:
     """Periodic states of some laws and a closed form as lines, both schemes as markers."""
     marched = Sweep(case, ((RATIO, MARKED),))
     two_phase = Sweep(case, ((RATIO, MARKED),), (TWO_PHASE,))
     settled = [Sweep(case, ((RATIO, _DENSE),), (PERIODIC, f"friction.law={law}")) for law in laws]
     dense = settled[0].values()
+    closed, name = CLOSED_FORMS[case]
     dataset = labelled(
         k=(("k",), dense, "1", "velocity ratio v_a/v_d"),
         k_marched=(("k_marched",), marched.values(), "1", "velocity ratio v_a/v_d, marched"),
@@ -170,63 +205,58 @@ def _over_ratio(case: str, laws: Sequence[str], closed: Callable[[Any], Any]) ->
         ),
         rigid=(("k",), closed(dense), "1", "ratio, rigid Coulomb friction and rigid drive"),
     )  # fmt: skip
-    how = [sweep.command for sweep in (marched, two_phase, *settled)]
-    return Drawn(drawings.over_ratio(dataset), dataset, how)
+    return dataset, [marched, two_phase, *settled, name]
 
 
-def figure_4_17() -> Drawn:
-    """Ratio over k, longitudinal."""
-    drawn = _over_ratio("table-4.3", ["split"], longitudinal_ratio)
-    return dataclasses.replace(drawn, how=[*drawn.how, f"{_CLOSED}.longitudinal_ratio(k)"])
+def _schemes(case: str, ratio: str) -> list[Body]:
+    settings = (f"{RATIO}={ratio}",)
+    return [Body(case, settings), Body(case, (*settings, TWO_PHASE))]
 
 
-def figure_4_20() -> Drawn:
-    """Ratio over k, transverse."""
-    drawn = _over_ratio(
-        "table-4.4", ["split", "unsplit", "vector"], lambda k: transverse_ratio(0.71 * k)
-    )
-    return dataclasses.replace(drawn, how=[*drawn.how, f"{_CLOSED}.transverse_ratio(0.71 * k)"])
-
-
-def _drive_over_time(case: str, ratio: str) -> Drawn:
+@figure(
+    "4.18", "Drive force when longitudinal vibration sets in, k = 6",
+    f"Table 4.3. {_LINES}. The last millisecond, enlarged, shows the undulation that the two-phase "
+    "scheme puts into the drive force by stretching the drive with the base's motion; it is not "
+    "physical.",
+    drawings.drive_over_time, "table-4.3", "6",
+)  # fmt: skip
+@figure(
+    "4.21", "Drive force when transverse vibration sets in, k = 20",
+    f"Table 4.4. {_LINES}. Enlarged: the last millisecond.",
+    drawings.drive_over_time, "table-4.4", "20",
+)  # fmt: skip
+def _drive_over_time(case: str, ratio: str) -> Computed:
     bodies = _schemes(case, ratio)
-    dataset = _solved(_SCHEMES, [body.solve() for body in bodies], "drive_force")
-    return Drawn(drawings.drive_over_time(dataset), dataset, [body.command for body in bodies])
+    return _solved(_SCHEMES, [body.solve() for body in bodies], "drive_force"), bodies
 
 
-def _friction_over_cycles(case: str, ratio: str, axes: Sequence[str]) -> Drawn:
+@figure(
+    "4.19", "Friction under longitudinal vibration, k = 6",
+    f"Table 4.3, two cycles at the end of the march. {_LINES}.",
+    drawings.friction_over_cycles, "table-4.3", "6", ["x"],
+)  # fmt: skip
+@figure(
+    "4.22", "Friction under transverse vibration, k = 20",
+    f"Table 4.4, two cycles at the end of the march. {_LINES}. Along the drive the force changes "
+    "in size, across it in size and sign.",
+    drawings.friction_over_cycles, "table-4.4", "20", ["x", "y"],
+)  # fmt: skip
+def _friction_over_cycles(case: str, ratio: str, axes: list[str]) -> Computed:
     bodies = _schemes(case, ratio)
     results = [body.solve() for body in bodies]
     cycles = [two_cycles(result.to_dataset()[["friction"]], result.model) for result in results]
-    dataset = side_by_side(_SCHEMES, cycles, results[0].static_drive_force).sel(axis=list(axes))
-    how = [body.command for body in bodies]
-    return Drawn(drawings.friction_over_cycles(dataset), dataset, how)
+    dataset = side_by_side(_SCHEMES, cycles, results[0].static_drive_force).sel(axis=axes)
+    return dataset, bodies
 
 
-def figure_4_18() -> Drawn:
-    """Drive force over time, longitudinal, k = 6."""
-    return _drive_over_time("table-4.3", "6")
-
-
-def figure_4_19() -> Drawn:
-    """Friction over time, longitudinal, k = 6."""
-    return _friction_over_cycles("table-4.3", "6", ["x"])
-
-
-def figure_4_21() -> Drawn:
-    """Drive force over time, transverse, k = 20."""
-    return _drive_over_time("table-4.4", "20")
-
-
-def figure_4_22() -> Drawn:
-    """Friction over time, transverse, k = 20."""
-    return _friction_over_cycles("table-4.4", "20", ["x", "y"])
-
-
-def figure_4_23() -> Drawn:
-    """Ratio over direction."""
-    axes = ((RATIO, PLOTTED), (DIRECTION, ALL_AROUND))
-    marched = Sweep("table-4.4", axes)
+@figure(
+    "4.23", "What is left of the drive force in every direction of vibration",
+    "Table 4.4. Lines: periodic states; filled markers: 25 directions marched for 1 s; open "
+    "diamonds: LuGre friction without damping and Stribeck terms, at k = 2 and 20.",
+    drawings.over_direction,
+)  # fmt: skip
+def _over_direction() -> Computed:
+    marched = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, ALL_AROUND)))
     settled = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, "0:360:3")), (PERIODIC,))
     lugre = Sweep("table-4.4", ((RATIO, "2,20"), (DIRECTION, ALL_AROUND)), LUGRE)
     dataset = labelled(
@@ -238,5 +268,4 @@ def figure_4_23() -> Drawn:
         periodic=(("k", "theta_dense"), settled.ratios(), "1", "ratio, Dahl, periodic state"),
         lugre=(("k_lugre", "theta"), lugre.ratios(), "1", "ratio, LuGre, periodic state"),
     )
-    how = [sweep.command for sweep in (marched, settled, lugre)]
-    return Drawn(drawings.over_direction(dataset), dataset, how)
+    return dataset, [marched, settled, lugre]
