@@ -88,8 +88,8 @@ def made(tmp_path, monkeypatch):
         ],
         "CLAIMS": [Exhibit("claim", "9.3", name)],
     }
-    for shelf, exhibits in shelves.items():
-        monkeypatch.setattr(contents, shelf, {one.number: one for one in exhibits})
+    for shelf, own in shelves.items():
+        monkeypatch.setattr(contents, shelf, {one.number: one for one in own})
     monkeypatch.setattr(contents, "CHAPTERS", (Chapter("9", "Chapter", "What it is."),))
     monkeypatch.setattr(key, "code_key", lambda module: "sources")
 
