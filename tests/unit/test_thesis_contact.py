@@ -111,7 +111,7 @@ def test_claims_of_equal_ratios_are_judged_by_the_ratio_too(monkeypatch, share, 
     slid = SimpleNamespace(ratio=0.15)
     monkeypatch.setattr(BlockFromRest, "marched", lambda one: slid)
     monkeypatch.setattr(ElasticBlock, "settled", settled)
-    monkeypatch.setattr(claims_contact.Body, "solve", lambda one: slid)
+    monkeypatch.setattr(claims_contact.Body, "result", slid)
     monkeypatch.setattr(claims_contact.Sweep, "ratios", lambda one: np.full(8, 1.0 / 30.0))
     for number in ("5.1", "7.8"):
         finding = CLAIMS[number].make()

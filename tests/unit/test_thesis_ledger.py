@@ -64,7 +64,7 @@ def test_a_sweep_knows_its_command_its_values_and_its_models():
         given = ("vibration.velocity_ratio", "vibration.direction")
         one = [f"{key}={value}" for key, value in zip(given, settings, strict=True)]
         body = Body("table-4.4", ("solve.method=periodic", *one))
-        assert ratio == pytest.approx(body.solve().ratio, rel=1e-9)
+        assert ratio == pytest.approx(body.result.ratio, rel=1e-9)
 
 
 def test_a_point_that_cannot_be_solved_is_not_passed_over():

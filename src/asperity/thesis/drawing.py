@@ -7,12 +7,14 @@ from asperity.results.figures import BLACK, COLOURS, DASHES, legend
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-RATIO = r"drive force over $\mu F_N$"
+_RATIO = r"drive force over $\mu F_N$"
 OVER_RATIO: dict[str, Any] = {
     "xlabel": r"velocity ratio $k = v_a/v_d$", "xticks": range(0, 21, 2), "xlim": (0.0, 20.5),
+    "ylabel": _RATIO,
 }  # fmt: skip
 OVER_DIRECTION: dict[str, Any] = {
     "xlabel": "direction of vibration (deg)", "xticks": range(0, 361, 45), "xlim": (-6.0, 366.0),
+    "ylabel": _RATIO,
 }  # fmt: skip
 MARKERS = "osD^v"
 DOTTED = (1, 1.5)

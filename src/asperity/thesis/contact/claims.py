@@ -5,21 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.block.problem import BlockProblem
+from asperity.thesis.contact import elastic
 from asperity.thesis.contact.blocks import Settled
-from asperity.thesis.contact.elastic import (
-    ACROSS,
-    FROM_REST,
-    LONGITUDINAL,
-    ON_BODY,
-    RATIO,
-    SLIDING,
-    STIFF,
-    TRANSVERSE,
-    ElasticBlock,
-    from_rest,
-    over_direction,
-    over_ratio,
-)
+from asperity.thesis.contact.elastic import LONGITUDINAL, ON_BODY, RATIO, SLIDING, STIFF, TRANSVERSE
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
 from asperity.thesis.sliding.bodies import PERIODIC, Body, Sweep
@@ -50,9 +38,9 @@ def _apart(solved: Sequence[Settled]) -> tuple[float, float, float, float]:
 @claim("5.1", "5.3", "Finite element ratios equal chapter 4's.", "agree")
 def _equal_ratios() -> Finding:
     groups = {
-        "longitudinal": over_ratio(LONGITUDINAL),
-        "transverse": over_ratio(TRANSVERSE),
-        "coupled": over_direction(),
+        "longitudinal": elastic.over_ratio(LONGITUDINAL),
+        "transverse": elastic.over_ratio(TRANSVERSE),
+        "coupled": elastic.over_direction(),
     }
     apart, numbers = {}, {}
     for name, blocks in groups.items():
@@ -63,9 +51,9 @@ def _equal_ratios() -> Finding:
         numbers[f"{name}_largest_difference_with_rocking"] = part[3]
     sprung, rocked = (max(part[n] for part in apart.values()) for n in (2, 3))
     stiff_apart, *_ = _apart([STIFF.settled()])
-    (block,) = from_rest(LONGITUDINAL)
-    body = Body(SLIDING[LONGITUDINAL], (f"{RATIO}=6", *FROM_REST))
-    marched, slid = block.marched().ratio, body.solve().ratio
+    (block,) = elastic.from_rest(LONGITUDINAL)
+    body = Body(SLIDING[LONGITUDINAL], (f"{RATIO}=6", *elastic.FROM_REST))
+    marched, slid = block.marched().ratio, body.result.ratio
     parts = {
         f"{name}: {_WITHIN}": part[0] < _SAME and part[1] < _SAME_SHARE
         for name, part in apart.items()
@@ -100,7 +88,7 @@ def _equal_ratios() -> Finding:
 @claim("5.3", "5.3.1, App. A", "Height of the block of 0.5 kg.", "0.03 m; 0.053 m")
 def _height() -> Finding:
     mass, density = 0.5, 7850.0
-    block = ElasticBlock(LONGITUDINAL)
+    block = elastic.ElasticBlock(LONGITUDINAL)
     length, width, height = BlockProblem.from_case(block.read()).block.size
     steel = mass / (density * length * width)
     needed = mass / (length * width * height)
@@ -121,7 +109,7 @@ def _height() -> Finding:
 @claim("7.8", "7.3.6", "Vibrating the body or the base gives the same ratios.", "agree")
 def _base_or_body() -> Finding:
     cases = (LONGITUDINAL, TRANSVERSE)
-    blocks = {case: over_ratio(case, on_body=True) for case in cases}
+    blocks = {case: elastic.over_ratio(case, on_body=True) for case in cases}
     ours, theirs = (
         {
             case: np.split(np.array([getattr(b.settled(), name) for b in group]), 2)
@@ -132,7 +120,7 @@ def _base_or_body() -> Finding:
     along, across = (float(np.abs(ours[c][0] - ours[c][1]).max()) for c in cases)
     along_share, across_share = (float(np.abs(ours[c][1] / ours[c][0] - 1.0).max()) for c in cases)
     slid = float(np.abs(np.subtract(*theirs[TRANSVERSE])).max())
-    axes = ((RATIO, ",".join(f"{k:g}" for k in ACROSS)),)
+    axes = ((RATIO, ",".join(f"{k:g}" for k in elastic.ACROSS)),)
     guided = [
         Sweep(SLIDING[TRANSVERSE], axes, (PERIODIC, "slider.lateral=guided", *mode))
         for mode in ((), (ON_BODY,))

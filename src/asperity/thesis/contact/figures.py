@@ -7,22 +7,14 @@ import numpy as np
 
 from asperity.block.problem import BlockProblem
 from asperity.contact.interface.normal import NormalLaw, pressure
-from asperity.thesis.contact import drawings, pressed
+from asperity.thesis.contact import drawings, elastic, pressed
 from asperity.thesis.contact.elastic import (
-    ALL_DIRECTIONS,
     DIRECTION,
-    DIRECTIONS,
     LONGITUDINAL,
     ON_BODY,
     RATIO,
     SLIDING,
     TRANSVERSE,
-    BlockFromRest,
-    ElasticBlock,
-    from_rest,
-    over_direction,
-    over_ratio,
-    ratios,
 )
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.products import labelled
@@ -66,8 +58,8 @@ _REST = "From rest over 0.3 s, with the same increments for the sliding body and
 )  # fmt: skip
 def _over_ratio(case: str, on_body: bool = False, *, full: bool = False) -> Computed:
     """The sliding body as a line, blocks as markers, and how far they are apart."""
-    over = ratios(case)
-    blocks = over_ratio(case, full, on_body=on_body)
+    over = elastic.ratios(case)
+    blocks = elastic.over_ratio(case, full, on_body=on_body)
     modes = [(), (ON_BODY,)][: 1 + on_body]
     solved = [block.settled() for block in blocks]
     groups = [solved[n : n + len(over)] for n in range(0, len(solved), len(over))]
@@ -121,8 +113,8 @@ def _objects(names: Sequence[str]) -> Any:
     drawings.over_direction,
 )  # fmt: skip
 def _over_direction(*, full: bool = False) -> Computed:
-    directions = ALL_DIRECTIONS if full else DIRECTIONS
-    blocks = over_direction(full)
+    directions = elastic.ALL_DIRECTIONS if full else elastic.DIRECTIONS
+    blocks = elastic.over_direction(full)
     solved = [block.settled() for block in blocks]
     count = len(directions)
     groups = [solved[n : n + count] for n in range(0, len(solved), count)]
@@ -146,7 +138,7 @@ def _over_direction(*, full: bool = False) -> Computed:
     drawings.normal_laws,
 )  # fmt: skip
 def _normal_laws() -> Computed:
-    stiffness = BlockProblem.from_case(ElasticBlock(LONGITUDINAL).read()).normal.stiffness
+    stiffness = BlockProblem.from_case(elastic.ElasticBlock(LONGITUDINAL).read()).normal.stiffness
     laws = {
         "linear": NormalLaw("linear", stiffness),
         "two-stage": NormalLaw.two_stage(stiffness, _EDGE),
@@ -179,9 +171,8 @@ def _normal_laws() -> Computed:
 )  # fmt: skip
 def _drive(case: str, *, full: bool = False) -> Computed:
     body, block = _from_rest(case, full)
-    result = body.solve()
-    histories = [one.to_dataset()[["drive_force"]] for one in (result, block.marched())]
-    return side_by_side(_NAMES, histories, result.static_drive_force), [body, block]
+    histories = [one.to_dataset()[["drive_force"]] for one in (body.result, block.marched())]
+    return side_by_side(_NAMES, histories, body.result.static_drive_force), [body, block]
 
 
 @figure(
@@ -196,17 +187,17 @@ def _drive(case: str, *, full: bool = False) -> Computed:
 )  # fmt: skip
 def _friction(case: str, axes: list[str], *, full: bool = False) -> Computed:
     body, block = _from_rest(case, full)
-    result = body.solve()
     cycles = [
-        two_cycles(one.to_dataset()[["friction"]], result.model)
-        for one in (result, block.marched())
+        two_cycles(one.to_dataset()[["friction"]], body.model)
+        for one in (body.result, block.marched())
     ]
-    return side_by_side(_NAMES, cycles, result.static_drive_force).sel(axis=axes), [body, block]
+    dataset = side_by_side(_NAMES, cycles, body.result.static_drive_force)
+    return dataset.sel(axis=axes), [body, block]
 
 
-def _from_rest(case: str, full: bool) -> tuple[Body, BlockFromRest]:
+def _from_rest(case: str, full: bool) -> tuple[Body, elastic.BlockFromRest]:
     """The block marched from rest, and the sliding body that it is."""
-    (block,) = from_rest(case, full)
+    (block,) = elastic.from_rest(case, full)
     settings = [setting for setting in block.settings if not setting.startswith("block.")]
     return Body(SLIDING[case], tuple(settings)), block
 

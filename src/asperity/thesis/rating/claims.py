@@ -14,11 +14,8 @@ from asperity.thesis.rating.rated import (
     OPTIMISED,
     RatedGear,
     besides,
-    comparison_of,
-    methods_of_thesis,
     number,
-    optimum_of,
-    sensitivity_of,
+    quoted_methods,
 )
 
 
@@ -63,8 +60,8 @@ def _base_friction_of_gearset_2() -> Finding:
     "polyglycol; polyalphaolefin adds 6 %.", "order, +6 %",
 )  # fmt: skip
 def _methods() -> Finding:
-    study = comparison_of(GEARSET_2)
-    reported = {method.key: study[method.key] for method in methods_of_thesis()}
+    study = GEARSET_2.comparison
+    reported = {method.key: study[method.key] for method in quoted_methods()}
     along, across = reported["longitudinal_quoted"], reported["transverse_quoted"]
     glycol, olefin = reported["polyglycol"], reported["polyalphaolefin"]
     others = [row for row in reported.values() if row.kind != "vibration" and row is not glycol]
@@ -110,7 +107,7 @@ def _as_mean_friction(friction: float) -> float:
     "2 fail.", "h* <= 0",
 )  # fmt: skip
 def _failure() -> Finding:
-    study = sensitivity_of(GEARSET_2)
+    study = GEARSET_2.sensitivity
     ratio, module = study["gear_ratio"], study["axial_module"]
     ends = [math.nan if i.fails_above is None else i.fails_above for i in (ratio, module)]
     others = [i for i in study.influences if i not in (ratio, module) and i.fails_above is not None]
@@ -136,7 +133,7 @@ def _failure() -> Finding:
     "little, c most.", "signs",
 )  # fmt: skip
 def _influences() -> Finding:
-    study = sensitivity_of(GEARSET_2)
+    study = GEARSET_2.sensitivity
     slopes = {i.quantity.name: i.elasticity for i in study.influences}
     effects = {i.quantity.name: i.effect for i in study.influences}
     raising = ("pressure_angle", "centre_distance", "worm_speed")
@@ -163,7 +160,7 @@ def _influences() -> Finding:
     "alpha_n 30 deg, Ra_1 0.8 um, eta_z 7 % more.", "30 deg, 0.8 um, +7 %",
 )  # fmt: skip
 def _optimum() -> Finding:
-    optima = {name: optimum_of(gear) for name, gear in GEARSETS.items()}
+    optima = {name: gear.optimum for name, gear in GEARSETS.items()}
     designs = [optimum.gearset for optimum in optima.values()]
     first = optima["gearset 2"]
     before, after = (number(rated, "iso14521", "eta_z1_2") for rated in (first.before, first.after))

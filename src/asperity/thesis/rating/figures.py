@@ -7,14 +7,7 @@ from asperity.studies.plots import plot_comparison, plot_sensitivity
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.products import labelled
 from asperity.thesis.rating import drawings
-from asperity.thesis.rating.rated import (
-    GEARSET_2,
-    GEARSETS,
-    OPTIMISED,
-    comparison_of,
-    optimum_of,
-    sensitivity_of,
-)
+from asperity.thesis.rating.rated import GEARSET_2, GEARSETS, OPTIMISED
 
 
 @figure(
@@ -26,7 +19,7 @@ from asperity.thesis.rating.rated import (
     plot_comparison,
 )  # fmt: skip
 def _methods() -> Computed:
-    return comparison_of(GEARSET_2).to_dataset(), [GEARSET_2.command("methods")]
+    return GEARSET_2.comparison.to_dataset(), [GEARSET_2.command("methods")]
 
 
 @figure(
@@ -36,7 +29,7 @@ def _methods() -> Computed:
     plot_sensitivity,
 )  # fmt: skip
 def _inputs() -> Computed:
-    return sensitivity_of(GEARSET_2).to_dataset(), [GEARSET_2.command("sensitivity")]
+    return GEARSET_2.sensitivity.to_dataset(), [GEARSET_2.command("sensitivity")]
 
 
 @figure(
@@ -101,9 +94,8 @@ def _friction() -> Computed:
 )  # fmt: skip
 def _optima(wanted: dict[str, tuple[str, str, str, str]]) -> Computed:
     """Numbers of the gearsets as they are and of their optima: standard, key, unit, meaning."""
-    rated = [
-        (found.before.found, found.after.found) for found in map(optimum_of, GEARSETS.values())
-    ]
+    optima = [gear.optimum for gear in GEARSETS.values()]
+    rated = [(optimum.before.found, optimum.after.found) for optimum in optima]
     both = ("gearset", "design")
     numbers = {
         name: (both, np.array([[one[by][key] for one in pair] for pair in rated]), unit, meaning)

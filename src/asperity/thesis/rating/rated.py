@@ -1,6 +1,6 @@
 """Shipped gearsets, their ratings, and the studies of these."""
 
-import functools
+from functools import cached_property
 from typing import Any
 
 from asperity.gearset import Gearset
@@ -13,6 +13,12 @@ from asperity.studies.sensitivity import Sensitivity, sensitivity
 from asperity.thesis.shipped import Shipped
 
 
+def number(rated: Rated, standard: str, key: str) -> float:
+    """A number of a rating by a standard."""
+    value: Any = rated.found[standard][key]
+    return float(value)
+
+
 class RatedGear(Shipped):
     """A shipped gearset with its ratings and the studies of them."""
 
@@ -23,76 +29,50 @@ class RatedGear(Shipped):
         case = self.read()
         return case.require(Gearset), case.require(Operation), case.require(RatingOptions)
 
+    @cached_property
     def rated(self) -> Rated:
         """Its rating by all standards, all of which must apply."""
-        rated = _rated(self)
+        rated = rate_case(self.read())
         if rated.notes:
             raise ValueError("; ".join(rated.notes))
         return rated
 
+    def numbers(self, standard: str, *keys: str) -> tuple[float, ...]:
+        """Numbers of its rating by a standard."""
+        return tuple(number(self.rated, standard, key) for key in keys)
+
     def number(self, standard: str, key: str) -> float:
         """A number of its rating by a standard."""
-        return number(self.rated(), standard, key)
+        return number(self.rated, standard, key)
 
-    def numbers(self, standard: str, *keys: str) -> tuple[float, ...]:
-        """Several of them."""
-        return tuple(self.number(standard, key) for key in keys)
+    @cached_property
+    def sensitivity(self) -> Sensitivity:
+        """Its efficiency over each of its inputs."""
+        return sensitivity(*self.tables())
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """Its efficiency with each way to less friction."""
+        return compare_case(self.read())
+
+    @cached_property
+    def optimum(self) -> Optimum:
+        """Its most efficient design that keeps the permissible torques."""
+        return optimise(*self.tables())
+
+    @cached_property
+    def changes(self) -> dict[str, float]:
+        """What becomes of some of its numbers at the optimum, as a share of each."""
+        before, after = self.optimum.before, self.optimum.after
+        return {
+            symbol: number(after, *place) / number(before, *place) - 1.0
+            for symbol, place in _WATCHED.items()
+        }
 
 
-def number(rated: Rated, standard: str, key: str) -> float:
-    """A number of a rating by a standard."""
-    value: Any = rated.found[standard][key]
-    return float(value)
-
-
-def methods_of_thesis() -> tuple[Method, ...]:
-    """The ways to less friction in its Table 3.3, which has no oil by the standard's formula."""
+def quoted_methods() -> tuple[Method, ...]:
+    """The ways to less friction in Table 3.3, which has no oil by the standard's formula."""
     return tuple(method for method in reported_methods() if method.base_oil is None)
-
-
-@functools.cache
-def sensitivity_of(gear: RatedGear) -> Sensitivity:
-    """Its efficiency over each of its inputs."""
-    return sensitivity(*gear.tables())
-
-
-@functools.cache
-def comparison_of(gear: RatedGear) -> Comparison:
-    """Its efficiency with each way to less friction."""
-    return compare_case(gear.read())
-
-
-@functools.cache
-def optimum_of(gear: RatedGear) -> Optimum:
-    """Its most efficient design that keeps the permissible torques."""
-    return optimise(*gear.tables())
-
-
-@functools.cache
-def _rated(gear: RatedGear) -> Rated:
-    return rate_case(gear.read())
-
-
-@functools.cache
-def changes_at_optimum(gear: RatedGear) -> dict[str, float]:
-    """What becomes of some of its numbers, as a share of each."""
-    optimum = optimum_of(gear)
-    return {
-        symbol: number(optimum.after, *place) / number(optimum.before, *place) - 1.0
-        for symbol, place in _WATCHED.items()
-    }
-
-
-def besides() -> dict[str, bool]:
-    """What else 3.3.5 says of the optima, and whether it holds of gearsets 2 and 3."""
-    second, third = changes = [changes_at_optimum(gear) for gear in GEARSETS.values()]
-    return {
-        "M_w rises a little": all(0.0 < own["M_w"] < 0.1 for own in changes),
-        "M_s stays": all(abs(own["M_s"]) < 1e-6 for own in changes),
-        "eta_AGMA does not rise in all": min(own["eta_AGMA"] for own in changes) <= 0.0,
-        "q_1 rises for gearset 3 only": second["q_1"] <= 0.0 < third["q_1"],
-        "sigma_a rises for gearset 3 only": second["sigma_a"] <= 0.0 < third["sigma_a"],
-    }
 
 
 _WATCHED = {
@@ -110,3 +90,15 @@ GEARSETS = {"gearset 2": GEARSET_2, "gearset 3": GEARSET_3}
 
 OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
 """How their optima are come by."""
+
+
+def besides() -> dict[str, bool]:
+    """What else 3.3.5 says of the optima, and whether it holds of gearsets 2 and 3."""
+    second, third = changes = [gear.changes for gear in GEARSETS.values()]
+    return {
+        "M_w rises a little": all(0.0 < own["M_w"] < 0.1 for own in changes),
+        "M_s stays": all(abs(own["M_s"]) < 1e-6 for own in changes),
+        "eta_AGMA does not rise in all": min(own["eta_AGMA"] for own in changes) <= 0.0,
+        "q_1 rises for gearset 3 only": second["q_1"] <= 0.0 < third["q_1"],
+        "sigma_a rises for gearset 3 only": second["sigma_a"] <= 0.0 < third["sigma_a"],
+    }

@@ -10,15 +10,7 @@ from asperity.rating.result import Entry
 from asperity.studies.optimise import Limit
 from asperity.thesis.exhibits import table
 from asperity.thesis.products import Grid
-from asperity.thesis.rating.rated import (
-    GEARSET_2,
-    GEARSETS,
-    OPTIMISED,
-    comparison_of,
-    methods_of_thesis,
-    optimum_of,
-    sensitivity_of,
-)
+from asperity.thesis.rating.rated import GEARSET_2, GEARSETS, OPTIMISED, quoted_methods
 
 _BY = {"agma6034": ", AGMA 6034", "bs721": ", BS 721"}
 
@@ -80,7 +72,7 @@ _TABLE_3_2 = (
     "the last one where the number here is from.",
 )  # fmt: skip
 def _efficiency() -> Grid:
-    rated = GEARSET_2.rated()
+    rated = GEARSET_2.rated
     return Grid.of(
         _TABLE_3_2,
         {
@@ -102,9 +94,9 @@ def _efficiency() -> Grid:
     "vibration by our own friction model.",
 )  # fmt: skip
 def _methods() -> Grid:
-    study = comparison_of(GEARSET_2)
+    study = GEARSET_2.comparison
     quoted = {study.rows[0].key: "0.0715"}
-    for method in methods_of_thesis():
+    for method in quoted_methods():
         less = method.reduction
         number = f"{method.base_friction:.4f}" if less is None else f"{100.0 * less:.0f} % less"
         quoted.setdefault(method.key, number)
@@ -146,7 +138,7 @@ _EFFECTS = {
 )  # fmt: skip
 def _influences() -> Grid:
     return Grid.of(
-        sensitivity_of(GEARSET_2).influences,
+        GEARSET_2.sensitivity.influences,
         {
             "symbol": lambda found: found.quantity.symbol,
             "quantity": lambda found: found.quantity.meaning,
@@ -214,7 +206,7 @@ _TABLE_3_5 = (
     "of it for strength (3.3.1).",
 )  # fmt: skip
 def _as_they_are() -> Grid:
-    rated = {name: gear.rated() for name, gear in GEARSETS.items()}
+    rated = {name: gear.rated for name, gear in GEARSETS.items()}
     columns = _beside(rated) | {"here": lambda row: row.here}
     return Grid.of(_TABLE_3_5, columns, *GEARSETS.values())
 
@@ -255,7 +247,7 @@ _BOUNDS = {
 def _constraints() -> Grid:
     limits: dict[tuple[str, str], list[Limit]] = {}
     for name, gear in GEARSETS.items():
-        for limit in optimum_of(gear).limits:
+        for limit in gear.optimum.limits:
             limits.setdefault((name, limit.symbol), []).append(limit)
 
     def bound(own: list[Limit], *, above: bool) -> float | None:
@@ -306,6 +298,6 @@ _TABLE_3_7 = (
 def _at_the_optimum() -> Grid:
     designs: dict[str, Rated] = {}
     for name, gear in GEARSETS.items():
-        optimum = optimum_of(gear)
+        optimum = gear.optimum
         designs |= {name: optimum.before, f"{name}, optimum": optimum.after}
     return Grid.of(_TABLE_3_7, _beside(designs), *OPTIMISED)

@@ -11,9 +11,7 @@ from asperity.thesis.rating.rated import (
     OPTIMISED,
     RatedGear,
     besides,
-    changes_at_optimum,
     number,
-    optimum_of,
 )
 
 _LOW, _HIGH = 0.05, 0.10
@@ -114,7 +112,7 @@ def _orders() -> Finding:
     "cases; q_1 and sigma_a rise for gearset 3 only.", "in words",
 )  # fmt: skip
 def _besides_the_optimum() -> Finding:
-    change = {name: changes_at_optimum(gear) for name, gear in GEARSETS.items()}
+    change = {name: gear.changes for name, gear in GEARSETS.items()}
     return Finding.judged(
         besides(),
         "; ".join(
@@ -134,7 +132,7 @@ def _besides_the_optimum() -> Finding:
 
 @claim("3.11", "3.4", "Efficiency of gearset 2 at its optimum.", "45 %")
 def _efficiency_at_the_optimum() -> Finding:
-    efficiency = number(optimum_of(GEARSET_2).after, "iso14521", "eta_z1_2")
+    efficiency = number(GEARSET_2.optimum.after, "iso14521", "eta_z1_2")
     return Finding.judged(
         {"45 %, within one": abs(100.0 * efficiency - 45.0) < 1.0},
         f"{efficiency:.1%}",

@@ -1,6 +1,7 @@
 """Sliding bodies and sweeps of them."""
 
 import dataclasses
+from functools import cached_property
 
 import numpy as np
 
@@ -22,16 +23,22 @@ class Body(Shipped):
 
     verb = "slide"
 
-    def solve(self) -> SlideResult:
-        """Solve it, with its history."""
+    @cached_property
+    def result(self) -> SlideResult:
+        """What it comes to, with its history."""
         return solve(Model.from_case(self.read()))
 
+    @property
+    def model(self) -> Model:
+        """What is solved."""
+        return self.result.model
 
-def history_of(result: SlideResult) -> History:
-    """The history of a body that was solved with it."""
-    if result.history is None:
-        raise ValueError("solved without a history")
-    return result.history
+    @property
+    def history(self) -> History:
+        """Its motion and forces over time."""
+        if self.result.history is None:
+            raise ValueError("solved without a history")
+        return self.result.history
 
 
 @dataclasses.dataclass(frozen=True)

@@ -4,19 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from asperity.slider import SlideResult
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
-from asperity.thesis.sliding.bodies import (
-    DIRECTION,
-    PERIODIC,
-    RATIO,
-    TWO_PHASE,
-    Body,
-    Sweep,
-    history_of,
-)
+from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, TWO_PHASE, Body, Sweep
 
 UP_TO_ONE = "0.25,0.5,0.75,1"
 MARKED = f"{UP_TO_ONE},1.5,2,3,4,6,8,10,15,20"
@@ -33,12 +24,12 @@ _CLOSE = 1e-3
 )  # fmt: skip
 def _rigid_drive() -> Finding:
     bodies = [Body(f"table-4.1-L{n}", (PERIODIC,)) for n in range(1, 7)]
-    results = [body.solve() for body in bodies]
+    results = [body.result for body in bodies]
     full = results[0].static_drive_force
-    square = history_of(results[1]).drive_force
+    square = bodies[1].history.drive_force
     # Share of the cycle spent between the two values, a step at each reversal.
     steep = float(np.mean(np.abs(np.abs(square) - full) > _SAME * full))
-    swings = [float(np.ptp(history_of(result).drive_force)) for result in results[3:]]
+    swings = [float(np.ptp(body.history.drive_force)) for body in bodies[3:]]
     least = [result.friction_min[0] for result in results[3:]]
     keeps = _from_where_on(least, ("L4", "L5", "L6"))
     means = [result.drive_force for result in results]
@@ -101,10 +92,10 @@ def _drive_stiffness() -> Finding:
     inertia = mass * (faster - slower) / (times[1] - times[0])
     off = drive_stiffness(mass, drive, times, (slower, faster), position, 0.99 * friction)
     body = Body("table-4.3", (PERIODIC,))
-    mean = body.solve()
+    mean = body.result
     implied = mean.drive_force / (drive * times[1] - position)
     other = Body("table-4.3", (PERIODIC, f"slider.drive_stiffness={implied:.0f} N/m"))
-    ratio = other.solve().ratio
+    ratio = other.result.ratio
     return Finding.judged(
         {"the points give 96068 N/m": round(stiffness) == 96068},
         f"{stiffness:.0f} N/m",
@@ -139,7 +130,7 @@ def _two_schemes() -> Finding:
     worst = int(np.argmax(apart))
     flat = float(np.abs(ratios[:, k <= 1.0] - 1.0).max())
     peaks = [Body("table-4.3"), Body("table-4.3", (TWO_PHASE,))]
-    highest = [body.solve().friction_max[0] for body in peaks]
+    highest = [body.result.friction_max[0] for body in peaks]
     parts = {
         "no reduction up to k = 1": flat < _CLOSE,
         "reduction above k = 1": bool(np.all(ratios[:, k > 1.0] < 1.0 - _CLOSE)),
@@ -169,16 +160,7 @@ def _two_schemes() -> Finding:
 )  # fmt: skip
 def _breakaway() -> Finding:
     bodies = [Body("table-4.3"), Body("table-4.4")]
-    results = [body.solve() for body in bodies]
-    times = [result.breakaway_time or np.nan for result in results]
-    forces, friction = np.transpose(
-        [_forces_at(time, result) for time, result in zip(times, results, strict=True)]
-    ).tolist()
-    rings = []
-    for result in results:
-        slider = result.model.slider
-        impedance = np.sqrt((slider.drive_stiffness or 0.0) * (slider.mass or 0.0))
-        rings.append(slider.drive_velocity * float(impedance))
+    times, forces, friction, rings = np.transpose([_at_breakaway(body) for body in bodies]).tolist()
     return Finding.judged(
         {
             "0.12 s and 5.5 N with Table 4.3": round(times[0], 2) == 0.12
@@ -206,11 +188,16 @@ def _breakaway() -> Finding:
     )
 
 
-def _forces_at(time: float, result: SlideResult) -> tuple[float, float]:
-    """Drive force and friction along the drive at a time, N."""
-    history = history_of(result)
-    drive = float(np.interp(time, history.time, history.drive_force))
-    return drive, float(np.interp(time, history.time, history.friction[:, 0]))
+def _at_breakaway(body: Body) -> tuple[float, float, float, float]:
+    """Time of breakaway, s; drive force and friction then, and how the drive rings after, N."""
+    time, history, slider = body.result.breakaway_time or np.nan, body.history, body.model.slider
+    impedance = float(np.sqrt((slider.drive_stiffness or 0.0) * (slider.mass or 0.0)))
+    return (
+        time,
+        float(np.interp(time, history.time, history.drive_force)),
+        float(np.interp(time, history.time, history.friction[:, 0])),
+        slider.drive_velocity * impedance,
+    )
 
 
 @claim("4.5", "4.5.5", "Transverse: reduction also for k <= 1.", "yes")
@@ -310,7 +297,7 @@ def _twenty_times_as_fast() -> Finding:
         Body("table-4.4", (PERIODIC, f"{RATIO}=20")),
         Body("table-4.4", (PERIODIC, f"{RATIO}=20", "friction.transfer=1.0")),
     ]
-    along, across, full = (body.solve().ratio for body in bodies)
+    along, across, full = (body.result.ratio for body in bodies)
     return Finding.judged(
         {
             "transverse -90 %": round(across, 2) == 0.10,

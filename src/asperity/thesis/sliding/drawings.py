@@ -8,7 +8,6 @@ from asperity.thesis.drawing import (
     DOTTED,
     OVER_DIRECTION,
     OVER_RATIO,
-    RATIO,
     legend_above,
     limit,
     line,
@@ -124,7 +123,7 @@ def over_ratio(dataset: "xr.Dataset") -> "Figure":
             axes, 0, dataset["k_marched"], dataset[name], f"marched, {name.replace('_', '-')}",
             marker=marker, markersize=size, color=BLACK, markeredgewidth=1.0,
         )  # fmt: skip
-    axes.set(ylabel=RATIO, ylim=(0.0, 1.05), **OVER_RATIO)
+    axes.set(ylim=(0.0, 1.05), **OVER_RATIO)
     legend(axes, loc="upper right")
     return figure
 
@@ -181,6 +180,6 @@ def over_direction(dataset: "xr.Dataset") -> "Figure":
             axes, 2, dataset["theta"], dataset["lugre"].sel(k_lugre=k),
             "" if n else "LuGre, k = 2 and 20", markersize=9, color=BLACK, markeredgewidth=0.8,
         )  # fmt: skip
-    axes.set(ylabel=RATIO, ylim=(0.0, None), **OVER_DIRECTION)
+    axes.set(ylim=(0.0, None), **OVER_DIRECTION)
     legend_above(axes, 3)
     return figure

@@ -5,20 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.slider import Model, SlideResult
+from asperity.slider import Model
 from asperity.slider.closed_forms import dahl_from_rest, longitudinal_ratio, transverse_ratio
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.products import labelled
 from asperity.thesis.sliding import drawings
-from asperity.thesis.sliding.bodies import (
-    DIRECTION,
-    PERIODIC,
-    RATIO,
-    TWO_PHASE,
-    Body,
-    Sweep,
-    history_of,
-)
+from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, TWO_PHASE, Body, Sweep
 from asperity.thesis.sliding.claims import ALL_AROUND, LUGRE, MARKED, PLOTTED
 
 if TYPE_CHECKING:
@@ -55,9 +47,9 @@ def side_by_side(
     return joined
 
 
-def _solved(names: Sequence[str], results: Sequence[SlideResult], keep: str) -> "xr.Dataset":
-    histories = [result.to_dataset()[[keep]] for result in results]
-    return side_by_side(names, histories, results[0].static_drive_force)
+def _solved(names: Sequence[str], bodies: Sequence[Body], keep: str) -> "xr.Dataset":
+    histories = [body.result.to_dataset()[[keep]] for body in bodies]
+    return side_by_side(names, histories, bodies[0].result.static_drive_force)
 
 
 def two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
@@ -117,10 +109,10 @@ _RIGID = (
 )  # fmt: skip
 def _cycle(bodies: dict[str, Body]) -> Computed:
     """Base velocity and friction over one cycle of periodic states."""
-    results = [body.solve() for body in bodies.values()]
-    dataset = _solved([*bodies], results, "friction")
-    model = results[0].model
-    _, time = drawings.own_names("friction", next(iter(bodies)))
+    dataset = _solved([*bodies], [*bodies.values()], "friction")
+    first, body = next(iter(bodies.items()))
+    model = body.model
+    _, time = drawings.own_names("friction", first)
     base = np.cos(2.0 * np.pi * model.frequency * dataset[time].values)
     labels = {"units": "m/s", "long_name": "velocity of the base"}
     dataset["base_velocity"] = (time, model.peak_velocity * base, labels)
@@ -138,8 +130,7 @@ def _cycle(bodies: dict[str, Body]) -> Computed:
 )  # fmt: skip
 def _transverse_cycle() -> Computed:
     body = Body("table-4.1-L2", (PERIODIC, f"{DIRECTION}=90 deg"))
-    result = body.solve()
-    model, history = result.model, history_of(result)
+    result, model, history = body.result, body.model, body.history
     time = history.time
     dataset = labelled(
         time=(("time",), time, "s", "time"),
@@ -170,7 +161,7 @@ def _transverse_cycle() -> Computed:
 )  # fmt: skip
 def _basic(*names: str) -> Computed:
     bodies = [Body(f"table-4.1-{name}", ("solve.duration=30 ms",)) for name in names]
-    return _solved(names, [body.solve() for body in bodies], "drive_force"), bodies
+    return _solved(names, bodies, "drive_force"), bodies
 
 
 @figure(
@@ -227,7 +218,7 @@ def _schemes(case: str, ratio: str) -> list[Body]:
 )  # fmt: skip
 def _drive_over_time(case: str, ratio: str) -> Computed:
     bodies = _schemes(case, ratio)
-    return _solved(_SCHEMES, [body.solve() for body in bodies], "drive_force"), bodies
+    return _solved(_SCHEMES, bodies, "drive_force"), bodies
 
 
 @figure(
@@ -243,10 +234,9 @@ def _drive_over_time(case: str, ratio: str) -> Computed:
 )  # fmt: skip
 def _friction_over_cycles(case: str, ratio: str, axes: list[str]) -> Computed:
     bodies = _schemes(case, ratio)
-    results = [body.solve() for body in bodies]
-    cycles = [two_cycles(result.to_dataset()[["friction"]], result.model) for result in results]
-    dataset = side_by_side(_SCHEMES, cycles, results[0].static_drive_force).sel(axis=axes)
-    return dataset, bodies
+    cycles = [two_cycles(body.result.to_dataset()[["friction"]], body.model) for body in bodies]
+    full = bodies[0].result.static_drive_force
+    return side_by_side(_SCHEMES, cycles, full).sel(axis=axes), bodies
 
 
 @figure(

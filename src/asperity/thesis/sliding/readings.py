@@ -2,24 +2,16 @@
 
 import numpy as np
 
-from asperity.slider import SlideResult
 from asperity.slider.closed_forms import (
     cosine_mean_approach,
     dead_load_ratio,
     normal_ratio,
     orbit_mean_approach,
 )
+from asperity.slider.result import History
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
-from asperity.thesis.sliding.bodies import (
-    DIRECTION,
-    PERIODIC,
-    RATIO,
-    TWO_PHASE,
-    Body,
-    Sweep,
-    history_of,
-)
+from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, TWO_PHASE, Body, Sweep
 
 _RATIOS = "2,6,20"
 _SAME = 1e-9
@@ -35,7 +27,7 @@ def _a_little_faster() -> Finding:
     fast, faster = (
         Body("table-4.3", (f"vibration.velocity_amplitude={v} mm/s", PERIODIC)) for v in ("0.75", 3)
     )
-    result, other = fast.solve(), faster.solve()
+    result, other = fast.result, faster.result
     least, turned = result.friction_min[0], other.friction_min[0]
     return Finding.judged(
         {
@@ -114,7 +106,7 @@ def _two_directions() -> Finding:
         Body("table-4.4", (PERIODIC, f"{RATIO}=20", f"{DIRECTION}={theta} deg"))
         for theta in (90, 270)
     ]
-    there, here = (history_of(body.solve()).friction for body in bodies)
+    there, here = (body.history.friction for body in bodies)
     scale = float(np.abs(there).max())
     along, across, mirrored = (
         float(np.abs(difference).max())
@@ -146,9 +138,9 @@ def _undulating() -> Finding:
         for scheme in ((TWO_PHASE,), ())
     }
     printed, converged = (
-        [_undulation(body.solve()) for body in group] for group in bodies.values()
+        [_undulation(body.history) for body in group] for group in bodies.values()
     )
-    model = bodies[()][0].solve().model
+    model = bodies[()][0].model
     stretch = 2.0 * (model.slider.drive_stiffness or 0.0) * model.amplitude
     return Finding.judged(
         {
@@ -178,10 +170,7 @@ def _undulating() -> Finding:
 def _one_cycle() -> Finding:
     ratios = _RATIOS.split(",")
     bodies = [Body("table-4.3", (f"{RATIO}={ratio}",)) for ratio in ratios]
-    results = [body.solve() for body in bodies]
-    early, late = (
-        [_off_the_mean(result, *window) for result in results] for window in (_EARLY, _LATE)
-    )
+    early, late = ([_off_the_mean(body, *window) for body in bodies] for window in (_EARLY, _LATE))
     return Finding.judged(
         {f"a cycle from {_LATE[0]:g} s on tells the mean, within 1 %": max(late) < 0.01},
         f"off by up to {', '.join(f'{share:.2%}' for share in late)} at k = {', '.join(ratios)}",
@@ -220,20 +209,19 @@ def _coarse_step() -> Finding:
     )
 
 
-def _undulation(result: SlideResult) -> float:
-    history = history_of(result)
+def _undulation(history: History) -> float:
     return float(np.ptp(history.drive_force[history.time > history.time[-1] - _END]))
 
 
-def _off_the_mean(result: SlideResult, begin: float, end: float) -> float:
+def _off_the_mean(body: Body, begin: float, end: float) -> float:
     """How far the mean over a cycle between two times may be off that over the window."""
-    history = history_of(result)
+    history = body.history
     if history.span is None:
         raise ValueError("a history without the length of its stretches")
     edges = np.append(0.0, np.cumsum(history.span))
     impulse = np.append(0.0, np.cumsum(history.span * history.drive_force))
-    period = 1.0 / result.model.frequency
+    period = 1.0 / body.model.frequency
     first = np.arange(begin, end - period, period)
     last = first + period
     means = (np.interp(last, edges, impulse) - np.interp(first, edges, impulse)) / period
-    return float(np.abs(means / result.drive_force - 1.0).max())
+    return float(np.abs(means / body.result.drive_force - 1.0).max())

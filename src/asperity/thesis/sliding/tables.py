@@ -15,8 +15,8 @@ from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body
 )  # fmt: skip
 def _basic() -> Grid:
     bodies = {f"L{n}-Sim": Body(f"table-4.1-L{n}", (PERIODIC,)) for n in range(1, 7)}
-    found = {name: body.solve() for name, body in bodies.items()}
-    model = {name: result.model for name, result in found.items()}
+    found = {name: body.result for name, body in bodies.items()}
+    model = {name: body.model for name, body in bodies.items()}
     return Grid.of(
         bodies,
         {
@@ -56,8 +56,7 @@ def _compared(case: str, thesis: tuple[float, ...]) -> Grid:
     """What the thesis prints: mass, frequency, normal force, deflection, stiffness, direction."""
     mass, frequency, force, deflection, stiffness, direction = thesis
     bodies = [Body(case), Body(case, (TWO_PHASE,)), Body(case, (PERIODIC,))]
-    results = [body.solve() for body in bodies]
-    model = results[0].model
+    model = bodies[0].model
     tangential = 1e-6 * model.full_friction / _deflection(model)
     rows: list[tuple[Cell, ...]] = [
         ("v_d", "drive velocity", "mm/s", 0.5, 1e3 * model.slider.drive_velocity),
@@ -76,8 +75,8 @@ def _compared(case: str, thesis: tuple[float, ...]) -> Grid:
     words = ("marched", "marched, two-phase scheme", "periodic state")
     k = model.peak_velocity / model.slider.drive_velocity
     rows += [
-        ("F_d/(mu F_N)", f"ratio at k = {k:g}, {word}", "", "", result.ratio)
-        for word, result in zip(words, results, strict=True)
+        ("F_d/(mu F_N)", f"ratio at k = {k:g}, {word}", "", "", body.result.ratio)
+        for word, body in zip(words, bodies, strict=True)
     ]
     how = tuple(body.command() for body in bodies)
     return Grid(("symbol", "quantity", "unit", "thesis", "here"), tuple(rows), how)
