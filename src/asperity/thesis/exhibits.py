@@ -42,16 +42,8 @@ def figure(
 ) -> Callable[[Function], Function]:
     """Mark what computes a figure: its dataset, and the commands and functions that give it.
 
-    One that can be made in full, on finer meshes or at more points, takes ``full``.
-
-    Parameters
-    ----------
-    number, title, caption : str
-        What the page says.
-    draw : callable
-        Draws it from its dataset alone.
-    *arguments : object
-        What the function takes for it.
+    It is drawn from its dataset alone. The function takes the arguments that follow, and ``full``
+    if the figure can be made in full, on finer meshes or at more points.
     """
 
     def marked(compute: Function) -> Function:
@@ -76,18 +68,9 @@ def table(number: str, title: str, caption: str, *arguments: Any) -> Callable[[F
 
 
 def claim(number: str, section: str, text: str, thesis: str) -> Callable[[Function], Function]:
-    """Mark what tests a claim: it returns a `Finding`.
+    """Mark what tests a claim, by a `Finding`: where the thesis makes it, and what it says there.
 
-    Parameters
-    ----------
-    number : str
-        Which never changes.
-    section : str
-        Where the thesis makes it.
-    text : str
-        What is claimed.
-    thesis : str
-        The thesis's number or word.
+    Its number never changes; its words end with the thesis's own number or word.
     """
 
     def marked(compute: Function) -> Function:
@@ -112,25 +95,14 @@ def _no_parts(full: bool) -> Sequence[Part]:
 
 @dataclasses.dataclass(frozen=True)
 class Exhibit:
-    """Something of the thesis that is made here.
-
-    Attributes
-    ----------
-    kind, number : str
-        ``figure``, ``table`` or ``claim``, and its number in the thesis.
-    module : str
-        Where the function stands that makes it.
-    cases : tuple of str
-        Shipped cases it may use.
-    parts : callable
-        Gives what it shares with others, or what takes so long that several processes are to work
-        at it; takes whether it is made in full.
-    """
+    """Something of the thesis that is made here."""
 
     kind: str
     number: str
-    module: str
-    cases: tuple[str, ...] = ()
+    module: str  # where the function stands that makes it
+    cases: tuple[str, ...] = ()  # shipped ones it may use
+    # What it shares with others, or what takes so long that several processes are to work at it;
+    # takes whether it is made in full.
     parts: Callable[[bool], Sequence[Part]] = _no_parts
 
     @property

@@ -115,26 +115,12 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True)
 class Finding:
-    """What the computation of a claim gave.
+    """What the computation of a claim gave, and the commands and functions that give it."""
 
-    Attributes
-    ----------
-    ours : str
-        The numbers in a phrase.
-    verdict : {'reproduced', 'differs'}
-        Whether every part of the claim holds.
-    reason : str
-        Why it differs, or how closely it agrees.
-    numbers : mapping of str to float
-        The numbers, each named with its unit.
-    how : sequence of str
-        Commands and functions that give them.
-    """
-
-    ours: str
-    verdict: Verdict
-    reason: str
-    numbers: Mapping[str, float]
+    ours: str  # the numbers in a phrase
+    verdict: Verdict  # whether every part of the claim holds
+    reason: str  # why it differs, or how closely it agrees
+    numbers: Mapping[str, float]  # each named with its unit
     how: Sequence[str]
 
     @classmethod

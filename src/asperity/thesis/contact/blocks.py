@@ -30,35 +30,20 @@ _TABLES = {**SLIDER_TABLES, **BLOCK_TABLES}
 
 @dataclasses.dataclass(frozen=True)
 class Settled:
-    """What an elastic block under vibration comes to, and the sliding bodies beside it.
+    """What an elastic block under vibration comes to, and the sliding bodies beside it."""
 
-    Attributes
-    ----------
-    ratio : float
-        Mean friction along the drive over mu F_N, at the drive's velocity.
-    slider : float
-        The sliding body's periodic state.
-    in_series : float
-        The sliding body with the block's compliance as a spring between it and its asperities,
-        settled as the block is.
-    rocking : float
-        The same where the block's turns on its contact, most of that compliance, have inertia.
-    unsteadiness : float
-        Half of what the highest and the lowest of four successive windows of the block's ratio, as
-        long as one another, are apart.
-    cycles : int
-        In the four windows together.
-    late : float
-        By how much of the drive's velocity the block was slower in the cycles measured.
-    """
-
-    ratio: float
-    slider: float
+    ratio: float  # mean friction along the drive over mu F_N, at the drive's velocity
+    slider: float  # that of the sliding body's periodic state
+    # The sliding body with the block's compliance as a spring between it and its asperities,
+    # settled as the block is; and the same where the block's turns on its contact, most of that
+    # compliance, have inertia.
     in_series: float
     rocking: float
+    # Half of what the highest and the lowest of four successive windows of the block's ratio, as
+    # long as one another, are apart; and the cycles in the four together.
     unsteadiness: float
     cycles: int
-    late: float
+    late: float  # the share of the drive's velocity by which the block was slower in these cycles
 
 
 def march(case: str, settings: Sequence[str]) -> BlockResult:
@@ -116,15 +101,8 @@ def in_series(problem: BlockProblem, *, rocking: bool = False) -> System:
     """Return the sliding body of a block with the block's compliance before its asperities.
 
     A body that only shifts, under its constant normal force, on one face whose nodes give together
-    under all the friction there is: by `BlockProblem.compliance`, which nothing is fitted to.
-
-    Parameters
-    ----------
-    problem : BlockProblem
-        The block.
-    rocking : bool
-        Whether the block's turns on its contact have their inertia; without, all of the
-        compliance is a spring.
+    under all the friction there is: by `BlockProblem.compliance`, which nothing is fitted to. All
+    of it is a spring, unless the block's turns on its contact have their inertia (``rocking``).
     """
     surface = contact_surface(box(problem.block.size, (1, 1, 1), 1), "bottom")
     count = len(surface.nodes)

@@ -11,8 +11,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.runs.workers import Task
+from asperity.thesis.cases import Shipped
 from asperity.thesis.products import labelled
-from asperity.thesis.shipped import Shipped
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -66,24 +66,12 @@ class ElasticBlock(Shipped):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class FromRest:
-    """What is shown of a block's march from rest.
+    """What is shown of a block's march from rest."""
 
-    Attributes
-    ----------
-    ratio : float
-        Mean drive force over mu F_N in the window of the march.
-    time : ndarray, shape (n,)
-        s.
-    drive_force : ndarray, shape (n,)
-        N.
-    friction : ndarray, shape (n, 2)
-        Along and across the drive, N.
-    """
-
-    ratio: float
-    time: FloatArray
-    drive_force: FloatArray
-    friction: FloatArray
+    ratio: float  # mean drive force over mu F_N in the window of the march
+    time: FloatArray  # s
+    drive_force: FloatArray  # N
+    friction: FloatArray  # along and across the drive, N
 
     @classmethod
     def of(cls, result: "BlockResult") -> "FromRest":

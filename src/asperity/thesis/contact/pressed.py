@@ -32,21 +32,11 @@ Kind = Literal["nodes", "surface"]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Pressed:
-    """Pressure under the cylinder, mean across the block.
+    """Pressure under the cylinder, mean across the block."""
 
-    Attributes
-    ----------
-    x : ndarray
-        Distance from the cylinder's middle, m.
-    pressure : ndarray
-        Pa.
-    approach : float
-        How far the cylinder went from where it would touch the undeformed block, m.
-    """
-
-    x: FloatArray
-    pressure: FloatArray
-    approach: float
+    x: FloatArray  # distance from the cylinder's middle, m
+    pressure: FloatArray  # Pa
+    approach: float  # how far the cylinder went from where it would touch the undeformed block, m
 
 
 def hertz() -> tuple[float, float]:
@@ -58,15 +48,7 @@ def hertz() -> tuple[float, float]:
 
 
 def press(kind: Kind, shift: float) -> Pressed:
-    """Press the cylinder on the block.
-
-    Parameters
-    ----------
-    kind : {'nodes', 'surface'}
-        Where the pressure acts.
-    shift : float
-        Of the cylinder along the block, in elements; 0: over a line of nodes.
-    """
+    """Press the cylinder on the block, shifted by so many elements from over a line of nodes."""
     body, surface = _body()
     if kind == "nodes":
         surface = at_nodes(surface)

@@ -7,6 +7,7 @@ import numpy as np
 
 from asperity.flanks.plots import outline
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
+from asperity.thesis.drawing import limit
 from asperity.thesis.flanks.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint
 from asperity.thesis.flanks.shapes import Shape
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _GROUND = "#F2F2F2"
+_WORM_RADIUS = "from the worm's axis (mm)"
 _FACE, _RADIUS = "distance from mid-face (mm)", "from the wheel's axis (mm)"
 _EXAGGERATED = 10.0
 _PRESSURES = (
@@ -23,26 +25,17 @@ _PRESSURES = (
     ("lead", "lead corrected by 0.07°"),
     ("over_relieved", "(b) relief 80 µm from the pitch line"),
     ("relieved", "relief 10 µm, outer half"),
+    ("low", "(a) a twentieth of the torque"),
+    ("high", "(b) the rated torque"),
 )
-
-_LOADS = (("low", "(a) a twentieth of the torque"), ("high", "(b) the rated torque"))
 
 
 def pressures(dataset: "xr.Dataset") -> "Figure":
-    """Draw contact lines coloured by the pressure on them, a panel each design."""
-    return _pressures(dataset, _PRESSURES)
-
-
-def loads(dataset: "xr.Dataset") -> "Figure":
-    """Draw contact lines coloured by the pressure on them, a panel each torque."""
-    return _pressures(dataset, _LOADS)
-
-
-def _pressures(dataset: "xr.Dataset", designs: Sequence[tuple[str, str]]) -> "Figure":
-    import matplotlib as mpl
+    """Draw contact lines coloured by the pressure on them, a panel each design or torque."""
     from matplotlib.collections import LineCollection
     from matplotlib.colors import Normalize
 
+    designs = [(name, title) for name, title in _PRESSURES if f"{name}_pressure" in dataset]
     rows = len(designs) // 2
     figure, axes = panels(rows, 2, width=8.6, height=0.6 + 2.9 * rows)
     highest = max(float(dataset[f"{name}_pressure"].max()) for name, _ in designs)
@@ -62,11 +55,16 @@ def _pressures(dataset: "xr.Dataset", designs: Sequence[tuple[str, str]]) -> "Fi
         panel.set_title(f"{title}\nup to {pressure.max():.0f} MPa, lines of {length:.0f} mm carry",
                         loc="left")  # fmt: skip
         _labels(panel, bottom=place > len(designs) - 3, left=place % 2 == 0)
-    with mpl.rc_context(STYLE):
-        bar = figure.colorbar(drawn, ax=axes, location="right", shrink=0.7, aspect=30.0)
-        bar.set_label("Hertzian pressure (MPa)")
-        bar.ax.grid(visible=False)
+    _colour_bar(drawn, axes, "Hertzian pressure (MPa)", shrink=0.7, aspect=30.0)
     return figure
+
+
+def _colour_bar(drawn: Any, axes: Sequence["Axes"], label: str, **options: Any) -> None:
+    import matplotlib as mpl
+
+    with mpl.rc_context(STYLE):
+        bar = axes[0].figure.colorbar(drawn, ax=axes, location="right", label=label, **options)
+        bar.ax.grid(visible=False)
 
 
 def formation(dataset: "xr.Dataset") -> "Figure":
@@ -85,7 +83,6 @@ def formation(dataset: "xr.Dataset") -> "Figure":
         thread, rho = own["thread"].values, own["worm_radius"].values
         root, tip = float(dataset["worm_root"]), float(dataset["worm_tip"])
         worm.axhspan(root, tip, color=_GROUND, zorder=0)
-        worm.set_ylim(root - 0.3, tip + 0.3)
         _ground(wheel, *outline(own["face"].values, own["radius"].values))
         for time in range(times):
             gap = own["gap"].values[time]
@@ -99,20 +96,20 @@ def formation(dataset: "xr.Dataset") -> "Figure":
                 panel.contour(x, y, near, levels=[at], colors=BLACK, linewidths=0.9,
                               linestyles="solid")  # fmt: skip
         shown = dataset["thread"].values[dataset["gap"].values < film]
-        worm.set_xlim(shown.min() - 8.0, shown.max() + 8.0)
-        worm.set_xlabel("along the worm's thread (°)")
+        worm.set(
+            xlabel="along the worm's thread (°)", xlim=(shown.min() - 8.0, shown.max() + 8.0),
+            ylim=(root - 0.3, tip + 0.3),
+        )  # fmt: skip
         wheel.set_xlabel(_FACE)
         for panel in (worm, wheel):
             panel.grid(visible=False)
-    axes[0].set_ylabel("from the worm's axis (mm)")
+    axes[0].set_ylabel(_WORM_RADIUS)
     axes[3].set_ylabel(_RADIUS)
     return figure
 
 
 def dye(dataset: "xr.Dataset") -> "Figure":
     """Draw teeth with the dye on them, and the gap below the dye's thickness as a map."""
-    import matplotlib as mpl
-
     tilts = dataset["tilt"].values
     figure, axes = panels(2, len(tilts), width=9.0, height=6.6)
     grid: Any = axes[0].get_gridspec()
@@ -133,10 +130,7 @@ def dye(dataset: "xr.Dataset") -> "Figure":
         filled = flat.contourf(face, radius, gap, levels=np.linspace(0.0, film, 7), cmap="Blues_r")
         flat.contour(face, radius, gap, levels=[film], colors=BLACK, linewidths=1.0)
         _labels(flat, bottom=True, left=column == 0)
-    with mpl.rc_context(STYLE):
-        bar = figure.colorbar(filled, ax=axes[2:], location="right", aspect=14.0)
-        bar.set_label(f"gap (µm),\nbare above {film:g}")
-        bar.ax.grid(visible=False)
+    _colour_bar(filled, axes[2:], f"gap (µm),\nbare above {film:g}", aspect=14.0)
     return figure
 
 
@@ -155,16 +149,15 @@ def modified_profile(dataset: "xr.Dataset") -> "Figure":
         )  # fmt: skip
     tip = float(dataset["tip_radius"])
     thread.plot([-outline[0][-1], outline[0][-1]], [tip, tip], color=BLACK)
-    thread.set_aspect("equal")
-    thread.set_xlabel("along the worm's axis (mm)")
-    thread.set_ylabel("from the worm's axis (mm)")
+    thread.set(aspect="equal", xlabel="along the worm's axis (mm)", ylabel=_WORM_RADIUS)
     amount.plot(dataset["relief"], radius, color=BLUE)
     amount.set_xlabel("taken off, normal to the flank (µm)")
+    pitch = float(dataset["pitch_radius"])
     for panel in (thread, amount):
-        panel.axhline(float(dataset["pitch_radius"]), color=BLACK, dashes=(1, 2), linewidth=1.0)
+        limit(panel, pitch)
         panel.set_ylim(float(dataset["root_radius"]) - 0.4, tip + 0.4)
     amount.annotate(
-        "pitch line", (float(dataset["relief"].max()), float(dataset["pitch_radius"])),
+        "pitch line", (float(dataset["relief"].max()), pitch),
         xytext=(0, 4), textcoords="offset points", ha="right", fontsize=10.0,
     )  # fmt: skip
     legend(thread, loc="lower center")

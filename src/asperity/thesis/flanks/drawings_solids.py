@@ -46,22 +46,10 @@ def paint(
     axes: "Axes", shape: Shape, colours: Mapping[int, str], view: View,
     *, edges: float = 0.0, shell: bool = False,
 ) -> None:  # fmt: skip
-    """Paint a body.
+    """Paint a body, each of its parts in a colour.
 
-    Parameters
-    ----------
-    axes : Axes
-        Where.
-    shape : Shape
-        The body.
-    colours : mapping of int to str
-        Colour of each part.
-    view : View
-        From where it is seen.
-    edges : float
-        Width of the lines round each face, points; 0 for none.
-    shell : bool
-        Whether faces are seen from behind as well, darker.
+    Lines round its faces are some points wide, none by default; faces of a shell are seen from
+    behind as well, darker.
     """
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import to_rgb

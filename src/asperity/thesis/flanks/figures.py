@@ -77,7 +77,7 @@ LOADS = {
     "with a centre distance of 2.9 in and the worm of figure 2.13, relieved by 30 um towards its "
     "tip. Lines of contact at 24 angles of the worm that carry, with one stiffness per length of "
     "line.",
-    drawings.loads, LOADS,
+    drawings.pressures, LOADS,
 )  # fmt: skip
 def _lines(gears: Mapping[str, Gear]) -> Computed:
     """Contact lines of some gearsets under their torque."""

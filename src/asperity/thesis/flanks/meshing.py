@@ -19,7 +19,7 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
-from asperity.thesis.shipped import Shipped
+from asperity.thesis.cases import Shipped
 
 T = TypeVar("T", bound=Table)
 
@@ -56,21 +56,7 @@ def stood(points: FloatArray, angle: float) -> FloatArray:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Meshing:
-    """The mesh on the flank s = +1.
-
-    Attributes
-    ----------
-    gear : Gear
-        The gearset.
-    wheel : Wheel
-        Its wheel.
-    transmission : Transmission
-        How it transmits.
-    grid : FlankGrid
-        Points of the flank.
-    motion : Kinematics
-        What happens there.
-    """
+    """The mesh on the flank s = +1, on a grid of its points."""
 
     gear: Gear
     wheel: Wheel
@@ -86,10 +72,7 @@ class Meshing:
     def in_worm(self, worm_angle: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the flank against the worm at an angle of it.
 
-        Returns
-        -------
-        tuple of ndarray, shape of the grid
-            Distance to the worm and from its axis, mm; place along the thread, rad.
+        Over the grid: distance to the worm and from its axis, mm; place along the thread, rad.
         """
         pair = self.wheel.pair
         angle = worm_angle / pair.ratio + self.transmission.ahead

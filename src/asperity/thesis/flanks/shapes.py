@@ -18,21 +18,11 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shape:
-    """Quadrilaterals in space, those of a part with one number; a triangle has a corner twice.
+    """Quadrilaterals in space, those of a part with one number; a triangle has a corner twice."""
 
-    Attributes
-    ----------
-    points : ndarray, shape (n, 3)
-        mm.
-    faces : ndarray of int, shape (m, 4)
-        Points of each, counterclockwise seen from outside.
-    part : ndarray of int, shape (m,)
-        Which part each belongs to.
-    """
-
-    points: FloatArray
-    faces: IntArray
-    part: IntArray
+    points: FloatArray  # mm
+    faces: IntArray  # points of each, counterclockwise seen from outside
+    part: IntArray  # which part each belongs to
 
     @classmethod
     def of(cls, points: npt.ArrayLike, faces: npt.ArrayLike, part: npt.ArrayLike = 0) -> "Shape":

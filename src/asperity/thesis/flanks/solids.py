@@ -49,17 +49,7 @@ def _centred(shape: Shape, teeth: int) -> Shape:
 
 
 def facet_height(flank: WheelFlank, grid: FlankGrid, step: float) -> FloatArray:
-    """Return how far a hob that cuts at steps alone leaves material beyond a flank, mm.
-
-    Parameters
-    ----------
-    flank : WheelFlank
-        The flank.
-    grid : FlankGrid
-        Points of it.
-    step : float
-        Turn of the hob from one cut to the next, rad.
-    """
+    """Return how far a hob that cuts at steps alone, rad, leaves material beyond a flank, mm."""
     pair: Pair = flank.pair
     first = math.floor(float(grid.phase.min()) / step)
     last = math.ceil(float(grid.phase.max()) / step)

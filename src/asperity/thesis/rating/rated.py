@@ -10,7 +10,7 @@ from asperity.studies.methods import compare_case
 from asperity.studies.optimise import Optimum, optimise
 from asperity.studies.reported import Method, reported_methods
 from asperity.studies.sensitivity import Sensitivity, sensitivity
-from asperity.thesis.shipped import Shipped
+from asperity.thesis.cases import Shipped
 
 
 def number(rated: Rated, standard: str, key: str) -> float:

@@ -23,26 +23,12 @@ _LEDGER = "claims.json"
 
 @dataclasses.dataclass(frozen=True)
 class Made:
-    """What making an exhibit gave.
+    """What making an exhibit gave."""
 
-    Attributes
-    ----------
-    name : str
-        Its kind and number.
-    key : str
-        What it follows from.
-    plain : dict
-        What is shown of it: words, numbers, and how they were come by.
-    files : mapping of str to str
-        Its files and hashes of what is in them.
-    seconds : float
-        Time it took, s.
-    """
-
-    name: str
-    key: str
-    plain: Plain
-    files: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    name: str  # kind and number
+    key: str  # what it follows from
+    plain: Plain  # what is shown of it: words, numbers, and how they were come by
+    files: Mapping[str, str] = dataclasses.field(default_factory=dict)  # hashes of their content
     seconds: float = 0.0
 
 
@@ -50,22 +36,14 @@ class Made:
 class Shown:
     """An exhibit as it stands in a run's folder.
 
-    Attributes
-    ----------
-    exhibit : Exhibit
-        Which it is.
-    plain : dict
-        As in `Made`.
-    files : dict of str to pathlib.Path
-        Its files by their suffix: a figure's ``.png`` and ``.nc``, a table's ``.csv``.
-    reused : bool
-        Whether it was there from an earlier run.
+    Its words and numbers are plain JSON values; its files are known by their suffix: a figure's
+    ``.png`` and ``.nc``, a table's ``.csv``.
     """
 
     exhibit: Exhibit
     plain: Plain
     files: Mapping[str, Path]
-    reused: bool
+    reused: bool  # from an earlier run
 
     @property
     def number(self) -> str:

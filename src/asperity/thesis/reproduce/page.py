@@ -54,19 +54,10 @@ class Part:
 def render(
     shown: Sequence[Shown], to_come: Sequence[str], failed: Mapping[str, str], version: str
 ) -> str:
-    """Return the page as text.
+    """Return the page of a version of this package as text.
 
-    Parameters
-    ----------
-    shown : sequence of Shown
-        What is there, in any order.
-    to_come : sequence of str
-        Names of exhibits that are still being made; until there are none the page loads itself
-        again now and then.
-    failed : mapping of str to str
-        Names of exhibits that could not be made, and why.
-    version : str
-        Of this package.
+    While names of exhibits are still to come it loads itself again now and then; of those that
+    could not be made it says why.
     """
     import jinja2
 

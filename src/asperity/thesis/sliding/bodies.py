@@ -10,7 +10,7 @@ from asperity.commands import case_tables
 from asperity.slider import Model, SlideResult, solve
 from asperity.slider.result import History
 from asperity.sweep import read_grid, run
-from asperity.thesis.shipped import Shipped
+from asperity.thesis.cases import Shipped
 
 RATIO = "vibration.velocity_ratio"
 DIRECTION = "vibration.direction"
@@ -70,7 +70,9 @@ class Sweep:
 
     def ratios(self) -> FloatArray:
         """Drive force over mu F_N at every point, one dimension for each axis."""
-        found = run(*read_grid(self.case, case_tables(), self.settings, self._over))
+        grid = read_grid(self.case, case_tables(), self.settings, self._over)
+        # What is shown of the whole tells how far it is.
+        found = run(*grid, notify=lambda line: None)
         if found.failure is not None:
             raise found.failure
         return found.arrays["ratio"]
