@@ -135,7 +135,7 @@ def test_a_surface_touched_at_its_nodes_keeps_its_area():
 
 
 def test_a_figure_holds_block_and_sliding_body_at_the_same_points(monkeypatch):
-    monkeypatch.setattr(elastic, "ALONG", (2.0,))
+    monkeypatch.setitem(elastic.RATIOS, "block-longitudinal", (2.0,))
     drawn = FIGURES["7.9"].make()
     assert list(drawn.dataset["shaken"].values) == ["base", "body"]
     assert drawn.dataset["slider"].values == pytest.approx(

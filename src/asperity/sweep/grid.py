@@ -23,37 +23,18 @@ _SOLVER = "asperity.sweep.tasks"
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One point of a grid, ready to be solved.
-
-    Attributes
-    ----------
-    index : int
-        Its place in the grid.
-    model : Model
-        What is solved.
-    key : str
-        What its result is kept under: a hash of the tables and of the sources it follows from.
-    kind : tuple
-        What two points must share to be marched in one batch.
-    """
+    """One point of a grid, ready to be solved."""
 
     index: int
     model: Model
-    key: str
-    kind: tuple[object, ...]
+    key: str  # its result is kept under: of the tables and of the sources it follows from
+    kind: tuple[object, ...]  # what two points must share to be marched in one batch
 
 
 class Grid:
     """The case at every combination of the axes' values, the last axis running fastest.
 
     Models are made when asked for and not kept, so that a grid costs no memory.
-
-    Parameters
-    ----------
-    case : Case
-        What the axes vary.
-    axes : sequence of Axis
-        At least one.
     """
 
     def __init__(self, case: Case, axes: Sequence[Axis]) -> None:

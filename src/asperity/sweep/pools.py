@@ -20,15 +20,9 @@ _LEAST_ROOM = 32
 
 
 class Pool:
-    """Solves tasks elsewhere than in the thread that asks.
+    """Solves tasks elsewhere than in the thread that asks."""
 
-    Attributes
-    ----------
-    room : int
-        How many tasks to hand in ahead, so that nobody waits and memory stays small.
-    """
-
-    room: int
+    room: int  # how many tasks to hand in ahead, so that nobody waits and memory stays small
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
         """Hand in a task."""
@@ -75,12 +69,7 @@ class Cores(Pool):
 class Cluster(Pool):
     """The workers of a Dask scheduler, which must have this version of the package.
 
-    Parameters
-    ----------
-    address : str
-        Of the scheduler, such as ``tcp://127.0.0.1:8786``.
-    notify : callable
-        Takes one line about what is being waited for.
+    Its address is such as ``tcp://127.0.0.1:8786``; what is being waited for is told in one line.
     """
 
     def __init__(self, address: str, notify: Callable[[str], None]) -> None:

@@ -1,7 +1,8 @@
 """The answer of a sweep: arrays over the grid, as JSON, dataset, file and picture."""
 
+import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -13,7 +14,6 @@ from asperity.errors import ConvergenceError
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.sweep.axes import Axis
-from asperity.sweep.shown import grid_table
 from asperity.sweep.tasks import VARIABLES
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ SOLVED = 0
 NOT_CONVERGED = 1
 _MOST_REASONS = 100
 MOST_AXES = 2
+_MOST_ROWS = 60
+_MOST_COLUMNS = 9
 
 
 class SweepResult(Result):
@@ -159,7 +161,7 @@ class SweepResult(Result):
         """Return the ratio over the grid: a matrix where it fits, a list where not."""
         known = f", {self.cached} known from before" if self.cached else ""
         remark = f"{self.points} points{known}, {self.seconds:.3g} s"
-        return (grid_table(self.axes, self.arrays["ratio"], (remark,)),)
+        return (_table(self.axes, self.arrays["ratio"], (remark,)),)
 
     def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
@@ -185,3 +187,28 @@ class Answers:
             value = row.get(name)
             if isinstance(value, int | float):
                 array[index] = value
+
+
+def _table(axes: Sequence[Axis], values: FloatArray, remarks: tuple[str, ...]) -> Table:
+    """Return a variable over a grid of at most some rows; what is left out is remarked."""
+    if len(axes) == 2 and len(axes[1].shown) <= _MOST_COLUMNS:
+        headings = [" \\ ".join(map(_heading, axes)), *map(_text, axes[1].shown)]
+        rows = [[shown, *row] for shown, row in zip(axes[0].shown, values.tolist(), strict=True)]
+    else:
+        headings = [*map(_heading, axes), "ratio"]
+        places = itertools.product(*(axis.shown for axis in axes))
+        pairs = zip(places, values.flat, strict=True)
+        rows = [[*place, float(value)] for place, value in itertools.islice(pairs, _MOST_ROWS + 1)]
+    more = max((len(axes[0].shown) if len(rows[0]) > len(axes) + 1 else values.size), 0)
+    if more > _MOST_ROWS:
+        left = f"... and {more - _MOST_ROWS} more rows; --out or --json gives all"
+        remarks = (left, *remarks)
+    return Table.of(headings, rows[:_MOST_ROWS], remarks=remarks)
+
+
+def _heading(axis: Axis) -> str:
+    return f"{axis.key} ({axis.unit})" if axis.unit else axis.key
+
+
+def _text(value: object) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else str(value)

@@ -16,8 +16,6 @@ from asperity.slider.result import SlideResult
 
 FAILED = "failed"
 REFUSED = "refused"
-
-
 VARIABLES = SlideResult.scalars()
 
 
@@ -31,12 +29,7 @@ def task_size(model: Model) -> int:
 def solve_task(models: Sequence[Model], stop: np.ndarray | None = None) -> list[Row]:
     """Solve a few points and return the scalars of each, or why there are none.
 
-    Parameters
-    ----------
-    models : sequence of Model
-        At best of one kind and not more than `task_size`.
-    stop : ndarray of int64, shape (1,), optional
-        As for :func:`asperity.slider.batch.solve_many`.
+    They are at best of one kind and not more than `task_size`; ``stop`` is as for `solve_many`.
     """
     return [_row(answer) for answer in solve_many(models, stop=stop)]
 

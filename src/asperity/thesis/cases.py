@@ -2,10 +2,10 @@
 
 import dataclasses
 import shlex
+from collections.abc import Mapping
 from typing import ClassVar, Self
 
-from asperity.casefile import Case, read_case
-from asperity.commands import case_tables
+from asperity.casefile import Case, Table, read_case
 
 
 @dataclasses.dataclass(frozen=True)
@@ -14,6 +14,9 @@ class Shipped:
 
     verb: ClassVar[str]
     """What is mostly done with it."""
+
+    known: ClassVar[Mapping[str, type[Table]]] = {}
+    """Tables that its file may have."""
 
     case: str
     settings: tuple[str, ...] = ()
@@ -25,7 +28,7 @@ class Shipped:
 
     def read(self) -> Case:
         """The case."""
-        return read_case(self.case, case_tables(), self.settings)
+        return read_case(self.case, self.known, self.settings)
 
     def plus(self, *settings: str) -> Self:
         """The same with more settings."""

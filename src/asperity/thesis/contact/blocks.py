@@ -46,23 +46,20 @@ class Settled:
     late: float  # the share of the drive's velocity by which the block was slower in these cycles
 
 
+def problem_of(case: str, settings: Sequence[str] = ()) -> BlockProblem:
+    """The problem of a shipped block."""
+    return BlockProblem.from_case(read_case(case, _TABLES, settings))
+
+
 def march(case: str, settings: Sequence[str]) -> BlockResult:
     """March a shipped block from rest, as ``asperity block`` does."""
-    return solve_block(BlockProblem.from_case(read_case(case, _TABLES, settings)))
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class _Resting:
-    """A block, and the sliding bodies with its compliance, all at rest under their loads."""
-
-    block: tuple[System, SystemState]
-    in_series: tuple[System, SystemState]
-    rocking: tuple[System, SystemState]
+    return solve_block(problem_of(case, settings))
 
 
 @functools.cache
-def _at_rest(case: str, settings: tuple[str, ...]) -> _Resting:
-    problem = BlockProblem.from_case(read_case(case, _TABLES, settings))
+def _at_rest(case: str, settings: tuple[str, ...]) -> tuple[tuple[System, SystemState], ...]:
+    """A block, and the sliding bodies with its compliance, all at rest under their loads."""
+    problem = problem_of(case, settings)
 
     def resting(system: System, loads: tuple[mo.Port, ...] = ()) -> tuple[System, SystemState]:
         load = system.mechanism.load
@@ -70,20 +67,16 @@ def _at_rest(case: str, settings: tuple[str, ...]) -> _Resting:
             raise ValueError("not loaded")
         return system, rest_under_load(system, loads or (load,))
 
-    return _Resting(
-        resting(problem.system, problem.loads),
-        resting(in_series(problem)),
-        resting(in_series(problem, rocking=True)),
-    )
+    springs = (in_series(problem, rocking=rocking) for rocking in (False, True))
+    return resting(problem.system, problem.loads), *map(resting, springs)
 
 
 def settle(case: str, settings: Sequence[str]) -> Settled:
     """Settle a shipped block, and the sliding bodies beside it over the same cycles."""
     unshaken = (setting for setting in settings if not setting.startswith("vibration."))
-    resting = _at_rest(case, tuple(unshaken))
+    bodies = _at_rest(case, tuple(unshaken))
     model = Model.from_case(read_case(case, _TABLES, settings))
     slider = solve_periodic(model)
-    bodies = (resting.block, resting.in_series, resting.rocking)
     reading = settled.read_settled(bodies, slider, settled.slope_over_velocity(model))
     ratio, springy, rocking = (float(ratios.mean()) for ratios in reading.windows)
     return Settled(

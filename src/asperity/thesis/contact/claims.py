@@ -4,9 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from asperity.block.problem import BlockProblem
 from asperity.thesis.contact import elastic
-from asperity.thesis.contact.blocks import Settled
+from asperity.thesis.contact.blocks import Settled, problem_of
 from asperity.thesis.contact.elastic import LONGITUDINAL, ON_BODY, RATIO, SLIDING, STIFF, TRANSVERSE
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
@@ -35,6 +34,13 @@ def _apart(solved: Sequence[Settled]) -> tuple[float, float, float, float]:
     )
 
 
+def marched_and_slid(case: str, full: bool = False) -> tuple[elastic.BlockFromRest, Body]:
+    """The block marched from rest that is shown of a case, and the sliding body that it is."""
+    (block,) = elastic.from_rest(case, full)
+    settings = (setting for setting in block.settings if not setting.startswith("block."))
+    return block, Body(SLIDING[case], tuple(settings))
+
+
 @claim("5.1", "5.3", "Finite element ratios equal chapter 4's.", "agree")
 def _equal_ratios() -> Finding:
     groups = {
@@ -51,8 +57,7 @@ def _equal_ratios() -> Finding:
         numbers[f"{name}_largest_difference_with_rocking"] = part[3]
     sprung, rocked = (max(part[n] for part in apart.values()) for n in (2, 3))
     stiff_apart, *_ = _apart([STIFF.settled()])
-    (block,) = elastic.from_rest(LONGITUDINAL)
-    body = Body(SLIDING[LONGITUDINAL], (f"{RATIO}=6", *elastic.FROM_REST))
+    block, body = marched_and_slid(LONGITUDINAL)
     marched, slid = block.marched().ratio, body.result.ratio
     parts = {
         f"{name}: {_WITHIN}": part[0] < _SAME and part[1] < _SAME_SHARE
@@ -88,8 +93,7 @@ def _equal_ratios() -> Finding:
 @claim("5.3", "5.3.1, App. A", "Height of the block of 0.5 kg.", "0.03 m; 0.053 m")
 def _height() -> Finding:
     mass, density = 0.5, 7850.0
-    block = elastic.ElasticBlock(LONGITUDINAL)
-    length, width, height = BlockProblem.from_case(block.read()).block.size
+    length, width, height = problem_of(LONGITUDINAL).block.size
     steel = mass / (density * length * width)
     needed = mass / (length * width * height)
     return Finding.judged(
@@ -120,7 +124,7 @@ def _base_or_body() -> Finding:
     along, across = (float(np.abs(ours[c][0] - ours[c][1]).max()) for c in cases)
     along_share, across_share = (float(np.abs(ours[c][1] / ours[c][0] - 1.0).max()) for c in cases)
     slid = float(np.abs(np.subtract(*theirs[TRANSVERSE])).max())
-    axes = ((RATIO, ",".join(f"{k:g}" for k in elastic.ACROSS)),)
+    axes = ((RATIO, ",".join(f"{k:g}" for k in elastic.RATIOS[TRANSVERSE])),)
     guided = [
         Sweep(SLIDING[TRANSVERSE], axes, (PERIODIC, "slider.lateral=guided", *mode))
         for mode in ((), (ON_BODY,))

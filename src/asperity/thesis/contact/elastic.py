@@ -30,13 +30,17 @@ LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")
 """A mesh of 20 contact nodes; without these settings a shipped block has 221."""
 
 ON_BODY = "vibration.applied_to=body"
-ALONG = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0)
-ACROSS = (0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0)
+RATIOS = {
+    LONGITUDINAL: (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0),
+    TRANSVERSE: (0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0),
+}
 AROUND = (2.0, 3.0, 4.0, 6.0, 20.0)
-DIRECTIONS = (30.0, 135.0, 240.0)
-FROM_REST = ("solve.duration=0.3 s", "solve.step=4 us")
-FINE = ("solve.duration=0.3 s", "solve.step=1 us")
-ALL_DIRECTIONS = tuple(15.0 * n for n in range(25))
+DIRECTIONS = {False: (30.0, 135.0, 240.0), True: tuple(15.0 * n for n in range(25))}
+"""Those shown, and those shown in full."""
+
+_MESH: dict[bool, tuple[str, ...]] = {False: LIGHT, True: ()}
+_STEP = {False: "solve.step=4 us", True: "solve.step=1 us"}
+_MARCHED = {LONGITUDINAL: "6", TRANSVERSE: "20"}
 
 _ROOM = "asperity.thesis.contact"
 _SETTLING, _MARCH = 4.0, 30.0  # s, about
@@ -124,39 +128,29 @@ def _once(block: ElasticBlock | BlockFromRest, of: type[T], solve: Callable[[], 
     return from_tree(of, tree)
 
 
-def mesh(full: bool) -> tuple[str, ...]:
-    """Return settings of the mesh: a light one, or that of the shipped case."""
-    return () if full else LIGHT
-
-
-def ratios(case: str) -> tuple[float, ...]:
-    """Return the velocity ratios at which a case is settled."""
-    return ALONG if case == LONGITUDINAL else ACROSS
-
-
 def over_ratio(case: str, full: bool = False, *, on_body: bool = False) -> list[ElasticBlock]:
     """Blocks over the velocity ratio, with the base shaken and, if asked for, then the body."""
     modes = [(), (ON_BODY,)] if on_body else [()]
     return [
-        ElasticBlock(case, (*mesh(full), *mode, f"{RATIO}={ratio:g}"))
+        ElasticBlock(case, (*_MESH[full], *mode, f"{RATIO}={ratio:g}"))
         for mode in modes
-        for ratio in ratios(case)
+        for ratio in RATIOS[case]
     ]
 
 
 def over_direction(full: bool = False) -> list[ElasticBlock]:
     """Blocks for each velocity ratio and direction, the latter running fastest."""
     return [
-        ElasticBlock(TRANSVERSE, (*mesh(full), f"{RATIO}={k:g}", f"{DIRECTION}={theta:g} deg"))
+        ElasticBlock(TRANSVERSE, (*_MESH[full], f"{RATIO}={k:g}", f"{DIRECTION}={theta:g} deg"))
         for k in AROUND
-        for theta in (ALL_DIRECTIONS if full else DIRECTIONS)
+        for theta in DIRECTIONS[full]
     ]
 
 
 def from_rest(case: str, full: bool = False) -> list[BlockFromRest]:
     """The block marched from rest that is shown of a case."""
-    settings = f"{RATIO}={'6' if case == LONGITUDINAL else '20'}", *(FINE if full else FROM_REST)
-    return [BlockFromRest(case, (*mesh(full), *settings))]
+    settings = f"{RATIO}={_MARCHED[case]}", "solve.duration=0.3 s", _STEP[full]
+    return [BlockFromRest(case, (*_MESH[full], *settings))]
 
 
 def equal_ratios(full: bool = False) -> list[ElasticBlock | BlockFromRest]:

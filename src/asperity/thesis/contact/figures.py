@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from asperity.block.problem import BlockProblem
 from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.thesis.contact import drawings, elastic, pressed
+from asperity.thesis.contact.blocks import problem_of
+from asperity.thesis.contact.claims import marched_and_slid
 from asperity.thesis.contact.elastic import (
     DIRECTION,
     LONGITUDINAL,
@@ -19,7 +20,7 @@ from asperity.thesis.contact.elastic import (
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.products import labelled
 from asperity.thesis.sliding import drawings as drawings_sliding
-from asperity.thesis.sliding.bodies import PERIODIC, Body, Sweep
+from asperity.thesis.sliding.bodies import PERIODIC, Sweep
 from asperity.thesis.sliding.claims import PLOTTED
 from asperity.thesis.sliding.figures import CLOSED_FORMS, side_by_side, two_cycles
 
@@ -58,7 +59,7 @@ _REST = "From rest over 0.3 s, with the same increments for the sliding body and
 )  # fmt: skip
 def _over_ratio(case: str, on_body: bool = False, *, full: bool = False) -> Computed:
     """The sliding body as a line, blocks as markers, and how far they are apart."""
-    over = elastic.ratios(case)
+    over = elastic.RATIOS[case]
     blocks = elastic.over_ratio(case, full, on_body=on_body)
     modes = [(), (ON_BODY,)][: 1 + on_body]
     solved = [block.settled() for block in blocks]
@@ -113,7 +114,7 @@ def _objects(names: Sequence[str]) -> Any:
     drawings.over_direction,
 )  # fmt: skip
 def _over_direction(*, full: bool = False) -> Computed:
-    directions = elastic.ALL_DIRECTIONS if full else elastic.DIRECTIONS
+    directions = elastic.DIRECTIONS[full]
     blocks = elastic.over_direction(full)
     solved = [block.settled() for block in blocks]
     count = len(directions)
@@ -138,7 +139,7 @@ def _over_direction(*, full: bool = False) -> Computed:
     drawings.normal_laws,
 )  # fmt: skip
 def _normal_laws() -> Computed:
-    stiffness = BlockProblem.from_case(elastic.ElasticBlock(LONGITUDINAL).read()).normal.stiffness
+    stiffness = problem_of(LONGITUDINAL).normal.stiffness
     laws = {
         "linear": NormalLaw("linear", stiffness),
         "two-stage": NormalLaw.two_stage(stiffness, _EDGE),
@@ -170,7 +171,7 @@ def _normal_laws() -> Computed:
     drawings_sliding.drive_over_time, TRANSVERSE,
 )  # fmt: skip
 def _drive(case: str, *, full: bool = False) -> Computed:
-    body, block = _from_rest(case, full)
+    block, body = marched_and_slid(case, full)
     histories = [one.to_dataset()[["drive_force"]] for one in (body.result, block.marched())]
     return side_by_side(_NAMES, histories, body.result.static_drive_force), [body, block]
 
@@ -186,20 +187,13 @@ def _drive(case: str, *, full: bool = False) -> Computed:
     drawings_sliding.friction_over_cycles, TRANSVERSE, ["x", "y"],
 )  # fmt: skip
 def _friction(case: str, axes: list[str], *, full: bool = False) -> Computed:
-    body, block = _from_rest(case, full)
+    block, body = marched_and_slid(case, full)
     cycles = [
         two_cycles(one.to_dataset()[["friction"]], body.model)
         for one in (body.result, block.marched())
     ]
     dataset = side_by_side(_NAMES, cycles, body.result.static_drive_force)
     return dataset.sel(axis=axes), [body, block]
-
-
-def _from_rest(case: str, full: bool) -> tuple[Body, elastic.BlockFromRest]:
-    """The block marched from rest, and the sliding body that it is."""
-    (block,) = elastic.from_rest(case, full)
-    settings = [setting for setting in block.settings if not setting.startswith("block.")]
-    return Body(SLIDING[case], tuple(settings)), block
 
 
 @figure(

@@ -14,11 +14,13 @@ from asperity.flanks.meshing.kinematics import Kinematics, kinematics
 from asperity.flanks.meshing.lubrication import Load, LoadedLines, loaded_lines
 from asperity.flanks.meshing.transmission import Transmission, transmission
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
+from asperity.flanks.tables import TABLES as FLANKS_TABLES
 from asperity.flanks.wheel.enveloped import FlankGrid, Wheel
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
+from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.thesis.cases import Shipped
 
 T = TypeVar("T", bound=Table)
@@ -29,10 +31,14 @@ _SIDE = 1
 _OIL = 353.15
 
 
+_TABLES = {**RATING_TABLES, **FLANKS_TABLES}
+
+
 class Gear(Shipped):
     """A shipped gearset with flanks."""
 
     verb = "flank"
+    known = _TABLES
 
 
 def pair_of(gear: Gear) -> Pair:

@@ -3,14 +3,18 @@
 from functools import cached_property
 from typing import Any
 
+from asperity.flanks.tables import TABLES as FLANKS_TABLES
 from asperity.gearset import Gearset
 from asperity.rating import Operation, Rated, RatingOptions, rate_case
+from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.studies.comparison import Comparison
 from asperity.studies.methods import compare_case
 from asperity.studies.optimise import Optimum, optimise
 from asperity.studies.reported import Method, reported_methods
 from asperity.studies.sensitivity import Sensitivity, sensitivity
 from asperity.thesis.cases import Shipped
+
+_TABLES = {**RATING_TABLES, **FLANKS_TABLES}
 
 
 def number(rated: Rated, standard: str, key: str) -> float:
@@ -23,6 +27,7 @@ class RatedGear(Shipped):
     """A shipped gearset with its ratings and the studies of them."""
 
     verb = "rate"
+    known = _TABLES
 
     def tables(self) -> tuple[Gearset, Operation, RatingOptions]:
         """What the ratings and their studies take."""

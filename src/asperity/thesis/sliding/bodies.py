@@ -6,8 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.commands import case_tables
-from asperity.slider import Model, SlideResult, solve
+from asperity.slider import TABLES, Model, SlideResult, solve
 from asperity.slider.result import History
 from asperity.sweep import read_grid, run
 from asperity.thesis.cases import Shipped
@@ -22,6 +21,7 @@ class Body(Shipped):
     """A sliding body."""
 
     verb = "slide"
+    known = TABLES
 
     @cached_property
     def result(self) -> SlideResult:
@@ -65,12 +65,12 @@ class Sweep:
 
     def values(self, axis: int = 0) -> FloatArray:
         """Values along an axis as written."""
-        _, axes = read_grid(self.case, case_tables(), self.settings, self._over)
+        _, axes = read_grid(self.case, TABLES, self.settings, self._over)
         return np.array(axes[axis].shown, dtype=np.float64)
 
     def ratios(self) -> FloatArray:
         """Drive force over mu F_N at every point, one dimension for each axis."""
-        grid = read_grid(self.case, case_tables(), self.settings, self._over)
+        grid = read_grid(self.case, TABLES, self.settings, self._over)
         # What is shown of the whole tells how far it is.
         found = run(*grid, notify=lambda line: None)
         if found.failure is not None:
