@@ -1,4 +1,4 @@
-r"""Vibration imposed in the plane of contact: waveform, amplitude, direction, start.
+r"""Vibration imposed on a contact: waveform, amplitude, direction, start.
 
 The waveform names the displacement :math:`u(t)`. Its phase is counted from the start of the
 vibration, where the displacement is zero and rising (sine, triangle, square).
@@ -17,11 +17,12 @@ sampled    periodic cubic spline through     the spline's
 """
 
 import csv
+import dataclasses
 import functools
 import io
 import math
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from pydantic import model_validator
@@ -44,18 +45,49 @@ _STEPS_A_FLANK = 4
 _NO_TABLE = np.zeros(2)
 
 
-@kernel
-def unit_displacement(waveform, cycles, rise, table):
-    """Displacement over its amplitude at a phase in cycles; at rest before the start.
+class Wave(NamedTuple):
+    """A waveform of unit amplitude as kernels take it, times in cycles.
 
-    ``rise`` is the square wave's rise time in cycles, ``table`` one closed period of a sampled one.
+    Attributes
+    ----------
+    waveform : int
+        `SINE`, `TRIANGLE`, `SQUARE` or `SAMPLED`.
+    rise : float
+        Rise time of a square wave.
+    table : ndarray
+        One closed period of a sampled wave.
+    ramp : float
+        Time in which the amplitude grows from nothing; 0: it is there at once.
+    lead : float
+        How far the wave is ahead of one that starts at phase 0.
     """
-    if cycles <= 0.0:
-        return table[0]
+
+    waveform: int
+    rise: float
+    table: FloatArray
+    ramp: float = 0.0
+    lead: float = 0.0
+
+
+AT_REST = Wave(SINE, 0.0, _NO_TABLE)
+
+
+@kernel
+def displacement_at(wave, cycles):
+    """Displacement over its amplitude at a time in cycles; before the start as at the start."""
+    share = 1.0
+    if wave.ramp > 0.0:
+        share = min(max(cycles / wave.ramp, 0.0), 1.0)
+    return share * _unit_displacement(wave, max(cycles, 0.0) + wave.lead)
+
+
+@kernel
+def _unit_displacement(wave, cycles):
     phase = cycles - math.floor(cycles)
-    if waveform == SINE:
+    if wave.waveform == SINE:
         return math.sin(2.0 * math.pi * phase)
-    if waveform == SAMPLED:
+    if wave.waveform == SAMPLED:
+        table = wave.table
         place = phase * (table.size - 1)
         index = min(int(place), table.size - 2)
         return table[index] + (place - index) * (table[index + 1] - table[index])
@@ -66,23 +98,23 @@ def unit_displacement(waveform, cycles, rise, table):
         distance = 0.5 - phase
     else:
         distance = phase - 1.0
-    if waveform == TRIANGLE:
+    if wave.waveform == TRIANGLE:
         return 4.0 * distance
-    return max(-1.0, min(1.0, 2.0 * distance / rise))
+    return max(-1.0, min(1.0, 2.0 * distance / wave.rise))
 
 
 @kernel
-def fill_increments(waveform, rise, table, first_cycles, cycles_per_step, increments):
+def fill_increments(wave, first_cycles, cycles_per_step, increments):
     """Write the unit displacement's increments over consecutive steps into ``increments``."""
-    last = unit_displacement(waveform, first_cycles, rise, table)
+    last = displacement_at(wave, first_cycles)
     for n in range(increments.size):
-        here = unit_displacement(waveform, first_cycles + (n + 1) * cycles_per_step, rise, table)
+        here = displacement_at(wave, first_cycles + (n + 1) * cycles_per_step)
         increments[n] = here - last
         last = here
 
 
 class Vibration(Table):
-    """In-plane vibration of the base or of the body.
+    """Vibration of the base or of the body.
 
     Parameters
     ----------
@@ -98,12 +130,21 @@ class Vibration(Table):
     displacement_amplitude : float or str, optional
         Displacement amplitude u_a, m.
     direction : float or str
-        Angle theta between vibration and drive, rad; 0 longitudinal, 90 deg transverse.
+        Angle theta between vibration and drive, seen from above (azimuth), rad; 0 longitudinal,
+        90 deg transverse.
+    elevation : float or str
+        Angle between vibration and plane of contact, rad, 0 to 180 deg; 90 deg is normal to the
+        plane. Out of the plane it needs the ``[normal]`` table. Beyond 90 deg the base falls as it
+        moves along: not the mirror image of the angle below.
+    normal_phase : float or str
+        How far the normal part leads the part in the plane, rad: an ellipse.
     applied_to : {'base', 'body'}
         What is shaken. A body's prescribed motion is added to its own; its inertia is not
         charged to the drive.
     start : float or str
         Time at which it begins, s; the phase is counted from here.
+    ramp : float or str
+        Time in which the amplitude grows from nothing, s; 0: it is there at once.
     rise_time : float or str, optional
         Duration of a flank of the square wave, s.
     samples : path, optional
@@ -133,8 +174,13 @@ class Vibration(Table):
         Annotated[float, Quantity("m", what="a displacement", example="0.2 um", ge=0)] | None
     ) = None
     direction: Annotated[float, Quantity("rad", what="an angle", example="45 deg")] = 0.0
+    elevation: Annotated[
+        float, Quantity("rad", what="an angle", example="30 deg", ge=0, le=math.pi)
+    ] = 0.0
+    normal_phase: Annotated[float, Quantity("rad", what="an angle", example="90 deg")] = 0.0
     applied_to: Literal["base", "body"] = "base"
     start: Annotated[float, Quantity("s", what="a time", example="0.14 s", ge=0)] = 0.0
+    ramp: Annotated[float, Quantity("s", what="a time", example="0.1 s", ge=0)] = 0.0
     rise_time: Annotated[float, Quantity("s", what="a time", example="10 us", gt=0)] | None = None
     samples: Path | None = None
 
@@ -181,22 +227,27 @@ class Vibration(Table):
                 stamp = 0
             shape = _sampled(path, stamp)
             if self.frequency is None:
-                return shape
+                return self._started(shape)
             if abs(shape.frequency / self.frequency - 1.0) > 1e-6:
                 raise InputError(
                     f"vibration.frequency is {self.frequency:.10g} Hz, but the samples in {path} "
                     f"span a period of {1 / shape.frequency:.10g} s ({shape.frequency:.10g} Hz); "
                     "leave the frequency out or make them agree"
                 )
-            return shape
+            return self._started(shape)
         frequency = self.frequency or 0.0
         if self.waveform == "sine":
-            return Shape(SINE, frequency, 2.0 * math.pi, STEPS_A_TURN)
+            return self._started(Shape(SINE, frequency, 2.0 * math.pi, STEPS_A_TURN))
         if self.waveform == "triangle":
-            return Shape(TRIANGLE, frequency, 4.0, STEPS_A_TURN)
+            return self._started(Shape(TRIANGLE, frequency, 4.0, STEPS_A_TURN))
         rise = (self.rise_time or 0.0) * frequency
         least_steps = max(STEPS_A_TURN, _STEPS_A_FLANK / rise)
-        return Shape(SQUARE, frequency, 2.0 / rise, least_steps, rise=rise)
+        return self._started(Shape(SQUARE, frequency, 2.0 / rise, least_steps, rise=rise))
+
+    def _started(self, shape: "Shape") -> "Shape":
+        if not self.ramp:
+            return shape
+        return dataclasses.replace(shape, ramp=self.ramp * shape.frequency)
 
     def displacement(self, shape: "Shape", drive_velocity: float) -> float:
         """Displacement amplitude u_a, m."""
@@ -213,8 +264,9 @@ class Vibration(Table):
         return (self.velocity_ratio or 0.0) * abs(drive_velocity)
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
 class Shape:
-    """A waveform as the kernels see it.
+    """A waveform made ready.
 
     Attributes
     ----------
@@ -232,34 +284,34 @@ class Shape:
         Rise time of a square wave in cycles.
     table : ndarray
         One closed period of a sampled wave, unit amplitude.
+    ramp : float
+        Time in which the amplitude grows, in cycles.
     """
 
-    def __init__(
-        self,
-        code: int,
-        frequency: float,
-        steepness: float,
-        least_steps: float,
-        *,
-        rise: float = 0.0,
-        table: FloatArray = _NO_TABLE,
-    ) -> None:
-        self.code = code
-        self.frequency = frequency
-        self.steepness = steepness
-        self.least_steps = least_steps
-        self.rise = rise
-        self.table = table
+    code: int
+    frequency: float
+    steepness: float
+    least_steps: float
+    rise: float = 0.0
+    table: FloatArray = dataclasses.field(default_factory=lambda: _NO_TABLE)
+    ramp: float = 0.0
+
+    def wave(self, *, lead: float = 0.0, ramped: bool = True) -> Wave:
+        """Return the wave for kernels, ``lead`` cycles ahead; in full from the start if asked."""
+        return Wave(self.code, self.rise, self.table, self.ramp if ramped else 0.0, lead)
 
     def increments(self, first_cycles: float, cycles_per_step: float, steps: int) -> FloatArray:
         """Increments of the unit displacement over ``steps`` steps."""
         out = np.empty(steps)
-        fill_increments(self.code, self.rise, self.table, first_cycles, cycles_per_step, out)
+        fill_increments(self.wave(), first_cycles, cycles_per_step, out)
         return out
 
-    def kernel_arguments(self) -> tuple[Any, ...]:
-        """Leading arguments of `fill_increments`."""
-        return self.code, self.rise, self.table
+    def cycle(self, steps: int, lead: float = 0.0) -> FloatArray:
+        """Increments of the unit displacement over a cycle's steps and the first of the next."""
+        out = np.empty(steps + 1)
+        # One cycle late, so that the wave's rest before its start is not met.
+        fill_increments(self.wave(lead=lead, ramped=False), 1.0, 1.0 / steps, out)
+        return out
 
 
 @functools.lru_cache(maxsize=32)

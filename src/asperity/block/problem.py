@@ -112,7 +112,15 @@ class BlockProblem:
     def from_case(cls, case: Case) -> Self:
         """Gather the tables of a case; [contact] may be missing."""
         contact = case.require(Contact) if Contact.table in case else Contact()
-        return cls(UndividedModel.from_case(case), case.require(Block), contact)
+        model = UndividedModel.from_case(case)
+        if model.unit_direction[2] != 0.0:
+            raise InputError(
+                f"vibration.elevation is {math.degrees(model.elevation):g} deg; an elastic block is "
+                "shaken in the plane of contact only: leave it out, or take `asperity slide`"
+            )
+        # A block's normal contact is that of its faces, in [contact].
+        model = dataclasses.replace(model, normal=None)
+        return cls(model, case.require(Block), contact)
 
     @functools.cached_property
     def timetable(self) -> Timetable:
@@ -294,7 +302,7 @@ def shaking(model: Model) -> Shaking | None:
     """Return the vibration of a sliding body as a contact sees it; None where nothing is shaken."""
     if model.shape is None or not model.vibrates:
         return None
-    along, across = model.unit_direction
+    along, across, _ = model.unit_direction
     return Shaking(
         model.shape,
         (model.amplitude * along, model.amplitude * across, 0.0),

@@ -38,6 +38,14 @@ class PowerLedger(Quantities):
     untransferred: float = quantity("P_u", "W", "friction on the untransferred vibration")
 
     @property
+    def _inputs(self) -> tuple[float, ...]:
+        return self.drive, self.vibration
+
+    @property
+    def _outputs(self) -> tuple[float, ...]:
+        return self.friction, self.damping, self.stored
+
+    @property
     def residual(self) -> float:
         """What is missing from the balance, over the drive power.
 
@@ -48,13 +56,42 @@ class PowerLedger(Quantities):
 
     @property
     def _missing(self) -> float:
-        return self.drive + self.vibration - self.friction - self.damping - self.stored
+        return sum((*self._inputs, *(-power for power in self._outputs)))
 
     @property
     def closes(self) -> bool:
         """Whether what is missing is no more than rounding, however little the drive does."""
-        powers = self.drive, self.vibration, self.friction, self.damping, self.stored
+        powers = self._inputs + self._outputs
         return abs(self._missing) <= _ROUNDING * max(map(abs, powers))
+
+
+class PressedLedger(PowerLedger):
+    """Mean powers of a body that is pressed: normal to the plane there are two more.
+
+    Attributes
+    ----------
+    normal : float
+        What the actuator puts in normal to the plane: the normal force on the base's rise.
+    contact_damping : float
+        Dissipated in the contact's damping.
+    """
+
+    normal: float = quantity("P_n", "W", "power of the vibration normal to the plane")
+    contact_damping: float = quantity("P_c", "W", "power lost in the contact's damping")
+
+    @property
+    def _inputs(self) -> tuple[float, ...]:
+        return *super()._inputs, self.normal
+
+    @property
+    def _outputs(self) -> tuple[float, ...]:
+        return *super()._outputs, self.contact_damping
+
+    @property
+    def residual(self) -> float:
+        """What is missing from the balance, over the sum of what is put in."""
+        put_in = sum(power for power in self._inputs if power > 0.0)
+        return abs(self._missing) / (put_in or max(map(abs, self._outputs)) or 1.0)
 
 
 def guard(

@@ -184,7 +184,7 @@ def _load(buffer: FloatArray, place: int, p: Parameters) -> None:
 def _waves(
     models: Sequence[Model], tables: Sequence[Timetable]
 ) -> tuple[FloatArray, FloatArray, bool]:
-    waves = np.zeros((8, bk.WIDTH))
+    waves = np.zeros((9, bk.WIDTH))
     size = models[0].shape.table.size if models[0].shape is not None else 2
     shapes = np.zeros((bk.WIDTH, size))
     for place in range(bk.WIDTH):
@@ -198,6 +198,7 @@ def _waves(
             model.shape.code, model.shape.rise, -model.start * model.frequency, rate,
             math.cos(turn), math.sin(turn),
         )  # fmt: skip
+        waves[8, place] = model.shape.ramp
         shapes[place] = model.shape.table
     shared = bool(np.all(waves == waves[:, :1]) and np.all(shapes == shapes[:1]))
     return waves, shapes, shared

@@ -12,7 +12,7 @@ from typing import Any
 
 from asperity.compiled import kernel
 from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR, inverse_root, relaxation_gain
-from asperity.vibration import fill_increments
+from asperity.vibration import Wave, fill_increments
 
 WIDTH = 32
 
@@ -40,11 +40,11 @@ def _fill(waves, tables, shared, increments, steps):
     """Increments of every body's unit vibration for the coming steps; ``waves`` walks on.
 
     Rows of ``waves``: waveform, rise, cycles done, cycles a step, the sine's rotation a step (cos,
-    sin), its phasor (cos, sin). With ``shared`` all bodies have the wave of the first.
+    sin), its phasor (cos, sin), the ramp. With ``shared`` all bodies have the wave of the first.
     """
     turning = not shared
     for body in range(WIDTH):
-        turning = turning and waves[0, body] == 0.0 and waves[2, body] > 0.0
+        turning = turning and waves[0, body] == 0.0 and waves[2, body] > waves[8, body]
     if turning:
         # The phasors are set anew every block so that rounding cannot gather.
         for body in range(WIDTH):
@@ -62,10 +62,8 @@ def _fill(waves, tables, shared, increments, steps):
     else:
         for body in range(1 if shared else WIDTH):
             room = increments[body::WIDTH][:steps]
-            fill_increments(
-                int(waves[0, body]), waves[1, body], tables[body], waves[2, body],
-                waves[3, body], room,
-            )  # fmt: skip
+            wave = Wave(int(waves[0, body]), waves[1, body], tables[body], waves[8, body], 0.0)
+            fill_increments(wave, waves[2, body], waves[3, body], room)
     if shared:
         for n in range(steps):
             first = increments[n * WIDTH]

@@ -94,13 +94,14 @@ def condense(nodes, mean, least, greatest):
 
 
 @kernel
-def _node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, p):
+def node_forces(sx, sy, wx, wy, ux, uy, ux1, uy1, free, load, p):
     """LuGre's force at a time node and the velocity after it.
 
     The slip there is the mean of the two half steps around it, the later of which the force
-    decides: implicit, by a few fixed-point steps on the relaxation rate.
+    decides: implicit, by a few fixed-point steps on the relaxation rate. ``load`` is the limit of
+    friction there over that under the load W; the damping of the contact follows it.
     """
-    tau = p.rate_damping + p.slip_damping
+    tau = load * (p.rate_damping + p.slip_damping)
     own = p.own_1 + p.own_2
     bx = 0.5 * (ux + ux1)
     by = 0.5 * (uy + uy1)
@@ -245,8 +246,8 @@ def march_block(state, sums, p, increments, steps, nodes):
             sx *= limit
             sy *= limit
             ahead = increments[n + 1]
-            fx, fy, wx1, wy1 = _node_forces(
-                sx, sy, wx, wy, ux, uy, p.base_x * ahead, p.base_y * ahead, free, p
+            fx, fy, wx1, wy1 = node_forces(
+                sx, sy, wx, wy, ux, uy, p.base_x * ahead, p.base_y * ahead, free, 1.0, p
             )
         if rigid:
             wx1 = drive
@@ -274,20 +275,20 @@ def march_block(state, sums, p, increments, steps, nodes):
 
 @kernel
 def march_stretches(
-    state, sums, p, waveform, rise, table, first_cycles, cycles_per_step, stretches, increments
+    state, sums, p, wave, first_cycles, cycles_per_step, stretches, increments
 ):  # fmt: skip
     """March some stretches of one step less than ``increments`` has room for."""
     none = np.empty(0, dtype=NODE)
     steps = increments.size - 1
     for r in range(stretches):
         first = first_cycles + r * steps * cycles_per_step
-        fill_increments(waveform, rise, table, first, cycles_per_step, increments)
+        fill_increments(wave, first, cycles_per_step, increments)
         march_block(state, sums, p, increments, steps, none)
 
 
 @kernel
 def march_recorded(
-    state, sums, p, waveform, rise, table, first_cycles, cycles_per_step, increments,
+    state, sums, p, wave, first_cycles, cycles_per_step, increments,
     nodes, mean, least, greatest,
 ):  # fmt: skip
     """March as many stretches as ``mean`` has rows, recording each in one.
@@ -298,6 +299,6 @@ def march_recorded(
     values = nodes.view(np.float64).reshape((steps, -1))
     for r in range(mean.shape[0]):
         first = first_cycles + r * steps * cycles_per_step
-        fill_increments(waveform, rise, table, first, cycles_per_step, increments)
+        fill_increments(wave, first, cycles_per_step, increments)
         march_block(state, sums, p, increments, steps, nodes)
         condense(values, mean[r], least[r], greatest[r])

@@ -10,20 +10,17 @@ from asperity.errors import ConvergenceError
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
-from asperity.slider import kernels as k
+from asperity.slider.integrators import integrator
 from asperity.slider.model import Model
 from asperity.slider.result import History, SlideResult
-from asperity.slider.scaled import NODE, STATE, SUMS
-from asperity.slider.summary import energies, history_of, summarise
+from asperity.slider.scaled import Parameters
+from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import Timetable, march_notes
-from asperity.slider.two_phase import MEMORY, march_two_phase
-from asperity.vibration import fill_increments
+from asperity.vibration import AT_REST
 
 _RECORDS = 4000
 _BLOCK = 1024
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
-_NO_TABLE = np.zeros(2)
-_VALUES = len(NODE.names or ())
 
 
 class Stopped(Exception):  # noqa: N818 - being told to stop is no error
@@ -60,49 +57,34 @@ class March:
     ) -> None:
         self.model = model
         self.table = Timetable(model)
-        self.p = model.parameters(self.table.step)
         self.done = 0
         self.seconds = 0.0
         self._record = record
         self._stop = stop
         self._run = run if run is not None else Run()
-        self._state = np.zeros(1, STATE)
-        self._sums = np.zeros(1, SUMS)
-        self._memory = np.zeros(1, MEMORY)
+        self._body = integrator(model, self.table.step)
         self._start: tuple[float, float] | None = None
         self._first_half: npt.NDArray[np.void] | None = None
         # Of each recorded stretch: its first step and its steps; mean, least and greatest.
         self._places: list[npt.NDArray[np.int64]] = []
         self._rows: list[FloatArray] = []
-        self._two_phase = model.solve.scheme == "two-phase"
-        self._cycles_per_step = model.frequency * self.table.step
         self._start_cycles = model.frequency * model.start
-        if model.shape is not None:
-            self._wave = model.shape.kernel_arguments()
-        else:
-            self._wave = (0, 0.0, _NO_TABLE)
-        self.sums["breakaway"] = -1.0
-        k.clear(self.sums)
-        if self._two_phase:
-            self._memory["cos"] = 1.0
-            if self.p.rigid:
-                self.state["velocity_x"] = self.p.drive
-        else:
-            first = np.empty(1)
-            fill_increments(*self._wave, self._cycles, self._cycles_per_step, first)
-            k.prime(self.state, self.p, first)
+        self._body.start(self._cycles)
+
+    @property
+    def p(self) -> Parameters:
+        """The body's numbers, see `asperity.slider.scaled`."""
+        return self._body.p
 
     @property
     def state(self) -> np.void:
         """The body at the present node, see `asperity.slider.scaled`."""
-        record: np.void = self._state[0]
-        return record
+        return self._body.state
 
     @property
     def sums(self) -> np.void:
         """Sums since they were last cleared, see `asperity.slider.scaled`."""
-        record: np.void = self._sums[0]
-        return record
+        return self._body.sums
 
     @property
     def breakaway(self) -> float | None:
@@ -112,7 +94,7 @@ class March:
 
     @property
     def _cycles(self) -> float:
-        return self.done * self._cycles_per_step - self._start_cycles
+        return self.done * self._body.rate - self._start_cycles
 
     def to(self, target: int, stride: int) -> None:
         """March to a step in stretches of ``stride`` steps, and one that ends there."""
@@ -122,24 +104,12 @@ class March:
                 raise Stopped
             length = min(stride, target - self.done)
             count = max(1, min((target - self.done) // length, _STRETCH // length))
-            room = np.empty(length + 1)
-            wave = *self._wave, self._cycles, self._cycles_per_step
-            if self._record or self._two_phase:
-                rows = np.empty((3, count, _VALUES))
-                nodes = np.empty(length if self._record else 0, NODE)
-                if self._two_phase:
-                    march_two_phase(
-                        self.state, self._memory[0], self.sums, self.p, *wave, room,
-                        self.model.on_body, nodes, *rows,
-                    )  # fmt: skip
-                else:
-                    k.march_recorded(self.state, self.sums, self.p, *wave, room, nodes, *rows)
-                if self._record:
-                    first = self.done + length * np.arange(count)
-                    self._places.append(np.stack([first, np.full(count, length)], axis=1))
-                    self._rows.append(rows)
-            else:
-                k.march_stretches(self.state, self.sums, self.p, *wave, count, room)
+            rows = np.empty((3, count, len(self._body.node_type.names or ())))
+            self._body.march(self._cycles, length, rows, record=self._record)
+            if self._record:
+                first = self.done + length * np.arange(count)
+                self._places.append(np.stack([first, np.full(count, length)], axis=1))
+                self._rows.append(rows)
             self.done += count * length
             self.seconds += time.perf_counter() - began
             if not all(map(np.isfinite, self.state.tolist())):
@@ -160,27 +130,25 @@ class March:
         self.to(table.window_start, stride)
         if self._start is None:
             self._start = self.energies()
-            k.clear(self.sums)
+            self._body.clear()
         self.to(table.middle, stride)
         if self._first_half is None:
-            self._first_half = self._sums.copy()
-            k.clear(self.sums)
+            self._first_half = self._body.kept["sums"].copy()
+            self._body.clear()
         self.to(tail, stride)
         self.to(table.steps, table.parts)
         return self._result(self._start, self._first_half[0])
 
     def energies(self) -> tuple[float, float]:
         """Energies at the present node, see `asperity.slider.summary.energies`."""
-        return energies(self.state, self.p, elastic=self.model.friction.model != "coulomb")
+        return self._body.energies()
 
     def tree(self) -> Tree:
         """Return all that changes on the way, as a tree of arrays."""
         return {
             "done": self.done,
             "seconds": self.seconds,
-            "state": self._state,
-            "sums": self._sums,
-            "memory": self._memory,
+            "body": self._body.kept,
             "start": self._start,
             "first_half": self._first_half,
             "places": self._places,
@@ -190,7 +158,7 @@ class March:
     def restore(self, tree: Tree) -> None:
         """Go back to where a march of the same body stood when it gave its tree."""
         self.done, self.seconds = tree["done"], tree["seconds"]
-        self._state, self._sums, self._memory = tree["state"], tree["sums"], tree["memory"]
+        self._body.kept = tree["body"]
         self._start = None if tree["start"] is None else tuple(tree["start"])
         self._first_half = tree["first_half"]
         self._places, self._rows = list(tree["places"]), list(tree["rows"])
@@ -198,8 +166,8 @@ class March:
     def _result(self, start: tuple[float, float], first_half: np.void) -> SlideResult:
         model, table = self.model, self.table
         halves = first_half, self.sums
-        sums = np.zeros(1, SUMS)[0]
-        for name in SUMS.names or ():
+        sums = self._body.no_sums()[0]
+        for name in sums.dtype.names or ():
             together = max if name.endswith("_max") else min if name.endswith("_min") else _add
             sums[name] = together(*(half[name] for half in halves))
         means = [half["drive_force"] / half["steps"] for half in halves]
@@ -270,7 +238,7 @@ def march(
 
 def march_key(model: Model, *, history: bool) -> str:
     """Return the key a march's state is kept under."""
-    tables = (model.slider, model.friction, model.vibration, model.solve)
+    tables = (model.slider, model.friction, model.vibration, model.solve, model.normal)
     texts = ["" if table is None else table.model_dump_json() for table in tables]
-    wave = _NO_TABLE if model.shape is None else model.shape.table
+    wave = AT_REST.table if model.shape is None else model.shape.table
     return key(code_key(__name__), str(history), *texts, wave)

@@ -7,11 +7,16 @@ import math
 from collections.abc import Iterator
 from typing import Self
 
+import numpy as np
+
+from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
-from asperity.slider.parameters import Slider, Solve
-from asperity.slider.scaled import MODELS, Parameters
+from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
+from asperity.normal import Normal, elastic_slope
+from asperity.slider.parameters import Slider, Solve, check_normal
+from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
 
 _STEPS_A_CYCLE = 500
@@ -22,6 +27,11 @@ WINDOW_SHARE = 0.75
 SLIP_BOUND = 0.5
 CHANGE_BOUND = 1.2e-3
 RING_BOUND = 0.25
+# Part of the penetration's length a body may come nearer in a step.
+LANDING_BOUND = 0.05
+_MOST_SWING = 1000.0
+# How far a body under a dead load may swing over the base, for which springs are laid out.
+_RESONANCE = 3.0
 COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
@@ -55,6 +65,8 @@ class Model:
         None: the base is at rest.
     shape : Shape or None
         The vibration's waveform.
+    normal : Normal or None
+        What is normal to the plane; None: the normal force is a constant.
     """
 
     slider: Slider
@@ -62,21 +74,14 @@ class Model:
     vibration: Vibration | None = None
     solve: Solve = dataclasses.field(default_factory=Solve)
     shape: Shape | None = None
+    normal: Normal | None = None
 
     def __post_init__(self) -> None:
         if self.vibration is not None and self.shape is None:
             object.__setattr__(self, "shape", self.vibration.shape())
-        if self.friction.model == "springs":
-            raise InputError(
-                "friction.model is 'springs', which follow a normal force that changes; that of "
-                "[slider] is constant: use 'dahl', whose exponents 0, 1/3 and 1 are the first "
-                "loadings of flat, Hertz and rough contacts"
-            )
-        if self.friction.load_exponent != 1.0:
-            raise InputError(
-                f"friction.load_exponent is {self.friction.load_exponent:g}; the normal force of "
-                "[slider] is constant, so that nothing follows from it: leave it out"
-            )
+        if self.normal is not None and self.normal.law == "constant":
+            object.__setattr__(self, "normal", None)
+        check_normal(self.slider, self.friction, self.vibration, self.normal, self.solve)
         if self.solve.scheme == "two-phase" and (
             self.friction.model != "dahl" or self.friction.law != "split"
         ):
@@ -98,7 +103,8 @@ class Model:
         vibration = case.require(Vibration) if Vibration.table in case else None
         shape = vibration.shape(case.folder) if vibration is not None else None
         solve = case.require(Solve) if Solve.table in case else Solve()
-        return cls(case.require(Slider), case.require(Friction), vibration, solve, shape)
+        normal = case.require(Normal) if Normal.table in case else None
+        return cls(case.require(Slider), case.require(Friction), vibration, solve, shape, normal)
 
     @property
     def full_friction(self) -> float:
@@ -140,14 +146,32 @@ class Model:
         return self.vibration.direction if self.vibration is not None else 0.0
 
     @property
-    def unit_direction(self) -> tuple[float, float]:
-        """Direction of the vibration, exact at the quarter turns."""
-        turns = self.direction / (0.5 * math.pi)
-        quarter = round(turns)
-        if abs(turns - quarter) < 1e-12:
-            exact = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
-            return exact[quarter % 4]
-        return math.cos(self.direction), math.sin(self.direction)
+    def elevation(self) -> float:
+        """Angle between vibration and plane of contact, rad."""
+        return self.vibration.elevation if self.vibration is not None else 0.0
+
+    @property
+    def unit_direction(self) -> tuple[float, float, float]:
+        """Direction of the vibration: along the drive, across it, up."""
+        flat, up = _unit(self.elevation)
+        along, across = _unit(self.direction)
+        return flat * along, flat * across, up
+
+    @property
+    def normal_lead(self) -> float:
+        """How far the normal part of the vibration leads the part in the plane, in cycles."""
+        phase = self.vibration.normal_phase if self.vibration is not None else 0.0
+        return phase / (2.0 * math.pi)
+
+    @property
+    def normal_length(self) -> float:
+        """Length the penetration is measured by, W/k_z, m; see `asperity.normal`."""
+        load = self.slider.normal_force
+        return 0.0 if self.normal is None else load / self.normal.slope(load)
+
+    def normal_unit(self, step: float) -> float:
+        """Load times that length, in the unit of energy in the plane."""
+        return self.normal_length / (self.friction.mu * self.length(step))
 
     @property
     def on_body(self) -> bool:
@@ -220,7 +244,8 @@ class Model:
             turn = self._sharpness * self.peak_velocity / self.slider.drive_velocity
             if self.slider.rigid and not self.slider.free and not self._turns:
                 turn = 0.0
-            return self._parts(self.step * max(ring / RING_BOUND, turn / COULOMB_BOUND))
+            needed = self.step * max(ring / RING_BOUND, turn / COULOMB_BOUND)
+            return self._parts(max(needed, self._pressed()))
         limit = self.friction.deflection_limit(self.slider.normal_force)
         slip = (self.slider.drive_velocity + self.peak_velocity) * self.step / limit
         if self.solve.scheme == "two-phase":
@@ -239,7 +264,24 @@ class Model:
             stiffness *= max(1.0, self.friction.exponent * 2.0 ** (self.friction.exponent - 1.0))
             stiffness += self.slider.drive_stiffness or 0.0
             needed = max(needed, self.step * math.sqrt(stiffness / self.slider.mass) / RING_BOUND)
-        return self._parts(needed)
+        return self._parts(max(needed, self._pressed()))
+
+    def _pressed(self) -> float:
+        """Parts of a step that the contact needs: its ring at its stiffest, and a landing."""
+        if self.normal is None:
+            return 1.0
+        up = abs(self.unit_direction[2])
+        swing = up * self.amplitude / self.normal_length
+        if self.normal.control == "displacement" and swing > _MOST_SWING:
+            raise InputError(
+                f"the vibration's normal amplitude of {up * self.amplitude:.3g} m is {swing:.3g} "
+                f"times the penetration of {self.normal_length:.3g} m: no rigid machine holds that;"
+                " reduce the amplitude, or let the body rise with normal.control 'force'"
+            )
+        q = self.pressing(self.step)
+        ring = math.sqrt(q.mobility * elastic_slope(q.law, q.reference + 2.0 * swing))
+        landing = 2.0 * up * self.peak_velocity * self.step / self.normal_length
+        return max(ring / RING_BOUND, landing / LANDING_BOUND)
 
     @property
     def _turns(self) -> bool:
@@ -280,7 +322,7 @@ class Model:
             stiffness = slider.drive_stiffness * length / force
             damping = slider.drive_damping * length / (step * force)
             lost = 0.5 * mobility * damping
-        cos, sin = self.unit_direction
+        cos, sin, _ = self.unit_direction
         sign = -1.0 if self.on_body else 1.0
         scaled = Parameters(
             drive=slider.drive_velocity * step / length,
@@ -306,3 +348,45 @@ class Model:
         if not all(map(math.isfinite, scaled)):
             raise InputError(_FAR_APART)
         return scaled
+
+    @in_proportion()
+    def pressing(self, step: float) -> Pressing:
+        """Return what the kernels are given of the normal direction for a time step in s."""
+        if self.normal is None:
+            raise InputError("the normal force of this body is a constant")
+        load, mass = self.slider.normal_force, self.slider.mass
+        length = self.normal_length
+        dead = self.normal.control == "force" and mass is not None
+        reference = REFERENCE_INDENTATION[self.normal.law]
+        base = (-1.0 if self.on_body else 1.0) * self.amplitude * self.unit_direction[2] / length
+        heights, weights = self._springs(reference, base)
+        scaled = Pressing(
+            law=self.normal.code,
+            reference=reference,
+            base=base,
+            mobility=step * step * load / (mass * length) if dead and mass is not None else 0.0,
+            damping=self.normal.loss(load, mass) * length / step,
+            load_power=self.friction.load_exponent,
+            keeps=self.friction.keeps_code,
+            heights=heights,
+            weights=weights,
+        )
+        if not all(map(math.isfinite, scaled[:6])):
+            raise InputError(_FAR_APART)
+        return scaled
+
+    def _springs(self, reference: float, base: float) -> tuple[FloatArray, FloatArray]:
+        """Heights and weights of the springs under the penetrations to be expected."""
+        if self.friction.model != "springs" or self.normal is None:
+            return np.zeros(0), np.zeros(0)
+        swing = abs(base) * (1.0 if self.normal.control == "displacement" else _RESONANCE)
+        return spring_profile(self.normal.law, self.friction.springs, reference + swing)
+
+
+def _unit(angle: float) -> tuple[float, float]:
+    """Cosine and sine, exact at the quarter turns."""
+    turns = angle / (0.5 * math.pi)
+    quarter = round(turns)
+    if abs(turns - quarter) < 1e-12:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
+    return math.cos(angle), math.sin(angle)

@@ -1,12 +1,16 @@
 """The `[slider]` and `[solve]` tables: the body, its drive, and how to find the answer."""
 
+import math
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
+from asperity.friction import Friction
+from asperity.normal import Normal
 from asperity.units import Quantity
+from asperity.vibration import Vibration
 
 
 class Slider(Table):
@@ -109,3 +113,61 @@ class Solve(Table):
                 f"method is '{self.method}'"
             )
         return self
+
+
+def check_normal(
+    slider: Slider,
+    friction: Friction,
+    vibration: Vibration | None,
+    normal: Normal | None,
+    solve: Solve,
+) -> None:
+    """Refuse tables that do not go together in the direction normal to the plane.
+
+    Raises
+    ------
+    InputError
+        Naming the keys.
+    """
+    elevation = 0.0 if vibration is None else vibration.elevation
+    lifted = math.sin(elevation) > 1e-12
+    if normal is None:
+        if lifted:
+            raise InputError(
+                f"vibration.elevation is {math.degrees(elevation):g} deg, but the normal force is "
+                "a constant; describe the contact in [normal] (law, stiffness), or leave the "
+                "elevation out"
+            )
+        if friction.model == "springs":
+            raise InputError(
+                "friction.model is 'springs', which follow the penetration; describe it in "
+                "[normal] (law, stiffness), or use 'dahl', whose exponents 0, 1/3 and 1 are the "
+                "first loadings of flat, Hertz and rough contacts"
+            )
+        if friction.load_exponent != 1.0:
+            raise InputError(
+                f"friction.load_exponent is {friction.load_exponent:g}; the normal force of "
+                "[slider] is constant, so that nothing follows from it: leave it out"
+            )
+        return
+    if friction.model == "springs" and friction.load_exponent != 1.0:
+        raise InputError(
+            f"friction.load_exponent is {friction.load_exponent:g}; springs carry a load each, and "
+            "their friction is proportional to it: leave it out"
+        )
+    if solve.scheme == "two-phase":
+        raise InputError(
+            "solve.scheme is 'two-phase', which knows a constant normal force only; leave [normal] "
+            "out, or the scheme"
+        )
+    if lifted and friction.model in ("dahl", "lugre") and friction.law == "split":
+        raise InputError(
+            "friction.law is 'split', which is of the plane of contact; with vibration.elevation "
+            "take 'vector' or 'unsplit'"
+        )
+    if normal.control == "force" and slider.mass is None:
+        raise InputError(
+            "slider.mass is missing; a body under a dead load needs it (normal.control "
+            "'displacement' is a machine that holds its height)"
+        )
+    normal.loss(slider.normal_force, slider.mass)

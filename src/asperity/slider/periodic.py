@@ -8,16 +8,18 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
+from asperity.slider.integrators import Pressed, integrator
 from asperity.slider.model import Model, in_proportion
+from asperity.slider.pressed import march_pressed
 from asperity.slider.result import History, SlideResult
-from asperity.slider.scaled import NODE, STATE, SUMS, Parameters
-from asperity.slider.shooting import ACCEPTED, MOST_UNKNOWNS, SETTLING, shoot
-from asperity.slider.summary import energies, history_of, summarise
+from asperity.slider.shooting import ACCEPTED, SETTLING, differentiated, most_unknowns, shoot
+from asperity.slider.summary import history_of, summarise
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
 _UNSTABLE = 1.0 + 1e-3
+_PUSH = 1e-3
 
 
 @in_proportion()
@@ -34,15 +36,104 @@ def cycle_steps(model: Model) -> int:
     return 4 * math.ceil(max(asked * (1.0 - 1e-9), _LEAST_STEPS) / 4)
 
 
+class Cycle:
+    """The map of a body's state over one cycle of the vibration, or over several.
+
+    Attributes
+    ----------
+    body : Integrator
+        At the start of the cycle.
+    residual : float
+        Largest scaled change of an unknown over the cycle.
+    run : int
+        Cycles integrated so far.
+    """
+
+    def __init__(self, model: Model, steps: int, step: float) -> None:
+        self.body = integrator(model, step)
+        self.residual = math.inf
+        self.run = 0
+        self.period = 1
+        still = np.zeros(steps + 1)
+        shaken = model.shape is not None and model.vibrates
+        self.increments = model.shape.cycle(steps) if shaken and model.shape else still
+        self.rises = still
+        self.springs = np.zeros((2, 0))
+        self.q = None
+        if isinstance(self.body, Pressed):
+            self.q, self.springs = self.body.q, self.body.kept["springs"]
+            if shaken and model.shape is not None:
+                self.rises = model.shape.cycle(steps, model.normal_lead)
+            self.body.place(1.0, ramped=False)
+
+    def repeat(self, times: int) -> None:
+        """Ask for a state that repeats itself after so many cycles of the vibration."""
+        self.period = times
+        self.increments = _repeated(self.increments, times)
+        self.rises = _repeated(self.rises, times)
+
+    def find(self, settle: int) -> bool:
+        """Look for the state that repeats itself; ``settle`` as in `shoot`."""
+        size = most_unknowns(self.springs)
+        jacobian = np.zeros((size, size))
+        self.residual, cycles, unknowns = shoot(
+            self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
+            self.rises, self.body.sums, jacobian, settle,
+        )  # fmt: skip
+        self.jacobian = jacobian[:unknowns, :unknowns]
+        self.run += cycles * self.period
+        return bool(self.residual <= ACCEPTED)
+
+    def multiplier(self) -> float:
+        """Return how much the least stable disturbance grows over the cycle."""
+        if self.q is not None:
+            self.jacobian = differentiated(
+                self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
+                self.rises, self.body.no_sums()[0], len(self.jacobian),
+            )  # fmt: skip
+        return _growth(self.jacobian)
+
+    def record(self) -> FloatArray:
+        """March over the cycle; returns what `history_of` takes, a row a step."""
+        body = self.body
+        steps = self.increments.size - 1
+        nodes = np.empty(steps, body.node_type)
+        here = body.kept["state"].copy()
+        here["lateral"] = 0.0
+        sums = body.no_sums()[0]
+        if self.q is None:
+            k.march_block(here[0], sums, body.p, self.increments, steps, nodes)
+        else:
+            here["height"] = 0.0
+            march_pressed(
+                here[0], self.springs.copy(), sums, body.p, self.q, self.increments, self.rises,
+                steps, nodes,
+            )  # fmt: skip
+        # Recorded in one stretch, and given as one a step.
+        nodes["position_x"] -= body.p.drive * np.arange(steps)
+        rows: FloatArray = nodes.view(np.float64).reshape(steps, -1)
+        return rows
+
+    def disturb(self) -> None:
+        """Push the body off its state, for it to go where it goes."""
+        self.body.state["velocity_x"] *= 1.0 + _PUSH
+        if self.q is not None:
+            self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
+
+
+def _repeated(increments: FloatArray, times: int) -> FloatArray:
+    return np.append(np.tile(increments[:-1], times), increments[0])
+
+
 def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
-    """Find the state that repeats itself every vibration cycle.
+    """Find the state that repeats itself every vibration cycle; of a pressed body, 1, 2 or 4.
 
     Parameters
     ----------
     model : Model
         The body. Start, duration and breakaway have no meaning here.
     history : bool
-        Whether to keep motion and forces over one cycle.
+        Whether to keep motion and forces over one period.
 
     Raises
     ------
@@ -52,43 +143,59 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     began = time.perf_counter()
     steps = cycle_steps(model)
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
-    increments = np.zeros(steps + 1)
-    if model.shape is not None and model.vibrates:
-        # One cycle late, so that the wave's rest before its start is not met.
-        increments = model.shape.increments(1.0, 1.0 / steps, steps + 1)
-    p = model.parameters(step)
-    state, sums = np.zeros(1, STATE)[0], np.zeros(1, SUMS)[0]
-    jacobian = np.zeros((MOST_UNKNOWNS, MOST_UNKNOWNS))
-    residual, cycles, unknowns = shoot(state, p, increments, sums, jacobian, 0)
-    for settle in SETTLING:
-        if residual <= ACCEPTED:
-            break
-        residual, more, unknowns = shoot(state, p, increments, sums, jacobian, settle)
-        cycles += more
-    if not residual <= ACCEPTED:
-        raise ConvergenceError(
-            f"no periodic state found: after {cycles} cycles the state still changes by "
-            f"{residual:.2g} a cycle (1e-9 is asked for); solve.method 'march' shows what it does",
-            reached={"residual": float(residual), "cycles": float(cycles)},
-        )
-    elastic = model.friction.model != "coulomb"
-    end = energies(state, p, elastic=elastic)
+    cycle = Cycle(model, steps, step)
+    found = _settled(cycle)
+    growth = cycle.multiplier() if found else math.inf
     notes: tuple[str, ...] = ()
-    growth = _growth(jacobian[:unknowns, :unknowns])
-    if growth > _UNSTABLE:
+    if found and growth > _UNSTABLE:
         notes = (
             f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
         )
+    if cycle.q is not None and not growth <= _UNSTABLE:
+        if found:
+            ratio = cycle.body.sums["drive_force"] / cycle.body.sums["steps"]
+            notes = (
+                f"the state that repeats itself every cycle, with the ratio {ratio:.5g}, is "
+                f"unstable: a disturbance grows {growth:.3g} times a cycle",
+            )
+        found, growth = _longer(cycle)
+    if not found:
+        raise ConvergenceError(
+            f"no periodic state found: after {cycle.run} cycles the state still changes by "
+            f"{cycle.residual:.2g} a cycle (1e-9 is asked for); solve.method 'march' shows what "
+            "it does",
+            reached={"residual": float(cycle.residual), "cycles": float(cycle.run)},
+        )
+    end = cycle.body.energies()
     return summarise(
-        model, p, step, sums, end, end,
-        residual=float(residual),
-        steps=int(cycles) * steps,
-        cycles=int(cycles),
+        model, cycle.body.p, step, cycle.body.sums, end, end,
+        residual=float(cycle.residual),
+        steps=cycle.run * steps,
+        cycles=cycle.run,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
         notes=notes,
-        history=_one_cycle(model, step, state, p, increments) if history else None,
+        history=_one_period(model, step, cycle) if history else None,
+        period=cycle.period,
+        multiplier=growth,
     )  # fmt: skip
+
+
+def _settled(cycle: Cycle) -> bool:
+    """Find the state from rest, or after ever more cycles."""
+    return any(cycle.find(settle) for settle in (0, *SETTLING))
+
+
+def _longer(cycle: Cycle) -> tuple[bool, float]:
+    """Look for stable states that repeat themselves after two and after four cycles."""
+    cycle.disturb()
+    growth = math.inf
+    for _ in range(2):
+        cycle.repeat(2)
+        for settle in SETTLING[1:3]:
+            if cycle.find(settle) and (growth := cycle.multiplier()) <= _UNSTABLE:
+                return True, growth
+    return False, growth
 
 
 def _growth(jacobian: FloatArray) -> float:
@@ -98,16 +205,7 @@ def _growth(jacobian: FloatArray) -> float:
     return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
 
 
-def _one_cycle(
-    model: Model, step: float, state: np.void, p: Parameters, increments: FloatArray
-) -> History:
-    steps = increments.size - 1
-    here = np.array([state], STATE)
-    here["lateral"] = 0.0
-    nodes = np.empty(steps, NODE)
-    k.march_block(here[0], np.zeros(1, SUMS)[0], p, increments, steps, nodes)
-    # Recorded in one stretch, and given as one a step.
-    nodes["position_x"] -= p.drive * np.arange(steps)
-    rows = nodes.view(np.float64).reshape(steps, -1)
-    begin = step * np.arange(float(steps))
-    return history_of(model, step, begin, np.full(steps, step), rows)
+def _one_period(model: Model, step: float, cycle: Cycle) -> History:
+    rows = cycle.record()
+    begin = step * np.arange(float(len(rows)))
+    return history_of(model, step, begin, np.full(len(rows), step), rows)

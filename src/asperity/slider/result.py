@@ -10,6 +10,7 @@ from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.results.dataset import Labels
 from asperity.results.ledger import PowerLedger
 from asperity.slider.model import Model
+from asperity.slider.space import NormalMotion
 
 _OVER_TIME, _VECTORS = ("time",), ("time", "axis")
 _ROUNDING = 1e-12
@@ -51,6 +52,20 @@ class History(Quantities):
     velocity_max: FloatArray | None = _extreme("greatest", "v", "m/s", "velocity", _VECTORS)
 
 
+class PressedHistory(History):
+    """Motion and forces over time of a body that is pressed; ``height`` is over its first one."""
+
+    normal_force: FloatArray = quantity("N", "N", "normal force", dims=_OVER_TIME)
+    penetration: FloatArray = quantity("d", "m", "penetration, below 0 a gap", dims=_OVER_TIME)
+    height: FloatArray = quantity("z", "m", "height of the body", dims=_OVER_TIME)
+    normal_force_min: FloatArray | None = _extreme("least", "N", "N", "normal force", _OVER_TIME)
+    normal_force_max: FloatArray | None = _extreme("greatest", "N", "N", "normal force", _OVER_TIME)
+    penetration_min: FloatArray | None = _extreme("least", "d", "m", "penetration", _OVER_TIME)
+    penetration_max: FloatArray | None = _extreme("greatest", "d", "m", "penetration", _OVER_TIME)
+    height_min: FloatArray | None = _extreme("least", "z", "m", "height", _OVER_TIME)
+    height_max: FloatArray | None = _extreme("greatest", "z", "m", "height", _OVER_TIME)
+
+
 class SlideResult(Result):
     r"""The answer for one sliding body.
 
@@ -67,6 +82,8 @@ class SlideResult(Result):
     breakaway_time : float or None
         First time at which the drive force reaches :math:`\mu F_N`, s; None if it never does, for
         a rigid drive, and for a periodic state.
+    normal : NormalMotion or None
+        What happens normal to the plane; None where the normal force is a constant.
     ledger : PowerLedger or None
         None for the homogenised law without a cycle to take it from.
     residual : float
@@ -151,6 +168,7 @@ class SlideResult(Result):
         """Peak velocity of the vibration over that of the drive."""
         return self.model.peak_velocity / self.model.slider.drive_velocity
 
+    normal: NormalMotion | None = part(NormalMotion, default=None)
     ledger: PowerLedger | None = part(PowerLedger, "power_")
 
     @property
@@ -207,7 +225,8 @@ class SlideResult(Result):
 
 def inputs(model: Model) -> dict[str, Any]:
     """Return the values of a model's tables as plain numbers in SI and texts, by ``table.key``."""
-    return table_inputs(model.slider, model.friction, model.vibration, model.solve)
+    tables = model.slider, model.friction, model.vibration, model.normal, model.solve
+    return table_inputs(*tables)
 
 
 def table_inputs(*tables: Table | None) -> dict[str, Any]:

@@ -12,7 +12,8 @@ import numpy as np
 COULOMB = 0
 DAHL = 1
 LUGRE = 2
-MODELS = {"coulomb": COULOMB, "dahl": DAHL, "lugre": LUGRE}
+SPRINGS = 3
+MODELS = {"coulomb": COULOMB, "dahl": DAHL, "lugre": LUGRE, "springs": SPRINGS}
 
 
 class Parameters(NamedTuple):
@@ -44,7 +45,7 @@ class Parameters(NamedTuple):
     smooth : bool
         Whether the vibration's velocity has no jumps.
     model, law : int
-        `COULOMB`, `DAHL` or `LUGRE`; the relaxation law, see `asperity.friction.dahl`.
+        `COULOMB`, `DAHL`, `LUGRE` or `SPRINGS`; the relaxation law, see `asperity.friction.dahl`.
     """
 
     drive: float
@@ -68,65 +69,111 @@ class Parameters(NamedTuple):
     law: int
 
 
+class Pressing(NamedTuple):
+    """Numbers of what is normal to the plane, for a given time step.
+
+    Attributes
+    ----------
+    law : int
+        Of the normal force, see `asperity.normal`.
+    reference : float
+        Penetration under the load W.
+    base : float
+        Amplitude of the base's motion.
+    mobility : float
+        Velocity change the load W makes in a step; 0 for a rigid machine.
+    damping : float
+        The damping c.
+    load_power : float
+        Power of the load that friction is proportional to.
+    keeps : int
+        What of the asperities stays while the load changes, see `asperity.friction.loaded`.
+    heights, weights : ndarray, shape (n,)
+        Of the springs, see `asperity.friction.springs`.
+    """
+
+    law: int
+    reference: float
+    base: float
+    mobility: float
+    damping: float
+    load_power: float
+    keeps: int
+    heights: np.ndarray
+    weights: np.ndarray
+
+
+def _numbers(*names: str) -> np.dtype:
+    return np.dtype([(name, float) for name in names])
+
+
 # Velocities are those of the half step that follows the node.
-STATE = np.dtype(
-    [
-        (name, float)
-        for name in (
-            "stretch",  # of the drive
-            "velocity_x",
-            "velocity_y",
-            "deflection_x",
-            "deflection_y",
-            "friction_x",
-            "friction_y",
-            "drive_force",
-            "lateral",  # position across the drive
-        )
-    ]
+_STATE = (
+    "stretch",  # of the drive
+    "velocity_x",
+    "velocity_y",
+    "deflection_x",
+    "deflection_y",
+    "friction_x",
+    "friction_y",
+    "drive_force",
+    "lateral",  # position across the drive
+)
+STATE = _numbers(*_STATE)
+# What is added stands first: Numba takes a record that only goes on longer for the same type.
+PRESSED_STATE = _numbers(
+    "rise",  # velocity of the body, up
+    "height",  # of the body over its first one
+    "penetration",
+    "load",
+    *_STATE,
 )
 
 # Trapezoidal sums over steps.
-SUMS = np.dtype(
-    [
-        (name, float)
-        for name in (
-            "drive_force",
-            "friction_x",
-            "friction_y",
-            "unit_work_x",  # of friction on the unit vibration's increments
-            "unit_work_y",
-            "slip_work",
-            "drag_work",  # lost in the drive's damper
-            "friction_x_max",
-            "friction_x_min",
-            "friction_y_max",
-            "friction_y_min",
-            "steps",
-            "breakaway",  # steps up to the first full drive force; negative while it has not come
-        )
-    ]
+_SUMS = (
+    "drive_force",
+    "friction_x",
+    "friction_y",
+    "unit_work_x",  # of friction on the unit vibration's increments
+    "unit_work_y",
+    "slip_work",
+    "drag_work",  # lost in the drive's damper
+    "friction_x_max",
+    "friction_x_min",
+    "friction_y_max",
+    "friction_y_min",
+    "steps",
+    "breakaway",  # steps up to the first full drive force; negative while it has not come
+)
+SUMS = _numbers(*_SUMS)
+PRESSED_SUMS = _numbers(
+    "load",
+    "load_max",
+    "load_min",
+    "penetration",
+    "penetration_max",
+    "penetration_min",
+    "approach_max",  # greatest growth of the penetration in a step
+    "open",  # steps that end out of contact
+    "landings",
+    "rise_work",  # of the load on the base's increments
+    "contact_damping",  # lost in the contact's damping
+    "gain",  # energy that friction gave in steps in which it lost none
+    "wear",  # of the load over the slip of the asperities' feet
+    *_SUMS,
 )
 
 # What is recorded of a node.
-NODE = np.dtype(
-    [
-        (name, float)
-        for name in (
-            "drive_force",
-            "friction_x",
-            "friction_y",
-            "deflection_x",
-            "deflection_y",
-            "position_x",  # from where the drive was at the start of the stretch
-            "position_y",
-            "velocity_x",
-            "velocity_y",
-        )
-    ]
+_NODE = (
+    "drive_force",
+    "friction_x",
+    "friction_y",
+    "deflection_x",
+    "deflection_y",
+    "position_x",  # from where the drive was at the start of the stretch
+    "position_y",
+    "velocity_x",
+    "velocity_y",
 )
-
-
-def nothing_recorded() -> np.ndarray:
-    """Return the room for nodes of a march that is not recorded."""
-    return np.empty(0, NODE)
+NODE = _numbers(*_NODE)
+PRESSED_NODE = _numbers("normal_force", "penetration", "height", *_NODE)

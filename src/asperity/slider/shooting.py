@@ -1,8 +1,12 @@
 r"""Periodic states by shooting: Newton's method on the map of the state over one cycle.
 
-The unknowns are drive stretch, velocity (two components) and deflection (two components) at the
-start of a cycle; those a case does not have (rigid drive, guided body) drop out. The Jacobian is
-taken by differences over the same compiled march, and kept while it serves.
+The unknowns are drive stretch, velocity (two components) and deflection (two components, of every
+spring) at the start of a cycle, and penetration and rise of a body that is pressed; those a case
+does not have (rigid drive, guided body) drop out. The Jacobian is taken by differences over the
+same compiled march, and kept while it serves.
+
+A body in the plane has no numbers ``q`` of the normal direction: they are None, and what needs
+them is left out when a kernel is compiled.
 """
 
 import math
@@ -11,13 +15,15 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.elimination import eliminate
+from asperity.friction.loaded import STIFFNESS
+from asperity.normal import elastic_force
 from asperity.slider.kernels import clear, march_block
-from asperity.slider.scaled import COULOMB, NODE, STATE, Parameters
+from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed, node_load
+from asperity.slider.scaled import COULOMB, NODE, PRESSED_NODE, SPRINGS, Parameters
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
 _NEWTON_STEPS = 25
-MOST_UNKNOWNS = 5
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
 SETTLING = (20, 80, 320, 1280)  # cycles before each further attempt
@@ -53,7 +59,19 @@ def _damped(p):
 
 
 @kernel
-def _read(state, p, unknowns):
+def _slides_across(p):
+    """Whether anything moves across the drive."""
+    return p.base_y != 0.0 or p.mobility_y > 0.0
+
+
+@kernel
+def most_unknowns(springs):
+    """Return the most unknowns a body with such springs can have."""
+    return 7 + springs.size
+
+
+@kernel
+def _read(state, springs, p, q, unknowns):
     """Take the unknowns a body has from its state; returns how many they are."""
     count = 0
     if not p.rigid:
@@ -64,15 +82,24 @@ def _read(state, p, unknowns):
     if p.mobility_y > 0.0 and p.own_1 + p.own_2 > 0.0:
         unknowns[count] = state.velocity_y
         count += 1
-    if p.model != COULOMB:
+    if p.model != COULOMB and p.model != SPRINGS:
         unknowns[count] = state.deflection_x
         unknowns[count + 1] = state.deflection_y
         count += 2
+    if q is not None:
+        if q.mobility > 0.0:
+            unknowns[count] = state.penetration
+            unknowns[count + 1] = state.rise
+            count += 2
+        for axis in range(2 if _slides_across(p) else 1):
+            for j in range(springs.shape[1]):
+                unknowns[count] = springs[axis, j]
+                count += 1
     return count
 
 
 @kernel
-def _write(unknowns, p, state):
+def _write(unknowns, p, q, state, springs):
     """Put the unknowns into a state, as `_read` takes them from it."""
     count = 0
     if not p.rigid:
@@ -82,44 +109,89 @@ def _write(unknowns, p, state):
     if p.mobility_y > 0.0 and p.own_1 + p.own_2 > 0.0:
         state.velocity_y = unknowns[count]
         count += 1
-    if p.model != COULOMB:
+    if p.model != COULOMB and p.model != SPRINGS:
         state.deflection_x = unknowns[count]
         state.deflection_y = unknowns[count + 1]
+        count += 2
+    if q is not None:
+        if q.mobility > 0.0:
+            state.penetration = unknowns[count]
+            state.rise = unknowns[count + 1]
+            count += 2
+        for axis in range(2 if _slides_across(p) else 1):
+            for j in range(springs.shape[1]):
+                springs[axis, j] = unknowns[count]
+                count += 1
 
 
 @kernel
-def _scales(p, scales):
+def _scales(state, springs, p, q, scales):
     """Size each unknown is measured by; returns how many they are."""
-    sizes = np.zeros(1, dtype=STATE)
+    sizes = np.zeros_like(state)
     if not p.rigid:
         sizes[0].stretch = 1.0 / p.stiffness
     sizes[0].velocity_x = p.drive
     sizes[0].velocity_y = p.drive
     sizes[0].deflection_x = 1.0
     sizes[0].deflection_y = 1.0
-    return _read(sizes[0], p, scales)
+    if q is not None:
+        sizes[0].penetration = 1.0
+        sizes[0].rise = math.sqrt(q.mobility)
+    return _read(sizes[0], np.ones_like(springs), p, q, scales)
 
 
 @kernel
-def _run(state, p, increments, sums):
-    """Forces that belong to a state, then one cycle from it."""
+def _forces(state, springs, p, q, rises):
+    """Set the forces that belong to a state."""
+    limit = 1.0
+    if q is not None:
+        # The wave has the same step before this node as before its next return.
+        rate = 0.5 * q.base * (rises[rises.size - 2] + rises[0]) - state.rise
+        elastic = elastic_force(q.law, state.penetration)
+        state.load = node_load(elastic, rate, -0.5 * q.mobility, q.damping)
+        limit = friction_limit(state.load, q.load_power)
+        if p.model == SPRINGS:
+            state.deflection_x = np.sum(q.weights * springs[0])
+            state.deflection_y = np.sum(q.weights * springs[1])
+        elif q.keeps == STIFFNESS:
+            limit = 1.0
     if p.model != COULOMB:
-        state.friction_x = state.deflection_x
-        state.friction_y = state.deflection_y
+        share = 1.0 if p.model == SPRINGS else limit
+        state.friction_x = share * state.deflection_x
+        state.friction_y = share * state.deflection_y
     state.drive_force = p.stiffness * state.stretch + p.damping * (p.drive - state.velocity_x)
-    clear(sums)
-    march_block(state, sums, p, increments, increments.size - 1, np.empty(0, dtype=NODE))
 
 
 @kernel
-def _defect(start, p, increments, sums, scales, count, end, defect):
+def run_cycle(state, springs, p, q, increments, rises, sums):
+    """One cycle from a state whose forces are set."""
+    steps = increments.size - 1
+    if q is None:
+        clear(sums)
+        march_block(state, sums, p, increments, steps, np.empty(0, dtype=NODE))
+    else:
+        none = np.empty(0, dtype=PRESSED_NODE)
+        clear_pressed(sums)
+        march_pressed(state, springs, sums, p, q, increments, rises, steps, none)
+
+
+@kernel
+def _run(state, springs, p, q, increments, rises, sums):
+    """Forces that belong to a state, then one cycle from it."""
+    _forces(state, springs, p, q, rises)
+    run_cycle(state, springs, p, q, increments, rises, sums)
+
+
+@kernel
+def _defect(start, springs, p, q, increments, rises, sums, scales, count, end, defect):
     """Scaled change of the unknowns over a cycle from ``start``; returns its largest part."""
-    before = np.empty(MOST_UNKNOWNS)
-    after = np.empty(MOST_UNKNOWNS)
-    _read(start, p, before)
-    end[0] = start
-    _run(end[0], p, increments, sums)
-    _read(end[0], p, after)
+    before = np.empty(count)
+    after = np.empty(count)
+    _read(start[0], springs, p, q, before)
+    end[0] = start[0]
+    end_springs = springs.copy()
+    _run(end[0], end_springs, p, q, increments, rises, sums)
+    _read(end[0], end_springs, p, q, after)
     worst = 0.0
     for i in range(count):
         defect[i] = (after[i] - before[i]) / scales[i]
@@ -131,39 +203,58 @@ def _defect(start, p, increments, sums, scales, count, end, defect):
 
 
 @kernel
-def _newton(start, p, increments, sums, scales, count, jacobian):
+def differentiate(
+    start, springs, p, q, increments, rises, sums, scales, count, change, side, defect, jacobian
+):  # fmt: skip
+    """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown."""
+    end = np.empty_like(start)
+    trial = np.empty_like(start)
+    trial_springs = np.empty_like(springs)
+    here = np.empty(count)
+    there = np.empty(count)
+    other = np.empty(count)
+    _read(start[0], springs, p, q, here)
+    for j in range(count):
+        trial[0] = start[0]
+        trial_springs[:] = springs
+        there[:] = here
+        # At first towards the inside: a difference across the limit would be one-sided.
+        signed = -change * side if here[j] > 0.0 else change * side
+        there[j] += signed * scales[j]
+        _write(there, p, q, trial[0], trial_springs)
+        _defect(trial, trial_springs, p, q, increments, rises, sums, scales, count, end, other)
+        for i in range(count):
+            jacobian[i, j] = (other[i] - defect[i]) / signed
+
+
+@kernel
+def _newton(start, springs, p, q, increments, rises, sums, scales, count, jacobian):
     """Newton from ``start``, which ends at the best state found; returns (defect, cycles run)."""
-    end = np.empty(1, dtype=STATE)
-    trial = np.empty(1, dtype=STATE)
-    here = np.empty(MOST_UNKNOWNS)
-    there = np.empty(MOST_UNKNOWNS)
-    defect = np.empty(MOST_UNKNOWNS)
-    trial_defect = np.empty(MOST_UNKNOWNS)
-    matrix = np.empty((MOST_UNKNOWNS, MOST_UNKNOWNS))
-    step = np.empty(MOST_UNKNOWNS)
+    end = np.empty_like(start)
+    trial = np.empty_like(start)
+    trial_springs = np.empty_like(springs)
+    here = np.empty(count)
+    there = np.empty(count)
+    defect = np.empty(count)
+    trial_defect = np.empty(count)
+    matrix = np.empty((count, count))
+    step = np.empty(count)
     cycles = 1
-    worst = _defect(start, p, increments, sums, scales, count, end, defect)
+    worst = _defect(start, springs, p, q, increments, rises, sums, scales, count, end, defect)
     fresh = False
     side = 1.0
     for _ in range(_NEWTON_STEPS):
         if worst <= TOLERANCE:
             break
-        _read(start, p, here)
+        _read(start[0], springs, p, q, here)
         if not fresh:
-            for j in range(count):
-                trial[0] = start
-                there[:] = here
-                # Steps that shrink with the defect do not reach a kink the answer is not at. At
-                # first towards the inside: a difference across the limit would be one-sided.
-                change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE)) * side
-                if here[j] > 0.0:
-                    change = -change
-                there[j] += change * scales[j]
-                _write(there, p, trial[0])
-                _defect(trial[0], p, increments, sums, scales, count, end, trial_defect)
-                cycles += 1
-                for i in range(count):
-                    jacobian[i, j] = (trial_defect[i] - defect[i]) / change
+            # Steps that shrink with the defect do not reach a kink the answer is not at.
+            change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE))
+            differentiate(
+                start, springs, p, q, increments, rises, sums, scales, count, change, side,
+                defect, jacobian,
+            )  # fmt: skip
+            cycles += count
             fresh = True
         for i in range(count):
             step[i] = -defect[i]
@@ -174,16 +265,20 @@ def _newton(start, p, increments, sums, scales, count, jacobian):
         length = 1.0
         moved = False
         for _ in range(8):
-            trial[0] = start
+            trial[0] = start[0]
+            trial_springs[:] = springs
             for j in range(count):
                 there[j] = here[j] + length * step[j] * scales[j]
-            _write(there, p, trial[0])
+            _write(there, p, q, trial[0], trial_springs)
             if p.model != COULOMB:
                 size = math.sqrt(trial[0].deflection_x ** 2 + trial[0].deflection_y ** 2)
-                if size > 1.5:
+                if q is None and size > 1.5:
                     trial[0].deflection_x *= 1.0 / size
                     trial[0].deflection_y *= 1.0 / size
-            reached = _defect(trial[0], p, increments, sums, scales, count, end, trial_defect)
+            reached = _defect(
+                trial, trial_springs, p, q, increments, rises, sums, scales, count, end,
+                trial_defect,
+            )  # fmt: skip
             cycles += 1
             if reached < worst * (1.0 - 0.1 * length):
                 moved = True
@@ -200,25 +295,61 @@ def _newton(start, p, increments, sums, scales, count, jacobian):
         # The differences cost a cycle an unknown: keep them while they still gain a digit.
         fresh = reached < 0.1 * worst and length == 1.0
         worst = reached
-        _read(trial[0], p, there)
-        _write(there, p, start)
+        _read(trial[0], trial_springs, p, q, there)
+        _write(there, p, q, start[0], springs)
         for i in range(count):
             defect[i] = trial_defect[i]
     return worst, cycles
 
 
 @kernel
-def shoot(state, p, increments, sums, jacobian, settle):
+def _first_guess(start, springs, p, q, increments, rises, sums, scales, count):
+    """Find a state to start from; returns its defect, if it is periodic already, and cycles run."""
+    state = start[0]
+    end = np.empty_like(start)
+    steps = increments.size - 1
+    # Where the slip never reverses, friction at its limit and a body at drive velocity is a
+    # periodic state (longitudinal, k <= 1). Newton is at a loss there: the approach takes
+    # forever.
+    state.velocity_x = p.drive
+    state.deflection_x = 1.0
+    state.friction_x = 1.0
+    if q is not None:
+        for j in range(springs.shape[1]):
+            springs[0, j] = max(q.reference - q.heights[j], 0.0)
+    if not p.rigid:
+        state.stretch = 1.0 / p.stiffness
+    worst = _defect(
+        start, springs, p, q, increments, rises, sums, scales, count, end, np.empty(count)
+    )
+    if worst <= 1e-12:
+        return worst, 1
+    # Friction under the drive's mean motion alone tells the mean force to start from.
+    state.stretch = 0.0
+    for _ in range(3):
+        _run(state, springs, _carried(p), q, increments, rises, sums)
+    if not p.rigid:
+        state.stretch = sums.friction_x / steps / p.stiffness
+    return worst, 4
+
+
+@kernel
+def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     """Look for the periodic state; where it is found, ``sums`` are those of one cycle from it.
 
     Parameters
     ----------
-    state : record
-        Of zeros, or as an earlier call left it.
+    start : ndarray of a record
+        Of zeros but for the penetration, or as an earlier call left it.
+    springs : ndarray, shape (2, n)
+        Deflections of the springs.
     p : Parameters
         The body.
-    increments : ndarray
-        Of the unit vibration over the steps of a cycle, and over the first of the next.
+    q : Pressing or None
+        What is normal to the plane.
+    increments, rises : ndarray
+        Of the unit vibration in the plane and normal to it over the steps of a cycle (or of
+        several, which then are the period), and over the first of the next.
     sums : record
         Overwritten.
     jacobian : ndarray
@@ -236,43 +367,40 @@ def shoot(state, p, increments, sums, jacobian, settle):
     unknowns : int
         Size of the Jacobian.
     """
-    steps = increments.size - 1
-    scales = np.empty(MOST_UNKNOWNS)
-    count = _scales(p, scales)
+    scales = np.empty(most_unknowns(springs))
+    count = _scales(start, springs, p, q, scales)
     used = 0
     worst = np.inf
     if settle == 0:
-        # Where the slip never reverses, friction at its limit and a body at drive velocity is a
-        # periodic state (longitudinal, k <= 1). Newton is at a loss there: the approach takes
-        # forever.
-        state.velocity_x = p.drive
-        state.deflection_x = 1.0
-        state.friction_x = 1.0
-        if not p.rigid:
-            state.stretch = 1.0 / p.stiffness
-        end = np.empty(1, dtype=STATE)
-        worst = _defect(state, p, increments, sums, scales, count, end, np.empty(MOST_UNKNOWNS))
-        used += 1
-        if worst > 1e-12:
-            # Friction under the drive's mean motion alone tells the mean force to start from.
-            state.stretch = 0.0
-            for _ in range(3):
-                _run(state, _carried(p), increments, sums)
-            used += 3
-            if not p.rigid:
-                state.stretch = sums.friction_x / steps / p.stiffness
+        worst, used = _first_guess(start, springs, p, q, increments, rises, sums, scales, count)
     else:
         for _ in range(settle):
-            _run(state, _damped(p), increments, sums)
-        used += settle
+            _run(start[0], springs, _damped(p), q, increments, rises, sums)
+        used = settle
     if worst > 1e-12:
-        worst, cycles = _newton(state, p, increments, sums, scales, count, jacobian)
+        worst, cycles = _newton(
+            start, springs, p, q, increments, rises, sums, scales, count, jacobian
+        )
         used += cycles
     if worst <= ACCEPTED:
         # Once around to bring the node forces in, once for the sums.
-        none = np.empty(0, dtype=NODE)
-        for _ in range(2):
-            clear(sums)
-            march_block(state, sums, p, increments, steps, none)
+        _run(start[0], springs, p, q, increments, rises, sums)
+        run_cycle(start[0], springs, p, q, increments, rises, sums)
         used += 2
     return worst, used, count
+
+
+@kernel
+def differentiated(start, springs, p, q, increments, rises, sums, count):
+    """Jacobian of the map over a cycle, less one, in scaled unknowns; ``sums`` are overwritten."""
+    scales = np.empty(most_unknowns(springs))
+    _scales(start, springs, p, q, scales)
+    end = np.empty_like(start)
+    defect = np.empty(count)
+    jacobian = np.empty((count, count))
+    _defect(start, springs, p, q, increments, rises, sums, scales, count, end, defect)
+    differentiate(
+        start, springs, p, q, increments, rises, sums, scales, count, _DIFFERENCE, 1.0, defect,
+        jacobian,
+    )  # fmt: skip
+    return jacobian

@@ -5,10 +5,15 @@ from collections.abc import Mapping
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.results.ledger import PowerLedger, guard
+from asperity.friction.loaded import STIFFNESS
+from asperity.friction.springs import stored_in_springs
+from asperity.normal import elastic_energy
+from asperity.results.ledger import PowerLedger, PressedLedger, guard
 from asperity.slider.model import Model
-from asperity.slider.result import History, SlideResult
-from asperity.slider.scaled import NODE, Parameters
+from asperity.slider.pressed import friction_limit
+from asperity.slider.result import History, PressedHistory, SlideResult
+from asperity.slider.scaled import DAHL, LUGRE, NODE, PRESSED_NODE, SPRINGS, Parameters, Pressing
+from asperity.slider.space import normal_motion, remarks
 
 _ADVICE = "give a smaller solve.step"
 _SI = dict.fromkeys(("drive_force", "friction", "deflection", "position", "velocity"), 1.0)
@@ -23,7 +28,7 @@ def energies(state: np.void, p: Parameters, *, elastic: bool) -> tuple[float, fl
     counterpart in the contact.
     """
     # All at once: a record of NumPy takes as long for one number as for all.
-    stretch, wx, wy, sx, sy, fx, fy, drive_force, _ = state.item()
+    stretch, wx, wy, sx, sy, fx, fy, drive_force, _ = state.item()[-9:]
     total = 0.5 * p.stiffness * stretch**2
     if p.mobility_x > 0.0:
         mobility = p.mobility_x * 2.0 / (1.0 + p.retained)
@@ -33,6 +38,28 @@ def energies(state: np.void, p: Parameters, *, elastic: bool) -> tuple[float, fl
         before = wy + p.mobility_y * fy
         total += 0.5 * (p.own_1 + p.own_2) * wy * before / p.mobility_y
     return total, 0.5 * (sx**2 + sy**2) if elastic else 0.0
+
+
+def pressed_energies(
+    state: np.void, springs: FloatArray, p: Parameters, q: Pressing, unit: float
+) -> tuple[float, float]:
+    r"""Mechanical and elastic energy of a body that is pressed, as `energies`.
+
+    Mechanical, beside that in the plane: kinetic, of the dead load, and in the contact; ``unit`` is
+    the load over its penetration's length in the unit of `energies`.
+    """
+    held = p.model == DAHL and q.keeps == STIFFNESS
+    mechanical, elastic = energies(state, p, elastic=held or p.model == LUGRE)
+    if p.model == SPRINGS:
+        elastic = float(stored_in_springs(*springs, q.weights))
+    elif p.model == DAHL and not held:
+        share = np.hypot(state["deflection_x"], state["deflection_y"])
+        elastic = 0.5 * float(friction_limit(state["load"], q.load_power) * share**2)
+    pressed = float(elastic_energy(q.law, state["penetration"]))
+    if q.mobility > 0.0:
+        before = state["rise"] - q.mobility * (state["load"] - 1.0)
+        pressed += 0.5 * float(state["rise"] * before) / q.mobility + float(state["height"])
+    return mechanical + unit * pressed, elastic
 
 
 def summarise(
@@ -51,6 +78,8 @@ def summarise(
     history: History | None = None,
     notes: tuple[str, ...] = (),
     substeps: int = 1,
+    period: int | None = None,
+    multiplier: float | None = None,
 ) -> SlideResult:
     """Turn the sums over a window, and the energies at its ends, into a result in SI.
 
@@ -63,8 +92,13 @@ def summarise(
     force = model.full_friction
     ratio = float(sums["drive_force"] / count)
     ledger = _ledger(model, p, step, sums, end[0] - start[0], end[1] - start[1])
+    normal = None
+    if model.normal is not None:
+        normal = normal_motion(model, step, sums, ledger.friction, period, multiplier)
     if model.solve.scheme != "two-phase":
         notes += guard(ledger, _ADVICE, reached={"ratio": ratio})
+    if normal is not None:
+        notes += remarks(model, step, sums, normal)
     return SlideResult(
         model=model,
         ratio=ratio,
@@ -74,6 +108,7 @@ def summarise(
         friction_min=_pair(sums["friction_x_min"], sums["friction_y_min"], force),
         breakaway_time=breakaway_time,
         ledger=ledger,
+        normal=normal,
         residual=residual,
         steps=steps,
         cycles=cycles,
@@ -97,13 +132,21 @@ def _ledger(
     whole = model.amplitude * model.unit_direction[1] / length
     whole = -whole if model.on_body else whole
     untransferred = -watts * (1.0 - model.friction.transfer) * whole * sums["unit_work_y"]
-    return PowerLedger(
-        drive=float(watts * p.drive * sums["drive_force"]),
-        vibration=float(watts * vibration),
-        friction=float(watts * (sums["slip_work"] - elastic)),
-        damping=float(watts * sums["drag_work"]) if p.damping > 0.0 else 0.0,
-        stored=float(watts * (mechanical + elastic)),
-        untransferred=float(untransferred) + 0.0,  # no -0.0
+    powers = {
+        "drive": float(watts * p.drive * sums["drive_force"]),
+        "vibration": float(watts * vibration),
+        "friction": float(watts * (sums["slip_work"] - elastic)),
+        "damping": float(watts * sums["drag_work"]) if p.damping > 0.0 else 0.0,
+        "stored": float(watts * (mechanical + elastic)),
+        "untransferred": float(untransferred) + 0.0,  # no -0.0
+    }
+    if model.normal is None:
+        return PowerLedger(**powers)
+    watts *= model.normal_unit(step)
+    return PressedLedger(
+        **powers,
+        normal=float(watts * sums["rise_work"]),
+        contact_damping=float(watts * sums["contact_damping"]),
     )
 
 
@@ -130,6 +173,9 @@ def history_of(
     length, force = model.length(step), model.full_friction
     units = dict.fromkeys(("drive_force", "friction"), force)
     units |= {"deflection": length, "position": length, "velocity": length / step}
+    if model.normal is not None:
+        units |= {"normal_force": model.slider.normal_force}
+        units |= dict.fromkeys(("penetration", "height"), model.normal_length)
     begin = model.slider.drive_velocity * at
     return of_stretches(step, at, span, mean, least, greatest, units, begin)
 
@@ -160,21 +206,24 @@ def of_stretches(
     begin : ndarray, shape (n,), or float
         Where on the way along the drive the positions of a stretch are counted from, m.
     """
+    pressed = "normal_force" in units
+    kind = PRESSED_NODE if pressed else NODE
 
     def columns(rows: FloatArray | None, ending: str) -> dict[str, FloatArray]:
         if rows is None:
             return {}
-        node = np.ascontiguousarray(rows).view(NODE)[:, 0]
-        found = {
-            name: unit * np.stack([node[f"{name}_x"], node[f"{name}_y"]], axis=1)
-            for name, unit in units.items()
-            if name != "drive_force"
-        }
-        found["drive_force"] = units["drive_force"] * node["drive_force"]
+        node = np.ascontiguousarray(rows).view(kind)[:, 0]
+        found = {}
+        for name, unit in units.items():
+            parts = [f"{name}_x", f"{name}_y"]
+            vector = parts[0] in (kind.names or ())
+            found[name] = unit * (
+                np.stack([node[part] for part in parts], axis=1) if vector else node[name]
+            )
         found["position"][:, 0] += begin
         return {name + ending: values for name, values in found.items()}
 
     # The mean over the ends of a stretch's steps belongs to the mean of their times.
     time = at + 0.5 * (span + step)
     of_each = columns(mean, "") | columns(least, "_min") | columns(greatest, "_max")
-    return History(time=time, span=span, **of_each)
+    return (PressedHistory if pressed else History)(time=time, span=span, **of_each)

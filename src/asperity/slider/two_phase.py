@@ -24,7 +24,7 @@ MEMORY = np.dtype([("cos", float), ("sin", float), ("base_x", float)])
 
 @kernel
 def march_two_phase(
-    state, memory, sums, p, waveform, rise, table, first_cycles, cycles_per_step, increments,
+    state, memory, sums, p, wave, first_cycles, cycles_per_step, increments,
     on_body, nodes, mean, least, greatest,
 ):  # fmt: skip
     """March as many stretches as ``mean`` has rows, recording each in one.
@@ -38,7 +38,7 @@ def march_two_phase(
     values = nodes.view(np.float64).reshape((nodes.size, mean.shape[1]))
     for r in range(mean.shape[0]):
         first = first_cycles + r * steps * cycles_per_step
-        fill_increments(waveform, rise, table, first, cycles_per_step, increments)
+        fill_increments(wave, first, cycles_per_step, increments)
         for n in range(steps):
             u = increments[n]
             ux = p.base_x * u

@@ -116,7 +116,7 @@ def base_amplitudes(model: Model) -> tuple[float, float]:
     and the body's inertia does not resist it.
     """
     sign = -1.0 if model.on_body else 1.0
-    cos, sin = model.unit_direction
+    cos, sin, _ = model.unit_direction
     return sign * model.amplitude * cos + 0.0, sign * model.amplitude * sin + 0.0
 
 

@@ -129,7 +129,7 @@ def _rate(growth: Growth | None) -> float:
 def slip_directions(problem: BlockProblem) -> tuple[tuple[float, float], ...]:
     """Return the directions a block slides to, unit vectors along x and y: the drive's first."""
     model = problem.model
-    along, across = model.unit_direction
+    along, across, _ = model.unit_direction
     fastest = model.peak_velocity if model.vibrates else 0.0
     found: list[tuple[float, float]] = []
     for share in (0.0, 1.0, -1.0):

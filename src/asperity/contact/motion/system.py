@@ -52,7 +52,7 @@ class Shaking:
         frequency = self.shape.frequency
         room = np.empty(1)
         fill_increments(
-            *self.shape.kernel_arguments(), (begin - self.start) * frequency,
+            self.shape.wave(), (begin - self.start) * frequency,
             (end - begin) * frequency, room,
         )  # fmt: skip
         return float(room[0])

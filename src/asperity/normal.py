@@ -1,0 +1,150 @@
+r"""The normal force of a contact against its penetration, and the `[normal]` table.
+
+With the penetration :math:`d` (positive where the surfaces overlap), the dead load or preload
+:math:`W` and the contact's slope :math:`k_z` there:
+
+======== =====================================
+law      elastic force
+======== =====================================
+linear   :math:`k_z d`: a flat punch
+hertz    :math:`W(d/d_0)^{3/2}`, :math:`d_0 = 3W/2k_z`: a ball
+rough    :math:`W e^{k_z d/W}`, d from where the load is W: asperities with exponential heights
+======== =====================================
+
+The force is the elastic one times :math:`1 + c\dot d`, the damping of which vanishes with the
+force, and never a tension: :math:`N = f(d)\max(1 + c\dot d, 0)`.
+
+Kernels take penetrations in units of :math:`W/k_z` and give forces in units of :math:`W`.
+"""
+
+import math
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import model_validator
+
+from asperity.casefile import Table
+from asperity.compiled import kernel
+from asperity.errors import InputError
+from asperity.units import Quantity
+
+LINEAR = 0
+HERTZ = 1
+ROUGH = 2
+LAWS = {"linear": LINEAR, "hertz": HERTZ, "rough": ROUGH}
+# Slope of the force at the load W, over W and the penetration that is given.
+_SLOPE_AT_LOAD = {"linear": 1.0, "hertz": 1.5, "rough": 1.0}
+
+
+@kernel(inline="always")
+def elastic_force(law, d):
+    """Elastic force at a penetration; nothing where the surfaces are apart."""
+    if law == ROUGH:
+        return math.exp(d)
+    over = max(d, 0.0)
+    if law == HERTZ:
+        over /= 1.5
+        return over * math.sqrt(over)
+    return over
+
+
+@kernel
+def elastic_slope(law, d):
+    """Derivative of the elastic force by the penetration."""
+    if law == ROUGH:
+        return math.exp(d)
+    if d <= 0.0:
+        return 0.0
+    return math.sqrt(d / 1.5) if law == HERTZ else 1.0
+
+
+@kernel
+def elastic_energy(law, d):
+    """Energy stored in the contact at a penetration: the integral of the elastic force."""
+    if law == ROUGH:
+        return math.exp(d)
+    over = max(d, 0.0)
+    if law == HERTZ:
+        over /= 1.5
+        return 0.6 * over * over * math.sqrt(over)
+    return 0.5 * over * over
+
+
+class Normal(Table):
+    r"""How the contact answers in the direction normal to it.
+
+    Without this table the normal force is a constant.
+
+    Parameters
+    ----------
+    law : {'constant', 'linear', 'hertz', 'rough'}
+        Normal force against penetration, see `asperity.normal`; ``constant``: as without the table.
+    control : {'force', 'displacement'}
+        The body carries a dead load, ``slider.normal_force``, and rises and falls (needs
+        ``slider.mass``); or a rigid machine holds it at the height where the normal force is that.
+    stiffness : float or str, optional
+        Slope of the force at ``slider.normal_force``, k_z, N/m. Give this or ``penetration``.
+    penetration : float or str, optional
+        Penetration at ``slider.normal_force``, m; of ``rough``, the penetration over which the
+        force grows e-fold.
+    damping_ratio : float, optional
+        Of the slope at ``slider.normal_force`` and the mass,
+        :math:`\zeta = c W/2\sqrt{k_z m}`. Give this, ``damping``, or neither (none).
+    damping : float or str, optional
+        :math:`c` in :math:`N = f(d)(1 + c\dot d)`, s/m.
+    """
+
+    table: ClassVar[str] = "normal"
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("stiffness", "penetration"),
+        ("damping_ratio", "damping"),
+    )
+
+    law: Literal["constant", "linear", "hertz", "rough"] = "linear"
+    control: Literal["force", "displacement"] = "force"
+    stiffness: (
+        Annotated[float, Quantity("N/m", what="a stiffness", example="97 MN/m", gt=0)] | None
+    ) = None
+    penetration: (
+        Annotated[float, Quantity("m", what="a penetration", example="0.85 um", gt=0)] | None
+    ) = None
+    damping_ratio: (
+        Annotated[float, Quantity("", what="a damping ratio", example="0.05", ge=0, le=1)] | None
+    ) = None
+    damping: (
+        Annotated[float, Quantity("s/m", what="a damping", example="12.7 s/m", ge=0)] | None
+    ) = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Normal":
+        elastic = self.stiffness is not None or self.penetration is not None
+        if self.law != "constant" and not elastic:
+            raise InputError(
+                f"normal.stiffness is missing; law '{self.law}' needs it, or normal.penetration"
+            )
+        return self
+
+    @property
+    def code(self) -> int:
+        """Number of the law in kernels."""
+        return LAWS[self.law]
+
+    def slope(self, load: float) -> float:
+        """Slope of the force at a load in N, k_z, N/m."""
+        if self.stiffness is not None:
+            return self.stiffness
+        if self.penetration is None:
+            raise InputError("a constant normal force has no slope")
+        return _SLOPE_AT_LOAD[self.law] * load / self.penetration
+
+    def loss(self, load: float, mass: float | None) -> float:
+        """Damping :math:`c`, s/m, at a load in N and with the body's mass in kg."""
+        if self.damping is not None:
+            return self.damping
+        if not self.damping_ratio:
+            return 0.0
+        if mass is None:
+            raise InputError(
+                f"normal.damping_ratio is {self.damping_ratio:g}, which needs slider.mass; give "
+                "that, or normal.damping"
+            )
+        return 2.0 * self.damping_ratio * math.sqrt(self.slope(load) * mass) / load
