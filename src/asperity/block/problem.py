@@ -115,7 +115,7 @@ class BlockProblem:
         model = UndividedModel.from_case(case)
         if model.unit_direction[2] != 0.0:
             raise InputError(
-                f"vibration.elevation is {math.degrees(model.elevation):g} deg; an elastic block is "
+                f"vibration.elevation is {math.degrees(model.elevation):g} deg; a block is "
                 "shaken in the plane of contact only: leave it out, or take `asperity slide`"
             )
         # A block's normal contact is that of its faces, in [contact].
