@@ -6,7 +6,7 @@ endif
 
 BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
-PYTEST_OPTIONS ?= -n auto --dist loadgroup
+PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder
 
 .PHONY: help run test slow lint types floors docs examples bench clean
 

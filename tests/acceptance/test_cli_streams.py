@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from apparatus.grid import slow
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams are closed by a shell")
 
@@ -72,7 +73,7 @@ def test_a_case_whose_name_is_not_utf_8_is_solved(shell, tmp_path):
     assert output.startswith(r"caf\udce9.toml: homogenised")
 
 
-@pytest.mark.parametrize("where", ["| true", ">&-", "> /dev/full"])
+@pytest.mark.parametrize("where", ["| true", slow(">&-"), slow("> /dev/full")])
 def test_no_file_is_lost_to_a_standard_output_that_takes_nothing(shell, tmp_path, where):
     settings = "--set solve.duration='20 ms' --set vibration.start='2 ms' --set solve.step='1 us'"
     shell(f"asperity slide table-4.3 {settings} --out out {where}")

@@ -4,6 +4,7 @@ import json
 import re
 
 import pytest
+from apparatus.grid import slow
 
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
@@ -30,7 +31,7 @@ def test_a_study_prints_one_object_and_writes_dataset_picture_and_json(asperity,
     assert sorted(path.name for path in folder.iterdir()) == sorted(names)
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", ["sensitivity", "methods", slow("optimise")])
 def test_a_study_is_readable_in_a_narrow_terminal(asperity, environment, command):
     narrow = {**environment, "COLUMNS": "80"}
     code, output, errors = asperity(command, "gearset-2", env=narrow)

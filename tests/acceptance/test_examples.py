@@ -54,6 +54,7 @@ def test_which_friction_reduction_helps(example):
     assert names["best"] == pytest.approx(0.37920, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_flanks_of_a_worm_gearset(example):
     names = example("flanks_of_a_worm_gearset")
     assert names["centres"] == pytest.approx([4.8, 1.66], abs=0.1)
@@ -62,6 +63,7 @@ def test_flanks_of_a_worm_gearset(example):
     assert names["room"] == pytest.approx(0.0295, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_an_elastic_block(example):
     names = example("an_elastic_block")
     assert names["block"].ratio == pytest.approx(names["body"].ratio, rel=0.02)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import matplotlib
 import pytest
+from apparatus.grid import slow
 
 from asperity.slider import TABLES
 from asperity.store import read_dataset
@@ -64,7 +65,10 @@ def test_the_readme_has_the_commands_below():
     assert {command.split()[0] for command in COMMANDS} >= {"slide", "sweep"}
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    "command",
+    [slow(line) if re.match("block|flank .*--out", line) else line for line in COMMANDS],
+)
 def test_each_command_runs(asperity, tmp_path, command):
     arguments = shlex.split(command)
     code, output, errors = asperity(*arguments, cwd=tmp_path)

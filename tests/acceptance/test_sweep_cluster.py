@@ -7,11 +7,12 @@ import sys
 import time
 
 import pytest
+from apparatus.grid import slow
 
-POINTS = 1024
+POINTS = 256
 SWEEP = [
     "sweep", "table-4.3", "--set", "solve.duration=0.8 s", "--json",
-    "--over", f"vibration.velocity_ratio=0.02:{POINTS / 50}:0.02",
+    "--over", f"vibration.velocity_ratio=0.08:{POINTS / 12.5}:0.08",
 ]  # fmt: skip
 
 
@@ -76,6 +77,7 @@ def test_a_sweep_outlives_a_worker_and_equals_that_of_this_machine(
     assert there["ratio"] == here["ratio"]
 
 
+@pytest.mark.slow
 def test_an_interrupted_cluster_keeps_what_is_done(
     start, dask, scheduler, new_user, kept, wait_for
 ):
@@ -91,6 +93,7 @@ def test_an_interrupted_cluster_keeps_what_is_done(
     assert last.startswith(f"interrupted: {kept(environment)} of {POINTS} points are kept")
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
     start, dask, scheduler, processes, new_user, kept, wait_for
 ):
@@ -105,7 +108,7 @@ def test_a_scheduler_that_dies_costs_a_line_and_nothing_that_was_done(
     assert kept(environment) > 0
 
 
-@pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:1"])
+@pytest.mark.parametrize("address", ["nowhere", slow("tcp://127.0.0.1:1")])
 def test_an_address_where_no_scheduler_answers_is_one_line(asperity_process, new_user, address):
     began = time.monotonic()
     code, output, errors = asperity_process(*SWEEP, "--cluster", address, env=new_user())

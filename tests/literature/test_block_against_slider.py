@@ -52,7 +52,8 @@ def is_the_sliding_body(found):
     )
 
 
-@pytest.mark.parametrize(("way", "k"), some_slow(CASES, [c for c in CASES if c not in ROCKING]))
+@pytest.mark.slow
+@pytest.mark.parametrize(("way", "k"), CASES)
 def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_that_is_between(
     way, k
 ):
@@ -61,7 +62,9 @@ def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_
     assert found.ratio == pytest.approx(found.in_series, rel=2e-3)
 
 
-@pytest.mark.parametrize(("way", "k"), some_slow(CALM, [("coupled", 6), ("transverse", 20)]))
+@pytest.mark.parametrize(
+    ("way", "k"), some_slow(CALM, [case for case in CALM if case != ("transverse", 2)])
+)
 def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(way, k):
     found = block(way, k).settled()
     assert found.ratio == pytest.approx(found.slider, rel=1e-2)
@@ -69,7 +72,8 @@ def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(w
     assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
 
 
-@pytest.mark.parametrize(("way", "k"), some_slow(ROCKING, ROCKING[1:]))
+@pytest.mark.slow
+@pytest.mark.parametrize(("way", "k"), ROCKING)
 def test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking(way, k):
     free = block(way, k).settled()
     assert not is_the_sliding_body(free)

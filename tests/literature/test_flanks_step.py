@@ -6,6 +6,7 @@ the worm and the point of the wheel at a radius and a place are the package's ow
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from apparatus.step import read_step
 from OCP.BRep import BRep_Tool
 from OCP.Geom import Geom_BSplineSurface
@@ -153,8 +154,8 @@ def test_a_left_hand_gearset_is_the_mirror_image(tmp_path):
 @pytest.mark.parametrize(
     "changes",
     [
-        {"starts": 1, "wheel_teeth": 30, "diameter_factor": 10, "profile_shift": 0.5},
-        {"starts": 6, "wheel_teeth": 82, "diameter_factor": 14, "pressure_angle": "25 deg"},
+        slow({"starts": 1, "wheel_teeth": 30, "diameter_factor": 10, "profile_shift": 0.5}),
+        slow({"starts": 6, "wheel_teeth": 82, "diameter_factor": 14, "pressure_angle": "25 deg"}),
         {"starts": 2, "wheel_teeth": 45, "pressure_angle": "30 deg"},
     ],
 )

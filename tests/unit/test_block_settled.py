@@ -34,6 +34,7 @@ def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
     assert (told["cycles"], told["notes"]) == (16, [])
 
 
+@pytest.mark.slow
 def test_the_figures_of_the_thesis_settle_blocks_in_the_same_way(found):
     block = blocks.settle("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=2"))
     assert block.ratio == pytest.approx(found.ratio, rel=1e-12)

@@ -6,6 +6,7 @@ import types
 
 import numpy as np
 import pytest
+from apparatus.grid import grid, slow
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution import march as block_march
@@ -331,8 +332,7 @@ def stopped(block, after, path):
     return march
 
 
-@pytest.mark.parametrize("stop", [1, 20, 200])
-@pytest.mark.parametrize("name", RESUMED)
+@pytest.mark.parametrize(("name", "stop"), grid([*RESUMED], [1, 20, 200]))
 def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path):
     whole = solve_block(problem(*RESUMED[name]))
     stopped(problem(*RESUMED[name]), stop, tmp_path / "kept.npz")
@@ -483,7 +483,7 @@ def test_stages_left_out_are_those_of_the_element():
     assert given == dataclasses.replace(law, initial=2e13)
 
 
-@pytest.mark.parametrize("modes", [0, 4])
+@pytest.mark.parametrize("modes", [0, slow(4)])
 def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
     kept = f"block.modes={modes}", "block.elements=[4, 3, 3]"
     stiff, stiffest = (problem(*kept, f"contact.stiffness={k} Pa/m") for k in ("1e16", "1e20"))

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
@@ -53,8 +54,8 @@ def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
     "contact",
     [
         ("contact.normal=linear",),
-        ("contact.normal=two-stage", "contact.stiffness=1e12 Pa/m"),
-        ("contact.normal=hard",),
+        slow(("contact.normal=two-stage", "contact.stiffness=1e12 Pa/m")),
+        slow(("contact.normal=hard",)),
     ],
 )
 def test_a_block_that_is_thrown_up_keeps_its_momentum_and_its_ledger(contact):

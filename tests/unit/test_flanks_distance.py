@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from apparatus.worm_distance import distances_with_derivatives
 from scipy.spatial import cKDTree
 
@@ -185,7 +186,7 @@ def brute_force(worm, points):
     return cKDTree(cloud).query(points)[0]
 
 
-@pytest.mark.parametrize("kind", ["ZI", "ZN", "ZC"])
+@pytest.mark.parametrize("kind", ["ZI", slow("ZN"), slow("ZC")])
 def test_outside_the_distance_is_that_to_the_nearest_point_of_the_whole_worm(kind):
     """Flank, rounding, tip land and core together; the cloud can only be farther, by its grid."""
     worm = Helicoid.worm(GEOMETRY, kind, Modification(tip_rounding="0.1"))

@@ -51,7 +51,7 @@ def test_a_dataclass_comes_back_from_its_file(outer, tmp_path):
 
 @given(st.floats(allow_nan=False), st.integers(-(2**60), 2**60), st.text(max_size=20))
 def test_numbers_and_texts_keep_every_bit(tmp_path_factory, number, count, text):
-    path = tmp_path_factory.mktemp("tree") / "kept.npz"
+    path = tmp_path_factory.getbasetemp() / "kept.npz"
     tree = {"a": {"b": [number, count, text, None, True]}, "array": np.array([number])}
     write_tree(path, tree)
     assert same(read_tree(path), tree)

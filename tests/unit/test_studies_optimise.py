@@ -214,11 +214,18 @@ def test_starts_must_be_a_power_of_two():
 def test_a_wheel_narrower_than_the_worm_reaches_does_not_hide_the_best_designs():
     subject = gearset("gearset-2", "gearset.wheel_face_width=10 mm")
     found = samples("gearset-2", "gearset.wheel_face_width=10 mm")
-    best, curve = optimise(*subject), trade_off(*subject, points=3)
+    best = optimise(*subject)
     kept = np.ones(len(found["h_star"]), dtype=bool)
     for key in ("M_w_Nm", "M_s_Nm"):
         kept &= found[key] >= best.before.bs721[key]
     assert best.after.iso14521["eta_z1_2"] > found["eta_z1_2"][kept].max() - 1e-6
+
+
+@pytest.mark.slow
+def test_a_wheel_narrower_than_the_worm_reaches_does_not_hide_the_strongest_designs():
+    subject = gearset("gearset-2", "gearset.wheel_face_width=10 mm")
+    found = samples("gearset-2", "gearset.wheel_face_width=10 mm")
+    curve = trade_off(*subject, points=3)
     assert curve.torque[-1] > found["M_permissible_Nm"].max() * (1.0 - 1e-6)
 
 

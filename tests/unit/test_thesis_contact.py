@@ -36,12 +36,14 @@ def compliance(*settings):
     return np.diag(problem(*settings).compliance.static)
 
 
+@pytest.mark.slow
 def test_a_block_that_does_not_give_is_the_sliding_body():
     stiff = settle("block-longitudinal", STIFF, K_2)
     assert stiff.ratio == pytest.approx(stiff.slider, rel=5e-4)
     assert stiff.in_series == pytest.approx(stiff.slider, rel=5e-4)
 
 
+@pytest.mark.slow
 def test_what_separates_block_and_sliding_body_is_the_blocks_compliance():
     for found in (
         settle("block-longitudinal", K_2),
@@ -51,12 +53,14 @@ def test_what_separates_block_and_sliding_body_is_the_blocks_compliance():
         assert abs(found.ratio - found.in_series) < 0.2 * abs(found.ratio - found.slider)
 
 
+@pytest.mark.slow
 def test_a_block_settles_to_the_same_wherever_its_start_leaves_it():
     block = settle("block-transverse", K_2)
     assert abs(block.late) > 1e-3
     assert block.unsteadiness < 0.5 * settling.STEADY * block.slider
 
 
+@pytest.mark.slow
 def test_a_block_is_read_anew_in_longer_windows_until_they_agree(monkeypatch):
     found = settle("block-transverse", K_2)
     assert found.cycles == 16
@@ -134,6 +138,7 @@ def test_a_surface_touched_at_its_nodes_keeps_its_area():
     assert np.allclose(nodal.points, nodal.positions[nodal.faces])
 
 
+@pytest.mark.slow
 def test_a_figure_holds_block_and_sliding_body_at_the_same_points(monkeypatch):
     monkeypatch.setitem(elastic.RATIOS, "block-longitudinal", (2.0,))
     drawn = FIGURES["7.9"].make()
