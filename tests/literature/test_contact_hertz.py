@@ -141,6 +141,7 @@ def within_a_hundredth(found):
 
 
 @pytest.mark.parametrize(("element", "count"), [("hex27", 4), ("hex8i", 8)])
+@pytest.mark.slow
 def test_a_sphere_on_finite_elements_touches_as_hertz_says(quarter_patch, element, count):
     found = sphere_on_elements(quarter_patch, element, count, "hard")
     assert within_a_hundredth(found), found

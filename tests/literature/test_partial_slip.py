@@ -24,6 +24,7 @@ Coulomb friction sticks by an elastic slip, and Dahl friction by a deflection, w
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from apparatus.halfspace import half_plane
 
 from asperity.contact.increment import IncrementProblem, IncrementSolver
@@ -126,6 +127,7 @@ def test_the_stick_radius_under_a_given_force_is_cattaneo_s(quarter_of_half_spac
     assert found == pytest.approx(0.4 ** (1.0 / 3.0), rel=0.01)
 
 
+@pytest.mark.slow
 def test_the_friction_under_partial_slip_converges_to_its_closed_form(quarter_of_half_space):
     share, off, off_mean, radii = 0.6, [], [], []
     c = A * (1.0 - share) ** (1.0 / 3.0)
@@ -180,7 +182,7 @@ class Cycle:
         self.stored = (elastic[1] - elastic[0]) / pair.share
 
 
-@pytest.mark.parametrize("share", [0.4, 0.7, 0.9])
+@pytest.mark.parametrize("share", [0.4, slow(0.7), slow(0.9)])
 def test_a_cycle_of_rubbing_dissipates_what_mindlin_and_deresiewicz_say(
     quarter_of_half_space, share
 ):
@@ -268,7 +270,8 @@ def test_cylinders_stick_within_cattaneo_s_strip():
         assert half_width / A == pytest.approx(np.sqrt(1.0 - share), rel=0.02)
 
 
-@pytest.mark.parametrize("count", [4, pytest.param(5, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [4, 5])
 def test_spheres_of_finite_elements_slip_as_cattaneo_and_mindlin_say(quarter_patch, count):
     half = 1.25 * A
     body = quarter_patch("hex27", count, half)
