@@ -5,6 +5,7 @@ Source: Tables 4.3 and 4.4 of the thesis, over its speed ratios and directions (
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve_many
@@ -31,8 +32,7 @@ def ratios(case, law, speeds, directions, method):
     return np.reshape([answer.ratio for answer in answers], (len(speeds), len(directions)))
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(("case", "law"), grid([*CASES], LAWS))
 def test_march_and_periodic_state_agree(case, law):
     grid = (0.25, 1.0, 1.5, 4.0, 9.0, 20.0), (0, 15, 45, 60, 90, 200, 300)
     marched = ratios(case, law, *grid, "march")

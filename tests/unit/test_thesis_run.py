@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from apparatus.grid import slow
 
 from asperity import closure
 from asperity.errors import InputError, StorageError
@@ -172,7 +173,7 @@ def test_what_other_sources_make_is_made_again(tmp_path, made, monkeypatch):
     assert made().count("claim 9.3") == 2
 
 
-@pytest.mark.parametrize("processes", [1, 2])
+@pytest.mark.parametrize("processes", [1, slow(2)])
 def test_what_fails_is_said_and_keeps_nothing_else_from_being_made(tmp_path, made, processes):
     (made.home / "harm").touch()
     lines = []
