@@ -16,8 +16,7 @@ from pathlib import Path
 from unittest import mock
 
 import pytest
-
-from asperity.folders import cache_folder
+from observe import new_cache
 
 
 @pytest.fixture(scope="session")
@@ -25,12 +24,8 @@ def new_user(tmp_path_factory):
     """Make the environment of a user without results, whose kernels are compiled already."""
 
     def make():
-        home = tmp_path_factory.mktemp("cache")
-        kernels = cache_folder("kernels")
-        if kernels is not None:
-            (home / "asperity").mkdir()
-            (home / "asperity" / "kernels").symlink_to(kernels)
-        return {**os.environ, "ASPERITY_CACHE": str(home), "COLUMNS": "100"}
+        cache = new_cache(tmp_path_factory.mktemp("user"))
+        return {**os.environ, "ASPERITY_CACHE": str(cache), "COLUMNS": "100"}
 
     return make
 

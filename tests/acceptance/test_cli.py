@@ -328,7 +328,7 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
         (["cases"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
         (
             ["rate gearset-3", "sensitivity gearset-3", "methods gearset-3"],
-            {"numba", "llvmlite", "matplotlib", "pint"},
+            {"numba", "llvmlite", "matplotlib", "pint", "scipy.stats"},
         ),
         (
             [shlex.join(["slide", "table-4.3", *SHORT, "--json"])],

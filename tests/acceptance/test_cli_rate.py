@@ -3,8 +3,6 @@
 import csv
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -204,14 +202,3 @@ def test_edition_may_be_set_as_a_number(asperity):
     )
     assert code == 0
     assert one_object(output)["iso14521"]["standard"] == "DIN 3996:1998"
-
-
-@pytest.mark.parametrize("command", ["rate", "sensitivity"])
-def test_a_rating_loads_no_compiler(command):
-    program = (
-        "import sys\nfrom asperity.cli.main import main\n"
-        f"try:\n    main(['{command}', 'gearset-3', '--json'])\n"
-        "except SystemExit as end:\n    assert not end.code\n"
-        "assert not {'numba', 'llvmlite', 'scipy.stats', 'matplotlib'} & set(sys.modules)\n"
-    )
-    subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)

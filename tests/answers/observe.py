@@ -64,7 +64,7 @@ def observe(line, folder):
     out = folder / "out"
     printed = io.StringIO()
     with (
-        mock.patch.dict(os.environ, ASPERITY_CACHE=str(_new_cache(folder))),
+        mock.patch.dict(os.environ, ASPERITY_CACHE=str(new_cache(folder))),
         contextlib.redirect_stdout(printed),
         contextlib.redirect_stderr(io.StringIO()),
     ):
@@ -81,8 +81,8 @@ def observe(line, folder):
     return {"code": code or 0, "json": answer, "files": files}
 
 
-def _new_cache(folder):
-    """A cache with nothing but this machine's compiled kernels."""
+def new_cache(folder):
+    """Make a cache in a folder, with nothing but this machine's compiled kernels."""
     from asperity.folders import cache_folder
 
     cache = folder / "cache" / "asperity"

@@ -7,6 +7,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from observe import new_cache
 
 from asperity.casefile import read_case
 from asperity.errors import InputError, MissingExtraError
@@ -27,7 +28,7 @@ OVERSHOT = [
 
 @pytest.fixture(autouse=True)
 def _own_cache(monkeypatch, tmp_path):
-    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("ASPERITY_CACHE", str(new_cache(tmp_path)))
 
 
 def case(*settings, name="table-4.3"):
