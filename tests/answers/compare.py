@@ -34,6 +34,13 @@ TOLERANCES = (
     ),
     (
         "optimise *",
+        "*trade_off.profile_shift*",
+        1e-5,
+        "as of all of an optimum, below; what 3e-7 move in the diameter factor is 4e-6 of x_2, the "
+        "small difference that is left to it",
+    ),
+    (
+        "optimise *",
         "*",
         1e-6,
         "near an optimum the efficiency is flat: it is found to half its digits, and the last bits "

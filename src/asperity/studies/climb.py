@@ -2,7 +2,8 @@
 
 import dataclasses
 import threading
-from collections.abc import Callable, Iterable
+from collections import deque
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -10,11 +11,15 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 
-Merit = Callable[[FloatArray], FloatArray]
-"""From points, a row each, to rows: what is to be high, then constraints, not below zero.
+Rows = Callable[[FloatArray], FloatArray]
+"""From rows to as many rows.
 
-NaN where there is no answer.
+A worth goes from points to numbers; a merit goes on to what is to be high, and behind it the
+constraints, not below zero. NaN where there is no answer.
 """
+
+Hill = tuple[Rows, Sequence[FloatArray]]
+"""A merit, and where climbs begin."""
 
 _STEP = 1e-6
 _MARGIN = 1e-9
@@ -22,6 +27,8 @@ _SLACK = 1e-12
 _SAME = 1e-6
 _BACK: FloatArray = np.array([0.0, *np.geomspace(1e-9, 1.0, 37)])
 _IMPOSSIBLE = -1.0
+_STILL = 1e-6
+_PATIENCE = 10
 _BITS = 30
 _POLYNOMIALS = ((0, 0, ()), (1, 0, (1,)), (2, 1, (1, 3)), (3, 1, (1, 3, 1)))
 """Degree, inner coefficients and first direction numbers of Joe and Kuo's first dimensions."""
@@ -77,7 +84,7 @@ def _directions(dimensions: int) -> npt.NDArray[np.uint64]:
     return np.array(rows, dtype=np.uint64)
 
 
-def climb(merit: Merit, starts: Iterable[FloatArray]) -> Top | None:
+def climb(merit: Rows, starts: Sequence[FloatArray]) -> Top | None:
     """Climb in the unit cube by sequential quadratic programming (SciPy's SLSQP).
 
     Returns
@@ -85,10 +92,22 @@ def climb(merit: Merit, starts: Iterable[FloatArray]) -> Top | None:
     Top or None
         The highest of the tops that keep all constraints; None if there is none.
     """
-    begin = list(starts)
-    rope = _Rope(merit, len(begin))
-    with ThreadPoolExecutor(len(begin)) as pool:
-        tops = [top for top in pool.map(rope.climb, range(len(begin)), begin) if top is not None]
+    return climb_together(merit, [(lambda rows: rows, starts)])[0]
+
+
+def climb_together(worth: Rows, hills: Sequence[Hill]) -> list[Top | None]:
+    """Climb several hills over the same points, as `climb` does each."""
+    if not hills:
+        return []
+    climbers = [(merit, start) for merit, starts in hills for start in starts]
+    rope = _Rope(worth, len(climbers))
+    with ThreadPoolExecutor(len(climbers)) as pool:
+        ends = iter([*pool.map(rope.climb, range(len(climbers)), *zip(*climbers, strict=True))])
+    return [_highest([next(ends) for _ in starts]) for _, starts in hills]
+
+
+def _highest(ends: Sequence[tuple[float, FloatArray] | None]) -> Top | None:
+    tops = [end for end in ends if end is not None]
     if not tops:
         return None
     height, point = max(tops, key=lambda top: top[0])
@@ -102,17 +121,19 @@ class _Rope:
     its own, because SciPy's method asks for one point after the other.
     """
 
-    def __init__(self, merit: Merit, climbers: int) -> None:
-        self._merit, self._climbing = merit, climbers
+    def __init__(self, worth: Rows, climbers: int) -> None:
+        self._worth, self._climbing = worth, climbers
         self._all_asked = threading.Condition()
         self._asked: dict[int, FloatArray] = {}
         self._answers: dict[int, FloatArray] = {}
         self._failure: BaseException | None = None
 
-    def climb(self, climber: int, start: FloatArray) -> tuple[float, FloatArray] | None:
+    def climb(
+        self, climber: int, merit: Rows, start: FloatArray
+    ) -> tuple[float, FloatArray] | None:
         """Climb from a start, together with the others."""
         try:
-            return _allowed(lambda points: self._ask(climber, points), start)
+            return _allowed(lambda points: merit(self._ask(climber, points)), start)
         finally:
             with self._all_asked:
                 self._climbing -= 1
@@ -134,7 +155,7 @@ class _Rope:
         asked = dict(sorted(self._asked.items()))
         self._asked.clear()
         try:
-            rows = self._merit(np.concatenate(list(asked.values())))
+            rows = self._worth(np.concatenate(list(asked.values())))
         except BaseException as failure:
             self._failure = failure
         else:
@@ -143,7 +164,7 @@ class _Rope:
         self._all_asked.notify_all()
 
 
-def _allowed(merit: Merit, start: FloatArray) -> tuple[float, FloatArray] | None:
+def _allowed(merit: Rows, start: FloatArray) -> tuple[float, FloatArray] | None:
     """Return the height and the place of the end of a climb that keeps all constraints."""
     end = _top(merit, start) if start.size else start
     # Where a constraint has a kink the climb may end a little beyond it: then back to the start,
@@ -157,37 +178,54 @@ def _allowed(merit: Merit, start: FloatArray) -> tuple[float, FloatArray] | None
     return float(rows[best, 0]), ways[best]
 
 
-def _top(merit: Merit, start: FloatArray) -> FloatArray:
+def _top(merit: Rows, start: FloatArray) -> FloatArray:
     from scipy.optimize import minimize
 
     slope = _Slope(merit)
-    answer = minimize(
-        lambda point: -slope(point)[0][0],
-        start,
-        jac=lambda point: -slope(point)[1][0],
-        method="SLSQP",
-        bounds=[(0.0, 1.0)] * len(start),
-        constraints={
-            "type": "ineq",
-            "fun": lambda point: slope(point)[0][1:] - _MARGIN,
-            "jac": lambda point: slope(point)[1][1:],
-        },
-        options={"ftol": 1e-12, "maxiter": _ITERATIONS},
-    )
+    try:
+        answer = minimize(
+            lambda point: -slope(point)[0][0],
+            start,
+            jac=lambda point: -slope(point)[1][0],
+            method="SLSQP",
+            bounds=[(0.0, 1.0)] * len(start),
+            constraints={
+                "type": "ineq",
+                "fun": lambda point: slope(point)[0][1:] - _MARGIN,
+                "jac": lambda point: slope(point)[1][1:],
+            },
+            options={"ftol": 1e-12, "maxiter": _ITERATIONS},
+        )
+    except _ThereError as there:
+        return there.point
     top: FloatArray = np.clip(answer.x, 0.0, 1.0)
     return top
 
 
-class _Slope:
-    """Value and slopes at a point, by differences in one call, kept for the next question."""
+class _ThereError(Exception):
+    """A climb treads on the spot: what is left to gain is lost in the rounding of differences."""
 
-    def __init__(self, merit: Merit) -> None:
+    def __init__(self, point: FloatArray) -> None:
+        self.point = np.clip(point, 0.0, 1.0)
+
+
+class _Slope:
+    """Value and slopes at a point, by differences in one call, kept for the next question.
+
+    Raises _ThereError where the questions have come from one spot for some time.
+    """
+
+    def __init__(self, merit: Rows) -> None:
         self._merit = merit
         self._at: bytes = b""
         self._answer: tuple[FloatArray, FloatArray] = (np.empty(0), np.empty((0, 0)))
+        self._asked: deque[FloatArray] = deque(maxlen=_PATIENCE)
 
     def __call__(self, point: FloatArray) -> tuple[FloatArray, FloatArray]:
         if point.tobytes() != self._at:
+            self._asked.append(point.copy())
+            if len(self._asked) == _PATIENCE and np.ptp(self._asked, axis=0).max() < _STILL:
+                raise _ThereError(point)
             # Backwards at the far side, to stay inside.
             steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
             rows = self._merit(np.vstack([point, point + np.diag(steps)]))

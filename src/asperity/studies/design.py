@@ -7,6 +7,7 @@ factor, axial module and roughness remain. The profile shift makes up for the ce
 import dataclasses
 import functools
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,9 @@ _NUMBERS = {
     "M_w_Nm": "bs721.M_w_Nm",
     "M_s_Nm": "bs721.M_s_Nm",
 }
+
+WORTH = ("eta_z1_2", "M_w_Nm", "M_s_Nm", "profile_shift")
+"""What a design is judged by."""
 
 Span = tuple[float, float]
 
@@ -172,6 +176,25 @@ class Space:
         shift = np.broadcast_to(found.given.profile_shift, found.shape)
         numbers = {key: found[path] for key, path in _NUMBERS.items()} | {"profile_shift": shift}
         return numbers | {"M_permissible_Nm": np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"])}
+
+    def worth(self, points: FloatArray) -> FloatArray:
+        """Return efficiency, torques permitted by wear and strength, and profile shift, in rows."""
+        found = self.numbers(points)
+        return np.stack([found[key] for key in WORTH], axis=-1)
+
+    def merit(self, rows: FloatArray, least: Mapping[str, float]) -> FloatArray:
+        """Return from rows of worth the efficiency, and the room of torques and profile shift.
+
+        Parameters
+        ----------
+        rows : ndarray
+            Of `worth`.
+        least : mapping of str to float
+            Least torques by key.
+        """
+        found = dict(zip(WORTH, rows.T, strict=True))
+        room = [found[key] / bound - 1.0 for key, bound in least.items()]
+        return np.stack([rows[:, 0], *room, *self.room(found["profile_shift"])], axis=-1)
 
     @functools.cached_property
     def sample(self) -> tuple[FloatArray, dict[str, FloatArray]]:

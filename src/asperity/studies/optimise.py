@@ -11,9 +11,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-import numpy as np
-
-from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
@@ -224,17 +221,10 @@ def optimise(
         )
     space = Space(gearset, operation, options, bounds, folder)
     kept = space.numbers(space.start)
-
-    def merit(points: FloatArray) -> FloatArray:
-        found = space.numbers(points)
-        rows = [found["eta_z1_2"]]
-        rows += [found[key] / bound - 1.0 for key, bound in least.items()]
-        return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
-
     least = {key: float(kept[key]) for key in ("M_w_Nm", "M_s_Nm")}
     begin = [space.start, *spread(space.dimensions, starts)]
     begin += space.best_of_sample("eta_z1_2", **least)
-    top = climb(merit, begin)
+    top = climb(lambda points: space.merit(space.worth(points), least), begin)
     assert top is not None  # the gearset as it is keeps its own load capacity
     design = space.gearset_at(top.point)
     before, after = (rate(g, operation, options, folder=folder) for g in (gearset, design))

@@ -6,7 +6,7 @@ bears. The permissible torque is the lower of those for wear and strength by BS 
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -18,7 +18,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.results import Result
 from asperity.results.table import Table
-from asperity.studies.climb import Top, climb, spread
+from asperity.studies.climb import Hill, Top, climb, climb_together, spread
 from asperity.studies.design import VARIABLES, Bounds, Space
 from asperity.studies.layout import labelled, percent
 from asperity.studies.quantities import varied_quantity
@@ -148,17 +148,15 @@ def trade_off(
     now = space.numbers(space.start)
     unit = float(now["M_permissible_Nm"])
     begin = [space.start, *spread(space.dimensions, _STARTS)]
-    first = _most_efficient(space, begin, 0.0)
+    (first,) = _most_efficient(space, begin, [0.0])
     strongest = _strongest(space, [first.point, *begin], unit)
     lowest, highest = _permissible(space, first.point), _permissible(space, strongest.point)
     required = np.linspace(lowest, highest, points)
     if highest - lowest <= _FLAT * unit:
         required = required[:1]
-    tops = [first]
-    for torque in required[1:]:
-        # From both ends, because a weak design cannot always be climbed from.
-        begin = [tops[-1].point, strongest.point]
-        tops.append(_most_efficient(space, begin, torque * (1.0 - _ROOM)))
+    # From both ends, because a weak design cannot always be climbed from.
+    begin = [first.point, strongest.point]
+    tops = [first, *_most_efficient(space, begin, required[1:] * (1.0 - _ROOM))]
     found = np.array([top.point for top in tops])
     numbers = space.numbers(found)
     designs = space.values(found)
@@ -185,17 +183,15 @@ def _permissible(space: Space, point: FloatArray) -> float:
     return float(space.numbers(point)["M_permissible_Nm"])
 
 
-def _most_efficient(space: Space, begin: list[FloatArray], torque: float) -> Top:
-    def merit(points: FloatArray) -> FloatArray:
-        found = space.numbers(points)
-        rows = [found["eta_z1_2"]]
-        if torque > 0.0:
-            rows += [found[key] / torque - 1.0 for key in ("M_w_Nm", "M_s_Nm")]
-        return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
+def _most_efficient(space: Space, begin: list[FloatArray], torques: Iterable[float]) -> list[Top]:
+    def hill(torque: float) -> Hill:
+        least = dict.fromkeys(("M_w_Nm", "M_s_Nm"), torque) if torque > 0.0 else {}
+        starts = begin + space.best_of_sample("eta_z1_2", M_permissible_Nm=torque)
+        return lambda rows: space.merit(rows, least), starts
 
-    top = climb(merit, begin + space.best_of_sample("eta_z1_2", M_permissible_Nm=torque))
-    assert top is not None  # one of the starts bears the torque
-    return top
+    tops = climb_together(space.worth, [hill(torque) for torque in torques])
+    assert None not in tops  # one of the starts bears the torque
+    return [top for top in tops if top]
 
 
 def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
