@@ -12,13 +12,17 @@ of the drive are not used. It is slow, and meant for small meshes and for compar
 
 import dataclasses
 import functools
+import weakref
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.sparse.linalg import splu
 
+from asperity.arrays import FloatArray
 from asperity.contact.elastic.body import ElasticBody
-from asperity.contact.elastic.solver import GeneralSolver
+from asperity.contact.elastic.solver import SYMMETRIC_PATTERN, installed_solver, new_pardiso
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
 from asperity.contact.interface.tractions import tractions
@@ -37,6 +41,50 @@ _AT_REST = 1e-9
 # Steps of loading are so long that the inertia is this share of the contact's stiffness.
 _INERTIA_AT_REST = 1e-5
 _MOST_KEPT = 4
+
+
+class GeneralSolver:
+    """Solves one system of equations after another that need not be symmetric.
+
+    Where the places of the entries are those of the matrix before, PARDISO's ordering of them is
+    kept, and the matrix is only factorised anew.
+
+    Parameters
+    ----------
+    solver : {'auto', 'pypardiso', 'superlu'}
+        Direct solver.
+    """
+
+    def __init__(self, solver: str = "auto") -> None:
+        self.name = installed_solver(solver)
+        self._backend: Any = None
+        self._places: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None
+
+    def solve(self, matrix: sparse.csr_array, right: FloatArray) -> FloatArray:
+        """Return the solution.
+
+        Parameters
+        ----------
+        matrix : scipy.sparse.csr_array, shape (n, n)
+            Regular, of nearly symmetric pattern.
+        right : ndarray, shape (n,)
+            Right-hand side.
+        """
+        if self.name == "superlu":
+            return np.asarray(splu(sparse.csc_matrix(matrix), **SYMMETRIC_PATTERN).solve(right))
+        ordered = sparse.csr_matrix(matrix)
+        ordered.sort_indices()
+        places = ordered.indptr, ordered.indices
+        known = self._places is not None and all(map(np.array_equal, places, self._places))
+        if self._backend is None:
+            unsymmetric = 11
+            self._backend = new_pardiso(unsymmetric)
+            weakref.finalize(self, self._backend.free_memory, everything=True)
+        self._places = places
+        factorise_and_solve, all_phases = 23, 13
+        self._backend.set_phase(factorise_and_solve if known else all_phases)
+        answer: FloatArray = self._backend._call_pardiso(ordered, right[:, None])
+        return answer[:, 0]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -5,11 +5,12 @@ import functools
 import numpy as np
 import pytest
 from apparatus.halfspace import half_space
+from apparatus.meshes import merged
 
 from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.elastic.solver import factorise
 from asperity.contact.interface.surface import contact_surface
-from asperity.mesh import HexMesh, box, merged
+from asperity.mesh import HexMesh, box
 
 # Factors by which shells about the patch grow: in the end the body is a thousand patches large.
 SHELLS = {

@@ -22,15 +22,17 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from apparatus.halfspace import half_plane
+from apparatus.loads import Force
+from apparatus.meshes import merged
 from scipy.spatial.transform import Rotation
 
-from asperity.contact.elastic import ElasticMaterial, Force, condense
+from asperity.contact.elastic import ElasticMaterial, condense
 from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
 from asperity.contact.motion.static import Guide, load_to
-from asperity.mesh import box, merged
+from asperity.mesh import box
 
 E, NU = 210e9, 0.3
 MODULUS = E / (1.0 - NU**2)

@@ -87,7 +87,7 @@ def test_statics_are_exact_while_the_surface_presses_and_rubs_a_tied_block(name,
             Drift(np.array([slide, 0.0, 0.0])),
             Drift(np.array([0.0, 0.5 * slide, 0.0])),
         )
-        free = share * condensed.load_response("side").displacement
+        free = share * condensed.load_flexibility[:, condensed.load_index("side")]
         found = solver.solve(free, motion, mine)
         mine = found.state
         theirs = whole.static_step(theirs, share * side, motion)

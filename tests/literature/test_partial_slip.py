@@ -26,13 +26,14 @@ import numpy as np
 import pytest
 from apparatus.grid import slow
 from apparatus.halfspace import half_plane
+from apparatus.static_paths import follow, on_guide
 
 from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.friction import COULOMB, DAHL, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.motion.static import Guide, follow, load_to, on_guide
+from asperity.contact.motion.static import Guide, load_to
 from asperity.friction import VECTOR
 from asperity.mesh import HexMesh, box
 

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from apparatus.grid import grid
+from apparatus.released import released
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,7 +17,7 @@ from asperity.contact.increment.problem import ContactState
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.motion import hht, ledger
-from asperity.contact.motion.rest import released, rest_under_load
+from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 from asperity.errors import ConvergenceError
 

@@ -8,16 +8,16 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from apparatus.loads import Force
 
 from asperity.contact.elastic import (
     ElasticMaterial,
-    Force,
     Pressure,
     Traction,
     condense,
     elastic_body,
     machine_memory,
-    memory_needed,
+    memory_for,
 )
 from asperity.contact.elastic.solver import factorise, installed_solver
 from asperity.errors import InputError
@@ -139,7 +139,7 @@ def test_the_memory_is_the_machine_s_or_less_of_it_in_a_container(said, monkeypa
 
 def test_a_mesh_that_does_not_fit_this_machine_is_refused_and_one_that_does_is_not(monkeypatch):
     mesh = box(SIZE, (20, 20, 20), 1)
-    needed = memory_needed(mesh, 21 * 21, solver=installed_solver())
+    needed = memory_for(len(mesh.points), mesh.cells.shape, 21 * 21, solver=installed_solver())
     monkeypatch.setattr(condensing, "machine_memory", lambda: 0.9 * needed)
     with pytest.raises(InputError, match=r"needs about \S+ GB, more than the limit of \S+ GB"):
         condense(mesh, STEEL, "bottom", use_cache=False)
@@ -147,7 +147,7 @@ def test_a_mesh_that_does_not_fit_this_machine_is_refused_and_one_that_does_is_n
 
 def test_a_mesh_too_large_for_the_memory_is_refused_with_the_figure_before_any_work():
     mesh = box(SIZE, (40, 40, 40), 1)
-    needed = memory_needed(mesh, 41 * 41)
+    needed = memory_for(len(mesh.points), mesh.cells.shape, 41 * 41)
     assert needed > 1e9
     with pytest.raises(InputError, match=r"needs about \d+(\.\d)? GB, more than the limit of 1 GB"):
         condense(mesh, STEEL, "bottom", memory_limit=1e9, use_cache=False)
@@ -227,14 +227,14 @@ def test_a_body_has_the_loads_it_was_given_and_gravity():
     body = condense(box(SIZE, (2, 1, 1)), STEEL, "bottom", loads=LOADS, use_cache=False)
     assert body.load_names == ("gravity_x", "gravity_y", "gravity_z", "drive")
     with pytest.raises(InputError, match=r"no load 'drvie' .did you mean 'drive'"):
-        body.load_response("drvie")
+        body.load_index("drvie")
 
 
 _PEAK = """
 import sys
 from pathlib import Path
 import numpy as np
-from asperity.contact.elastic import ElasticMaterial, condense, memory_needed
+from asperity.contact.elastic import ElasticMaterial, condense, memory_for
 from asperity.mesh import box
 
 def peak_so_far():  # of this program alone: that of getrusage counts the one it was started from
@@ -247,7 +247,8 @@ condense(box((1, 1, 1), (2, 1, 1)), material, "bottom", solver=solver, modes=1, 
 before = peak_so_far()
 mesh = box((0.04, 0.03, 0.03), (8, 6, 6), 2)
 condense(mesh, material, "left", solver=solver, modes=2, use_cache=False)
-needed = memory_needed(mesh, len(mesh.node_set("left")), modes=2, solver=solver)
+contact = len(mesh.node_set("left"))
+needed = memory_for(len(mesh.points), mesh.cells.shape, contact, modes=2, solver=solver)
 print((peak_so_far() - before) / needed)
 """
 

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from apparatus.static_paths import follow, on_guide
 from scipy.spatial.transform import Rotation
 
 from asperity.contact.elastic import ElasticMaterial, Pressure, condense
@@ -12,7 +13,7 @@ from asperity.contact.interface.friction import COULOMB, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.motion.static import Guide, follow, load_to, move_to, on_guide
+from asperity.contact.motion.static import Guide, load_to, move_to
 from asperity.errors import ConvergenceError, InputError
 from asperity.mesh import box
 
@@ -69,7 +70,7 @@ def test_a_turn_bears_the_moment_of_its_forces():
 
 def test_other_loads_come_with_the_way_and_stay():
     solver = solver_of(counter=RigidSurface.plane())
-    free = BODY.load_response("side").displacement * 1e6
+    free = BODY.load_flexibility[:, BODY.load_index("side")] * 1e6
     guide = Guide(UP)
     state = move_to(solver, guide, 1e-6, free=free, increments=3)
     assert state.contact.displacement == pytest.approx(

@@ -4,9 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from apparatus.meshes import is_watertight, merged, open_edges, quadratic
 
 from asperity.errors import InputError
-from asperity.mesh import HexMesh, box, merged, shape
+from asperity.mesh import HexMesh, box, shape
 
 ORDERS = pytest.mark.parametrize("order", [1, 2])
 
@@ -126,18 +127,18 @@ def test_the_volume_of_a_ball_converges_with_the_order_of_the_cells():
 @ORDERS
 def test_the_skin_of_a_mesh_is_closed_and_a_missing_cell_leaves_it_closed(order):
     mesh = box((1, 1, 1), (3, 3, 3), order)
-    assert mesh.is_watertight()
+    assert is_watertight(mesh)
     assert len(mesh.skin()) == 54
     hollow = HexMesh(mesh.points, np.delete(mesh.cells, 13, axis=0))
-    assert hollow.is_watertight()
+    assert is_watertight(hollow)
     assert len(hollow.skin()) == 60
 
 
 def test_cells_that_touch_along_an_edge_alone_do_not_close_the_skin():
     mesh = box((1, 1, 1), (2, 2, 1))
     diagonal = HexMesh(mesh.points, mesh.cells[[0, 3]])
-    assert not diagonal.is_watertight()
-    assert len(diagonal.open_edges()) == 2
+    assert not is_watertight(diagonal)
+    assert len(open_edges(diagonal)) == 2
 
 
 def test_a_face_of_three_cells_is_refused():
@@ -148,14 +149,14 @@ def test_a_face_of_three_cells_is_refused():
 
 def test_a_quadratic_mesh_is_the_same_body_with_nodes_in_the_middle():
     linear = bent(box((1, 1, 1), (3, 2, 2)))
-    mesh = linear.quadratic()
+    mesh = quadratic(linear)
     straight = box((1, 1, 1), (3, 2, 2), 2)
     assert len(mesh.points) == len(straight.points)
     assert mesh.volume() == pytest.approx(linear.volume(), rel=1e-13)
     values, _ = shape.cell_shapes(shape.REFERENCE_NODES, 8)
     expected = np.einsum("qn,mni->mqi", values, linear.points[linear.cells])
     np.testing.assert_allclose(mesh.points[mesh.cells], expected, atol=1e-15)
-    assert mesh.is_watertight()
+    assert is_watertight(mesh)
     for name in straight.node_sets:
         assert len(mesh.node_set(name)) == len(straight.node_set(name))
         assert set(mesh.node_set(name)) == set(mesh.face_nodes(name).ravel())
@@ -164,7 +165,7 @@ def test_a_quadratic_mesh_is_the_same_body_with_nodes_in_the_middle():
 def test_a_quadratic_mesh_keeps_sets_of_nodes_that_are_no_face():
     mesh = box((1, 1, 1), (2, 1, 1))
     line = np.flatnonzero((mesh.points[:, 1] < 0) & (mesh.points[:, 2] == 0))
-    named = HexMesh(mesh.points, mesh.cells, {"edge": line}).quadratic()
+    named = quadratic(HexMesh(mesh.points, mesh.cells, {"edge": line}))
     points = named.points[named.node_set("edge")]
     np.testing.assert_allclose(np.sort(points[:, 0]), [-0.5, -0.25, 0, 0.25, 0.5])
     np.testing.assert_allclose(points[:, 1:], [[-0.5, 0]] * 5)
@@ -197,7 +198,7 @@ def test_turned_copies_join_to_a_ring(order):
             for a in turns
         ]
     )
-    assert ring.is_watertight()
+    assert is_watertight(ring)
     assert ring.volume() == pytest.approx(6 * sector.volume(), rel=1e-12)
     assert len(ring.points) == 24 * order * (2 * order + 1) ** 2
     assert not len(ring.face_set("left"))
@@ -210,7 +211,7 @@ def test_meshes_that_do_not_touch_stay_apart():
     mesh = box((1, 1, 1), (1, 1, 1))
     both = merged([mesh, mesh.transformed(offset=(2, 0, 0))])
     assert len(both.points) == 16
-    assert both.is_watertight()
+    assert is_watertight(both)
     assert len(both.face_set("left")) == 2
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import trimesh
+from apparatus.meshes import skin
 
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
@@ -19,7 +20,7 @@ def barrel(order, unit="mm"):
 @pytest.mark.parametrize("order", [1, 2])
 def test_the_skin_of_a_mesh_is_a_closed_surface_with_its_outside_outside(order):
     mesh = barrel(order)
-    surface = Surface.of_mesh(mesh)
+    surface = skin(mesh)
     solid = trimesh.Trimesh(surface.points, surface.triangles, process=False)
     assert solid.is_volume
     assert len(surface.triangles) == 2 * 96 * order**2
@@ -35,7 +36,7 @@ def test_a_grid_has_its_outside_where_its_rows_turn_towards_its_columns():
 
 
 def test_stl_comes_back_with_its_triangles(tmp_path):
-    surface = Surface.of_mesh(barrel(1))
+    surface = skin(barrel(1))
     solid = trimesh.load_mesh(write_stl(tmp_path / "a.stl", surface))
     assert solid.is_volume
     assert len(solid.faces) == len(surface.triangles)
@@ -45,7 +46,7 @@ def test_stl_comes_back_with_its_triangles(tmp_path):
 
 def test_glb_comes_back_in_metres_with_y_upwards_named_and_coloured(tmp_path):
     mesh = barrel(1)
-    surface = Surface.of_mesh(mesh)
+    surface = skin(mesh)
     colours = np.tile([1.0, 0.5, 0.0], (len(surface.points), 1))
     coloured = Surface(surface.points, surface.triangles, "mm", colours)
     path = write_glb(tmp_path / "a.glb", {"plain": surface, "coloured": coloured})
@@ -60,7 +61,7 @@ def test_glb_comes_back_in_metres_with_y_upwards_named_and_coloured(tmp_path):
 
 
 def test_glb_is_shaded_smoothly_but_for_creases(tmp_path):
-    cube = Surface.of_mesh(box((1, 1, 1), (2, 2, 2)))
+    cube = skin(box((1, 1, 1), (2, 2, 2)))
     scene = trimesh.load_scene(write_glb(tmp_path / "a.glb", {"cube": cube}))
     normals = scene.geometry["cube"].vertex_normals
     # Every corner of a cube's triangle is shaded with its own face's normal.
@@ -68,7 +69,7 @@ def test_glb_is_shaded_smoothly_but_for_creases(tmp_path):
 
 
 def test_surfaces_join_and_keep_their_colours():
-    one = Surface.of_mesh(box((1, 1, 1), (1, 1, 1)))
+    one = skin(box((1, 1, 1), (1, 1, 1)))
     both = joined([one, one])
     assert both.volume() == pytest.approx(2)
     red = Surface(one.points, one.triangles, "m", np.tile([1.0, 0, 0], (8, 1)))
@@ -87,7 +88,7 @@ def test_surfaces_join_and_keep_their_colours():
     ],
 )
 def test_a_surface_cannot_hold_nonsense(change, message):
-    one = Surface.of_mesh(box((1, 1, 1), (1, 1, 1)))
+    one = skin(box((1, 1, 1), (1, 1, 1)))
     with pytest.raises(InputError, match=message):
         Surface(**{"points": one.points, "triangles": one.triangles} | change)
 

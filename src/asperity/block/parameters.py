@@ -189,19 +189,10 @@ class Contact(Table):
         return None if isinstance(value, str) and value.strip() == "auto" else value
 
     def normal_stiffness(self, youngs_modulus: float, element_height: float) -> float:
-        """Pressure per overclosure, Pa/m: as given, or ten times that of the elements in contact.
+        """Pressure per overclosure, Pa/m: as given, or 10 E/h of the elements in contact.
 
-        Parameters
-        ----------
-        youngs_modulus : float
-            Of the softer body, Pa.
-        element_height : float
-            Height of its elements at the contact, normal to it, m.
-
-        Returns
-        -------
-        float
-            ``stiffness``, or ``10 E / h``.
+        The modulus, Pa, is the softer body's, the height, m, that of its elements normal to the
+        contact.
         """
         if self.stiffness is not None:
             return self.stiffness

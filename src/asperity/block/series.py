@@ -18,54 +18,22 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Frame:
-    """One moment of a block, enough to draw all of it.
+    """One moment of a block, enough to draw all of it."""
 
-    Attributes
-    ----------
-    time : float
-        s.
-    coordinates : ndarray, shape (m,)
-        Generalised coordinates.
-    drive_force : float
-        N.
-    force : ndarray, shape (3 n,)
-        Contact forces on the block, N.
-    pressure : ndarray, shape (q,)
-        At the points of the contact, Pa.
-    traction : ndarray, shape (q, 3)
-        On the block, Pa.
-    """
-
-    time: float
-    coordinates: FloatArray
-    drive_force: float
-    force: FloatArray
-    pressure: FloatArray
-    traction: FloatArray
+    time: float  #: s
+    coordinates: FloatArray  #: (m,): Generalised coordinates
+    drive_force: float  #: N
+    force: FloatArray  #: (3 n,): Contact forces on the block, N
+    pressure: FloatArray  #: (q,): At the points of the contact, Pa
+    traction: FloatArray  #: (q, 3): On the block, Pa
 
 
 def write_block_series(problem: "BlockProblem", frames: tuple[Frame, ...], path: Path) -> Path:
-    """Write a block's frames for ParaView, which plays the ``.pvd`` file.
+    """Write a block's frames for ParaView, which plays the ``.pvd`` file they stand beside.
 
-    At the nodes of the block: ``displacement`` (m), from where it stood unloaded;
-    ``deformation`` (m), that part of it which is not rigid motion, to be magnified; on the bottom
-    ``pressure_Pa`` and ``friction_Pa``, zero elsewhere.
-
-    Parameters
-    ----------
-    problem : BlockProblem
-        The block.
-    frames : tuple of Frame
-        Moments of it.
-    path : path
-        The ``.pvd`` file; the frames stand beside it.
-
-    Raises
-    ------
-    InputError
-        There are no frames.
-    StorageError
-        A file cannot be written.
+    At the nodes of the block: ``displacement`` (m), from where it stood unloaded; ``deformation``
+    (m), that part of it which is not rigid motion, to be magnified; on the bottom ``pressure_Pa``
+    and ``friction_Pa``, zero elsewhere.
     """
     if not frames:
         raise InputError("the result has no frames to write; solve with history=True")

@@ -14,13 +14,7 @@ from asperity.runs import Run
 
 
 def prepare(case: Case) -> BlockProblem:
-    """Return the problem of a case.
-
-    Raises
-    ------
-    InputError
-        It cannot be solved.
-    """
+    """Return the problem of a case, checked; InputError where it cannot be solved."""
     problem = BlockProblem.from_case(case)
     check(problem)
     return problem

@@ -2,6 +2,5 @@
 
 from asperity.mesh.box import box
 from asperity.mesh.hexmesh import HexMesh
-from asperity.mesh.merge import merged
 
-__all__ = ["HexMesh", "box", "merged"]
+__all__ = ["HexMesh", "box"]

@@ -81,41 +81,22 @@ class HexMesh:
         return 1 if self.cells.shape[1] == 8 else 2
 
     def node_set(self, name: str) -> IntArray:
-        """Return the nodes of a set.
-
-        Raises
-        ------
-        InputError
-            There is no such set.
-        """
+        """Return the nodes of a set; InputError where there is none of the name."""
         if name not in self.node_sets:
             raise InputError(f"the mesh has no node set {name!r}{nearest(name, self.node_sets)}")
         return self.node_sets[name]
 
     def face_set(self, name: str) -> IntArray:
-        """Return the faces of a set, shape (k, 2): cell and local face.
-
-        Raises
-        ------
-        InputError
-            There is no such set.
-        """
+        """Return the faces of a set, (k, 2): cell and local face; InputError if there is none."""
         if name not in self.face_sets:
             raise InputError(f"the mesh has no face set {name!r}{nearest(name, self.face_sets)}")
         return self.face_sets[name]
 
     def face_nodes(self, faces: str | ArrayLike) -> IntArray:
-        """Return the nodes of faces, counterclockwise seen from outside.
+        """Return the nodes of a named set of faces, or of cells and local faces, shape (k, 2).
 
-        Parameters
-        ----------
-        faces : str or array_like of int, shape (k, 2)
-            Name of a face set, or cells and local faces.
-
-        Returns
-        -------
-        ndarray of int, shape (k, 4) or (k, 9)
-            Corners; for 27-node cells then the middles of the edges and of the face.
+        Counterclockwise seen from outside, (k, 4) or (k, 9): corners; for 27-node cells then the
+        middles of the edges and of the face.
         """
         pairs = self.face_set(faces) if isinstance(faces, str) else np.asarray(faces, np.int64)
         local = shape.FACES if self.order == 1 else shape.QUADRATIC_FACES
@@ -125,10 +106,7 @@ class HexMesh:
     def skin_faces(self) -> IntArray:
         """Return the faces that belong to one cell alone, shape (k, 2): cell and local face.
 
-        Raises
-        ------
-        InputError
-            A face belongs to more than two cells.
+        InputError where a face belongs to more than two cells.
         """
         corners = np.sort(self.cells[:, shape.FACES].reshape(-1, 4), axis=1)
         _, index, count = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
@@ -142,20 +120,6 @@ class HexMesh:
         faces = self.skin_faces()
         quads: IntArray = self.cells[faces[:, :1], shape.FACES[faces[:, 1]]]
         return quads
-
-    def open_edges(self) -> IntArray:
-        """Return the skin's edges that do not join exactly two faces of it, shape (k, 2)."""
-        quads = self.skin()
-        edges = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
-        directed, count = np.unique(edges, axis=0, return_counts=True)
-        keys = directed @ np.array([len(self.points), 1])
-        reverse = directed[:, ::-1] @ np.array([len(self.points), 1])
-        wrong = (count > 1) | ~np.isin(reverse, keys)
-        return directed[wrong]
-
-    def is_watertight(self) -> bool:
-        """Return whether the skin is closed: every edge once in each direction."""
-        return not len(self.open_edges())
 
     def jacobians(self) -> FloatArray:
         """Return det J at the cells' Gauss points, shape (m, 8) or (m, 27), unit cubed.
@@ -189,38 +153,6 @@ class HexMesh:
         length = np.linalg.norm(triples, axis=-1, keepdims=True)
         units = np.divide(triples, length, out=np.zeros_like(triples), where=length > 0)
         return np.asarray(np.clip(np.linalg.det(units).min(axis=1), -1.0, 1.0))
-
-    def quadratic(self) -> "HexMesh":
-        """Return the mesh with 27 nodes a cell: the new nodes lie in the middle of the old ones.
-
-        A face set stays. A node set that is named like a face set holds that set's nodes; another
-        gains a new node where it holds all corners of the new node's edge, face or cell.
-        """
-        if self.order == 2:
-            return self
-        cells, points = [self.cells], [self.points]
-        whole = np.arange(8)[None, :]
-        parents: list[tuple[IntArray, int]] = []
-        start = len(self.points)
-        for local in (shape.EDGES, shape.FACES, whole):
-            owners = np.sort(self.cells[:, local].reshape(-1, local.shape[1]), axis=1)
-            unique, index = np.unique(owners, axis=0, return_inverse=True)
-            points.append(self.points[unique].mean(axis=1))
-            cells.append(start + index.reshape(len(self.cells), len(local)))
-            parents.append((unique, start))
-            start += len(unique)
-        mesh = HexMesh(
-            np.concatenate(points), np.concatenate(cells, axis=1), {}, self.face_sets, self.unit
-        )
-        node_sets = {}
-        for name, nodes in self.node_sets.items():
-            held = np.zeros(len(self.points), dtype=bool)
-            held[nodes] = True
-            gained = [first + np.flatnonzero(held[owner].all(axis=1)) for owner, first in parents]
-            if name in self.face_sets:
-                gained = [np.setdiff1d(mesh.face_nodes(name), nodes)]
-            node_sets[name] = np.concatenate([nodes, *gained])
-        return replace(mesh, node_sets=node_sets)
 
     def transformed(
         self, matrix: ArrayLike | None = None, offset: ArrayLike = (0.0, 0.0, 0.0)

@@ -32,31 +32,18 @@ def mesh_lines(
     first_node: int = 1,
     first_element: int = 1,
 ) -> Iterator[str]:
-    """Yield the lines of an input file that define a mesh, for a deck that holds more.
+    """Yield the lines that define a mesh, in its own unit, in an input file that holds more.
 
-    Parameters
-    ----------
-    mesh : HexMesh
-        Coordinates are written in the mesh's own unit.
-    element : str, optional
-        One of `ELEMENTS`; default ``C3D8`` or ``C3D27``. CalculiX has no 27-node element.
-    element_set : str
-        Name of the set of all elements.
-    element_sets : mapping of str to array_like of int, optional
-        More named cells.
-    first_node, first_element : int
-        Numbers of the first node and element; the others follow.
-
-    Yields
-    ------
-    str
-        Lines without their ends.
+    The element type is one of `ELEMENTS`, by default ``C3D8`` or ``C3D27``; CalculiX has no 27-node
+    element. ``element_set`` names all elements, ``element_sets`` more cells; nodes and elements are
+    numbered from the first ones given.
 
     Raises
     ------
     InputError
-        An element type that is not known or has another number of nodes, or a name the solvers
-        do not take.
+        An element type that is not known or has another number of nodes, or a name the solvers do
+        not
+        take.
     """
     nodes = mesh.cells.shape[1]
     element = element or f"C3D{nodes}"

@@ -10,18 +10,9 @@ def triangulate(corners: ArrayLike) -> NDArray[np.int64]:
     """Cut a plane polygon into triangles between its corners, by cutting off ears.
 
     Of the ears that can be cut off the one with the shortest new edge goes first, so that no
-    triangle is a long splinter where another choice is left.
-
-    Parameters
-    ----------
-    corners : array_like, shape (n, 2) or (n, 3)
-        The corners in their order round the polygon, which may have hollows but must not cross
-        itself; in space they lie in one plane.
-
-    Returns
-    -------
-    ndarray of int, shape (n - 2, 3)
-        Corners of each triangle, in the polygon's own sense.
+    triangle is a long splinter where another choice is left. The corners, (n, 2) or in one plane of
+    space (n, 3), stand in their order round the polygon, which may have hollows but must not cross
+    itself. The triangles, (n - 2, 3), have the polygon's own sense.
 
     Raises
     ------

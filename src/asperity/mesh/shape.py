@@ -96,24 +96,10 @@ def _products(
 
 
 def cell_shapes(points: ArrayLike, nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return shape functions of a hexahedron and their derivatives by reference coordinates.
+    """Return shape functions of a hexahedron of 8 or 27 nodes, and their derivatives.
 
-    Parameters
-    ----------
-    points : array_like, shape (q, 3)
-        Reference coordinates in [-1, 1].
-    nodes : {8, 27}
-        Nodes of the cell.
-
-    Returns
-    -------
-    values : ndarray, shape (q, nodes)
-    slopes : ndarray, shape (q, nodes, 3)
-
-    Raises
-    ------
-    InputError
-        There is no such cell.
+    At reference coordinates in [-1, 1], (q, 3): values, (q, nodes), and slopes by them, (q, nodes,
+    3).
     """
     if nodes not in (8, 27):
         raise InputError(f"a hexahedron of {nodes} nodes is not known; allowed: 8, 27")
@@ -121,25 +107,11 @@ def cell_shapes(points: ArrayLike, nodes: int) -> tuple[NDArray[np.float64], NDA
 
 
 def face_shapes(points: ArrayLike, nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return shape functions of a face and their derivatives by its two reference coordinates.
+    """Return shape functions of a face of 4 or 9 nodes, and their derivatives.
 
-    Parameters
-    ----------
-    points : array_like, shape (q, 2)
-        Reference coordinates in [-1, 1].
-    nodes : {4, 9}
-        Nodes of the face, in the order of `FACES` or `QUADRATIC_FACES`.
-
-    Returns
-    -------
-    values : ndarray, shape (q, nodes)
-    slopes : ndarray, shape (q, nodes, 2)
-        Their cross product, first by second, points out of the cell.
-
-    Raises
-    ------
-    InputError
-        There is no such face.
+    At reference coordinates in [-1, 1], (q, 2): values, (q, nodes), and slopes by them, (q, nodes,
+    2), whose cross product, first by second, points out of the cell. The nodes stand in the order
+    of `FACES` or `QUADRATIC_FACES`.
     """
     if nodes not in (4, 9):
         raise InputError(f"a face of {nodes} nodes is not known; allowed: 4, 9")
@@ -149,12 +121,8 @@ def face_shapes(points: ArrayLike, nodes: int) -> tuple[NDArray[np.float64], NDA
 def gauss(count: int, dimension: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the product Gauss rule of ``count`` points a direction on [-1, 1]^dimension.
 
-    It integrates polynomials up to degree 2 count - 1 in each coordinate exactly.
-
-    Returns
-    -------
-    points : ndarray, shape (count**dimension, dimension)
-    weights : ndarray, shape (count**dimension,)
+    It integrates polynomials up to degree 2 count - 1 in each coordinate exactly. Points, of the
+    shape (count**dimension, dimension), and weights.
     """
     at, weight = np.polynomial.legendre.leggauss(count)
     points = np.stack(np.meshgrid(*[at] * dimension, indexing="ij"), axis=-1)

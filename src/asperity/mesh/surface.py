@@ -10,27 +10,14 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
 from asperity.errors import InputError
-from asperity.mesh.hexmesh import HexMesh, Unit
+from asperity.mesh.hexmesh import Unit
 
 _CORNERS = [[0, 1, 2], [0, 2, 3]]
-# A 9-node face as four quadrilaterals round its middle, two triangles each.
-_NINE = [[0, 4, 8], [0, 8, 7], [4, 1, 5], [4, 5, 8], [8, 5, 2], [8, 2, 6], [7, 8, 6], [7, 6, 3]]
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
     """A surface of triangles.
-
-    Parameters
-    ----------
-    points : ndarray, shape (n, 3)
-        Coordinates, in `unit`.
-    triangles : ndarray of int, shape (m, 3)
-        Points of each triangle, counterclockwise seen from outside.
-    unit : {'m', 'mm'}
-        Unit of the coordinates.
-    colours : ndarray, shape (n, 3), optional
-        Red, green and blue of each point, 0 to 1.
 
     Raises
     ------
@@ -39,10 +26,11 @@ class Surface:
         point does not exist.
     """
 
-    points: NDArray[np.float64]
+    points: NDArray[np.float64]  #: (n, 3): Coordinates, in `unit`
+    #: (m, 3): Points of each triangle, counterclockwise seen from outside
     triangles: NDArray[np.int64]
-    unit: Unit = "m"
-    colours: NDArray[np.float64] | None = None
+    unit: Unit = "m"  #: Unit of the coordinates
+    colours: NDArray[np.float64] | None = None  #: (n, 3): Red, green and blue of each point, 0 to 1
 
     def __post_init__(self) -> None:
         points = np.ascontiguousarray(self.points, dtype=np.float64)
@@ -62,14 +50,6 @@ class Surface:
             if colours.shape != points.shape or not ((colours >= 0) & (colours <= 1)).all():
                 raise InputError(f"colours must be {points.shape} numbers between 0 and 1")
             object.__setattr__(self, "colours", colours)
-
-    @classmethod
-    def of_mesh(cls, mesh: HexMesh) -> "Surface":
-        """Return the skin of a mesh; a 9-node face becomes eight triangles."""
-        faces = mesh.face_nodes(mesh.skin_faces())
-        local = np.array(_CORNERS if mesh.order == 1 else _NINE)
-        nodes, triangles = np.unique(faces[:, local].reshape(-1, 3), return_inverse=True)
-        return cls(mesh.points[nodes], triangles.reshape(-1, 3), mesh.unit)
 
     @classmethod
     def of_grid(cls, points: ArrayLike, unit: Unit = "mm") -> "Surface":
@@ -109,13 +89,7 @@ class Surface:
 
 
 def joined(surfaces: Sequence[Surface]) -> Surface:
-    """Return several surfaces of one unit as one; colours stay if all have them.
-
-    Raises
-    ------
-    InputError
-        No surfaces, or units that differ.
-    """
+    """Return surfaces, at least one and all of one unit, as one; colours stay if all have them."""
     if len({surface.unit for surface in surfaces}) != 1:
         raise InputError("joined needs surfaces, all of one unit")
     first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])

@@ -23,15 +23,7 @@ _MOST_TRIANGLES = 2**32 - 1
 
 
 def write_stl(path: str | os.PathLike[str], surface: Surface) -> Path:
-    """Write a surface as binary STL, atomically.
-
-    STL knows no unit; the coordinates are those of the surface.
-
-    Raises
-    ------
-    StorageError
-        The file cannot be written.
-    """
+    """Write a surface as binary STL, atomically, in its own coordinates: STL knows no unit."""
     facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     facets = np.zeros(len(surface.triangles), facet)
     facets["normal"] = surface.normals()
@@ -45,26 +37,10 @@ def write_stl(path: str | os.PathLike[str], surface: Surface) -> Path:
 def write_glb(
     path: str | os.PathLike[str], parts: Mapping[str, Surface], *, crease: float = 30.0
 ) -> Path:
-    """Write named surfaces as binary glTF 2.0, atomically, shaded smoothly between creases.
+    """Write named surfaces, at least one, as binary glTF 2.0, atomically, shaded between creases.
 
-    glTF counts in metres and has y upwards: the file holds a scale and a turn, the coordinates
-    stay.
-
-    Parameters
-    ----------
-    path : path
-        File to write, usually ``*.glb``.
-    parts : mapping of str to Surface
-        At least one.
-    crease : float
-        Angle in degrees beyond which two triangles meet in an edge that is seen.
-
-    Raises
-    ------
-    InputError
-        There is no part.
-    StorageError
-        The file cannot be written.
+    A crease is an edge at which two triangles meet that is seen: beyond this angle in degrees. glTF
+    counts in metres and has y upwards: the file holds a scale and a turn, the coordinates stay.
     """
     if not parts:
         raise InputError("there is no surface to write; give at least one")

@@ -26,26 +26,13 @@ def write_vtu(
 ) -> Path:
     """Write a mesh and what is known at its nodes and cells, for ParaView and its kin.
 
-    Parameters
-    ----------
-    path : path
-        File to write, usually ``*.vtu``; written whole or not at all.
-    mesh : HexMesh
-        Coordinates are written in the mesh's own unit.
-    point_data, cell_data : mapping of str to array_like, optional
-        Scalars (n,) or vectors (n, k) a node or a cell; the name should hold the unit.
-
-    Returns
-    -------
-    pathlib.Path
-        `path`.
+    Data are scalars (n,) or vectors (n, k) a node or a cell; the name should hold the unit.
+    Coordinates are written in the mesh's own unit.
 
     Raises
     ------
     InputError
         An array's length is not the number of nodes or cells, or a value is not finite.
-    StorageError
-        The file cannot be written.
     """
     content = b"".join(_vtu(mesh, point_data or {}, cell_data or {}))
     return write_atomically(path, lambda target: target.write_bytes(content))
@@ -56,29 +43,10 @@ def write_series(
 ) -> Path:
     """Write a series of meshes with data at their nodes, which ParaView plays as an animation.
 
-    The frames stand beside `path` as ``<stem>_0000.vtu`` and so on. If the frames end with an
-    exception, `path` names those that were written until then.
-
-    Parameters
-    ----------
-    path : path
-        The file to open, usually ``*.pvd``.
-    mesh : HexMesh
-        The mesh of all frames; a vector named ``displacement`` is what ParaView warps it by.
-    frames : iterable of (time in s, mapping of str to array_like)
-        Times and data at the nodes; taken one by one, so they may be made as they are written.
-
-    Returns
-    -------
-    pathlib.Path
-        `path`.
-
-    Raises
-    ------
-    InputError
-        As for `write_vtu`.
-    StorageError
-        A file cannot be written.
+    The frames, times in s and data taken one by one as they are written, stand beside `path`,
+    usually ``*.pvd``, as ``<stem>_0000.vtu`` and so on. If they end with an exception, `path` names
+    those that were written until then. A vector named ``displacement`` is what ParaView warps the
+    mesh by.
     """
     path = Path(path)
     entries = []

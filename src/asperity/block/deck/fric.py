@@ -35,24 +35,13 @@ _SAMPLES_A_STATEMENT = 36
 
 @dataclasses.dataclass(frozen=True)
 class FricSubroutine:
-    """The subroutine and the numbers its surface interaction hands to it.
+    """The subroutine and the numbers its surface interaction hands to it."""
 
-    Attributes
-    ----------
-    text : str
-        Fixed-form Fortran 77; with FRIC also DISP where the base's waveform is not a sine.
-    properties : tuple of float
-        PROPS, as the deck's ``*FRICTION, USER`` lists them; SI.
-    state_variables : int
-        DEPVAR: deflection of the asperities along both slip directions, and its size, m.
-    moves_base : bool
-        Whether the text contains DISP, the base's motion.
-    """
-
-    text: str
-    properties: tuple[float, ...]
+    text: str  #: Fixed-form Fortran 77; with FRIC also DISP where the base's waveform is not a sine
+    properties: tuple[float, ...]  #: PROPS, as the deck's ``*FRICTION, USER`` lists them; SI
+    #: DEPVAR: deflection of the asperities along both slip directions, and its size, m
     state_variables: int
-    moves_base: bool
+    moves_base: bool  #: Whether the text contains DISP, the base's motion
 
 
 def fric_subroutine(model: Model, *, before: float = 0.0, side: int = -1) -> FricSubroutine:

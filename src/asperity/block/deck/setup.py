@@ -35,18 +35,10 @@ def numbers(*values: float) -> str:
 
 @dataclasses.dataclass(frozen=True)
 class BlockSetup:
-    """The block on its base, made ready to be written; thesis 5.3.1.
+    """The block on its base, made ready to be written; thesis 5.3.1."""
 
-    Attributes
-    ----------
-    name : str
-        Of the case.
-    problem : BlockProblem
-        The block as the package itself solves it.
-    """
-
-    name: str
-    problem: BlockProblem
+    name: str  #: Of the case
+    problem: BlockProblem  #: The block as the package itself solves it
 
     @classmethod
     def from_case(cls, case: Case) -> Self:

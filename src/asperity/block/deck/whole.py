@@ -46,21 +46,12 @@ def means(setup: BlockSetup) -> FloatArray:
 def equations(
     setup: BlockSetup, face: FloatArray, point: int, first: int
 ) -> tuple[list[list[Term]], int]:
-    """Return linear equations that hold the means, and let a node follow a mean of a face.
+    """Return linear equations that hold the means, and let ``point`` follow a mean of a face.
 
-    The first term of each equation appears in no other: it is the freedom a program may take out
-    of its unknowns.
-
-    Parameters
-    ----------
-    setup : BlockSetup
-        The block; a rigid drive makes the node follow the mean shift of the block along x.
-    face : ndarray, shape (N,)
-        Weights of the nodes of the block in the mean along x that the node follows otherwise.
-    point : int
-        The node.
-    first : int
-        Number of the first node added for the sums.
+    The first term of each equation appears in no other: it is the freedom a program may take out of
+    its unknowns. With a rigid drive the node follows the mean shift of the block along x, otherwise
+    that of the nodes by the weights ``face``, (N,). Nodes for the sums are numbered from ``first``
+    on.
 
     Returns
     -------

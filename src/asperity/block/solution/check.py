@@ -23,16 +23,8 @@ _LEAST_DENSITY, _MOST_DENSITY = 1.0, 1e7
 def check(problem: BlockProblem) -> None:
     """Refuse what cannot be solved, before anything is built.
 
-    Parameters
-    ----------
-    problem : BlockProblem
-        The block.
-
-    Raises
-    ------
-    InputError
-        Steps that miss the vibration, forces or stiffnesses beyond small deformations, more
-        modes than the mesh has, or a mesh too large for the machine's memory.
+    That is what `check_ranges` refuses, more modes than the mesh has, and a mesh too large for the
+    machine's memory.
     """
     check_ranges(problem)
     block, unknowns = problem.block, 3 * problem.nodes
@@ -61,15 +53,7 @@ def check(problem: BlockProblem) -> None:
 def check_ranges(problem: BlockProblem) -> None:
     """Refuse what no program can solve on any mesh.
 
-    Parameters
-    ----------
-    problem : BlockProblem
-        The block.
-
-    Raises
-    ------
-    InputError
-        Steps that miss the vibration, forces or stiffnesses beyond small deformations.
+    Steps that miss the vibration, forces or stiffnesses beyond small deformations.
     """
     _ = problem.timetable
     _check_density(problem)

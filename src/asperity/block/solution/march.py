@@ -41,34 +41,19 @@ _NOT_FINITE = "the march left the finite numbers; look for values far out of the
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Progress:
-    """What a march has come to, in one piece: no interruption can split it.
+    """What a march has come to, in one piece: no interruption can split it."""
 
-    Attributes
-    ----------
-    snapshot : Snapshot
-        Of the stepper.
-    done : int
-        Increments solved.
-    seconds, march_seconds, timed : float, float, int
-        As in `asperity.block.result.BlockResult`.
-    rows : tuple of ndarray, shape (3, numbers of a node)
-        Mean, least and greatest of each recorded stretch.
-    nodes : tuple of ndarray
-        Of the stretch under way.
-    frames : tuple of Frame
-        For an animation.
-    window_energies, first_half, first_pressure : Energies, Sums, ndarray; or None
-        Of the window, as far as it is reached.
-    """
-
-    snapshot: Snapshot
-    done: int = 0
+    snapshot: Snapshot  #: Of the stepper
+    done: int = 0  #: Increments solved
+    #: seconds, march_seconds, timed: As in `asperity.block.result.BlockResult`
     seconds: float = 0.0
     march_seconds: float = 0.0
     timed: int = 0
+    #: (3, numbers of a node): Mean, least and greatest of each recorded stretch
     rows: tuple[FloatArray, ...] | FloatArray = ()
-    nodes: tuple[FloatArray, ...] | FloatArray = ()
-    frames: tuple[Frame, ...] = ()
+    nodes: tuple[FloatArray, ...] | FloatArray = ()  #: Of the stretch under way
+    frames: tuple[Frame, ...] = ()  #: For an animation
+    #: window_energies, first_half, first_pressure: Of the window, as far as it is reached
     window_energies: Energies | None = None
     first_half: Sums | None = None
     first_pressure: FloatArray | None = None

@@ -26,20 +26,9 @@ def block_notes(
 ) -> tuple[str, ...]:
     """Return the notes of a march that came to its end.
 
-    Parameters
-    ----------
-    problem : BlockProblem
-        The block.
-    stepper : Stepper
-        Which has marched it.
-    powers : ContactLedger
-        Means over the window.
-    residual : float
-        Change of the ratio from one half of the window to the other.
-    flutter : Flutter or None
-        What grows as it slides.
-    broke : bool
-        Whether it has broken away.
+    ``powers`` are means over the window, from whose one half to the other the ratio changes by
+    ``residual``; ``flutter`` is what grows as the block slides, ``broke`` whether it has broken
+    away.
     """
     model, table, block = problem.model, problem.timetable, problem.block
     notes = [] if flutter is None else [flutter_note(problem, flutter)]

@@ -110,21 +110,12 @@ class SettledBlock(Result):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Reading:
-    """Ratios of some bodies over the same cycles.
+    """Ratios of some bodies over the same cycles."""
 
-    Attributes
-    ----------
-    windows : tuple of ndarray, shape (4,)
-        Ratio of each body in each window, at the drive's velocity.
-    late : tuple of float
-        By how much of the drive's velocity each was slower.
-    cycles : int
-        In the four windows together.
-    """
-
+    #: (4,): Ratio of each body in each window, at the drive's velocity
     windows: tuple[FloatArray, ...]
-    late: tuple[float, ...]
-    cycles: int
+    late: tuple[float, ...]  #: By how much of the drive's velocity each was slower
+    cycles: int  #: In the four windows together
 
     @property
     def apart(self) -> float:
@@ -233,23 +224,11 @@ def read_settled(
     slope: float,
     between: Callable[[], None] = lambda: None,
 ) -> Reading:
-    """Let bodies settle under vibration, and read their ratios.
+    """Let bodies settle under vibration, and read their ratios, all over the same cycles.
 
-    Parameters
-    ----------
-    bodies : sequence of (System, SystemState)
-        At rest under their loads.
-    slider : SlideResult
-        Periodic state of the sliding body they are, with its history.
-    slope : float
-        See `slope_over_velocity`.
-    between : callable, optional
-        Called after each increment.
-
-    Returns
-    -------
-    Reading
-        All over the same cycles: the drive force has not settled, but it stands alike for all.
+    The bodies are at rest under their loads; ``slider`` is the periodic state of the sliding body
+    they are, with its history, ``slope`` that of `slope_over_velocity`. ``between`` is called after
+    each increment. The drive force has not settled at the end, but it stands alike for all.
     """
     steppers = [_calmed(*body, slider, between) for body in bodies]
     length = _SHORTEST

@@ -28,34 +28,17 @@ _MOST_RATIO = 0.5
 
 @dataclasses.dataclass(frozen=True)
 class Flutter:
-    """An oscillation of a sliding block that grows.
+    """An oscillation of a sliding block that grows."""
 
-    Attributes
-    ----------
-    direction : tuple of 2 floats
-        Unit vector of the slip, along x and y.
-    growth : Growth
-        In time.
-    stepped : Growth or None
-        In the steps of the march; None where their numerical damping holds it.
-    holding : float or None
-        Least ``block.damping_ratio`` that holds it; None where none does.
-    """
-
-    direction: tuple[float, float]
-    growth: Growth
+    direction: tuple[float, float]  #: Unit vector of the slip, along x and y
+    growth: Growth  #: In time
+    #: In the steps of the march; None where their numerical damping holds it
     stepped: Growth | None
-    holding: float | None
+    holding: float | None  #: Least ``block.damping_ratio`` that holds it; None where none does
 
 
 class Stability:
-    """Steady sliding of a block, in each direction it slides to.
-
-    Parameters
-    ----------
-    problem : BlockProblem
-        The block.
-    """
+    """Steady sliding of a block, in each direction it slides to."""
 
     def __init__(self, problem: BlockProblem) -> None:
         self._problem = problem

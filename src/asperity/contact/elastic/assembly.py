@@ -49,14 +49,8 @@ def element_of(mesh: HexMesh, element: str | None) -> ElementName:
 def scikit_fem_basis(mesh: HexMesh) -> tuple[Any, Any, IntArray]:
     """Return a mesh as scikit-fem knows it, its scalar element, and the order of its nodes.
 
-    Returns
-    -------
-    mesh : skfem.Mesh
-        ``MeshHex1`` or ``MeshHex2``, its coordinates in the unit of the mesh given.
-    element : skfem.Element
-        ``ElementHex1`` or ``ElementHex2``.
-    order : ndarray of int, shape (8,) or (27,)
-        The node of a cell, in VTK's order, at which scikit-fem's i-th function is 1.
+    The order, shape (8,) or (27,), is the node of a cell, in VTK's order, at which scikit-fem's
+    i-th function is 1. Coordinates stay in their unit.
     """
     import skfem
 
@@ -115,17 +109,7 @@ def _pattern(mesh: HexMesh) -> tuple[IntArray, IntArray, IntArray]:
 def stiffness_matrix(
     mesh: HexMesh, material: ElasticMaterial, element: ElementName
 ) -> sparse.csr_array:
-    """Return the stiffness, shape (3N, 3N), N/m; the freedoms of a node stand together.
-
-    Parameters
-    ----------
-    mesh : HexMesh
-        Coordinates in m.
-    material : ElasticMaterial
-        What it is made of.
-    element : {'hex27', 'hex8', 'hex8i'}
-        Fits the mesh, see `element_of`.
-    """
+    """Return the stiffness of a mesh in m, (3N, 3N), N/m; the freedoms of a node stand together."""
     starts, columns, places = _pattern(mesh)
     blocks = np.zeros((9, len(columns)))
     nodes = mesh.cells.shape[1]
@@ -142,15 +126,7 @@ def stiffness_matrix(
 
 
 def mass_matrix(mesh: HexMesh, density: float) -> sparse.csr_array:
-    """Return the consistent mass of one displacement component, shape (N, N), kg.
-
-    Parameters
-    ----------
-    mesh : HexMesh
-        Coordinates in m.
-    density : float
-        In kg/m^3.
-    """
+    """Return the consistent mass of one displacement component, (N, N), kg; lengths in m."""
     starts, columns, places = _pattern(mesh)
     data = np.zeros(len(columns))
     for cells, basis, order in _bases(mesh):

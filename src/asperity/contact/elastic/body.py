@@ -130,14 +130,9 @@ class ElasticBody:
         return factorise(self.stiffness[self.moving][:, self.moving], self.wanted_solver)
 
     def response(self, forces: FloatArray) -> FloatArray:
-        """Return the displacements under static loads, shape (3N,) or (3N, k), m.
+        """Return the displacements under static nodal forces in N, (3N,) or (3N, k) both, m.
 
         A free body's loads are balanced by its inertia, and its answer holds no rigid motion.
-
-        Parameters
-        ----------
-        forces : ndarray, shape (3N,) or (3N, k)
-            Nodal forces, N.
         """
         columns = forces.reshape(len(forces), -1)
         if self.free:

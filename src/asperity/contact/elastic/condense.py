@@ -122,7 +122,9 @@ def condense(
         return from_tree(CondensedBody, kept | {"from_cache": True})
 
     name = installed_solver(solver)
-    expected = memory_needed(mesh, len(surface.nodes), modes=modes, solver=name)
+    expected = memory_for(
+        len(mesh.points), mesh.cells.shape, len(surface.nodes), modes=modes, solver=name
+    )
     limit = machine_memory() if memory_limit is None else memory_limit
     if expected > limit:
         raise InputError(
@@ -152,25 +154,6 @@ def machine_memory() -> float:
     return min(size for size in found if size > 0.0)
 
 
-def memory_needed(
-    mesh: HexMesh, contact_nodes: int, *, modes: int = 0, solver: str = "pypardiso"
-) -> float:
-    """Return the memory that condensing is expected to need at most, bytes.
-
-    Parameters
-    ----------
-    mesh : HexMesh
-        What is condensed.
-    contact_nodes : int
-        Nodes it is condensed to.
-    modes : int
-        Elastic modes.
-    solver : {'pypardiso', 'superlu'}
-        Direct solver.
-    """
-    return memory_for(len(mesh.points), mesh.cells.shape, contact_nodes, modes=modes, solver=solver)
-
-
 def memory_for(
     nodes: int,
     cells: tuple[int, ...],
@@ -179,7 +162,21 @@ def memory_for(
     modes: int = 0,
     solver: str = "pypardiso",
 ) -> float:
-    """Return the same for a mesh that is not made yet: its nodes, and its cells by their nodes."""
+    """Return the memory that condensing is expected to need at most, bytes.
+
+    Parameters
+    ----------
+    nodes : int
+        Of the mesh.
+    cells : tuple of 2 int
+        Its cells, and the nodes of each.
+    contact_nodes : int
+        Nodes it is condensed to.
+    modes : int
+        Elastic modes.
+    solver : {'pypardiso', 'superlu'}
+        Direct solver.
+    """
     unknowns = 3 * nodes
     pairs = cells[0] * cells[1] ** 2
     # A pair of nodes of a cell: its place and what sorting takes; its 3 x 3 block twice while the

@@ -20,25 +20,6 @@ from asperity.errors import InputError, nearest
 
 
 @dataclass(frozen=True, eq=False)
-class LoadResponse:
-    """What one load of unit size does.
-
-    Parameters
-    ----------
-    displacement : ndarray, shape (3n,)
-        Static displacement of the contact nodes, m per unit of load.
-    rigid : ndarray, shape (6,)
-        Force and moment about the centre of mass.
-    modes : ndarray, shape (k,)
-        Generalised force on each mode.
-    """
-
-    displacement: FloatArray
-    rigid: FloatArray
-    modes: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
 class CondensedBody:
     r"""An elastic body reduced to its contact nodes; `condense` makes it.
 
@@ -145,23 +126,10 @@ class CondensedBody:
         return np.asarray(self.load_compliance - share)
 
     def load_index(self, name: str) -> int:
-        """Return the number of a load.
-
-        Raises
-        ------
-        InputError
-            There is no such load.
-        """
+        """Return the number of a load; InputError where there is none of the name."""
         if name not in self.load_names:
             raise InputError(f"the body has no load {name!r}{nearest(name, self.load_names)}")
         return self.load_names.index(name)
-
-    def load_response(self, name: str) -> LoadResponse:
-        """Return what a load of unit size does."""
-        column = self.load_index(name)
-        return LoadResponse(
-            self.load_flexibility[:, column], self.load_rigid[:, column], self.load_modes[:, column]
-        )
 
     def loads(self, sizes: Mapping[str, float]) -> FloatArray:
         """Return a vector of loads, shape (L,), from sizes by name; the others are zero."""

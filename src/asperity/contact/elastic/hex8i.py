@@ -18,12 +18,8 @@ _MODES = 3
 def products_of_gradients(gradients: FloatArray, weights: FloatArray) -> FloatArray:
     r"""Return :math:`H_{aibj} = \int \partial_i N_a\, \partial_j N_b`, shape (m, n, 3, n, 3).
 
-    Parameters
-    ----------
-    gradients : ndarray, shape (m, q, n, 3)
-        Gradients of n functions in m cells at q quadrature points, 1/m.
-    weights : ndarray, shape (m, q)
-        Quadrature weights times the Jacobian's determinant, m^3.
+    The gradients of n functions in m cells at q points, 1/m, have the shape (m, q, n, 3),
+    quadrature weights times the Jacobian's determinant, m^3, (m, q).
     """
     cells, points, functions, _ = gradients.shape
     flat = gradients.reshape(cells, points, 3 * functions)
@@ -46,19 +42,9 @@ def stiffness_of_products(products: FloatArray, material: ElasticMaterial) -> Fl
 
 
 def element_stiffness(corners: FloatArray, material: ElasticMaterial) -> FloatArray:
-    """Return the elements' stiffness with the incompatible modes condensed out.
+    """Return the elements' stiffness, N/m, (m, 24, 24), with the incompatible modes condensed out.
 
-    Parameters
-    ----------
-    corners : ndarray, shape (m, 8, 3)
-        The elements' corners in VTK's order, m.
-    material : ElasticMaterial
-        What they are made of.
-
-    Returns
-    -------
-    ndarray, shape (m, 24, 24)
-        Node by node, N/m.
+    The corners, in m, stand in VTK's order, (m, 8, 3); freedoms run node by node.
     """
     at, rule = shape.gauss(2, 3)
     _, slopes = shape.cell_shapes(at, 8)

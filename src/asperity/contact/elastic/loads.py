@@ -1,6 +1,5 @@
-"""Loads on a body beside its contact: forces at nodes, pressures and tractions on faces."""
+"""Loads on a body beside its contact: pressures and tractions on faces."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -26,7 +25,8 @@ class Load(Protocol):
         ...
 
 
-def _unit(direction: Direction) -> FloatArray:
+def unit(direction: Direction) -> FloatArray:
+    """Return a direction as a vector of length 1."""
     vector = np.asarray(direction, dtype=float)
     length = float(np.linalg.norm(vector)) if vector.shape == (3,) else 0.0
     if not (np.isfinite(length) and length > 0.0):
@@ -35,47 +35,11 @@ def _unit(direction: Direction) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class Force:
-    """A force shared equally by nodes; the unit is 1 N in all.
-
-    Parameters
-    ----------
-    nodes : str or sequence of int
-        Name of a node set, or nodes.
-    direction : tuple of 3 float
-        Its length does not matter.
-    """
-
-    nodes: str | Sequence[int]
-    direction: Direction
-
-    def forces(self, mesh: HexMesh) -> FloatArray:
-        """Return the nodal forces of the unit load, shape (n, 3)."""
-        if isinstance(self.nodes, str):
-            nodes = mesh.node_set(self.nodes)
-        else:
-            nodes = np.asarray(self.nodes, dtype=np.int64).reshape(-1)
-        if not len(nodes) or nodes.min() < 0 or nodes.max() >= len(mesh.points):
-            raise InputError(f"a force acts at nodes {self.nodes!r}; give nodes of the mesh")
-        forces = np.zeros_like(mesh.points)
-        np.add.at(forces, nodes, _unit(self.direction) / len(nodes))
-        return forces
-
-
-@dataclass(frozen=True)
 class Traction:
-    """A force spread evenly over faces; the unit is 1 N in all.
+    """A force spread evenly over faces; the unit is 1 N in all."""
 
-    Parameters
-    ----------
-    faces : str
-        Name of a face set.
-    direction : tuple of 3 float
-        Its length does not matter.
-    """
-
-    faces: str
-    direction: Direction
+    faces: str  #: Name of a face set
+    direction: Direction  #: Its length does not matter
 
     def forces(self, mesh: HexMesh) -> FloatArray:
         """Return the nodal forces of the unit load, shape (n, 3)."""
@@ -83,21 +47,15 @@ class Traction:
         areas = np.linalg.norm(normals, axis=2)
         spread = (areas / areas.sum()) @ values
         forces = np.zeros_like(mesh.points)
-        np.add.at(forces, nodes, spread[:, :, None] * _unit(self.direction))
+        np.add.at(forces, nodes, spread[:, :, None] * unit(self.direction))
         return forces
 
 
 @dataclass(frozen=True)
 class Pressure:
-    """A pressure on faces, against their outward normals; the unit is 1 Pa.
+    """A pressure on faces, against their outward normals; the unit is 1 Pa."""
 
-    Parameters
-    ----------
-    faces : str
-        Name of a face set.
-    """
-
-    faces: str
+    faces: str  #: Name of a face set
 
     def forces(self, mesh: HexMesh) -> FloatArray:
         """Return the nodal forces of the unit load, shape (n, 3)."""

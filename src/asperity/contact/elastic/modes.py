@@ -30,22 +30,14 @@ _DEPENDENT = 1e-8
 def shapes_with_inertia(
     body: ElasticBody, surface: ContactSurface, count: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest natural modes, then shapes for smooth tractions on a surface.
-
-    Parameters
-    ----------
-    body : ElasticBody
-        The body.
-    surface : ContactSurface
-        Where it is loaded.
-    count : int
-        Natural modes; with 0 there are no shapes at all.
+    """Return the lowest natural modes, so many, then shapes for smooth tractions on a surface.
 
     Returns
     -------
     shapes : ndarray, shape (3N, k)
-        Of unit generalised mass, uncoupled in mass and stiffness, 1/sqrt(kg); k is up to
-        ``count`` + 18.
+        Of unit generalised mass, uncoupled in mass and stiffness, 1/sqrt(kg); k is up to ``count``
+        + 18,
+        and 0 where no modes are asked for.
     frequency : ndarray, shape (k,)
         Hz, ascending; those after the natural ones are what the shapes would have by themselves.
     """
@@ -103,21 +95,9 @@ def _signed(shapes: FloatArray) -> FloatArray:
 
 
 def natural_modes(body: ElasticBody, count: int) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest elastic modes of a body, with tied nodes held.
+    """Return the lowest elastic modes of a body, with tied nodes held, and their frequencies in Hz.
 
-    Parameters
-    ----------
-    body : ElasticBody
-        The body.
-    count : int
-        How many.
-
-    Returns
-    -------
-    shapes : ndarray, shape (3N, count)
-        Of unit generalised mass, 1/sqrt(kg); without the rigid modes of a free body.
-    frequency : ndarray, shape (count,)
-        Hz, ascending.
+    The shapes, (3N, count), are of unit generalised mass, 1/sqrt(kg), without rigid modes.
     """
     size = 3 * len(body.mesh.points)
     if count == 0:

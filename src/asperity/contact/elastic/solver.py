@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
 from asperity.arrays import FloatArray
@@ -26,7 +25,7 @@ COLUMNS_AT_A_TIME = 128
 _FILL = 20.0
 _OUT_OF_MEMORY = -2
 # SuperLU's ordering for matrices of symmetric pattern: half the fill of the default.
-_SYMMETRIC_PATTERN: dict[str, Any] = {
+SYMMETRIC_PATTERN: dict[str, Any] = {
     "permc_spec": "MMD_AT_PLUS_A", "options": {"SymmetricMode": True},
 }  # fmt: skip
 # Bytes an entry costs: SuperLU keeps both triangles, with their row numbers and working space.
@@ -34,12 +33,7 @@ _BYTES = {"pypardiso": 10.0, "superlu": 48.0}
 
 
 def installed_solver(wanted: str = "auto") -> str:
-    """Return the name of the solver that will be used.
-
-    Parameters
-    ----------
-    wanted : {'auto', 'pypardiso', 'superlu'}
-        The first takes pypardiso where it is installed, else SciPy's SuperLU.
+    """Return the solver that will be used: pypardiso where 'auto' finds it, else SciPy's SuperLU.
 
     Raises
     ------
@@ -67,35 +61,17 @@ def installed_solver(wanted: str = "auto") -> str:
 
 
 def factor_bytes(unknowns: int, entries: int, solver: str) -> float:
-    """Return the memory a factorisation is expected to need at most, bytes.
-
-    Parameters
-    ----------
-    unknowns : int
-        Rows of the matrix.
-    entries : int
-        Its nonzero entries, or more.
-    solver : {'pypardiso', 'superlu'}
-        Which solver.
-    """
+    """Return the memory, bytes, a factorisation of so many entries is expected to need at most."""
     size: float = 24.0 * entries + _BYTES[solver] * _FILL * unknowns ** (4.0 / 3.0)
     return size
 
 
 @dataclass(frozen=True, eq=False)
 class Factorisation:
-    """A factorised symmetric positive definite matrix.
+    """A factorised symmetric positive definite matrix."""
 
-    Parameters
-    ----------
-    matrix : scipy.sparse.csr_array, shape (n, n)
-        What was factorised.
-    solver : str
-        What factorised it.
-    """
-
-    matrix: sparse.csr_array
-    solver: str
+    matrix: sparse.csr_array  #: (n, n): What was factorised
+    solver: str  #: What factorised it
     _solve: Callable[[FloatArray], FloatArray] = field(repr=False)
 
     def solve(self, right: FloatArray) -> FloatArray:
@@ -147,7 +123,7 @@ def _first_pardiso() -> Any:
     return pypardiso.PyPardisoSolver()
 
 
-def _new_pardiso(matrix_type: int) -> Any:
+def new_pardiso(matrix_type: int) -> Any:
     """A solver without a factorisation; its library is looked for once, which takes a while."""
     backend = copy.copy(_first_pardiso())
     backend.pt, backend.iparm = backend.pt.copy(), backend.iparm.copy()
@@ -159,7 +135,7 @@ def _pardiso(matrix: sparse.csr_array) -> Callable[[FloatArray], FloatArray]:
     from pypardiso.pardiso_wrapper import PyPardisoError
 
     symmetric_positive = 2
-    backend = _new_pardiso(symmetric_positive)
+    backend = new_pardiso(symmetric_positive)
     upper = sparse.csr_matrix(sparse.triu(matrix, format="csr"))
     try:
         backend.factorize(upper)
@@ -187,56 +163,10 @@ def _superlu(matrix: sparse.csr_array) -> Callable[[FloatArray], FloatArray]:
     from scipy.sparse.linalg import splu
 
     try:
-        factors = splu(sparse.csc_matrix(matrix), **_SYMMETRIC_PATTERN, diag_pivot_thresh=0.0)
+        factors = splu(sparse.csc_matrix(matrix), **SYMMETRIC_PATTERN, diag_pivot_thresh=0.0)
     except RuntimeError as error:
         raise _NotPositiveError from error
     if not (factors.U.diagonal() > 0.0).all():
         raise _NotPositiveError
     solve: Callable[[FloatArray], FloatArray] = factors.solve
     return solve
-
-
-class GeneralSolver:
-    """Solves one system of equations after another that need not be symmetric.
-
-    Where the places of the entries are those of the matrix before, PARDISO's ordering of them is
-    kept, and the matrix is only factorised anew.
-
-    Parameters
-    ----------
-    solver : {'auto', 'pypardiso', 'superlu'}
-        Direct solver.
-    """
-
-    def __init__(self, solver: str = "auto") -> None:
-        self.name = installed_solver(solver)
-        self._backend: Any = None
-        self._places: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None
-
-    def solve(self, matrix: sparse.csr_array, right: FloatArray) -> FloatArray:
-        """Return the solution.
-
-        Parameters
-        ----------
-        matrix : scipy.sparse.csr_array, shape (n, n)
-            Regular, of nearly symmetric pattern.
-        right : ndarray, shape (n,)
-            Right-hand side.
-        """
-        if self.name == "superlu":
-            from scipy.sparse.linalg import splu
-
-            return np.asarray(splu(sparse.csc_matrix(matrix), **_SYMMETRIC_PATTERN).solve(right))
-        ordered = sparse.csr_matrix(matrix)
-        ordered.sort_indices()
-        places = ordered.indptr, ordered.indices
-        known = self._places is not None and all(map(np.array_equal, places, self._places))
-        if self._backend is None:
-            unsymmetric = 11
-            self._backend = _new_pardiso(unsymmetric)
-            weakref.finalize(self, self._backend.free_memory, everything=True)
-        self._places = places
-        factorise_and_solve, all_phases = 23, 13
-        self._backend.set_phase(factorise_and_solve if known else all_phases)
-        answer: FloatArray = self._backend._call_pardiso(ordered, right[:, None])
-        return answer[:, 0]

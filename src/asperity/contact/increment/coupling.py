@@ -29,22 +29,11 @@ PASSES = 2
 
 @kernel
 def ratios(force, dofs, normals, smooth, out, load):
-    """Write tangential over normal force, and pressure over its mean, at the nodes.
+    """Write the ratio of tangential to normal force at k nodes, and their pressure over its mean.
 
-    Parameters
-    ----------
-    force : ndarray, shape (3n,)
-        Nodal forces, N.
-    dofs : ndarray of int, shape (3k,)
-        Unknowns of the nodes.
-    normals : ndarray, shape (k, 3)
-        Their unit normals.
-    smooth : ndarray, shape (r, k)
-        Smooth fields times areas, the first constant.
-    out : ndarray, shape (k, 3)
-        Written: the ratio; 0 at nodes without a normal force.
-    load : ndarray, shape (k,)
-        Written: the pressure over its mean.
+    Forces, N, are those of all nodes, ``dofs`` (3k,) and ``normals`` (k, 3) say of which;
+    ``smooth`` are smooth fields times areas, (r, k), the first constant. The ratio, ``out`` (k, 3),
+    is 0 at nodes without a normal force.
     """
     total = 0.0
     area = 0.0
@@ -71,19 +60,10 @@ def ratios(force, dofs, normals, smooth, out, load):
 
 @kernel
 def mean_tangent(points, committed, interface, motion, out):
-    """Write the tangential stiffness of a point with the mean of all points in contact, 3 x 3.
+    """Write the tangential stiffness of a point with the mean of all in contact, 3 x 3, Pa/m.
 
-    Parameters
-    ----------
-    points, committed, interface, motion : ContactPoints, Committed, Interface, MotionNumbers
-        As `asperity.contact.interface.tractions.tractions` takes and writes them.
-    out : ndarray, shape (3, 3)
-        Written: derivative of the traction by the slip, Pa/m.
-
-    Returns
-    -------
-    float
-        Area in contact, m^2.
+    The points are as `asperity.contact.interface.tractions.tractions` writes them. Returns the area
+    in contact, m^2.
     """
     weights, friction = interface.weights, interface.friction
     deflection0, size0 = committed.deflection, committed.size
@@ -152,22 +132,10 @@ def mean_correction(tangent, spread, out):
 
 @kernel
 def couple(rest, shares, pressing, smooth, moving, tangent, correction, load, out):
-    """Write the correction of ``h`` for a residual.
+    """Write the correction of ``h`` for a residual, ``rest`` and ``out`` (3k,), N.
 
-    Parameters
-    ----------
-    rest : ndarray, shape (3k,)
-        Residual, N.
-    shares : ndarray, shape (k, 3)
-        Ratios of tangential to normal force.
-    pressing, smooth, moving : ndarray, shapes (k, 3k), (r, k), (3r, 3k)
-        D, and E by smooth fields.
-    tangent, correction : ndarray, shape (3, 3)
-        T and ``T (I - F T)^-1``, Pa/m.
-    load : ndarray, shape (k,)
-        Pressure over its mean.
-    out : ndarray, shape (3k,)
-        Written, N.
+    With the ratios (k, 3) and pressures over their mean (k,) of the nodes; D, and E by smooth
+    fields (k, 3k), (r, k), (3r, 3k); T and ``T (I - F T)^-1``, Pa/m.
     """
     single = np.empty(rest.shape[0], dtype=np.float32)
     pressed = np.empty(shares.shape[0], dtype=np.float32)

@@ -26,32 +26,15 @@ _ROUNDING = 16.0 * np.finfo(float).eps
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """The contact at one displacement of its nodes.
+    """The contact at one displacement of its nodes."""
 
-    Attributes
-    ----------
-    assumed : ndarray, shape (3n,)
-        Forces the body answers to, N.
-    response : ndarray, shape (3n,)
-        Its answer to them, ``A assumed``, m.
-    u : ndarray, shape (3n,)
-        Displacement, m.
-    force : ndarray, shape (3n,)
-        Forces of the tractions, N.
-    points : ContactPoints
-        The contact at its points.
-    floor : float
-        `Increment.floor`, N.
-    stiffness : ndarray, shape (q, 3, 3)
-        Derivative of the tractions by the displacement, Pa/m; empty without a tangent.
-    """
-
-    assumed: FloatArray
-    response: FloatArray
-    u: FloatArray
-    force: FloatArray
-    points: ContactPoints
-    floor: float
+    assumed: FloatArray  #: (3n,): Forces the body answers to, N
+    response: FloatArray  #: (3n,): Its answer to them, ``A assumed``, m
+    u: FloatArray  #: (3n,): Displacement, m
+    force: FloatArray  #: (3n,): Forces of the tractions, N
+    points: ContactPoints  #: The contact at its points
+    floor: float  #: `Increment.floor`, N
+    #: (q, 3, 3): Derivative of the tractions by the displacement, Pa/m; empty without a tangent
     stiffness: FloatArray = field(default_factory=lambda: np.empty((0, 3, 3)))
 
     @property
@@ -79,47 +62,27 @@ class Trial:
 
 @dataclass(frozen=True, eq=False)
 class AugmentedTrial:
-    """Tractions assumed at the points, what the body makes of them, and what the laws say to it.
+    """Tractions assumed at the points, what the body makes of them, and what the laws say to it."""
 
-    Attributes
-    ----------
-    assumed : ndarray, shape (q, 3)
-        Pa.
-    response, force, points, stiffness : ndarray, ContactPoints
-        As in `Trial`.
-    off : float
-        Root of the integral of the squared difference between the laws' tractions and those
-        assumed, N/m.
-    """
-
-    assumed: FloatArray
+    assumed: FloatArray  #: (q, 3): Pa
+    #: response, force, points, stiffness: As in `Trial`
     response: FloatArray
     force: FloatArray
     points: ContactPoints
     stiffness: FloatArray
+    #: Root of the integral of the squared difference between the laws' tractions and those assumed,
+    #: N/m
     off: float
 
 
 @dataclass(frozen=True, eq=False)
 class Increment:
-    """What is given of one increment.
+    """What is given of one increment."""
 
-    Attributes
-    ----------
-    problem : IncrementProblem
-        What stays the same.
-    free : ndarray, shape (3n,)
-        :math:`u^*`, displacement without contact, m.
-    motion : MotionNumbers
-        Of the counter-surface.
-    committed : Committed
-        Where it starts from, and the multipliers of hard contact.
-    """
-
-    problem: IncrementProblem
-    free: FloatArray
-    motion: MotionNumbers
-    committed: Committed
+    problem: IncrementProblem  #: What stays the same
+    free: FloatArray  #: (3n,): :math:`u^*`, displacement without contact, m
+    motion: MotionNumbers  #: Of the counter-surface
+    committed: Committed  #: Where it starts from, and the multipliers of hard contact
 
     def evaluate(self, assumed: FloatArray, response: FloatArray) -> Trial:
         """Evaluate the contact where nodal forces lead to, with its tangent."""

@@ -172,7 +172,7 @@ def _terminate(norm, whole, asked, outside, rounding, tolerance, floor, last, sl
 def modified_newton(
     free, h, tangent, committed, interface, motion, tolerance, floor, most, u, force, points
 ):
-    """Solve an increment with one tangent.
+    """Solve an increment with one tangent; the last iterate is written to ``u, force, points``.
 
     Parameters
     ----------
@@ -180,25 +180,17 @@ def modified_newton(
         Displacement without contact, m.
     h : ndarray, shape (m,)
         Predicted on entry, see the module; changed.
-    tangent : Tangent
-        Of `asperity.contact.increment.tangents`.
-    committed, interface, motion : Committed, Interface, MotionNumbers
-        As `asperity.contact.interface.tractions.tractions` takes them.
+    tangent, committed, interface, motion : Tangent, Committed, Interface, MotionNumbers
+        The first of `asperity.contact.increment.tangents`, the others as for the tractions.
     tolerance, floor : float
         Relative residual to be reached, and forces that are those of touching alone, N.
     most : int
         Iterations that are made at most.
-    u, force, points : ndarray, ndarray, ContactPoints
-        Written: the last iterate.
 
     Returns
     -------
-    status : int
-        `CONVERGED`, `SLOW` or `OUTSIDE`.
-    iterations : int
-        Evaluations of the contact.
-    residual : float
-        Relative residual.
+    status, iterations, residual : int, int, float
+        `CONVERGED`, `SLOW` or `OUTSIDE`; evaluations of the contact; relative residual.
     """
     room = _init(u.shape[0], h.shape[0], tangent.normals.shape[0])
     count = h.shape[0]

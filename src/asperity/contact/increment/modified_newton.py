@@ -39,48 +39,24 @@ _MOST_SETS = 64
 
 @dataclass(eq=False)
 class KeptTangent:
-    """A tangent and what it was made for.
+    """A tangent and what it was made for."""
 
-    Attributes
-    ----------
-    active : bytes
-        The points in contact.
-    tangent : Tangent
-        Of them.
-    stale : bool
-        It converged slowly the last time.
-    """
-
-    active: bytes
-    tangent: Tangent
-    stale: bool = False
+    active: bytes  #: The points in contact
+    tangent: Tangent  #: Of them
+    stale: bool = False  #: It converged slowly the last time
 
 
 @dataclass(frozen=True, eq=False)
 class TangentMemory:
-    """What a `TangentCache` has learnt, as plain arrays: what its tangents were made from.
+    """What a `TangentCache` has learnt, as plain arrays: what its tangents were made from."""
 
-    Attributes
-    ----------
-    active : ndarray of bool, shape (k, q)
-        Points in contact of the kept tangents.
-    levels : ndarray of int, shape (k, 3)
-        Their levels of stiffness.
-    stiffness : ndarray, shape (k, q, 3, 3)
-        Pa/m.
-    stale : bool
-        Whether the one used last converged slowly.
-    seen : ndarray of bool, shape (s, q)
-        Points in contact at the ends of increments.
-    seen_count, seen_flexibility : ndarray, shape (s,)
-        How many increments ended so, and the mean flexibility of those points.
-    """
-
-    active: npt.NDArray[np.bool_]
-    levels: IntArray
-    stiffness: FloatArray
-    stale: bool
-    seen: npt.NDArray[np.bool_]
+    active: npt.NDArray[np.bool_]  #: (k, q): Points in contact of the kept tangents
+    levels: IntArray  #: (k, 3): Their levels of stiffness
+    stiffness: FloatArray  #: (k, q, 3, 3): Pa/m
+    stale: bool  #: Whether the one used last converged slowly
+    seen: npt.NDArray[np.bool_]  #: (s, q): Points in contact at the ends of increments
+    #: seen_count, seen_flexibility (s,): How many increments ended so, and the mean flexibility of
+    #: those points
     seen_count: IntArray
     seen_flexibility: FloatArray
 
@@ -91,21 +67,12 @@ Key = tuple[bytes, int, int, int]
 
 @dataclass(eq=False)
 class TangentCache:
-    """Tangents of one problem. They change the time taken and, in the last digits, the answer.
+    """Tangents of one problem. They change the time taken and, in the last digits, the answer."""
 
-    Attributes
-    ----------
-    kept : dict
-        The latest used at the end.
-    seen : dict
-        How many increments ended with a set of points in contact, and its mean flexibility.
-    last : KeptTangent or None
-        Used last.
-    """
-
-    kept: dict[Key, KeptTangent] = field(default_factory=dict)
+    kept: dict[Key, KeptTangent] = field(default_factory=dict)  #: The latest used at the end
+    #: How many increments ended with a set of points in contact, and its mean flexibility
     seen: dict[bytes, tuple[int, float]] = field(default_factory=dict)
-    last: KeptTangent | None = None
+    last: KeptTangent | None = None  #: Used last
 
     def ended_with(self, active: bytes) -> None:
         """Count an increment that ended with these points in contact."""
@@ -233,27 +200,9 @@ def solve(
 ) -> tuple[Trial | None, float, int]:
     """Solve an increment for given multipliers by kept tangents, where they serve.
 
-    Parameters
-    ----------
-    increment : Increment
-        Its equations.
-    tangents : TangentCache
-        Changed.
-    active : bytes
-        Points in contact at the start.
-    assumed, displacement : ndarray, shape (3n,)
-        Predicted forces, N, and displacement, m, where there is a prediction of it.
-    committed : ndarray, shape (3n,)
-        Displacement at the start, m.
-
-    Returns
-    -------
-    trial : Trial or None
-        The solution; None where a consistent Newton step is needed.
-    residual : float
-        Relative.
-    evaluations : int
-        Evaluations of the contact.
+    It begins with the points in contact at the start, the predicted forces, N, and displacement, m,
+    where there is a prediction of it, else the committed one. Returns the solution, or None where a
+    consistent Newton step is needed; the relative residual; and the evaluations of the contact.
     """
     evaluations = 0
     entry = tangents.fitting(active)

@@ -29,22 +29,7 @@ from asperity.contact.interface.active_set import ActiveSet
 
 
 def classical(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -> FloatArray:
-    """Multipliers after the classical update.
-
-    Parameters
-    ----------
-    problem : IncrementProblem
-        What stays the same.
-    trial : Trial
-        Solution for the present multipliers.
-    multiplier : ndarray, shape (c,)
-        The present multipliers at the corners, Pa.
-
-    Returns
-    -------
-    ndarray, shape (c,)
-        Pa.
-    """
+    """Return the multipliers at the corners, (c,), Pa, after the classical update at a solution."""
     surface = problem.surface
     over = -trial.points.distance.reshape(surface.weights.shape)
     mean = problem.from_corners.T @ surface.to_forces(over) / problem.corner_area
@@ -54,25 +39,15 @@ def classical(problem: IncrementProblem, trial: Trial, multiplier: FloatArray) -
 
 @dataclass(frozen=True, eq=False)
 class MultiplierTangent:
-    """Newton's step of the multipliers, which undoes the overclosures about their nodes.
+    """Newton's step of the multipliers, which undoes the overclosures about their nodes."""
 
-    Attributes
-    ----------
-    touching, keep : ndarray of bool
-        The points in contact and the corners with pressure it holds for.
-    bearing : ndarray of int, shape (b,)
-        Those corners.
-    inverse : ndarray, shape (b, b)
-        Change of the multipliers, Pa, by overclosure integrated about the corners, m^3.
-    ended : ndarray, shape (b,)
-        Part of the change that comes from multipliers that end, Pa.
-    """
-
+    #: touching, keep: The points in contact and the corners with pressure it holds for
     touching: npt.NDArray[np.bool_]
     keep: npt.NDArray[np.bool_]
-    bearing: npt.NDArray[np.int64]
+    bearing: npt.NDArray[np.int64]  #: (b,): Those corners
+    #: (b, b): Change of the multipliers, Pa, by overclosure integrated about the corners, m^3
     inverse: FloatArray
-    ended: FloatArray
+    ended: FloatArray  #: (b,): Part of the change that comes from multipliers that end, Pa
 
     def fits(self, trial: Trial, multiplier: FloatArray, updated: FloatArray) -> bool:
         """Whether it may be used again: the same contact, and no multiplier that ends."""
@@ -97,21 +72,9 @@ class MultiplierTangent:
 def multiplier_tangent(
     problem: IncrementProblem, trial: Trial, multiplier: FloatArray, updated: FloatArray
 ) -> MultiplierTangent | None:
-    """Return the tangent at a solution for the present multipliers.
+    """Return the tangent at a solution for multipliers, Pa, and their `classical` update.
 
-    Parameters
-    ----------
-    problem : IncrementProblem
-        What stays the same.
-    trial : Trial
-        The solution, with its tangent.
-    multiplier, updated : ndarray, shape (c,)
-        The present multipliers at the corners and their `classical` update, Pa.
-
-    Returns
-    -------
-    MultiplierTangent or None
-        None where a corner wants pressure about which nothing touches yet.
+    None where a corner wants pressure about which nothing touches yet.
     """
     active = ActiveSet.about(problem.interface, problem.nodes, trial.touching)
     keep = updated > 0.0

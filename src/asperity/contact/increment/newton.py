@@ -34,26 +34,10 @@ _NEAR = 1e-4
 
 
 def solve(increment: Increment, assumed: FloatArray) -> tuple[Trial, int]:
-    """Solve an increment for given multipliers from a guess of its tractions.
+    """Solve an increment for given multipliers from a guess of its tractions, (q, 3), Pa.
 
-    Parameters
-    ----------
-    increment : Increment
-        Its equations.
-    assumed : ndarray, shape (q, 3)
-        Guess of the tractions, Pa.
-
-    Returns
-    -------
-    trial : Trial
-        The solution.
-    evaluations : int
-        Evaluations of the contact.
-
-    Raises
-    ------
-    ConvergenceError
-        With residual, iterations and points in contact.
+    Returns the solution and the evaluations of the contact; a ConvergenceError has residual,
+    iterations and points in contact.
     """
     problem = increment.problem
     evaluations = 0

@@ -155,21 +155,13 @@ _WEIGHTS = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0))
 
 @dataclass(frozen=True, eq=False)
 class Predictor:
-    """Forces and displacements of the last increments, the latest first.
+    """Forces and displacements of the last increments, the latest first."""
 
-    Attributes
-    ----------
-    forces, displacements : tuple of ndarray, shape (3n,)
-        Contact forces, N, and displacement of the contact nodes, m.
-    order : int
-        Order of the extrapolation that would have met the latest forces best.
-    mark : tuple of 2 floats
-        `IncrementProblem.mark` of those increments: others begin anew.
-    """
-
+    #: forces, displacements (3n,): Contact forces, N, and displacement of the contact nodes, m
     forces: tuple[FloatArray, ...] = ()
     displacements: tuple[FloatArray, ...] = ()
-    order: int = 0
+    order: int = 0  #: Order of the extrapolation that would have met the latest forces best
+    #: `IncrementProblem.mark` of those increments: others begin anew
     mark: tuple[float, float] = (0.0, 0.0)
 
     def followed_by(

@@ -19,41 +19,21 @@ _NEW = 1e-3
 
 
 class Tangent(NamedTuple):
-    """A tangent with its inverse, as `asperity.contact.increment.iterations` takes it.
+    """A tangent with its inverse, as `asperity.contact.increment.iterations` takes it."""
 
-    Attributes
-    ----------
-    inverse : ndarray, shape (3n, m)
-        G.
-    stiffness : ndarray, shape (q, 3, 3)
-        K of the points, Pa/m.
-    dofs : ndarray of int, shape (m,)
-        Unknowns of the k nodes about the points in contact; m = 3 k.
-    pressing : ndarray, shape (k, m)
-        Normal forces that forces along the surface call up at those nodes.
-    smooth : ndarray, shape (r, k)
-        Smooth fields over those nodes, times the nodes' areas; the first is constant.
-    moving : ndarray, shape (3r, m)
-        Share of the smooth fields in the displacement by forces on those nodes.
-    spread : ndarray, shape (3, 3)
-        Of the constant one by a traction that is it, m/Pa.
-    own : ndarray, shape (3, 3)
-        Mean tangential part of the stiffness, Pa/m.
-    normals : ndarray, shape (k, 3)
-        Of the nodes.
-    rounding : float
-        Norm of the forces that the inverse's own error stands for, over that of ``h``.
-    """
-
-    inverse: FloatArray
-    stiffness: FloatArray
-    dofs: IntArray
+    inverse: FloatArray  #: (3n, m): G
+    stiffness: FloatArray  #: (q, 3, 3): K of the points, Pa/m
+    dofs: IntArray  #: (m,): Unknowns of the k nodes about the points in contact; m = 3 k
+    #: (k, m): Normal forces that forces along the surface call up at those nodes
     pressing: SingleArray
+    #: (r, k): Smooth fields over those nodes, times the nodes' areas; the first is constant
     smooth: FloatArray
+    #: (3r, m): Share of the smooth fields in the displacement by forces on those nodes
     moving: SingleArray
-    spread: FloatArray
-    own: FloatArray
-    normals: FloatArray
+    spread: FloatArray  #: (3, 3): Of the constant one by a traction that is it, m/Pa
+    own: FloatArray  #: (3, 3): Mean tangential part of the stiffness, Pa/m
+    normals: FloatArray  #: (k, 3): Of the nodes
+    #: Norm of the forces that the inverse's own error stands for, over that of ``h``
     rounding: float
 
 

@@ -73,21 +73,11 @@ def stiffness_forces(stiffness, faces, shapes, weights, w, out):
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:
-    """The active set: nodes of the faces that have a point in contact.
+    """The active set: nodes of the faces that have a point in contact."""
 
-    Attributes
-    ----------
-    nodes : ndarray of int, shape (t,)
-        Ascending.
-    local : ndarray of int, shape (n,)
-        Number of each node among them, -1 for the others.
-    dofs : ndarray of int, shape (3t,)
-        Their unknowns.
-    """
-
-    nodes: npt.NDArray[np.int64]
-    local: npt.NDArray[np.int64]
-    dofs: npt.NDArray[np.int64]
+    nodes: npt.NDArray[np.int64]  #: (t,): Ascending
+    local: npt.NDArray[np.int64]  #: (n,): Number of each node among them, -1 for the others
+    dofs: npt.NDArray[np.int64]  #: (3t,): Their unknowns
 
     @classmethod
     def about(cls, interface: Interface, count: int, touching: npt.NDArray[np.bool_]) -> ActiveSet:

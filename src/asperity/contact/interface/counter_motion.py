@@ -27,17 +27,10 @@ class MotionNumbers(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Drift:
-    """Displacement of the counter-surface's material over an increment, ``shift + turn @ x``.
+    """Displacement of the counter-surface's material over an increment, ``shift + turn @ x``."""
 
-    Attributes
-    ----------
-    shift : ndarray, shape (3,)
-        m.
-    turn : ndarray, shape (3, 3)
-        On the position at the increment's end; of a rotation ``I - R_0 R_1^T``.
-    """
-
-    shift: FloatArray = field(default_factory=lambda: np.zeros(3))
+    shift: FloatArray = field(default_factory=lambda: np.zeros(3))  #: (3,): m
+    #: (3, 3): On the position at the increment's end; of a rotation ``I - R_0 R_1^T``
     turn: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
 
     @classmethod
@@ -55,24 +48,17 @@ class SurfaceMotion:
     The slip of the body on the surface is ``v_j = body_j @ (u - u_committed) - base_j(x)`` in its
     two parts j = 1, 2, brought into the tangent plane. Usually the body moves in the first part
     alone, the base's x motion stands in the first and its transferred y motion in the second.
-
-    Attributes
-    ----------
-    pose : Pose
-        At the end.
-    base_1, base_2 : Drift
-        The two parts of the surface's displacement, as the contact sees them (transferred).
-    body_1, body_2 : ndarray, shape (3, 3)
-        What each part sees of the body's own displacement.
-    one_sided : bool
-        Two-phase scheme: the increment ends no later than the vibration starts.
     """
 
-    pose: Pose = field(default_factory=Pose)
+    pose: Pose = field(default_factory=Pose)  #: At the end
+    #: base_1, base_2: The two parts of the surface's displacement, as the contact sees them
+    #: (transferred)
     base_1: Drift = field(default_factory=Drift)
     base_2: Drift = field(default_factory=Drift)
+    #: body_1, body_2 (3, 3): What each part sees of the body's own displacement
     body_1: FloatArray = field(default_factory=lambda: np.eye(3))
     body_2: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
+    #: Two-phase scheme: the increment ends no later than the vibration starts
     one_sided: bool = False
 
     def numbers(self) -> MotionNumbers:

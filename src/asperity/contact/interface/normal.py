@@ -41,21 +41,9 @@ class PressureLaw(NamedTuple):
 
 @kernel
 def pressure(over, multiplier, law):
-    """Contact pressure and its slope for an overclosure.
+    """Contact pressure, Pa, and its slope, Pa/m, for an overclosure in m; both 0 where it is open.
 
-    Parameters
-    ----------
-    over : float
-        Overclosure (minus the distance), m.
-    multiplier : float
-        The augmented Lagrangian's pressure at the point, Pa; 0 for the other laws.
-    law : PressureLaw
-        The law.
-
-    Returns
-    -------
-    pressure, slope : float
-        Pa and Pa/m; both 0 where the contact is open.
+    ``multiplier`` is the augmented Lagrangian's pressure at the point, Pa; 0 for the other laws.
     """
     stiffness = law.stiffness
     if law.code == TWO_STAGE:
@@ -103,23 +91,13 @@ def augmented_overclosure(aim, augmentation, multiplier, law):
 
 @dataclass(frozen=True)
 class NormalLaw:
-    """How pressure grows with overclosure.
+    """How pressure grows with overclosure."""
 
-    Attributes
-    ----------
-    name : {'linear', 'two-stage', 'hard'}
-        See the module.
-    stiffness : float
-        Pa/m: of the line, of the final stage, or the penalty of the augmented Lagrangian.
-    initial : float
-        ``two-stage``: initial stiffness, Pa/m.
-    start, end : float
-        ``two-stage``: overclosures between which the stiffness rises, m.
-    """
-
-    name: Literal["linear", "two-stage", "hard"] = "linear"
+    name: Literal["linear", "two-stage", "hard"] = "linear"  #: See the module
+    #: Pa/m: of the line, of the final stage, or the penalty of the augmented Lagrangian
     stiffness: float = 0.0
-    initial: float = 0.0
+    initial: float = 0.0  #: ``two-stage``: initial stiffness, Pa/m
+    #: start, end: ``two-stage``: overclosures between which the stiffness rises, m
     start: float = 0.0
     end: float = 0.0
 
@@ -146,14 +124,9 @@ class NormalLaw:
 
     @classmethod
     def two_stage(cls, stiffness: float, length: float) -> NormalLaw:
-        """Two stages by the size of the elements: a tenth of the stiffness up to 1 % of it.
+        """Two stages by the edge of an element in contact in m.
 
-        Parameters
-        ----------
-        stiffness : float
-            Final stiffness, Pa/m.
-        length : float
-            Edge of an element in contact, m. The stiffness rises from 1 % to 3 % of it.
+        A tenth of the final stiffness, Pa/m, up to 1 % of the edge; it rises to the whole at 3 %.
         """
         if not length > 0.0:
             raise InputError(f"length is {length:g} m; it must be positive")

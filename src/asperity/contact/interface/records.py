@@ -13,77 +13,39 @@ from asperity.contact.interface.rigid import Numbers
 
 
 class Interface(NamedTuple):
-    """What of a contact stays the same: k faces with r quadrature points each, q = k r in all.
+    """What of a contact stays the same: k faces with r quadrature points each, q = k r in all."""
 
-    Attributes
-    ----------
-    faces : ndarray of int, shape (k, m)
-        Nodes of each face.
-    shapes : ndarray, shape (r, m)
-        Shape values at the quadrature points of a face.
-    weights : ndarray, shape (q,)
-        Area of each point, m^2.
-    places : ndarray, shape (q, 3)
-        Undeformed positions, m.
-    counter : Numbers
-        `asperity.contact.interface.rigid.RigidSurface.numbers`.
-    law : PressureLaw
-        Pressure against overclosure.
-    friction : PointNumbers
-        Friction law.
-    """
-
-    faces: IntArray
-    shapes: FloatArray
-    weights: FloatArray
-    places: FloatArray
-    counter: Numbers
-    law: PressureLaw
-    friction: PointNumbers
+    faces: IntArray  #: (k, m): Nodes of each face
+    shapes: FloatArray  #: (r, m): Shape values at the quadrature points of a face
+    weights: FloatArray  #: (q,): Area of each point, m^2
+    places: FloatArray  #: (q, 3): Undeformed positions, m
+    counter: Numbers  #: `asperity.contact.interface.rigid.RigidSurface.numbers`
+    law: PressureLaw  #: Pressure against overclosure
+    friction: PointNumbers  #: Friction law
 
 
 class Committed(NamedTuple):
-    """What of the history an increment starts from.
+    """What of the history an increment starts from."""
 
-    Attributes
-    ----------
-    displacement : ndarray, shape (3n,)
-        Of the contact nodes, m.
-    deflection : ndarray, shape (q, 3)
-        Of the asperities, m.
-    size : ndarray, shape (q,)
-        Its signed size over the limit (two-phase scheme).
-    multiplier : ndarray, shape (n,)
-        Of the hard law, Pa.
-    """
-
-    displacement: FloatArray
-    deflection: FloatArray
-    size: FloatArray
-    multiplier: FloatArray
+    displacement: FloatArray  #: (3n,): Of the contact nodes, m
+    deflection: FloatArray  #: (q, 3): Of the asperities, m
+    size: FloatArray  #: (q,): Its signed size over the limit (two-phase scheme)
+    multiplier: FloatArray  #: (n,): Of the hard law, Pa
 
 
 class ContactPoints(NamedTuple):
-    """The contact at its quadrature points.
+    """The contact at its quadrature points."""
 
-    Attributes
-    ----------
-    pressure, distance : ndarray, shape (q,)
-        Pa, 0 where open; and to the counter-surface, m, negative for an overclosure.
-    normal, traction : ndarray, shape (q, 3)
-        Of the counter-surface; on the body, Pa.
-    slip_1, slip_2 : ndarray, shape (q, 3)
-        The two parts of the slip, in the tangent plane, m.
-    deflection, size : ndarray, shapes (q, 3) and (q,)
-        Trial history of the asperities, as in `Committed`.
-    """
-
+    #: (q,): Pa, 0 where open; and to the counter-surface, m, negative for an overclosure
     pressure: FloatArray
     distance: FloatArray
+    #: (q, 3): Of the counter-surface; on the body, Pa
     normal: FloatArray
     traction: FloatArray
+    #: (q, 3): The two parts of the slip, in the tangent plane, m
     slip_1: FloatArray
     slip_2: FloatArray
+    #: (q, 3) and (q,): Trial history of the asperities, as in `Committed`
     deflection: FloatArray
     size: FloatArray
 

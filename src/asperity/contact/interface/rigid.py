@@ -35,39 +35,20 @@ _NO_WORM = Thread(np.zeros((), FORM)[()], np.empty((0, 3)))
 
 
 class Numbers(NamedTuple):
-    """A surface as the kernels take it.
+    """A surface as the kernels take it."""
 
-    Attributes
-    ----------
-    kind : int
-        `PLANE`, `SPHERE`, `CYLINDER` or `WORM`.
-    radius, side : float
-        Of sphere and cylinder: m; -1 where the material is outside.
-    worm : Thread
-        The worm, in mm.
-    """
-
-    kind: int
+    kind: int  #: `PLANE`, `SPHERE`, `CYLINDER` or `WORM`
+    #: radius, side: Of sphere and cylinder, m; -1 where the material is outside
     radius: float = 0.0
     side: float = 1.0
-    worm: Thread = _NO_WORM
+    worm: Thread = _NO_WORM  #: The worm, in mm
 
 
 @kernel
 def distance(x, y, z, surface):
-    """Signed distance of a point in the surface's own frame, with gradient and Hessian.
+    """Signed distance of a point in the surface's own frame, m, with gradient and Hessian.
 
-    Parameters
-    ----------
-    x, y, z : float
-        The point, m.
-    surface : Numbers
-        `RigidSurface.numbers`.
-
-    Returns
-    -------
-    tuple of 10 floats
-        Distance, m; gradient (3); Hessian (xx, yy, zz, xy, xz, yz), 1/m.
+    Ten floats: the distance, the gradient's three, and the Hessian's xx, yy, zz, xy, xz, yz, 1/m.
     """
     if surface.kind == SPHERE:
         size = math.sqrt(x * x + y * y + z * z)
@@ -108,18 +89,10 @@ def distance(x, y, z, surface):
 
 @dataclass(frozen=True, eq=False)
 class RigidSurface:
-    """A rigid surface in its own frame.
+    """A rigid surface in its own frame."""
 
-    Attributes
-    ----------
-    name : str
-        What it is.
-    numbers : Numbers
-        As `distance` takes them.
-    """
-
-    name: str
-    numbers: Numbers
+    name: str  #: What it is
+    numbers: Numbers  #: As `distance` takes them
 
     @classmethod
     def plane(cls) -> RigidSurface:
@@ -150,15 +123,7 @@ def _round(kind: int, radius: float, inside: bool) -> Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Where a surface stands: ``x = rotation @ own + translation``.
+    """Where a surface stands: ``x = rotation @ own + translation``."""
 
-    Attributes
-    ----------
-    rotation : ndarray, shape (3, 3)
-        Proper rotation.
-    translation : ndarray, shape (3,)
-        m.
-    """
-
-    rotation: FloatArray = field(default_factory=lambda: np.eye(3))
-    translation: FloatArray = field(default_factory=lambda: np.zeros(3))
+    rotation: FloatArray = field(default_factory=lambda: np.eye(3))  #: (3, 3): Proper rotation
+    translation: FloatArray = field(default_factory=lambda: np.zeros(3))  #: (3,): m

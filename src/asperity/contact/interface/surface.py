@@ -7,42 +7,28 @@ the same shape functions. A constant pressure is then exactly in equilibrium on 
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
-from scipy import sparse
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.errors import InputError, choices
+from asperity.errors import InputError
 from asperity.mesh import HexMesh, shape
 
 
 @dataclass(frozen=True, eq=False)
 class ContactSurface:
-    """Faces of an elastic body that may touch another, with a Gauss rule on each.
+    """Faces of an elastic body that may touch another, with a Gauss rule on each."""
 
-    Parameters
-    ----------
-    nodes : ndarray of int, shape (n,)
-        The surface's nodes in the mesh, ascending: those of `CondensedBody.nodes`.
-    positions : ndarray, shape (n, 3)
-        Where they are, m.
-    faces : ndarray of int, shape (k, 4) or (k, 9)
-        Nodes of each face, numbered as in `nodes`, counterclockwise seen from outside.
-    shapes : ndarray, shape (q, 4) or (q, 9)
-        Shape functions at the quadrature points, the same for every face.
-    weights : ndarray, shape (k, q)
-        Quadrature weights times area, m^2.
-    normals : ndarray, shape (k, q, 3)
-        Unit normals at the quadrature points, out of the body.
-    """
-
+    #: (n,): The surface's nodes in the mesh, ascending: those of `CondensedBody.nodes`
     nodes: IntArray
-    positions: FloatArray
+    positions: FloatArray  #: (n, 3): Where they are, m
+    #: (k, 4) or (k, 9): Nodes of each face, numbered as in `nodes`, counterclockwise seen from
+    #: outside
     faces: IntArray
+    #: (q, 4) or (q, 9): Shape functions at the quadrature points, the same for every face
     shapes: FloatArray
-    weights: FloatArray
-    normals: FloatArray
+    weights: FloatArray  #: (k, q): Quadrature weights times area, m^2
+    normals: FloatArray  #: (k, q, 3): Unit normals at the quadrature points, out of the body
 
     @property
     def area(self) -> float:
@@ -66,95 +52,28 @@ class ContactSurface:
         return np.asarray(mean / np.linalg.norm(mean, axis=1, keepdims=True))
 
     def to_points(self, nodal: FloatArray) -> FloatArray:
-        """Return a nodal field at the quadrature points.
-
-        Parameters
-        ----------
-        nodal : ndarray, shape (n, ...)
-
-        Returns
-        -------
-        ndarray, shape (k, q, ...)
-        """
+        """Return a nodal field, (n, ...), at the quadrature points, (k, q, ...)."""
         return np.asarray(np.einsum("qa,ka...->kq...", self.shapes, nodal[self.faces]))
 
     def integral(self, values: FloatArray) -> FloatArray:
-        """Return the integral over the surface of a field at the quadrature points.
-
-        Parameters
-        ----------
-        values : ndarray, shape (k, q, ...)
-        """
+        """Return the integral over the surface of a field at the quadrature points, (k, q, ...)."""
         return np.asarray(np.einsum("kq,kq...->...", self.weights, values))
 
     def to_forces(self, tractions: FloatArray) -> FloatArray:
-        """Return the nodal forces of tractions at the quadrature points.
-
-        Parameters
-        ----------
-        tractions : ndarray, shape (k, q, ...)
-            Force per area.
-
-        Returns
-        -------
-        ndarray, shape (n, ...)
-        """
+        """Return the nodal forces, (n, ...), of tractions at the quadrature points, (k, q, ...)."""
         shares = np.einsum("qa,kq,kq...->ka...", self.shapes, self.weights, tractions)
         forces = np.zeros((len(self.nodes), *shares.shape[2:]))
         np.add.at(forces, self.faces, shares)
         return forces
 
-    def to_nodes(
-        self, values: FloatArray, method: Literal["average", "projection"] = "average"
-    ) -> FloatArray:
-        """Return a nodal field for a picture from values at the quadrature points.
+    def to_nodes(self, values: FloatArray) -> FloatArray:
+        """Return a nodal field for a picture from values at the quadrature points, (k, q, ...).
 
-        Parameters
-        ----------
-        values : ndarray, shape (k, q, ...)
-            For example pressures.
-        method : {'average', 'projection'}
-            A mean around each node, weighted with its shape function, never leaves the range of
-            the values where shape functions are positive, and smooths. The projection is the
-            nearest field in the mean square: exact where the field is one of the surface's shape
-            functions, but it overshoots at the edge of a contact.
-
-        Returns
-        -------
-        ndarray, shape (n, ...)
-            With the same integral as the values.
+        It is a mean around each node, weighted with its shape function: of the same integral as
+        the values, and never out of their range where shape functions are positive.
         """
         right = self.to_forces(values)
-        if method == "average":
-            return right / self.nodal_area.reshape(-1, *[1] * (right.ndim - 1))
-        if method != "projection":
-            raise InputError(f"method is {method!r}; allowed: {choices(('average', 'projection'))}")
-        from scipy.sparse.linalg import splu
-
-        flat = right.reshape(len(right), -1)
-        return np.asarray(splu(self._mass).solve(flat).reshape(right.shape))
-
-    @cached_property
-    def _mass(self) -> sparse.csc_array:
-        local = np.einsum("qa,kq,qb->kab", self.shapes, self.weights, self.shapes)
-        rows = np.repeat(self.faces, self.faces.shape[1], axis=1)
-        columns = np.tile(self.faces, self.faces.shape[1])
-        size = len(self.nodes)
-        entries = (local.reshape(-1), (rows.reshape(-1), columns.reshape(-1)))
-        return sparse.csc_array(sparse.coo_array(entries, shape=(size, size)))
-
-    def resultant(self, forces: FloatArray, about: FloatArray) -> FloatArray:
-        """Return the resultant force and moment of nodal forces, shape (6,).
-
-        Parameters
-        ----------
-        forces : ndarray, shape (n, 3)
-            Nodal forces, N.
-        about : ndarray, shape (3,)
-            Point the moment is taken about, m.
-        """
-        moment = np.cross(self.positions - about, forces).sum(axis=0)
-        return np.concatenate([forces.sum(axis=0), moment])
+        return right / self.nodal_area.reshape(-1, *[1] * (right.ndim - 1))
 
 
 def contact_surface(mesh: HexMesh, faces: str, rule: int | None = None) -> ContactSurface:

@@ -34,21 +34,12 @@ _RIGID = 6
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class BaseCompliance:
-    """What a base gives under friction spread evenly over it, along x and y.
+    """What a base gives under friction spread evenly over it, along x and y."""
 
-    Attributes
-    ----------
-    at_once : ndarray, shape (2, 2)
-        :math:`G`, m/N.
-    levers : ndarray, shape (2, m)
-        :math:`B`: mean displacement of the base per coordinate.
-    mass, stiffness : ndarray, shape (m, m)
-        Of the coordinates that the contact's springs or the body's own stiffness hold: shift along
-        z and turns about x and y where no guide holds them, and modes.
-    """
-
-    at_once: FloatArray
-    levers: FloatArray
+    at_once: FloatArray  #: (2, 2): :math:`G`, m/N
+    levers: FloatArray  #: (2, m): :math:`B`: mean displacement of the base per coordinate
+    #: mass, stiffness (m, m): Of the coordinates that the contact's springs or the body's own
+    #: stiffness hold: shift along z and turns about x and y where no guide holds them, and modes
     mass: FloatArray
     stiffness: FloatArray
 
@@ -84,18 +75,10 @@ class BaseCompliance:
 def base_compliance(
     mechanism: Mechanism, surface: ContactSurface, normal: NormalLaw, mean_pressure: float
 ) -> BaseCompliance:
-    """Return what the base of a free body gives under friction.
+    """Return what the base of a free body gives under friction, all of it touching a level plane.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The body, its six rigid motions first among its coordinates.
-    surface : ContactSurface
-        Its base, level; all of it is taken to touch.
-    normal : NormalLaw
-        Pressure against overclosure; hard contact does not give at all.
-    mean_pressure : float
-        At which the law's slope is taken, Pa.
+    Its six rigid motions stand first among the body's coordinates. The law's slope is taken at a
+    mean pressure in Pa; hard contact does not give at all.
 
     Raises
     ------

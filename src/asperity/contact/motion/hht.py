@@ -34,26 +34,15 @@ ALPHA = -0.05
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Coordinates:
-    """A state of m generalised coordinates; each an array of shape (m,), SI.
+    """A state of m generalised coordinates; each an array of shape (m,), SI."""
 
-    Attributes
-    ----------
-    place, velocity, acceleration : ndarray
-        Of each coordinate.
-    force : ndarray
-        D v + K q - Q: what acts on them, with the sign of a resistance.
-    imbalance : ndarray
-        -(D v + K q - Q) - M a, which the method leaves at the end of a step.
-    reaction : ndarray
-        What holds a held coordinate.
-    """
-
+    #: place, velocity, acceleration: Of each coordinate
     place: FloatArray
     velocity: FloatArray
     acceleration: FloatArray
-    force: FloatArray
-    imbalance: FloatArray
-    reaction: FloatArray
+    force: FloatArray  #: D v + K q - Q: what acts on them, with the sign of a resistance
+    imbalance: FloatArray  #: -(D v + K q - Q) - M a, which the method leaves at the end of a step
+    reaction: FloatArray  #: What holds a held coordinate
 
     @classmethod
     def at_rest(cls, size: int, **given: FloatArray) -> Coordinates:
@@ -63,19 +52,9 @@ class Coordinates:
 
 
 def coefficients(alpha: float = ALPHA, *, impact: bool = False) -> tuple[float, float]:
-    r"""Newmark's :math:`\beta` and :math:`\gamma` that belong to :math:`\alpha`.
+    r"""Newmark's :math:`\beta` and :math:`\gamma` that belong to :math:`\alpha`, -1/3 to 0.
 
-    Parameters
-    ----------
-    alpha : float
-        Parameter of the method, -1/3 to 0.
-    impact : bool
-        Whether the body meets contacts that a step does not resolve.
-
-    Raises
-    ------
-    InputError
-        ``alpha`` is not between -1/3 and 0.
+    ``impact``: the body meets contacts that a step does not resolve.
     """
     if not -1.0 / 3.0 <= alpha <= 0.0:
         raise InputError(f"alpha is {alpha:g}; it must be between -1/3 and 0")
@@ -84,35 +63,21 @@ def coefficients(alpha: float = ALPHA, *, impact: bool = False) -> tuple[float, 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class StepOperator:
-    r"""What one length of the step makes of masses and stiffnesses.
+    r"""What one length of the step makes of masses and stiffnesses."""
 
-    Attributes
-    ----------
-    mass, stiffness : ndarray, shape (m, m)
-        :math:`M` and :math:`K` of the coordinates.
-    damping : ndarray, shape (m,)
-        Diagonal of :math:`D`, N s/m.
-    compliance : ndarray, shape (m, m)
-        :math:`S`: coordinate at the end of the step per force there. Rows and columns of held
-        coordinates are zero.
-    carry : ndarray, shape (m, m)
-        What becomes of the place the coordinates would reach by Newmark's formulas without an
-        acceleration at the end of the step.
-    held : ndarray of bool, shape (m,)
-        Coordinates that go on at the velocity they have, whatever the forces.
-    step : float
-        s.
-    beta, gamma, alpha : float
-        Of the method.
-    """
-
+    #: mass, stiffness (m, m): :math:`M` and :math:`K` of the coordinates
     mass: FloatArray
     stiffness: FloatArray
-    damping: FloatArray
+    damping: FloatArray  #: (m,): Diagonal of :math:`D`, N s/m
+    #: (m, m): :math:`S`: coordinate at the end of the step per force there. Rows and columns of
+    #: held coordinates are zero.
     compliance: FloatArray
+    #: (m, m): What becomes of the place the coordinates would reach by Newmark's formulas without
+    #: an acceleration at the end of the step
     carry: FloatArray
-    held: BoolArray
-    step: float
+    held: BoolArray  #: (m,): Coordinates that go on at the velocity they have, whatever the forces
+    step: float  #: s
+    #: beta, gamma, alpha: Of the method
     beta: float
     gamma: float
     alpha: float
@@ -129,15 +94,7 @@ class StepOperator:
         return state.place + step * state.velocity + acceleration
 
     def predict(self, state: Coordinates, known: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return where the forces known beforehand would lead, :math:`q^*`, and its velocity.
-
-        Parameters
-        ----------
-        state : Coordinates
-            Committed.
-        known : ndarray, shape (m,)
-            Generalised forces at the end of the step.
-        """
+        """Return where forces known beforehand lead, :math:`q^*`, and its velocity."""
         ahead = self._ahead(state)
         velocity = state.velocity + self.step * (1.0 - self.gamma) * state.acceleration
         push = known + self.alpha / (1.0 + self.alpha) * state.force - self.damping * velocity

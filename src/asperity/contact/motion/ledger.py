@@ -82,16 +82,8 @@ def over_step(
 ) -> Sums:
     """Return what one step adds to the sums.
 
-    Parameters
-    ----------
-    system : System
-        What moves.
-    before, after : SystemState
-        At both ends.
-    base : BaseMotion
-        Of the base in between.
-    taken : tuple of 2 floats
-        By the method and by the damping of the coordinates, J.
+    ``base`` moved in between; ``taken`` is what the method and the damping of the coordinates took,
+    J.
     """
     one, other = before.contact, after.contact
     slip = other.slip_1 + other.slip_2
@@ -146,27 +138,13 @@ def _moved(load: Port, state: SystemState) -> float:
 
 @dataclasses.dataclass(frozen=True)
 class Energies:
-    """Energies of a body on its contact at one time, J.
+    """Energies of a body on its contact at one time, J."""
 
-    Attributes
-    ----------
-    kinetic : float
-        Of the generalised coordinates.
-    elastic : float
-        Of the deformation, modes included.
-    spring : float
-        In the drive's spring.
-    overclosure : float
-        In the contact's pressure.
-    asperities : float
-        In the asperities.
-    """
-
-    kinetic: float
-    elastic: float
-    spring: float
-    overclosure: float = 0.0
-    asperities: float = 0.0
+    kinetic: float  #: Of the generalised coordinates
+    elastic: float  #: Of the deformation, modes included
+    spring: float  #: In the drive's spring
+    overclosure: float = 0.0  #: In the contact's pressure
+    asperities: float = 0.0  #: In the asperities
 
     @property
     def total(self) -> float:

@@ -33,21 +33,13 @@ from asperity.errors import InputError
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Port:
-    """A way in for a force that is not contact: what it moves, per newton.
+    """A way in for a force that is not contact: what it moves, per newton."""
 
-    Attributes
-    ----------
-    generalised : ndarray, shape (m,)
-        Force on each generalised coordinate; also how far the port goes per coordinate.
-    response : ndarray, shape (3 n,)
-        Deformation at the contact nodes, m/N; also how far contact forces move the port.
-    own : float
-        Deformation at the port itself, m/N.
-    """
-
+    #: (m,): Force on each generalised coordinate; also how far the port goes per coordinate
     generalised: FloatArray
+    #: (3 n,): Deformation at the contact nodes, m/N; also how far contact forces move the port
     response: FloatArray
-    own: float = 0.0
+    own: float = 0.0  #: Deformation at the port itself, m/N
 
     def moved(self, coordinates: Coordinates, force: FloatArray) -> float:
         """Return how far coordinates and contact forces, N, move the port, m."""
@@ -56,52 +48,28 @@ class Port:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Drive:
-    """A spring and a dashpot side by side between the body and a point that moves.
+    """A spring and a dashpot side by side between the body and a point that moves."""
 
-    Attributes
-    ----------
-    port : Port
-        Where it holds the body, and in which direction.
-    stiffness : float
-        k_d, N/m.
-    damping : float
-        h_d, N s/m.
-    """
-
-    port: Port
-    stiffness: float
-    damping: float = 0.0
+    port: Port  #: Where it holds the body, and in which direction
+    stiffness: float  #: k_d, N/m
+    damping: float = 0.0  #: h_d, N s/m
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Mechanism:
-    """A condensed body with what holds and loads it.
+    """A condensed body with what holds and loads it."""
 
-    Attributes
-    ----------
-    flexibility : ndarray, shape (3 n, 3 n)
-        Deformation of the contact nodes by contact forces less what the modes carry, m/N.
-    shapes : ndarray, shape (3 n, m)
-        Displacement of the contact nodes per generalised coordinate.
-    mass, stiffness : ndarray, shape (m, m)
-        Of the coordinates.
-    held : ndarray of bool, shape (m,)
-        Coordinates that are guided or driven at a constant velocity.
-    damping : ndarray, shape (m,), or None
-        What resists the velocity of each coordinate by itself, N s/m; None: nothing.
-    drive : Drive or None
-        None: nothing pulls but a held coordinate.
-    load : Port or None
-        All given loads together at their full size: forces in N, responses in m.
-    """
-
+    #: (3 n, 3 n): Deformation of the contact nodes by contact forces less what the modes carry, m/N
     flexibility: FloatArray
-    shapes: FloatArray
+    shapes: FloatArray  #: (3 n, m): Displacement of the contact nodes per generalised coordinate
+    #: mass, stiffness (m, m): Of the coordinates
     mass: FloatArray
     stiffness: FloatArray
-    held: BoolArray
-    drive: Drive | None = None
+    held: BoolArray  #: (m,): Coordinates that are guided or driven at a constant velocity
+    drive: Drive | None = None  #: None: nothing pulls but a held coordinate
+    #: All given loads together at their full size: forces in N, responses in m
     load: Port | None = None
+    #: (m,): What resists the velocity of each coordinate by itself, N s/m; None: nothing
     damping: FloatArray | None = None
 
     @property
@@ -112,27 +80,13 @@ class Mechanism:
 
 @dataclasses.dataclass(frozen=True)
 class DriveState:
-    """Where a drive is, and how it pulls.
+    """Where a drive is, and how it pulls."""
 
-    Attributes
-    ----------
-    reach : float
-        Place of its far end, m.
-    way : float
-        Place of the point it holds, m.
-    force : float
-        Drive force, N.
-    strain : float
-        What deformation adds to the place of the point, m.
-    pull : float
-        Part of the force that comes from the dashpot, N.
-    """
-
-    reach: float = 0.0
-    way: float = 0.0
-    force: float = 0.0
-    strain: float = 0.0
-    pull: float = 0.0
+    reach: float = 0.0  #: Place of its far end, m
+    way: float = 0.0  #: Place of the point it holds, m
+    force: float = 0.0  #: Drive force, N
+    strain: float = 0.0  #: What deformation adds to the place of the point, m
+    pull: float = 0.0  #: Part of the force that comes from the dashpot, N
 
     @property
     def stretch(self) -> float:
@@ -143,58 +97,33 @@ class DriveState:
 class Imposed(NamedTuple):
     """What stands at the end of a step, whatever the body does."""
 
-    reach: float
-    """Place of the drive's far end, m."""
-    speed: float
-    """Its velocity, m/s."""
-    load: float
-    """Share of the loads."""
+    reach: float  #: Place of the drive's far end, m
+    speed: float  #: Its velocity, m/s
+    load: float  #: Share of the loads
 
 
 class Approach(NamedTuple):
     """Where a step would lead without contact forces."""
 
-    place: FloatArray
-    """Coordinates without the drive force, shape (m,)."""
+    place: FloatArray  #: Coordinates without the drive force, shape (m,)
     velocity: FloatArray
-    free: FloatArray
-    """Displacement of the contact nodes :math:`u^*`, m, shape (3 n,)."""
-    force: float
-    """Drive force, N."""
+    free: FloatArray  #: Displacement of the contact nodes :math:`u^*`, m, shape (3 n,)
+    force: float  #: Drive force, N
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class MotionStep:
-    """A mechanism's motion over one length of the step.
+    """A mechanism's motion over one length of the step."""
 
-    Attributes
-    ----------
-    operator : StepOperator
-        Of the generalised coordinates.
-    compliance : ndarray, shape (3 n, 3 n)
-        `A`, m/N.
-    shapes : ndarray, shape (3 n, m)
-        Displacement of the contact nodes per generalised coordinate.
-    drive : Drive
-        One without stiffness where nothing pulls.
-    load : Port
-        One that moves nothing where there are no loads.
-    lift : ndarray, shape (3 n,)
-        Displacement of the contact nodes by a unit drive force within the step, m/N.
-    drop : ndarray, shape (3 n,)
-        What contact forces take off the drive force.
-    yielding : float
-        What the drive's own give divides its force by.
-    """
-
-    operator: StepOperator
-    compliance: FloatArray
-    shapes: FloatArray
-    drive: Drive
-    load: Port
+    operator: StepOperator  #: Of the generalised coordinates
+    compliance: FloatArray  #: (3 n, 3 n): `A`, m/N
+    shapes: FloatArray  #: (3 n, m): Displacement of the contact nodes per generalised coordinate
+    drive: Drive  #: One without stiffness where nothing pulls
+    load: Port  #: One that moves nothing where there are no loads
+    #: (3 n,): Displacement of the contact nodes by a unit drive force within the step, m/N
     lift: FloatArray
-    drop: FloatArray
-    yielding: float
+    drop: FloatArray  #: (3 n,): What contact forces take off the drive force
+    yielding: float  #: What the drive's own give divides its force by
 
     def approach(self, state: Coordinates, drive: DriveState, imposed: Imposed) -> Approach:
         """Return where a step leads from committed states without contact forces."""
@@ -214,23 +143,10 @@ class MotionStep:
         start: Approach,
         forces: FloatArray,
     ) -> tuple[Coordinates, DriveState, tuple[float, float]]:
-        """Return both states at the end of a step, the contact forces being known.
+        """Return both states at the end of a step, the contact forces on the body, N, being known.
 
-        Parameters
-        ----------
-        state, drive, imposed : Coordinates, DriveState, Imposed
-            As in `approach`.
-        start : Approach
-            What that returned.
-        forces : ndarray, shape (3 n,)
-            Contact forces on the body, N.
-
-        Returns
-        -------
-        state, drive : Coordinates, DriveState
-            At the end.
-        taken : tuple of 2 floats
-            Energy dissipated by the method, and by the coordinates' damping, J.
+        ``start`` is what `approach` returned. Last comes the energy dissipated by the method, and
+        by the coordinates' damping, J.
         """
         operator, port = self.operator, self.drive.port
         pull = start.force - float(self.drop @ forces)
@@ -256,16 +172,7 @@ class MotionStep:
 def motion_step(
     mechanism: Mechanism, step: float, *, alpha: float = ALPHA, impact: bool = False
 ) -> MotionStep:
-    """Return what a mechanism does in steps of one length.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The body.
-    step : float
-        Length of the step, s.
-    alpha, impact
-        As `asperity.contact.motion.hht.step_operator` takes them.
+    """Return what a mechanism does in steps of one length in s.
 
     Raises
     ------

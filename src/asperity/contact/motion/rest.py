@@ -1,10 +1,9 @@
-"""What a motion starts from: a body at rest under its loads, or one let go anywhere."""
+"""What a motion starts from: a body at rest under its loads."""
 
 import dataclasses
 
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import SurfaceMotion
@@ -22,19 +21,10 @@ _INERTIA_AT_REST, _MOST_INERTIA = 1e-5, 0.1
 
 
 def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
-    """Bring a body to rest under loads that come one after the other, friction and all.
+    """Bring a body to rest under loads, friction and all; its drive and shaking wait.
 
-    Parameters
-    ----------
-    system : System
-        The body; its drive and shaking wait.
-    loads : tuple of Port
-        Loads as they stand after each step, as gravity, then gravity and pressure.
-
-    Returns
-    -------
-    SystemState
-        At time zero, the drive just taut.
+    The loads are those that stand after each step, as gravity, then gravity and pressure. At the
+    end, time zero, the drive is just taut.
 
     Raises
     ------
@@ -42,7 +32,7 @@ def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
         No equilibrium was found: the loads do not press the body on the surface, or it tips over.
     """
     mechanism = system.mechanism
-    long, accuracy = _loading(system)
+    long, accuracy = loading(system)
     waiting = dataclasses.replace(mechanism, drive=None, load=None, damping=None)
     first = motion_step(waiting, long, alpha=0.0)
     solver = IncrementSolver(system.increments(first.compliance, long))
@@ -80,68 +70,10 @@ def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
     if result is None:
         raise InputError("no load presses the body on its base; give gravity or a pressure")
     whole = dataclasses.replace(system, mechanism=dataclasses.replace(mechanism, load=loads[-1]))
-    return _at_start(whole, result, coordinates)
+    return at_start(whole, result, coordinates)
 
 
-def released(system: System, place: FloatArray, velocity: FloatArray) -> SystemState:
-    """Let a body go from a place with a velocity: above its base, tilted, thrown at it.
-
-    It is deformed by its loads, and by the contact where there is one, as if it had been held
-    there; the asperities stand as this little deformation bends them. The drive is just taut.
-
-    Parameters
-    ----------
-    system : System
-        The body, its loads on.
-    place, velocity : ndarray, shape (m,)
-        Generalised coordinates, rigid motion first: shift, m, and turn, rad; and their velocities.
-        Of held coordinates they are nil.
-
-    Returns
-    -------
-    SystemState
-        At time zero.
-
-    Raises
-    ------
-    InputError
-        Not a finite place and velocity for each coordinate.
-    ConvergenceError
-        No equilibrium of the contact at this place.
-    """
-    mechanism = system.mechanism
-    start = np.array([place, velocity], dtype=float)
-    if start.shape != (2, mechanism.size) or not np.isfinite(start).all():
-        raise InputError(
-            f"place and velocity have the shape {start.shape[1:]}; give ({mechanism.size},), finite"
-        )
-    start[:, mechanism.held] = 0.0
-    load = mechanism.load
-    free = mechanism.shapes @ start[0]
-    forces = mechanism.stiffness @ start[0]
-    if mechanism.damping is not None:
-        forces += mechanism.damping * start[1]
-    if load is not None:
-        free, forces = free + load.response, forces - load.generalised
-    problem = system.increments(mechanism.flexibility, _loading(system)[0])
-    untouched = dataclasses.replace(ContactState.rest(problem), displacement=free)
-    result = IncrementSolver(problem).solve(free, SurfaceMotion(pose=system.pose), untouched)
-    forces -= mechanism.shapes.T @ result.force
-    moving = ~mechanism.held
-    acceleration = np.zeros(mechanism.size)
-    acceleration[moving] = np.linalg.solve(mechanism.mass[np.ix_(moving, moving)], -forces[moving])
-    coordinates = Coordinates.at_rest(
-        mechanism.size,
-        place=start[0],
-        velocity=start[1],
-        acceleration=acceleration,
-        force=forces,
-        reaction=np.where(mechanism.held, forces, 0.0),
-    )
-    return _at_start(system, result, coordinates)
-
-
-def _loading(system: System) -> tuple[float, float]:
+def loading(system: System) -> tuple[float, float]:
     """Length of a step of loading, s, and the share of a load that rest may leave to the inertia.
 
     In a step without contact the body would fall by its give over the share of the inertia: so far
@@ -164,7 +96,8 @@ def _loading(system: System) -> tuple[float, float]:
     return long, max(_AT_REST, digits / inertia)
 
 
-def _at_start(system: System, result: IncrementResult, coordinates: Coordinates) -> SystemState:
+def at_start(system: System, result: IncrementResult, coordinates: Coordinates) -> SystemState:
+    """Return the state of a body at time zero, the drive just taut."""
     mechanism = system.mechanism
     way, strain = float(coordinates.place[0]), 0.0
     if mechanism.drive is not None:

@@ -48,33 +48,19 @@ _HARD = 1e-3
 
 @dataclasses.dataclass(frozen=True)
 class Growth:
-    """A disturbance of steady sliding that grows.
+    """A disturbance of steady sliding that grows."""
 
-    Attributes
-    ----------
-    rate : float
-        Its amplitude grows by the factor e in 1/rate, 1/s.
-    frequency : float
-        Hz; 0 where it does not oscillate.
-    """
-
-    rate: float
-    frequency: float
+    rate: float  #: Its amplitude grows by the factor e in 1/rate, 1/s
+    frequency: float  #: Hz; 0 where it does not oscillate
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SlidingMotion:
-    """Small motions about steady sliding in one direction: M q'' + D q' + K q = 0.
+    """Small motions about steady sliding in one direction: M q'' + D q' + K q = 0."""
 
-    Attributes
-    ----------
-    direction : tuple of 2 floats
-        Unit vector of the body's slip, along x and y.
-    mass, damping, stiffness : ndarray, shape (m, m)
-        Of the coordinates that are not held; the stiffness is not symmetric.
-    """
-
-    direction: tuple[float, float]
+    direction: tuple[float, float]  #: Unit vector of the body's slip, along x and y
+    #: mass, damping, stiffness (m, m): Of the coordinates that are not held; the stiffness is not
+    #: symmetric
     mass: FloatArray
     damping: FloatArray
     stiffness: FloatArray
@@ -91,20 +77,10 @@ class SlidingMotion:
         return np.asarray(found, dtype=complex)
 
     def in_steps(self, step: float, *, alpha: float = ALPHA, impact: bool = False) -> ComplexArray:
-        """Eigenvalues of the motion as `asperity.contact.motion.hht` steps it, 1/s.
+        """Eigenvalues, 1/s, of the motion in steps of `asperity.contact.motion.hht`, in s.
 
-        Parameters
-        ----------
-        step : float
-            Length of the step, s.
-        alpha, impact
-            Of the method.
-
-        Returns
-        -------
-        ndarray, shape (k,)
-            ln(z)/h of the factors z by which motions change in a step, those that vanish at once
-            left out.
+        They are ln(z)/h of the factors z by which motions change in a step, those that vanish at
+        once left out.
         """
         beta, gamma = coefficients(alpha, impact=impact)
         size = len(self.mass)
@@ -133,10 +109,7 @@ class SlidingMotion:
     def growth(self, eigenvalues: ComplexArray | None = None) -> Growth | None:
         """Return what grows fastest; None where nothing does, as far as rounding can tell.
 
-        Parameters
-        ----------
-        eigenvalues : ndarray, optional
-            Those of `in_steps`; left out, those of motion in time.
+        In time, or in steps where the eigenvalues of `in_steps` are given.
         """
         found = self.eigenvalues if eigenvalues is None else eigenvalues
         sure = found.real * np.abs(found) > _ROUNDING * (np.abs(self.eigenvalues) ** 2).max()
@@ -154,23 +127,10 @@ def sliding_motion(
     pressure: float,
     direction: tuple[float, float],
 ) -> SlidingMotion:
-    """Return how a body moves about steady sliding on a level plane.
+    """Return how a body moves about steady sliding on a level plane, all of its surface touching.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The body and its drive, whose dashpot counts as far as the body's own give does not yield
-        to it.
-    surface : ContactSurface
-        Its base, level; all of it is taken to touch.
-    normal : NormalLaw
-        Pressure against overclosure.
-    friction : PointFriction
-        Friction law.
-    pressure : float
-        Mean pressure, Pa; above 0.
-    direction : tuple of 2 floats
-        Of the body's slip along x and y, of any length but 0.
+    The direction is that of the body's slip along x and y, of any length but 0; the pressure, in
+    Pa, the mean. The drive's dashpot counts as far as the body's own give does not yield to it.
 
     Raises
     ------

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -30,21 +29,11 @@ _MOST_SEARCHES = 60
 
 @dataclass(frozen=True, eq=False)
 class Guide:
-    """One freedom of a counter-surface: a shift along ``axis`` or a turn about it.
+    """One freedom of a counter-surface: a shift along ``axis`` or a turn about it."""
 
-    Attributes
-    ----------
-    axis : ndarray, shape (3,)
-        Direction; its length does not count.
-    pose : Pose
-        Where the surface stands at place 0.
-    centre : ndarray, shape (3,), or None
-        A point of the axis of a turn, m; None for a shift.
-    """
-
-    axis: FloatArray
-    pose: Pose = field(default_factory=Pose)
-    centre: FloatArray | None = None
+    axis: FloatArray  #: (3,): Direction; its length does not count
+    pose: Pose = field(default_factory=Pose)  #: Where the surface stands at place 0
+    centre: FloatArray | None = None  #: (3,): A point of the axis of a turn, m; None for a shift
 
     def __post_init__(self) -> None:
         length = float(np.linalg.norm(self.axis))
@@ -79,88 +68,15 @@ class Guide:
 
 @dataclass(frozen=True, eq=False)
 class StaticState:
-    """A body in static contact.
+    """A body in static contact."""
 
-    Attributes
-    ----------
-    place : float
-        Of the counter-surface on its guide, m or rad.
-    load : float
-        That holds it there, N or N m.
-    contact : IncrementResult
-        The last increment.
-    increments : int
-        Increments taken since the state before.
-    friction_work : float
-        Done against friction since the state before, J: of the mean tractions of each increment on
-        its slip. Over a closed cycle it is dissipated; on the way the asperities hold a part of it.
-    """
-
-    place: float
-    load: float
-    contact: IncrementResult
-    increments: int
+    place: float  #: Of the counter-surface on its guide, m or rad
+    load: float  #: That holds it there, N or N m
+    contact: IncrementResult  #: The last increment
+    increments: int  #: Increments taken since the state before
+    #: Done against friction since the state before, J: of the mean tractions of each increment on
+    #: its slip. Over a closed cycle it is dissipated; on the way the asperities hold a part of it.
     friction_work: float = 0.0
-
-
-def on_guide(
-    solver: IncrementSolver, guide: Guide, state: StaticState, place: float = 0.0
-) -> StaticState:
-    """Count the place of a state on another guide, to go on along it.
-
-    Parameters
-    ----------
-    solver : IncrementSolver
-        Of the way to come; friction may differ from that of the way before.
-    guide : Guide
-        The next one; at ``place`` the counter-surface has to stand where it stands.
-    state : StaticState
-        Where the way before ended.
-    place : float
-        m or rad.
-
-    Returns
-    -------
-    StaticState
-        The same contact with its load along the next guide.
-    """
-    return StaticState(place, guide.load(solver.problem, state.contact), state.contact, 0)
-
-
-def follow(
-    solver: IncrementSolver,
-    guide: Guide,
-    places: Sequence[float],
-    *,
-    start: StaticState | float = 0.0,
-    increments: int = 1,
-) -> tuple[StaticState, ...]:
-    """Move the counter-surface from place to place.
-
-    Parameters
-    ----------
-    solver, guide, start
-        As `move_to`.
-    places : sequence of float
-        Where to, m or rad, one after the other.
-    increments : int
-        Equal parts of the way to each.
-
-    Returns
-    -------
-    tuple of StaticState
-        One for each place.
-
-    Raises
-    ------
-    ConvergenceError
-        As `move_to`.
-    """
-    states: list[StaticState] = []
-    for place in places:
-        start = move_to(solver, guide, place, start=start, increments=increments)
-        states.append(start)
-    return tuple(states)
 
 
 def _friction_work(

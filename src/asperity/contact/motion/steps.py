@@ -47,32 +47,10 @@ def take_step(
     drive: DriveState,
     imposed: Imposed,
 ) -> tuple[IncrementResult, Coordinates, DriveState, tuple[float, float]]:
-    """Solve a step of motion and contact together.
+    """Solve a step of motion and contact together, from committed contact, coordinates and drive.
 
-    Parameters
-    ----------
-    moving, solver : MotionStep, IncrementSolver
-        What the length of the step makes of body and contact.
-    surface_motion : SurfaceMotion
-        Of the base over the step.
-    contact, coordinates, drive : ContactState, Coordinates, DriveState
-        Committed.
-    imposed : Imposed
-        At the end of the step.
-
-    Returns
-    -------
-    result : IncrementResult
-        The contact at its end.
-    coordinates, drive : Coordinates, DriveState
-        Theirs.
-    taken : tuple of 2 floats
-        Energy the method and the damping of the coordinates took, J.
-
-    Raises
-    ------
-    ConvergenceError
-        With residual, iterations and points in contact.
+    Returns those at its end, and the energy the method and the damping of the coordinates took, J.
+    A ConvergenceError has residual, iterations and points in contact.
     """
     start = moving.approach(coordinates, drive, imposed)
     result = solver.solve(start.free, surface_motion, contact)
@@ -154,14 +132,9 @@ class Stepper:
         self.mean_pressure = np.zeros_like(self.mean_pressure)
 
     def step_to(self, end: float, step: float) -> None:
-        """Go on to a time in one step, or in parts where it does not converge.
+        """Go on to a time in s in one step, or in parts where it does not converge.
 
-        Parameters
-        ----------
-        end : float
-            Time at its end, s.
-        step : float
-            The length whose operators are used, s; ``end`` less the present time but for rounding.
+        The operators used are those of ``step``: ``end`` less the present time but for rounding.
 
         Raises
         ------

@@ -25,27 +25,15 @@ _RESOLVED = 2.0
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shaking:
-    """Vibration of a plane base or of the body as a contact sees it.
+    """Vibration of a plane base or of the body as a contact sees it."""
 
-    Attributes
-    ----------
-    shape : Shape
-        Waveform.
-    amplitude : tuple of 3 floats
-        Displacement amplitude along x, y, and z (up, against the pressure), m.
-    start : float
-        When it begins, s.
-    transfer : float
-        Share of lateral motion that reaches the contact: of the base, or of the body.
-    on_body : bool
-        Whether the body is shaken: its prescribed motion is added to its own.
-    """
-
-    shape: Shape
+    shape: Shape  #: Waveform
+    #: Displacement amplitude along x, y, and z (up, against the pressure), m
     amplitude: tuple[float, float, float]
-    start: float = 0.0
+    start: float = 0.0  #: When it begins, s
+    #: Share of lateral motion that reaches the contact: of the base, or of the body
     transfer: float = 1.0
-    on_body: bool = False
+    on_body: bool = False  #: Whether the body is shaken: its prescribed motion is added to its own
 
     def increment(self, begin: float, end: float) -> float:
         """Increment of the unit displacement between two times."""
@@ -62,49 +50,26 @@ class BaseMotion(NamedTuple):
     """Displacement of the base over a step, m."""
 
     x: float = 0.0
-    y: float = 0.0
-    """As far as the contact sees it."""
+    y: float = 0.0  #: As far as the contact sees it
     whole_y: float = 0.0
-    z: float = 0.0
-    """Upwards."""
+    z: float = 0.0  #: Upwards
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class System:
-    """A condensed body, what holds and loads it, and what it slides on.
+    """A condensed body, what holds and loads it, and what it slides on."""
 
-    Attributes
-    ----------
-    mechanism : Mechanism
-        The body.
-    surface : ContactSurface
-        Its faces that may touch.
-    counter, pose : RigidSurface, Pose
-        What it meets, and where that stands.
-    normal : NormalLaw
-        Pressure against overclosure.
-    friction : PointFriction
-        Friction law.
-    shaking : Shaking or None
-        Vibration.
-    drive_velocity : float
-        Of the drive's far end, or of a held first coordinate, m/s.
-    full_friction : float
-        Drive force that counts as breakaway, N.
-    alpha : float
-        Parameter of the time integration.
-    """
-
-    mechanism: Mechanism
-    surface: ContactSurface
+    mechanism: Mechanism  #: The body
+    surface: ContactSurface  #: Its faces that may touch
+    #: counter, pose: What it meets, and where that stands
     counter: RigidSurface
-    normal: NormalLaw
-    friction: PointFriction
+    normal: NormalLaw  #: Pressure against overclosure
+    friction: PointFriction  #: Friction law
     pose: Pose = dataclasses.field(default_factory=Pose)
-    shaking: Shaking | None = None
-    drive_velocity: float = 0.0
-    full_friction: float = np.inf
-    alpha: float = ALPHA
+    shaking: Shaking | None = None  #: Vibration
+    drive_velocity: float = 0.0  #: Of the drive's far end, or of a held first coordinate, m/s
+    full_friction: float = np.inf  #: Drive force that counts as breakaway, N
+    alpha: float = ALPHA  #: Parameter of the time integration
 
     @functools.cached_property
     def weights(self) -> FloatArray:
@@ -190,27 +155,11 @@ class System:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SystemState:
-    """All that a step starts from.
+    """All that a step starts from."""
 
-    Attributes
-    ----------
-    time : float
-        s.
-    coordinates : Coordinates
-        Of the body.
-    drive : DriveState
-        Of what pulls it.
-    contact : IncrementResult
-        Of the last increment.
-    forces : Resultants
-        Of the contact.
-    load : float
-        Share of the loads.
-    """
-
-    time: float
-    coordinates: Coordinates
-    drive: DriveState
-    contact: IncrementResult
-    forces: Resultants
-    load: float
+    time: float  #: s
+    coordinates: Coordinates  #: Of the body
+    drive: DriveState  #: Of what pulls it
+    contact: IncrementResult  #: Of the last increment
+    forces: Resultants  #: Of the contact
+    load: float  #: Share of the loads

@@ -11,27 +11,20 @@ from asperity.contact.interface.normal import HARD, TWO_STAGE, pressure
 class Resultants(NamedTuple):
     """What a contact does as a whole."""
 
-    friction_x: float
-    """Friction against the slip, N."""
+    friction_x: float  #: Friction against the slip, N
     friction_y: float
-    normal: float
-    """Normal force, N."""
-    deflection_x: float
-    """Of the asperities, mean by pressure, m."""
+    normal: float  #: Normal force, N
+    deflection_x: float  #: Of the asperities, mean by pressure, m
     deflection_y: float
 
 
 class SurfaceWorks(NamedTuple):
     """Works over a step, J, and the greatest pressure at its end, Pa."""
 
-    slip: float
-    """Of friction on the slip, trapezoidal."""
-    asperities: float
-    """Put into the asperities."""
-    pressure: float
-    """Put into the overclosure, trapezoidal."""
-    overclosure: float
-    """Put into the overclosure, by the law along the way."""
+    slip: float  #: Of friction on the slip, trapezoidal
+    asperities: float  #: Put into the asperities
+    pressure: float  #: Put into the overclosure, trapezoidal
+    overclosure: float  #: Put into the overclosure, by the law along the way
     greatest: float
 
 
@@ -90,21 +83,10 @@ def works(
     pressure_0, traction_0, normal_0, distance_0, deflection_0,
     pressure_1, traction_1, normal_1, distance_1, deflection_1, slip, weights, law, bristle,
 ):  # fmt: skip
-    """Works over a step.
+    """Works over a step, from the points at both ends and the slip between them, (q, 3), m.
 
-    Parameters
-    ----------
-    pressure_0, traction_0, normal_0, distance_0, deflection_0, \
-    pressure_1, traction_1, normal_1, distance_1, deflection_1 : ndarray
-        Of the points of the surface at both ends.
-    slip : ndarray, shape (q, 3)
-        Between them, m.
-    weights : ndarray, shape (q,)
-        Area of each point, m^2.
-    law : PressureLaw
-        Of `asperity.contact.interface.normal`.
-    bristle : float
-        mu over the deflection at full friction, 1/m.
+    ``weights`` are the areas of the points, m^2; ``bristle`` is mu over the deflection at full
+    friction, 1/m.
     """
     on_slip = 0.0
     into_asperities = 0.0

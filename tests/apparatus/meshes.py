@@ -1,4 +1,4 @@
-"""Several meshes joined into one where their skins coincide."""
+"""Meshes made of others, and whether a skin is closed."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -10,8 +10,12 @@ from scipy.spatial import KDTree
 
 from asperity.arrays import IntArray
 from asperity.errors import InputError
-from asperity.mesh.hexmesh import HexMesh
+from asperity.mesh import HexMesh, shape
+from asperity.mesh.surface import Surface
 
+_CORNERS = [[0, 1, 2], [0, 2, 3]]
+# A 9-node face as four quadrilaterals round its middle, two triangles each.
+_NINE = [[0, 4, 8], [0, 8, 7], [4, 1, 5], [4, 5, 8], [8, 5, 2], [8, 2, 6], [7, 8, 6], [7, 6, 3]]
 _NO_FACES = np.empty((0, 2), np.int64)
 
 
@@ -91,3 +95,60 @@ def merged(meshes: Sequence[HexMesh], tolerance: float | None = None) -> HexMesh
 def _keys(faces: IntArray) -> IntArray:
     keys: IntArray = 6 * faces[:, 0] + faces[:, 1]
     return keys
+
+
+def quadratic(mesh: HexMesh) -> HexMesh:
+    """Return a mesh with 27 nodes a cell: the new nodes lie in the middle of the old ones.
+
+    A face set stays. A node set that is named like a face set holds that set's nodes; another
+    gains a new node where it holds all corners of the new node's edge, face or cell.
+    """
+    if mesh.order == 2:
+        return mesh
+    cells, points = [mesh.cells], [mesh.points]
+    whole = np.arange(8)[None, :]
+    parents: list[tuple[IntArray, int]] = []
+    start = len(mesh.points)
+    for local in (shape.EDGES, shape.FACES, whole):
+        owners = np.sort(mesh.cells[:, local].reshape(-1, local.shape[1]), axis=1)
+        unique, index = np.unique(owners, axis=0, return_inverse=True)
+        points.append(mesh.points[unique].mean(axis=1))
+        cells.append(start + index.reshape(len(mesh.cells), len(local)))
+        parents.append((unique, start))
+        start += len(unique)
+    made = HexMesh(
+        np.concatenate(points), np.concatenate(cells, axis=1), {}, mesh.face_sets, mesh.unit
+    )
+    node_sets = {}
+    for name, nodes in mesh.node_sets.items():
+        held = np.zeros(len(mesh.points), dtype=bool)
+        held[nodes] = True
+        gained = [first + np.flatnonzero(held[owner].all(axis=1)) for owner, first in parents]
+        if name in mesh.face_sets:
+            gained = [np.setdiff1d(made.face_nodes(name), nodes)]
+        node_sets[name] = np.concatenate([nodes, *gained])
+    return replace(made, node_sets=node_sets)
+
+
+def open_edges(mesh: HexMesh) -> IntArray:
+    """Return the edges of a mesh's skin that do not join exactly two faces of it, shape (k, 2)."""
+    quads = mesh.skin()
+    edges = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
+    directed, count = np.unique(edges, axis=0, return_counts=True)
+    keys = directed @ np.array([len(mesh.points), 1])
+    reverse = directed[:, ::-1] @ np.array([len(mesh.points), 1])
+    wrong = (count > 1) | ~np.isin(reverse, keys)
+    return directed[wrong]
+
+
+def is_watertight(mesh: HexMesh) -> bool:
+    """Return whether the skin is closed: every edge once in each direction."""
+    return not len(open_edges(mesh))
+
+
+def skin(mesh: HexMesh) -> Surface:
+    """Return the skin of a mesh as triangles; a 9-node face becomes eight."""
+    faces = mesh.face_nodes(mesh.skin_faces())
+    local = np.array(_CORNERS if mesh.order == 1 else _NINE)
+    nodes, triangles = np.unique(faces[:, local].reshape(-1, 3), return_inverse=True)
+    return Surface(mesh.points[nodes], triangles.reshape(-1, 3), mesh.unit)
