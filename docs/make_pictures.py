@@ -5,10 +5,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.friction.dahl import VECTOR
-from asperity.friction.loaded import STIFFNESS, advance_loaded
-from asperity.slider.closed_forms import master_curve, master_curve_approximated, normal_ratio
-from asperity.slider.plots_normal import plot_master_curve
+from asperity.casefile import read_case
+from asperity.slider import TABLES, Model, solve, solve_many
+from asperity.slider.closed_forms import (
+    critical_velocity,
+    master_curve,
+    master_curve_approximated,
+    normal_ratio,
+)
+from asperity.slider.plots_normal import plot_directions, plot_master_curve, plot_two_cycles
 from asperity.store import write_atomically
 from asperity.thesis.contents import FIGURES
 
@@ -17,38 +22,72 @@ if TYPE_CHECKING:
 
 PICTURES = Path(__file__).parent / "_static"
 SWINGS = (0.1, 0.5, 0.9)
-STEPS = 1000
-
-
-def dragged(velocity: float, swing: float) -> float:
-    """Mean friction over mu N_0 of a spring under a swinging load, the second of two cycles."""
-    loads = 1.0 + swing * np.cos(2.0 * np.pi / STEPS * np.arange(2 * STEPS + 1))
-    way = 2.0 * np.pi / STEPS * swing * velocity
-    deflection, friction = loads[0], np.zeros(2 * STEPS)
-    for step in range(2 * STEPS):
-        deflection, _, friction[step], _ = advance_loaded(
-            deflection, 0.0, way, 0.0, 0.0, 0.0, loads[step], loads[step + 1], 0.0, VECTOR,
-            STIFFNESS,
-        )  # fmt: skip
-    return float(friction[STEPS:].mean())
 
 
 def one_curve() -> "Figure":
     """Sliding under normal vibration: three swings, one master curve."""
-    velocity = np.linspace(0.0, 1.2, 241)
-    at = np.linspace(0.05, 1.15, 12)
+    case = read_case("normal-machine", TABLES)
+    velocity, at = np.linspace(0.0, 1.2, 241), np.linspace(0.05, 1.15, 12)
+    frequency, limit = case["vibration"].frequency, case["friction"].max_deflection
+    points = {}
+    for swing in SWINGS:
+        amplitude = swing * case["normal"].penetration
+        critical = critical_velocity(limit, swing, frequency, "flat")
+        models = [
+            Model.from_case(
+                case.replace_values(
+                    {
+                        "slider.drive_velocity": v * critical,
+                        "vibration.displacement_amplitude": amplitude,
+                    }
+                )
+            )
+            for v in at
+        ]
+        points[swing] = at, np.array([result.ratio for result in solve_many(models)])
     return plot_master_curve(
         velocity,
         {a: normal_ratio(velocity, a, "flat") for a in SWINGS},
         master_curve(velocity),
         master_curve_approximated(velocity),
-        {a: (at, np.array([dragged(v, a) for v in at])) for a in SWINGS},
+        points,
     )
 
 
+def in_space() -> "Figure":
+    """Ratio over all directions of space: where a body is conveyed."""
+    case = read_case("oblique", TABLES)
+    elevation, azimuth = np.radians(np.linspace(0, 180, 25)), np.radians(np.linspace(0, 180, 19))
+    models = [
+        Model.from_case(
+            case.replace_values({"vibration.elevation": e, "vibration.direction": theta})
+        )
+        for e in elevation
+        for theta in azimuth
+    ]
+    ratios = np.array([result.ratio for result in solve_many(models)])
+    return plot_directions(elevation, azimuth, ratios.reshape(len(elevation), len(azimuth)))
+
+
+def in_flight() -> "Figure":
+    """Normal force and friction of a body that is thrown, over the two cycles of its period."""
+    model = Model.from_case(read_case("normal-pin", TABLES, ["vibration.velocity_ratio=20"]))
+    history = solve(model).history
+    assert history is not None
+    return plot_two_cycles(
+        history.time, history.normal_force, history.friction[:, 0],
+        model.friction.mu, model.slider.normal_force,
+    )  # fmt: skip
+
+
 if __name__ == "__main__":
-    drawn = {"directions": FIGURES["4.23"].make().figure, "master_curve": one_curve()}
+    drawn = {
+        "directions": FIGURES["4.23"].make().figure,
+        "master_curve": one_curve(),
+        "in_space": in_space(),
+        "in_flight": in_flight(),
+    }
     for name, figure in drawn.items():
         write_atomically(
-            PICTURES / f"{name}.png", lambda path, figure=figure: figure.savefig(path, dpi=150)
+            PICTURES / f"{name}.png", lambda path, figure=figure: figure.savefig(path, dpi=120)
         )

@@ -15,7 +15,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray, Real
 from asperity.formulas import Bounds, Symbol, formula, not_negative, positive
-from asperity.slider.closed_forms.profiles import Profile, a, mean_share
+from asperity.slider.closed_forms.profiles import DEPTH, Profile, a, mean_share, s_max
 from asperity.sources import Source
 
 SPRINGS = Source(
@@ -36,23 +36,29 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 _HALVINGS = 60
 
 
-@formula(symbol="v*", unit="m/s", equation="2 pi f s_max a", source=OVERVIEW)
+@formula(
+    symbol="v*",
+    unit="m/s",
+    equation="mu (k_z/k_x) 2 pi f u = 2 pi f s_max a, for a Hertz contact 3/2 of that",
+    source=OVERVIEW,
+)
 def critical_velocity(
-    deflection_limit: Annotated[Real, Symbol("s_max", "m", positive)],
+    deflection_limit: s_max,
     swing: a,
     frequency: Annotated[Real, Symbol("f", "Hz", positive)],
+    profile: Profile,
 ) -> Real:
     """Sliding velocity above which friction follows the load, F = mu N(t).
 
-    The same as mu (k_z/k_x) 2 pi f u with the slopes of the contact in both directions, for a
-    Hertz contact with E*/G* in their place; so it holds for any profile.
+    The slopes k_z and k_x of the contact at its load are as E* to G* for a Hertz contact. It slips
+    wholly after 3/2 of s_max = mu N_0/k_x, and is pressed by 3/2 of N_0/k_z.
 
     Examples
     --------
-    >>> round(critical_velocity(1e-6, 0.5, 20e3), 9)
+    >>> round(critical_velocity(1e-6, 0.5, 20e3, "flat"), 9)
     0.062831853
     """
-    return 2.0 * np.pi * frequency * deflection_limit * swing
+    return 2.0 * np.pi * frequency * DEPTH[profile] * deflection_limit * swing
 
 
 @formula(

@@ -12,7 +12,15 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Bounds, Symbol, formula, not_negative, positive
-from asperity.slider.closed_forms.profiles import Profile, a, mean_power, mean_share, share
+from asperity.slider.closed_forms.profiles import (
+    DEPTH,
+    Profile,
+    a,
+    mean_power,
+    mean_share,
+    s_max,
+    share,
+)
 from asperity.sources import Source
 
 LEAST_LOAD = Source(
@@ -54,27 +62,28 @@ def normal_static_ratio(swing: a, profile: Profile) -> Real:
 
 @formula(
     symbol="F_s/(mu N_0)",
-    equation="N(d_0 - d_0 u/s_max)/N_0: 1 - u/s_max flat, ( )^1.5 Hertz, exp(-u/s_max) rough",
+    equation="N(d_0 - u k_x/(mu k_z))/N_0: 1 - u/s_max flat, (1 - 2u/(3 s_max))^1.5 Hertz, "
+    "exp(-u/s_max) rough",
     source=MILAHIN,
     result=Bounds(0.0, 1.0),
 )
 def plane_static_ratio(
     amplitude: Annotated[Real, Symbol("u", "m", not_negative)],
-    deflection_limit: Annotated[Real, Symbol("s_max", "m", positive)],
+    deflection_limit: s_max,
     profile: Profile,
 ) -> Real:
     """Static friction under slow vibration in the plane, along the pull.
 
     The springs whose limit is below the amplitude slip to and fro and hold nothing in the mean. The
-    limit s_max is that of the springs pressed most: mu (E*/G*) d_0 for a Hertz contact, mu lambda
-    k_z/k_x for a rough one, in which no limit is the greatest.
+    springs pressed most have the limit s_max = mu N_0/k_x in a flat contact, 3/2 of it in a Hertz
+    contact, mu (E*/G*) d_0; in a rough one no limit is the greatest.
 
     Examples
     --------
     >>> round(plane_static_ratio(20e-9, 80e-9, "flat"), 6)
     0.75
     """
-    return share(-amplitude / deflection_limit, profile)
+    return share(-amplitude / (DEPTH[profile] * deflection_limit), profile)
 
 
 @formula(symbol="<N>/N_0", equation="<N(d_0 + u cos p)>/N_0", source=LEAST_LOAD, result=positive)

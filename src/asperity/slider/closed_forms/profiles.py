@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 
 from asperity.arrays import FloatArray, Real
-from asperity.formulas import Symbol, not_negative
+from asperity.formulas import Symbol, not_negative, positive
 
 Profile = Literal["flat", "hertz", "rough"]
 """Load over approach: linear, of the power 3/2, exponential."""
@@ -13,7 +13,12 @@ Profile = Literal["flat", "hertz", "rough"]
 a = Annotated[Real, Symbol("a", "", not_negative)]
 """Amplitude of the approach over the approach, or over the length of a rough contact."""
 
+s_max = Annotated[Real, Symbol("s_max", "m", positive)]
+"""Limit mu N_0/k_x of the deflection, as in [friction]."""
+
 HERTZ = 1.5
+DEPTH = {"flat": 1.0, "hertz": HERTZ, "rough": 1.0}
+"""What a swing is over, in N_0/k_z; so also the deflection at full slip (rough: e) over s_max."""
 _NODES = 48
 
 
