@@ -119,7 +119,7 @@ class BlockProblem:
                 "shaken in the plane of contact only: leave it out, or take `asperity slide`"
             )
         # A block's normal contact is that of its faces, in [contact].
-        model = dataclasses.replace(model, normal=None)
+        model = dataclasses.replace(model, normal=None, wear=None)
         return cls(model, case.require(Block), contact)
 
     @functools.cached_property

@@ -15,6 +15,7 @@ from asperity.slider.march import march
 from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
+from asperity.slider.shooting import ACCEPTED
 from asperity.slider.timetable import Timetable
 
 
@@ -56,6 +57,9 @@ def solve(
             left = error.reached.get("residual", math.nan)
         answer = march(model, history=history, stop=stop, run=run)
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
+        if left <= ACCEPTED:
+            note = "the states that repeat themselves after 1, 2 or 4 cycles are unstable, the "
+            note += "motion is aperiodic: this is a march"
         return dataclasses.replace(answer, notes=(note, *answer.notes))
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)

@@ -17,6 +17,7 @@ from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
 from asperity.normal import Normal, elastic_slope
 from asperity.slider.parameters import Slider, Solve, check_normal
 from asperity.slider.scaled import MODELS, Parameters, Pressing
+from asperity.slider.wear import Wear
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
 
 _STEPS_A_CYCLE = 500
@@ -67,6 +68,8 @@ class Model:
         The vibration's waveform.
     normal : Normal or None
         What is normal to the plane; None: the normal force is a constant.
+    wear : Wear or None
+        What the contact wears and heats by; it goes with ``normal``.
     """
 
     slider: Slider
@@ -75,12 +78,18 @@ class Model:
     solve: Solve = dataclasses.field(default_factory=Solve)
     shape: Shape | None = None
     normal: Normal | None = None
+    wear: Wear | None = None
 
     def __post_init__(self) -> None:
         if self.vibration is not None and self.shape is None:
             object.__setattr__(self, "shape", self.vibration.shape())
         if self.normal is not None and self.normal.law == "constant":
             object.__setattr__(self, "normal", None)
+        if self.normal is None and self.wear is not None:
+            raise InputError(
+                "[wear] follows the feet of the asperities, which are counted where the contact is "
+                "described in [normal]; add that (law = 'linear', stiffness), or leave [wear] out"
+            )
         check_normal(self.slider, self.friction, self.vibration, self.normal, self.solve)
         if self.solve.scheme == "two-phase" and (
             self.friction.model != "dahl" or self.friction.law != "split"
@@ -104,7 +113,9 @@ class Model:
         shape = vibration.shape(case.folder) if vibration is not None else None
         solve = case.require(Solve) if Solve.table in case else Solve()
         normal = case.require(Normal) if Normal.table in case else None
-        return cls(case.require(Slider), case.require(Friction), vibration, solve, shape, normal)
+        wear = case.require(Wear) if Wear.table in case else None
+        tables = case.require(Slider), case.require(Friction), vibration, solve, shape
+        return cls(*tables, normal, wear)
 
     @property
     def full_friction(self) -> float:

@@ -159,6 +159,12 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
                 f"unstable: a disturbance grows {growth:.3g} times a cycle",
             )
         found, growth = _longer(cycle)
+    if not found and cycle.residual <= ACCEPTED:
+        raise ConvergenceError(
+            "no stable periodic state found: those that repeat themselves after 1, 2 or 4 cycles "
+            "are unstable; solve.method 'march' shows what the body does",
+            reached={"residual": float(cycle.residual), "multiplier": float(growth)},
+        )
     if not found:
         raise ConvergenceError(
             f"no periodic state found: after {cycle.run} cycles the state still changes by "

@@ -11,6 +11,7 @@ from asperity.results.dataset import Labels
 from asperity.results.ledger import PowerLedger
 from asperity.slider.model import Model
 from asperity.slider.space import NormalMotion
+from asperity.slider.wear import WearAndHeat
 
 _OVER_TIME, _VECTORS = ("time",), ("time", "axis")
 _ROUNDING = 1e-12
@@ -84,6 +85,8 @@ class SlideResult(Result):
         a rigid drive, and for a periodic state.
     normal : NormalMotion or None
         What happens normal to the plane; None where the normal force is a constant.
+    wear : WearAndHeat or None
+        None without the table [wear].
     ledger : PowerLedger or None
         None for the homogenised law without a cycle to take it from.
     residual : float
@@ -169,6 +172,7 @@ class SlideResult(Result):
         return self.model.peak_velocity / self.model.slider.drive_velocity
 
     normal: NormalMotion | None = part(NormalMotion, default=None)
+    wear: WearAndHeat | None = part(WearAndHeat, default=None)
     ledger: PowerLedger | None = part(PowerLedger, "power_")
 
     @property
@@ -225,7 +229,7 @@ class SlideResult(Result):
 
 def inputs(model: Model) -> dict[str, Any]:
     """Return the values of a model's tables as plain numbers in SI and texts, by ``table.key``."""
-    tables = model.slider, model.friction, model.vibration, model.normal, model.solve
+    tables = model.slider, model.friction, model.vibration, model.normal, model.wear, model.solve
     return table_inputs(*tables)
 
 

@@ -14,6 +14,7 @@ from asperity.slider.pressed import friction_limit
 from asperity.slider.result import History, PressedHistory, SlideResult
 from asperity.slider.scaled import DAHL, LUGRE, NODE, PRESSED_NODE, SPRINGS, Parameters, Pressing
 from asperity.slider.space import normal_motion, remarks
+from asperity.slider.wear import wear_and_heat
 
 _ADVICE = "give a smaller solve.step"
 _SI = dict.fromkeys(("drive_force", "friction", "deflection", "position", "velocity"), 1.0)
@@ -97,8 +98,14 @@ def summarise(
         normal = normal_motion(model, step, sums, ledger.friction, period, multiplier)
     if model.solve.scheme != "two-phase":
         notes += guard(ledger, _ADVICE, reached={"ratio": ratio})
+    wear = None
     if normal is not None:
         notes += remarks(model, step, sums, normal)
+        if model.wear is not None:
+            slip = normal.wear_integral / normal.normal_mean
+            mean = ledger.friction, slip
+            wear = wear_and_heat(model.wear, normal.wear_integral, mean, model.frequency)
+            notes += wear.notes
     return SlideResult(
         model=model,
         ratio=ratio,
@@ -109,6 +116,7 @@ def summarise(
         breakaway_time=breakaway_time,
         ledger=ledger,
         normal=normal,
+        wear=wear,
         residual=residual,
         steps=steps,
         cycles=cycles,

@@ -1,0 +1,268 @@
+"""A body whose contact is pressed, lifts and lands: numbers of other programs and of closed forms.
+
+Sources: the body of Table 4.3 with a normal freedom (contact slope 97.12 MN/m, damping ratio 0.05),
+solved by an independent program and converged to 1e-5; the exact master curve of springs under a
+load that swings (`asperity.slider.closed_forms`); Hess & Soom 1991 for friction that follows the
+area of a Hertz contact.
+"""
+
+import dataclasses
+import math
+
+import pytest
+
+from asperity.friction import Friction
+from asperity.normal import Normal
+from asperity.slider import Model, Slider, Solve, solve
+from asperity.vibration import Vibration
+
+LIMIT = 68.75e-9
+SLOPE = 97.12e6
+W = 55.0
+
+
+def body(k, elevation, law="linear", control="force", *, azimuth=0.0, friction=None, **slider):
+    """Return the body of Table 4.3 on a base that vibrates out of the plane."""
+    given = {"drive_stiffness": 96068.0, "mass": 0.5, "lateral": "guided"} | slider
+    return Model(
+        Slider(drive_velocity=0.5e-3, normal_force=W, **given),
+        friction or Friction(mu=0.1, max_deflection=LIMIT),
+        Vibration(
+            frequency=4e3, velocity_ratio=k, start=0.14,
+            elevation=f"{elevation} deg", direction=f"{azimuth} deg",
+        ),
+        Solve(method="periodic"),
+        normal=Normal(law=law, control=control, stiffness=SLOPE, damping_ratio=0.05),
+    )  # fmt: skip
+
+
+def marched(model, duration):
+    return dataclasses.replace(model, solve=Solve(duration=duration))
+
+
+TABLE = {
+    ("force", "linear", 2): (0.64169, 0.93369, 0.94154),
+    ("force", "linear", 6): (0.09966, 0.23971, 0.82412),
+    ("force", "linear", 20): (-0.20025, -0.32365, 0.44717),
+    ("force", "hertz", 2): (0.64167, 0.93414, 0.94191),
+    ("force", "hertz", 6): (0.10030, 0.24219, 0.82799),
+    ("force", "hertz", 20): (-0.19350, -0.29507, 0.35917),
+    ("displacement", "linear", 2): (0.64604, 0.95450, 0.95942),
+    ("displacement", "linear", 6): (0.12433, 0.28045, 0.87789),
+    ("displacement", "linear", 20): (-0.11584, -0.19765, 0.59629),
+    ("displacement", "hertz", 6): (0.12480, 0.28267, 0.88278),
+    ("displacement", "hertz", 20): (-0.11417, -0.18948, 0.64735),
+}
+
+
+@pytest.mark.parametrize(("control", "law", "k"), TABLE)
+def test_the_body_of_table_43_has_the_ratios_of_another_program(control, law, k):
+    found = [solve(body(k, angle, law, control), history=False) for angle in (30, 60, 90)]
+    expected = TABLE[control, law, k]
+    assert [answer.ratio for answer in found] == pytest.approx(expected, abs=1e-4)
+    for answer in found:
+        bouncing = answer.normal.open_share > 0.0
+        assert answer.power_residual < (1e-4 if bouncing else 1e-6)
+        assert answer.normal.friction_gain == 0.0
+        if control == "force":
+            assert answer.normal.normal_mean == pytest.approx(W, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("control", "law", "k", "least"),
+    [
+        ("force", "linear", 2, 0.8975), ("force", "linear", 6, 0.6942),
+        ("force", "hertz", 6, 0.7039), ("displacement", "linear", 20, 0.2964),
+        ("displacement", "hertz", 20, 0.3852),
+    ],
+)  # fmt: skip
+def test_the_least_load_is_that_of_another_program(control, law, k, least):
+    normal = solve(body(k, 90, law, control), history=False).normal
+    assert normal.normal_min / W == pytest.approx(least, abs=1e-4)
+
+
+@pytest.mark.parametrize(("k", "plain"), [(2, 0.55586), (6, 0.13700), (20, 0.03333)])
+def test_in_the_plane_the_normal_freedom_changes_nothing(k, plain):
+    pressed = body(k, 0.0)
+    flat = dataclasses.replace(pressed, normal=None)
+    there, here = solve(pressed, history=False), solve(flat, history=False)
+    assert there.ratio == pytest.approx(here.ratio, rel=1e-9)
+    assert here.ratio == pytest.approx(plain, abs=5e-5)
+    marches = [solve(marched(model, 0.2), history=False).ratio for model in (pressed, flat)]
+    assert marches[0] == pytest.approx(marches[1], rel=1e-9)
+
+
+@pytest.mark.parametrize(("k", "elevation"), [(6, 30), (6, 90)])
+def test_a_march_settles_in_the_periodic_state(k, elevation):
+    model = body(k, elevation)
+    assert solve(marched(model, 1.0), history=False).ratio == pytest.approx(
+        solve(model, history=False).ratio, abs=1e-5
+    )
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "lateral", "ratio"),
+    [
+        (0, "guided", 0.12696), (45, "guided", 0.21807), (90, "guided", 0.34365),
+        (45, "free", 0.18267), (90, "free", 0.30670),
+    ],
+)  # fmt: skip
+def test_an_oblique_vibration_across_the_drive_has_the_ratio_of_another_program(
+    azimuth, lateral, ratio
+):
+    for angle in (azimuth, -azimuth):
+        answer = solve(body(6, 45, azimuth=angle, lateral=lateral), history=False)
+        assert answer.ratio == pytest.approx(ratio, abs=2e-5)
+
+
+def test_the_mirrored_azimuth_is_exact():
+    one, other = (
+        solve(marched(body(6, 45, azimuth=angle, lateral="free"), 0.16), history=False)
+        for angle in (30, -30)
+    )
+    assert one.ratio == other.ratio
+    assert one.friction_mean[1] == -other.friction_mean[1]
+
+
+@pytest.mark.parametrize(("k", "up", "down"), [(6, 0.09966, 0.22423), (20, -0.20025, 0.279)])
+def test_a_base_that_rises_with_the_drive_conveys_and_one_that_falls_does_not(k, up, down):
+    found = [solve(body(k, elevation), history=False).ratio for elevation in (30, 150)]
+    assert found == pytest.approx((up, down), abs=4e-4)
+
+
+def test_where_period_one_is_unstable_period_two_is_found_and_both_are_named():
+    answer = solve(body(20, 90, "hertz"), history=False)
+    assert answer.normal.period == 2
+    assert answer.ratio == pytest.approx(0.359, abs=1e-3)
+    assert answer.normal.multiplier < 1.0
+    (note,) = answer.notes
+    assert "0.4937" in note
+    assert "unstable" in note
+    assert "1.07 times" in note
+
+
+@pytest.mark.parametrize(
+    ("k", "elevation", "ratio"), [(6, 90, 1.0), (20, 90, 0.64418), (6, 30, 0.0071)]
+)
+def test_ideally_plastic_asperities_have_the_ratios_of_another_program(k, elevation, ratio):
+    plastic = Friction(mu=0.1, max_deflection=LIMIT, exponent=0.0)
+    answer = solve(body(k, elevation, friction=plastic), history=False)
+    assert answer.ratio == pytest.approx(ratio, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("k", "elevation", "ratio"), [(6, 0, 0.13820), (6, 30, 0.10552), (20, 90, 0.52027)]
+)
+def test_friction_that_falls_with_speed_has_the_ratios_of_another_program(k, elevation, ratio):
+    lugre = Friction(
+        model="lugre", mu=0.1, max_deflection=LIMIT, static_mu=0.15, stribeck_velocity=1e-3
+    )
+    answer = solve(body(k, elevation, friction=lugre, drive_damping=5.0), history=False)
+    assert answer.ratio == pytest.approx(ratio, abs=1e-4)
+
+
+def machine(a, speed, law="linear", model="springs"):
+    """Return a pin a rigid machine presses; the speed over the critical one."""
+    depth, frequency = 0.4e-6, 4e3
+    slope = {"linear": 1.0, "hertz": 1.5, "rough": 1.0}[law]
+    critical = LIMIT * slope * a * 2.0 * math.pi * frequency
+    return Model(
+        Slider(drive_velocity=speed * critical, normal_force=W),
+        Friction(model=model, mu=0.1, max_deflection=LIMIT),
+        Vibration(frequency=frequency, displacement_amplitude=a * depth, elevation="90 deg"),
+        Solve(method="periodic"),
+        normal=Normal(law=law, control="displacement", penetration=depth),
+    )
+
+
+MASTER = {
+    0.05: 0.86841, 0.1: 0.75717, 0.2: 0.57096, 0.3: 0.42064, 0.5: 0.20145, 0.7: 0.06883,
+    0.9: 0.00731,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("a", [0.1, 0.5, 0.9])
+def test_springs_under_a_rigid_machine_follow_the_master_curve(a):
+    found = [solve(machine(a, speed), history=False) for speed in MASTER]
+    reduction = [(1.0 - answer.ratio) / a for answer in found]
+    assert reduction == pytest.approx(list(MASTER.values()), abs=1e-4)
+    for speed, answer in zip(MASTER, found, strict=True):
+        drive = answer.model.slider.drive_velocity
+        assert answer.normal.critical_velocity == pytest.approx(drive / speed, rel=1e-9)
+
+
+def test_above_the_critical_velocity_nothing_is_reduced():
+    assert solve(machine(0.5, 1.2), history=False).ratio == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("law", "a", "speed", "ratio"),
+    [
+        ("hertz", 0.5, 0.05, 0.44234), ("hertz", 0.5, 0.2, 0.64643), ("hertz", 0.5, 0.5, 0.90385),
+        ("hertz", 1.5, 0.2, 0.5814), ("hertz", 1.5, 0.5, 1.1342),
+        ("linear", 1.5, 0.1, 0.22595), ("linear", 1.5, 0.3, 0.56967), ("linear", 1.5, 1.0, 1.08816),
+        ("rough", 0.5, 0.2, 0.7996), ("rough", 0.5, 0.5, 0.9694),
+    ],
+)  # fmt: skip
+def test_springs_of_other_profiles_and_swings_have_their_ratios(law, a, speed, ratio):
+    answer = solve(machine(a, speed, law), history=False)
+    assert answer.ratio == pytest.approx(ratio, abs=1e-3)
+    assert (answer.normal.open_share > 0.0) == (a > 1.0)
+
+
+DAHL = {0.1: 0.89417, 0.3: 0.74512, 0.5: 0.63875, 1.0: 0.46668, 2.0: 0.29537, 5.0: 0.13248}
+
+
+def test_dahls_asperity_under_a_rigid_machine_has_no_critical_velocity():
+    found = [(1.0 - solve(machine(0.5, v, model="dahl"), history=False).ratio) / 0.5 for v in DAHL]
+    assert found == pytest.approx(list(DAHL.values()), abs=1e-4)
+
+
+def thrown(amplitude, law="hertz", frequency=4e3, n=1.0):
+    """Return a body under a dead load that slides so fast that its slip never turns."""
+    return Model(
+        Slider(drive_velocity=0.5, normal_force=W, mass=0.5, lateral="guided"),
+        Friction(model="coulomb", mu=0.1, load_exponent=n),
+        Vibration(frequency=frequency, displacement_amplitude=amplitude, elevation="90 deg"),
+        Solve(method="periodic"),
+        normal=Normal(law=law, stiffness=SLOPE, damping_ratio=0.05),
+    )
+
+
+@pytest.mark.parametrize("amplitude", [0.2e-6, 4e-6])
+def test_a_dead_load_that_slides_fast_bounces_without_losing_friction(amplitude):
+    answer = solve(thrown(amplitude), history=False)
+    assert answer.ratio == pytest.approx(1.0, abs=1e-9)
+    assert (answer.normal.open_share > 0.0) == (amplitude > 0.5e-6)
+
+
+def test_friction_that_follows_the_area_of_a_ball_is_reduced_by_at_most_a_tenth():
+    resonance = math.sqrt(SLOPE / 0.5) / (2.0 * math.pi)
+    held, lost = 60e-9, 120e-9
+    while lost - held > 0.01e-9:
+        amplitude = 0.5 * (held + lost)
+        answer = solve(thrown(amplitude, "hertz", 0.95 * resonance, 2.0 / 3.0), history=False)
+        if answer.normal.normal_min > 0.0:
+            held, ratio = amplitude, answer.ratio
+        else:
+            lost = amplitude
+    assert ratio == pytest.approx(0.8768, abs=1e-3)
+
+
+@pytest.mark.parametrize("phase", [0.0, 90.0, -90.0])
+def test_an_elliptic_vibration_of_rigid_friction_has_its_closed_form(phase):
+    k, a, amplitude, frequency = 6.0, 0.8, 0.2e-6, 4e3
+    part = amplitude * math.sqrt(0.5)
+    model = Model(
+        Slider(drive_velocity=2.0 * math.pi * frequency * part / k, normal_force=W),
+        Friction(model="coulomb", mu=0.1),
+        Vibration(
+            frequency=frequency, displacement_amplitude=amplitude, elevation="45 deg",
+            normal_phase=f"{phase} deg",
+        ),
+        Solve(method="periodic"),
+        normal=Normal(control="displacement", penetration=part / a),
+    )  # fmt: skip
+    swing = a * math.sin(math.radians(phase)) * math.sqrt(1.0 - 1.0 / k**2)
+    closed = 2.0 / math.pi * (math.asin(1.0 / k) - swing)
+    assert solve(model, history=False).ratio == pytest.approx(closed, abs=1e-5)
