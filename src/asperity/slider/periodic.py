@@ -67,8 +67,8 @@ class Cycle:
             self.body.place(1.0, ramped=False)
 
     def repeat(self, times: int) -> None:
-        """Ask for a state that repeats itself after so many cycles of the vibration."""
-        self.period = times
+        """Ask for a state that repeats itself only after so many times the cycles."""
+        self.period *= times
         self.increments = _repeated(self.increments, times)
         self.rises = _repeated(self.rises, times)
 
