@@ -82,6 +82,7 @@ def fits_batch(model: Model) -> bool:
     return (
         model.solve.method == "march"
         and model.solve.scheme == "exponential"
+        and model.normal is None
         and model.friction.model == "dahl"
         and model.friction.exponent == 1.0
         and model.slider.drive_damping == 0.0
