@@ -45,6 +45,7 @@ from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
 from asperity.slider.model import Model
 from asperity.slider.timetable import Timetable
+from asperity.vibration import Vibration
 
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""
@@ -112,14 +113,14 @@ class BlockProblem:
     def from_case(cls, case: Case) -> Self:
         """Gather the tables of a case; [contact] may be missing."""
         contact = case.require(Contact) if Contact.table in case else Contact()
-        model = UndividedModel.from_case(case)
-        if model.unit_direction[2] != 0.0:
+        elevation = case.require(Vibration).elevation if Vibration.table in case else 0.0
+        if elevation != 0.0:
             raise InputError(
-                f"vibration.elevation is {math.degrees(model.elevation):g} deg; a block is "
-                "shaken in the plane of contact only: leave it out, or take `asperity slide`"
+                f"vibration.elevation is {math.degrees(elevation):g} deg; a block is shaken in the "
+                "plane of contact only: leave it out, or take `asperity slide`"
             )
         # A block's normal contact is that of its faces, in [contact].
-        model = dataclasses.replace(model, normal=None, wear=None)
+        model = dataclasses.replace(UndividedModel.from_case(case), normal=None, wear=None)
         return cls(model, case.require(Block), contact)
 
     @functools.cached_property

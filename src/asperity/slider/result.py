@@ -8,7 +8,7 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Table
 from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.results.dataset import Labels
-from asperity.results.ledger import PowerLedger
+from asperity.results.ledger import PowerLedger, PressedLedger
 from asperity.slider.model import Model
 from asperity.slider.space import NormalMotion
 from asperity.slider.wear import WearAndHeat
@@ -173,7 +173,7 @@ class SlideResult(Result):
 
     normal: NormalMotion | None = part(NormalMotion, default=None)
     wear: WearAndHeat | None = part(WearAndHeat, default=None)
-    ledger: PowerLedger | None = part(PowerLedger, "power_")
+    ledger: PowerLedger | None = part(PressedLedger, "power_")
 
     @property
     @labelled("", "", "error of the power balance")

@@ -114,6 +114,7 @@ class SweepResult(Result):
                 {"units": variable.label.unit or "1", "long_name": variable.label.meaning},
             )
             for variable in VARIABLES
+            if variable.name in self.arrays
         }
         flags = {
             "units": "1",
@@ -172,7 +173,8 @@ class Answers:
     """Room for the scalars of every point, filled as they come."""
 
     def __init__(self, size: int) -> None:
-        self.arrays = {variable.name: np.full(size, math.nan) for variable in VARIABLES}
+        self._size = size
+        self._arrays: dict[str, FloatArray] = {}
         self.status = np.zeros(size, dtype=np.int8)
         self.reasons: dict[int, str] = {}
 
@@ -183,10 +185,16 @@ class Answers:
             if len(self.reasons) < _MOST_REASONS:
                 self.reasons[index] = failed
             return
-        for name, array in self.arrays.items():
-            value = row.get(name)
+        for name, value in row.items():
+            array = self._arrays.setdefault(name, np.full(self._size, math.nan))
             if isinstance(value, int | float):
                 array[index] = value
+
+    @property
+    def arrays(self) -> dict[str, FloatArray]:
+        """The scalars that any point has, in their order; the ratio at least."""
+        found = self._arrays or {"ratio": np.full(self._size, math.nan)}
+        return {entry.name: found[entry.name] for entry in VARIABLES if entry.name in found}
 
 
 def _table(axes: Sequence[Axis], values: FloatArray, remarks: tuple[str, ...]) -> Table:

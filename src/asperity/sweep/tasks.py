@@ -63,4 +63,5 @@ def _row(answer: SlideResult | AsperityError) -> Row:
     if isinstance(answer, AsperityError):
         return {REFUSED: str(answer)}
     scalars = answer.to_json()
-    return {variable.name: scalars.get(variable.key) for variable in VARIABLES}
+    # What a body does not have at all, as one without normal freedom, is not in its row.
+    return {entry.name: scalars[entry.key] for entry in VARIABLES if entry.key in scalars}

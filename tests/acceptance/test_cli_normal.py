@@ -1,0 +1,88 @@
+"""`asperity slide` with [normal]: what it tells, what it writes, what it refuses."""
+
+import json
+
+import pytest
+
+from asperity.store import read_dataset
+
+KEYS = {
+    "ratio_mean_load", "normal_mean_N", "normal_min_N", "normal_max_N", "open_share",
+    "landings_per_cycle", "penetration_mean_m", "critical_velocity_m_s", "contact_frequency_Hz",
+    "period", "multiplier", "power_normal_W", "power_contact_damping_W", "friction_gain_W",
+    "wear_integral_W",
+}  # fmt: skip
+WEAR = [
+    "--set", "wear.coefficient=1e-5", "--set", "wear.hardness=2 GPa",
+    "--set", "wear.contact_radius=0.1 mm", "--set", "wear.conductivity=46 W/m/K",
+    "--set", "wear.diffusivity=1.25e-5 m**2/s",
+]  # fmt: skip
+TOLD_OF_WEAR = {"wear_depth_per_cycle_m", "flash_temperature_K", "peclet"}
+
+
+@pytest.mark.parametrize("case", ["normal-pin", "normal-machine", "oblique"])
+def test_a_pressed_body_tells_its_load_beside_its_ratio(asperity, case, tmp_path):
+    code, output, _ = asperity("slide", case, "--json", "--out", tmp_path)
+    answer = json.loads(output)
+    assert code == 0
+    assert answer.keys() >= KEYS
+    assert not answer.keys() & TOLD_OF_WEAR
+    written = read_dataset(tmp_path / "slide.nc")
+    assert {"normal_force", "penetration", "height"} <= set(written.variables)
+    assert written["normal_force"].attrs["units"] == "N"
+    assert float(written["normal_force"].mean()) == pytest.approx(answer["normal_mean_N"], rel=1e-3)
+
+
+def test_with_wear_it_tells_depth_and_temperature(asperity):
+    code, output, _ = asperity("slide", "normal-pin", *WEAR, "--json")
+    answer = json.loads(output)
+    assert code == 0
+    assert all(answer[key] > 0.0 for key in TOLD_OF_WEAR)
+
+
+def test_without_it_nothing_new_is_told(asperity):
+    _, output, _ = asperity("slide", "table-4.3", "--set", "solve.method=periodic", "--json")
+    assert not json.loads(output).keys() & (KEYS | TOLD_OF_WEAR)
+
+
+def test_a_sweep_over_the_elevation_keeps_the_loads(asperity, tmp_path):
+    code, _, errors = asperity(
+        "sweep", "normal-pin", "--over", "vibration.elevation=0 deg,30 deg,90 deg",
+        "--out", tmp_path, "--json",
+    )  # fmt: skip
+    assert code == 0, errors
+    written = read_dataset(tmp_path / "sweep.nc")
+    assert written["ratio"].values == pytest.approx([0.13701, 0.1003, 0.828], abs=1e-4)
+    assert {"open_share", "normal_mean", "period", "power_normal"} <= set(written.variables)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["table-4.3", "--set", "vibration.elevation=30 deg"], "[normal]"),
+        (["normal-pin", "--set", "friction.law=split"], "friction.law"),
+        (["normal-pin", "--set", "solve.scheme=two-phase", "--set", "solve.method=march",
+          "--set", "friction.law=split"], "two-phase"),
+        (["normal-machine", "--set", "normal.control=force"], "slider.mass"),
+        (["normal-machine", "--set", "normal.damping_ratio=0.05"], "slider.mass"),
+        (["normal-machine", "--set", "friction.exponent=0.5"], "friction.exponent"),
+        (["normal-machine", "--set", "vibration.displacement_amplitude=1 mm"], "rigid machine"),
+        (["normal-pin", "--set", "vibration.elevation=200 deg"], "vibration.elevation"),
+        (["table-4.3", "--set", "friction.model=springs", "--set", "friction.law=vector"],
+         "[normal]"),
+        (["table-4.3", "--set", "wear.coefficient=1e-5", "--set", "wear.hardness=2 GPa"],
+         "[normal]"),
+    ],
+)  # fmt: skip
+def test_what_does_not_go_together_is_refused_in_one_line(asperity, arguments, told):
+    code, output, errors = asperity("slide", *arguments, "--json")
+    assert code == 2
+    assert output == ""
+    assert len(errors.strip().splitlines()) == 1
+    assert told in errors
+
+
+def test_an_oblique_block_is_refused(asperity):
+    code, _, errors = asperity("block", "block-longitudinal", "--set", "vibration.elevation=30 deg")
+    assert code == 2
+    assert "in the plane of contact only" in errors
