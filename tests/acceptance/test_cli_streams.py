@@ -30,7 +30,7 @@ def shell(environment, tmp_path):
     return run
 
 
-@pytest.mark.parametrize("command", ["cases --json", "cases", "--help", "rate gearset-3"])
+@pytest.mark.parametrize("command", ["cases --json", "cases", "--help", slow("rate gearset-3")])
 @pytest.mark.parametrize(
     ("where", "why"),
     [(">&-", "it is closed"), pytest.param("> /dev/full", "no space left on device")],

@@ -40,10 +40,6 @@ def block(way, k, *settings, mesh=LIGHT):
     return ElasticBlock(case, (*mesh, f"vibration.velocity_ratio={k}", *direction, *settings))
 
 
-def some_slow(cases, slow):
-    return [pytest.param(*one, marks=pytest.mark.slow if one in slow else ()) for one in cases]
-
-
 def is_the_sliding_body(found):
     """Within 1 % of the sliding body, and 0.2 % of it with the compliance in series."""
     return (
@@ -62,9 +58,8 @@ def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_
     assert found.ratio == pytest.approx(found.in_series, rel=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("way", "k"), some_slow(CALM, [case for case in CALM if case != ("transverse", 2)])
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("way", "k"), CALM)
 def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(way, k):
     found = block(way, k).settled()
     assert found.ratio == pytest.approx(found.slider, rel=1e-2)

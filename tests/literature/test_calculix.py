@@ -89,6 +89,7 @@ def test_the_pressure_over_the_face_is_that_of_the_package(tmp_path):
     assert np.corrcoef(nodal, other)[0, 1] > 0.999
 
 
+@pytest.mark.slow
 def test_a_block_on_contact_in_two_stages_is_brought_to_rest(tmp_path):
     run = Run(tmp_path, "block.elements=[2, 2, 2]", "contact.normal=two-stage")
     assert run.normal[-1] == pytest.approx(55.0, rel=1e-3)
@@ -110,6 +111,7 @@ def test_before_it_slides_the_contact_is_as_stiff_as_the_asperities(sliding):
     assert asperities < give < 1.1 * asperities
 
 
+@pytest.mark.slow
 def test_a_guide_keeps_the_pulled_block_from_leaning_and_bears_none_of_its_load(tmp_path):
     small = ("block.elements=[3,2,2]", "block.element=hex8i")
     runs = []

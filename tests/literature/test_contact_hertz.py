@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from apparatus.halfspace import half_plane
 from apparatus.loads import Force
 from apparatus.meshes import merged
@@ -151,7 +152,7 @@ def test_a_sphere_on_finite_elements_touches_as_hertz_says(quarter_patch, elemen
     assert found.radius_of_area == pytest.approx(1.0, abs=PATCH / A / count / 4)
 
 
-@pytest.mark.parametrize(("element", "count"), [("hex27", 16), ("hex8i", 32)])
+@pytest.mark.parametrize(("element", "count"), [("hex27", 16), slow("hex8i", 32)])
 @pytest.mark.parametrize("law", ["hard", "linear"])
 def test_a_cylinder_on_finite_elements_touches_as_hertz_says(quarter_patch, element, count, law):
     found = cylinder_on_elements(quarter_patch, element, count, law)
@@ -160,7 +161,7 @@ def test_a_cylinder_on_finite_elements_touches_as_hertz_says(quarter_patch, elem
     assert found.off < 0.02
 
 
-@pytest.mark.parametrize("law", ["hard", "linear"])
+@pytest.mark.parametrize("law", ["hard", slow("linear")])
 def test_a_sphere_on_a_half_space_touches_as_hertz_says(quarter_of_half_space, law):
     surface, flexibility, size = quarter_of_half_space(12, A, NU, pair=False)
     found = sphere(flexibility, surface, law_of(law, size))
@@ -184,6 +185,7 @@ def falls(found, refined, order, names=("radius", "peak", "approach"), floor=1e-
         assert last < max(first / 2.0, floor), (name, found)
 
 
+@pytest.mark.slow
 def test_a_cylinder_on_finite_elements_converges_with_the_mesh(quarter_patch):
     # Pressure ends like a root, which elements find with the order 1 in the mean square, more or
     # less as an edge of theirs lies near.
@@ -200,7 +202,7 @@ def test_a_sphere_on_finite_elements_converges_with_the_mesh(quarter_patch):
     assert found[-1].radius_of_area == pytest.approx(1.0, abs=0.01)
 
 
-@pytest.mark.parametrize("law", ["hard", "linear"])
+@pytest.mark.parametrize("law", ["hard", slow("linear")])
 def test_a_sphere_on_a_half_space_converges_with_the_mesh(quarter_of_half_space, law):
     found = []
     for per_width in (4, 8, 12):

@@ -8,6 +8,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 from apparatus.whole_body import WholeSystem
 
 from asperity.block.problem import BlockProblem
@@ -167,8 +168,7 @@ def apart(settings, step, count):
     return np.append(difference / scale, difference[3] / swing)
 
 
-@pytest.mark.parametrize("element", ["hex8", "hex8i"])
-@pytest.mark.parametrize("direction", [0, 45])
+@pytest.mark.parametrize(("element", "direction"), grid(["hex8", "hex8i"], [0, 45]))
 def test_with_modes_a_shaken_block_moves_as_the_whole_one_within_a_thousandth(element, direction):
     light = [f"block.element={element}", "block.elements=[4, 3, 3]"]
     light.append(f"vibration.direction={direction}")

@@ -5,6 +5,8 @@ along the asperity (`split`, `unsplit`) or along the slip (`vector`). The explic
 chapter 4 of the thesis, equations (44)-(59).
 """
 
+import functools
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -84,6 +86,7 @@ def reached(steps, walker, *arguments):
     return np.array(walker(*slips, *arguments))
 
 
+@functools.cache
 def exact(exponent, law):
     # Short steps, since the laws have kinks.
     answer = solve_ivp(

@@ -74,7 +74,7 @@ def screw_volume(worm, length):
     return length * worm.starts * area / worm.reduced_lead
 
 
-@pytest.mark.parametrize("flank", ["ZI", "ZA", "ZN", "ZK", "ZC"])
+@pytest.mark.parametrize("flank", ["ZI", slow("ZA"), slow("ZN"), slow("ZK"), slow("ZC")])
 def test_the_worm_has_the_volume_of_a_screw(flank, tmp_path):
     made = pair(flank=flank)
     written = write_step(tmp_path / "worm.step", worm_body(made, 30.0))
@@ -125,11 +125,13 @@ def test_the_tooth_is_closed_and_the_same_when_read_again(wheel, tmp_path):
     assert read.area == pytest.approx(written.area, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_tooth_has_the_volume_of_its_mesh(wheel, tmp_path):
     volume = write_step(tmp_path / "tooth.step", tooth_body(wheel)).check.volume
     assert tooth(wheel, "fine", order=2).volume() == pytest.approx(volume, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_three_teeth_are_thrice_one_tooth(wheel, tmp_path):
     one = write_step(tmp_path / "one.step", tooth_body(wheel)).check
     three = write_step(tmp_path / "three.step", tooth_body(wheel, 3)).check

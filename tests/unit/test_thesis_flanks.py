@@ -57,6 +57,7 @@ def test_what_touches_the_wheel_lies_on_the_worms_thread(formation):
     assert float(touching.max()) < float(formation["worm_tip"]) + 0.05
 
 
+@pytest.mark.slow
 def test_each_correction_lowers_the_highest_pressure():
     dataset = FIGURES["2.9"].make().dataset
     highest = {name: float(dataset[f"{name}_pressure"].max()) for name in figures_flanks.DESIGNS}
@@ -96,6 +97,7 @@ def test_facets_shrink_with_the_square_of_the_step_and_never_cut_into_the_flank(
     assert means[1] / means[2] == pytest.approx(4.0, rel=0.15)
 
 
+@pytest.mark.slow
 def test_the_densities_are_a_half_and_three_quarters_of_the_coarse_size():
     dataset = FIGURES["7.11"].make().dataset
     size = dataset["element_size"].values
