@@ -117,7 +117,7 @@ def test_friction_stays_within_its_limit_under_every_law_and_exponent(
     assert np.all(force <= 1.0 + 1e-12)
     if friction.model == "dahl":
         limit = friction.deflection_limit(slider.normal_force)
-        assert np.hypot(*history.deflection.T) / limit == pytest.approx(force, abs=1e-12)
+        np.testing.assert_allclose(np.hypot(*history.deflection.T) / limit, force, 0.0, 1e-12)
 
 
 @given(bodies, frictions(), vibrations())
@@ -142,9 +142,8 @@ def test_the_mirror_image_of_a_direction_has_the_same_ratio(samples, slider, fri
     assert there.friction_max[1] == pytest.approx(-here.friction_min[1], abs=rounding)
     assert there.friction_min[1] == pytest.approx(-here.friction_max[1], abs=rounding)
     across = np.array([1.0, -1.0])
-    assert there.history.friction == pytest.approx(
-        here.history.friction * across, abs=1e-8 * model.full_friction
-    )
+    off = there.history.friction - here.history.friction * across
+    assert np.abs(off).max() <= 1e-8 * model.full_friction
 
 
 periodic_bodies = st.tuples(

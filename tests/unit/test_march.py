@@ -54,7 +54,7 @@ def test_the_motion_obeys_newtons_law(every_step):
 def test_positions_velocities_and_drive_force_belong_together(every_step):
     history = every_step.history
     ways = np.diff(history.position, axis=0)
-    assert ways == pytest.approx(history.velocity[:-1] * 1e-6, abs=1e-18)
+    assert np.abs(ways - history.velocity[:-1] * 1e-6).max() <= 1e-18
     stretch = 0.5e-3 * history.time - history.position[:, 0]
     assert history.drive_force == pytest.approx(96068.0 * stretch, rel=1e-9)
 
@@ -62,7 +62,7 @@ def test_positions_velocities_and_drive_force_belong_together(every_step):
 def test_friction_is_the_deflections(every_step):
     history, friction = every_step.history, every_step.model.friction
     stiffness = friction.stiffness(50.8)
-    assert history.friction == pytest.approx(stiffness * history.deflection, abs=1e-12)
+    assert np.abs(history.friction - stiffness * history.deflection).max() <= 1e-12
 
 
 def test_the_ratio_is_the_mean_drive_force_of_whole_cycles_at_the_end(every_step):
@@ -281,7 +281,7 @@ def test_rigid_friction_holds_a_body_until_the_drive_pulls_hard_enough():
     ).history
     sticking = history.time < 5.5 / (96068.0 * 0.5e-3) - 1e-5
     assert np.all(np.abs(history.velocity[sticking]) < 1e-12)
-    assert history.friction[sticking, 0] == pytest.approx(history.drive_force[sticking], abs=1e-9)
+    assert np.abs(history.friction[sticking, 0] - history.drive_force[sticking]).max() <= 1e-9
     slipping = history.velocity[:, 0] > 1e-7
     assert history.friction[slipping, 0] == pytest.approx(5.5, rel=1e-9)
 
