@@ -82,8 +82,7 @@ def check_contact(system, contact, *, bounded):
 small = st.floats(-1.0, 1.0)
 
 
-@settings(max_examples=24)
-@given(
+thrown_blocks = given(
     law=st.sampled_from(LAWS),
     normal=st.sampled_from(["linear", "two-stage", "hard"]),
     element=st.sampled_from(list(MESHES)),
@@ -100,9 +99,9 @@ small = st.floats(-1.0, 1.0)
     velocity=st.tuples(small, small, small, st.floats(-5.0, -2.0)),
     spin=st.tuples(small, small, small),
 )
-def test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_on(
-    law, normal, element, modes, ratio, direction, where, lift, tilt, velocity, spin
-):
+
+
+def check_thrown(law, normal, element, modes, ratio, direction, where, lift, tilt, velocity, spin):
     shaken, lateral, force = where
     ratio = min(ratio, 6.0) if law is TWO_PHASE else ratio
     problem = block(
@@ -129,6 +128,14 @@ def test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_
         (balance.friction, balance.damping, balance.numerical, balance.transfer, balance.stored)
     )
     assert abs(off) <= 1e-6 * max(*sums, abs(balance.stored))
+
+
+test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_on = settings(
+    max_examples=8
+)(thrown_blocks(check_thrown))
+test_a_block_thrown_again_and_again_on_its_vibrating_base_marches_on = pytest.mark.slow(
+    settings(max_examples=24)(thrown_blocks(check_thrown))
+)
 
 
 def mechanical_energy(system, state):
