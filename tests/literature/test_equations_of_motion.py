@@ -39,7 +39,7 @@ def equations(model):
     friction, slider = model.friction, model.slider
     full, limit = model.full_friction, friction.deflection_limit(slider.normal_force)
     stiffness, exponent = full / limit, friction.exponent
-    direction, on_body = np.array(model.unit_direction), model.on_body
+    direction, on_body = np.array(model.unit_direction[:2]), model.on_body
     transfer = np.array([1.0, friction.transfer])
     pulse = 2.0 * math.pi * model.frequency
 
