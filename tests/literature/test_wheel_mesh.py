@@ -33,6 +33,11 @@ def wheel():
 
 
 @pytest.fixture(scope="module")
+def coarse(wheel):
+    return mesh.tooth(wheel, "coarse")
+
+
+@pytest.fixture(scope="module")
 def left():
     case = read_case("gearset-3b", case_tables(), ("gearset.hand=left",))
     return Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
@@ -73,22 +78,22 @@ def test_nodes_of_the_flank_lie_on_the_exact_flank(wheel, order, side):
     assert np.abs(exact.points - nodes).max() < 1e-10
 
 
-def test_nodes_of_the_tip_lie_on_the_blank(wheel):
-    made = mesh.tooth(wheel, "coarse")
+def test_nodes_of_the_tip_lie_on_the_blank(wheel, coarse):
+    made = coarse
     tip = made.points[made.node_set("tip")]
     assert np.hypot(tip[:, 0], tip[:, 1]) == pytest.approx(wheel.blank.tip_radius(tip[:, 2]))
 
 
-def test_face_sets_cover_the_skin_once(wheel):
-    made = mesh.tooth(wheel, "coarse")
+def test_face_sets_cover_the_skin_once(coarse):
+    made = coarse
     named = np.concatenate(list(made.face_sets.values()))
     assert len(np.unique(named, axis=0)) == len(named)
     skin = {tuple(pair) for pair in made.skin_faces()}
     assert {tuple(pair) for pair in named} == skin
 
 
-def test_cut_faces_are_one_pitch_apart(wheel):
-    made = mesh.tooth(wheel, "coarse")
+def test_cut_faces_are_one_pitch_apart(wheel, coarse):
+    made = coarse
     turn = 2.0 * np.pi / wheel.pair.geometry.wheel_teeth
     cosine, sine = np.cos(turn), np.sin(turn)
     matrix = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
@@ -97,8 +102,8 @@ def test_cut_faces_are_one_pitch_apart(wheel):
     assert np.abs(low - high).max() < 1e-10
 
 
-def test_several_teeth_share_their_cut_faces(wheel):
-    one = mesh.tooth(wheel, "coarse")
+def test_several_teeth_share_their_cut_faces(wheel, coarse):
+    one = coarse
     three = mesh.tooth(wheel, "coarse", teeth=3)
     shared = len(one.node_set("cut_plus"))
     assert len(three.points) == 3 * len(one.points) - 2 * shared
@@ -116,9 +121,9 @@ def test_a_whole_wheel_closes_on_itself(wheel):
     assert whole.volume() == pytest.approx(teeth * one.volume(), rel=1e-12)
 
 
-def test_left_hand_is_the_mirror_image(wheel, left):
-    right_mesh, left_mesh = mesh.tooth(wheel, "coarse"), mesh.tooth(left, "coarse")
-    assert np.array_equal(left_mesh.points, right_mesh.points * [1.0, 1.0, -1.0])
+def test_left_hand_is_the_mirror_image(coarse, left):
+    left_mesh = mesh.tooth(left, "coarse")
+    assert np.array_equal(left_mesh.points, coarse.points * [1.0, 1.0, -1.0])
     assert left_mesh.jacobians().min() > 0.0
 
 
