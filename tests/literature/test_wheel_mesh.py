@@ -129,7 +129,7 @@ def test_left_hand_is_the_mirror_image(coarse, left):
 
 @pytest.mark.parametrize(("order", "expected"), [(1, 2.0), (2, 4.0)])
 def test_volume_of_a_tooth_converges_with_the_order_of_the_elements(wheel, order, expected):
-    least = np.array(mesh.counts(wheel, 1.0))
+    least = np.array(mesh.counts(wheel, 2.0))
     numbers = [mesh.Counts(*(factor * least).tolist()) for factor in (1, 2, 4)]
     volumes = [mesh.tooth(wheel, number, order=order).volume() for number in numbers]
     change = np.abs(np.diff(volumes))

@@ -8,8 +8,7 @@ from asperity.casefile import Case, Table
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.extras import require_cad, require_view
-from asperity.flanks.mesh.density import read_density
-from asperity.flanks.mesh.tooth import element_size, tooth
+from asperity.flanks.mesh.tooth import element_size, read_density, tooth
 from asperity.flanks.meshing import lubrication
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance

@@ -7,9 +7,8 @@ from asperity.errors import MissingExtraError
 from asperity.flanks.export import views
 from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.step import write_step
-from asperity.flanks.export.together import centred_teeth, mounted_worm
-from asperity.flanks.export.tooth import tooth_body
-from asperity.flanks.export.worm import worm_body
+from asperity.flanks.export.tooth import centred_teeth, tooth_body
+from asperity.flanks.export.worm import mounted_worm, worm_body
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
 from asperity.mesh.inp import write_inp
@@ -35,7 +34,7 @@ def write_bodies(wheel: Wheel, mesh: HexMesh, folder: Path, *, step: bool = Fals
     for body in bodies:
         write_stl(folder / f"{body.name}.stl", body.surface())
         names.append(f"{body.name}.stl")
-    parts = {"worm": mounted_worm(wheel), "wheel": centred_teeth(wheel, _TEETH)}
+    parts = {"worm": mounted_worm(wheel.pair), "wheel": centred_teeth(wheel, _TEETH)}
     write_glb(folder / "gearset.glb", {name: body.surface() for name, body in parts.items()})
     names.append("gearset.glb")
     with contextlib.suppress(MissingExtraError):

@@ -69,6 +69,12 @@ def tooth_body(wheel: Wheel, teeth: int = 1) -> Body:
     return Body(name, patches, rings).moved(np.diag([1.0, 1.0, wheel.pair.mirror]))
 
 
+def centred_teeth(wheel: Wheel, teeth: int) -> Body:
+    """Return teeth on both sides of the one that stands in the worm's thread space."""
+    angle = -2.0 * math.pi * (teeth // 2) / wheel.pair.geometry.wheel_teeth
+    return tooth_body(wheel, teeth).moved(turned(angle))
+
+
 def _fitted(wheel: Wheel, low: float, high: float, columns: int) -> dict[str, FloatArray]:
     """Return the grids round one tooth over a part of its face, fine enough for the splines."""
     grids = _outline(wheel, np.linspace(low, high, columns), 1)

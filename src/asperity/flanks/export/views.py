@@ -9,7 +9,8 @@ from typing import Any
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.flanks.export.extras import require_view
-from asperity.flanks.export.together import centred_teeth, mounted_worm
+from asperity.flanks.export.tooth import centred_teeth
+from asperity.flanks.export.worm import mounted_worm
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
 from asperity.mesh.surface import Surface
@@ -37,7 +38,7 @@ _WHOLE = replace(_WHEEL, zoom=1.0)
 def pair_view(path: str | os.PathLike[str], wheel: Wheel, teeth: int = 9) -> Path:
     """Draw the worm at phase 0 in several teeth of the wheel, as PNG."""
     with _plotter(path, _WHEEL) as plotter:
-        _add(plotter, mounted_worm(wheel).surface(), STEEL)
+        _add(plotter, mounted_worm(wheel.pair).surface(), STEEL)
         _add(plotter, centred_teeth(wheel, teeth).surface(), BRONZE)
     return Path(path)
 

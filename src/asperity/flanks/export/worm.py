@@ -53,6 +53,14 @@ def worm_body(pair: Pair, length: float | None = None) -> Body:
     return Body(worm.name, patches, [low, high]).moved(np.diag([1.0, 1.0, pair.mirror]))
 
 
+def mounted_worm(pair: Pair) -> Body:
+    """Return the worm at phase 0 where it runs, in the frame of the gearset's wheel, mm."""
+    mirror, place = np.diag([1.0, 1.0, pair.mirror]), pair.mounting.to_wheel
+    worm = worm_body(pair).moved(mirror)
+    patches = [Patch(place(patch.points)) for patch in worm.patches]
+    return Body(worm.name, patches, [list(map(place, ring)) for ring in worm.rings]).moved(mirror)
+
+
 def _axial_section(worm: Helicoid) -> list[tuple[FloatArray, FloatArray]]:
     """Return radius and axial place of each piece of a start, in the order of their places."""
     side = [worm.curve(u)[:2] for u in _flank_places(worm)]

@@ -13,6 +13,9 @@ from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import on_cylinder, turned
 from asperity.mesh import HexMesh
 from asperity.mesh.shape import REFERENCE_NODES
+from asperity.units import split_unit, to_si
+
+_MILLIMETRES = 1e3
 
 COARSE = 0.2
 """Size of a coarse element on the flank, in axial modules."""
@@ -64,14 +67,33 @@ class Counts(NamedTuple):
         return face * (across * rows + along * (order * self.rim + 1))
 
 
+def read_density(text: str) -> str | float:
+    """Return a density by its name, or an element size on the flank in mm from text."""
+    if text in DENSITIES:
+        return text
+    if split_unit(text) is None:
+        raise InputError(f"--density is {text!r}; {_expected(text)}")
+    try:
+        size = to_si(text, "m") * _MILLIMETRES
+    except InputError as error:
+        raise InputError(f"--density is {text!r}; {_expected(text)}: {error}") from None
+    if not size > 0.0:
+        raise InputError(f"--density is {text!r}; an element size must be positive")
+    return size
+
+
 def element_size(wheel: Wheel, density: str) -> float:
     """Return the element size of a named density, mm."""
     if density not in DENSITIES:
-        raise InputError(
-            f"density is {density!r}; it must be one of {choices(DENSITIES)}"
-            f"{suggestion(density, DENSITIES)}, or an element size such as '0.5 mm'"
-        )
+        raise InputError(f"density is {density!r}; {_expected(density)}")
     return COARSE * DENSITIES[density] * wheel.pair.geometry.axial_module
+
+
+def _expected(text: str) -> str:
+    return (
+        f"it must be one of {choices(DENSITIES)}{suggestion(text, DENSITIES)}, or an element size "
+        "such as '0.5 mm'"
+    )
 
 
 def counts(wheel: Wheel, size: float) -> Counts:

@@ -20,7 +20,6 @@ from asperity.flanks.meshing.vibration_share import (
     VibrationShare,
     vibration_share,
 )
-from asperity.flanks.wheel.conjugacy import conjugacy_residual
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED, FlankGrid
 from asperity.flanks.worm.setting import Pair
@@ -262,6 +261,6 @@ def _flank(
         share=vibration_share(pair, motion),
         play=free,
         undercut=bool(flank.undercut_at(grid.z[0]).any()),
-        conjugacy_residual=float(np.abs(conjugacy_residual(flank, grid)).max()),
+        conjugacy_residual=float(np.abs(flank.conjugacy_residual(grid)).max()),
         loaded=tuple(loaded),
     )

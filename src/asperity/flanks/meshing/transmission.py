@@ -22,6 +22,7 @@ from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.wheel.cutting.bracket import minimum
 from asperity.flanks.wheel.flank import RESOLVED, FlankGrid, WheelFlank
+from asperity.flanks.worm.curve import Thread
 from asperity.flanks.worm.setting import Pair
 from asperity.results import Quantities, labelled, quantity
 
@@ -65,7 +66,7 @@ class ToothSearch:
         return np.asarray(np.arange(first, last + 1) * step, dtype=np.float64)
 
     def _least(
-        self, mode: int, worm: FloatArray, beta: FloatArray, phase: FloatArray, near: FloatArray
+        self, mode: int, worm: Thread, beta: FloatArray, phase: FloatArray, near: FloatArray
     ) -> FloatArray:
         pair, side = self.pair, self.flank.side
         blank = self.flank.blank

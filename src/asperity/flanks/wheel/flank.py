@@ -17,6 +17,7 @@ from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
 from asperity.flanks.wheel.cutting.conjugate import conjugate_each
 from asperity.flanks.wheel.refusal import refusal, widest_face
 from asperity.flanks.worm.curve import Thread
+from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair, Stand
 from asperity.results import Quantities, quantity
 
@@ -255,6 +256,22 @@ class WheelFlank:
         back = np.empty_like(order)
         back[order] = np.arange(order.size)
         return self._points(u[back].reshape(r.shape), psi[back].reshape(r.shape))
+
+    def conjugacy_residual(self, grid: FlankGrid) -> FloatArray:
+        """Return the distances of points to the hob at the phase at which it cuts them, mm.
+
+        They are zero but for the rounding of floats and, for the flanks of grinding discs, for the
+        table their profile is in. Shaped as the grid; negative inside the hob.
+        """
+        pair = self.pair
+        angle = grid.phase / pair.ratio
+        cosine, sine = np.cos(angle), np.sin(angle)
+        x, y, z = np.moveaxis(grid.points, -1, 0)
+        stood = np.stack([cosine * x - sine * y, sine * x + cosine * y, z], axis=-1)
+        place = pair.cutting.to_helicoid(stood)
+        # A turn of a helicoid is a shift along its axis.
+        place[..., 2] += pair.hob.reduced_lead * grid.phase
+        return distances(place, pair.hob, self.side)
 
     def area(self, points: int = GAUSS) -> float:
         r"""Return the area of the trimmed flank, mm^2.

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.flanks.export.together import mounted_worm
-from asperity.flanks.export.worm import worm_body
+from asperity.flanks.export.worm import mounted_worm, worm_body
 from asperity.flanks.mesh.tooth import DENSITIES, element_size, tooth
 from asperity.flanks.wheel.enveloped import FlankGrid, Wheel, WheelFlank
 from asperity.flanks.worm.distance import distances
@@ -79,7 +78,7 @@ def _gearset() -> Computed:
     wheel = _wheel()
     teeth = wheel.pair.geometry.wheel_teeth
     ring = tooth(wheel, 1.2, teeth=teeth)
-    whole = joined([Shape.of_mesh(ring), Shape.of_body(mounted_worm(wheel), 1, every=(2, 1))])
+    whole = joined([Shape.of_mesh(ring), Shape.of_body(mounted_worm(wheel.pair), 1, every=(2, 1))])
     flank = wheel.flank(1)
     grid = flank.grid(61, 97)
     height = facet_height(flank, grid, STEP)
@@ -96,7 +95,7 @@ def _gearset() -> Computed:
         enlargement=((), _ENLARGED, "1", "how many times the facets are drawn enlarged"),
     )
     how = [
-        "asperity.flanks.mesh.tooth, asperity.flanks.export.together.mounted_worm of gearset-3b",
+        "asperity.flanks.mesh.tooth, asperity.flanks.export.worm.mounted_worm of gearset-3b",
         "asperity.thesis.flanks.solids.facet_height",
     ]
     return dataset, how
@@ -111,7 +110,7 @@ def _gearset() -> Computed:
 )  # fmt: skip
 def _sector() -> Computed:
     teeth = _centred(Shape.of_mesh(_mesh("coarse", _SECTOR)), _SECTOR)
-    both = joined([teeth, Shape.of_body(mounted_worm(_wheel()), 1, every=(2, 1))])
+    both = joined([teeth, Shape.of_body(mounted_worm(_wheel().pair), 1, every=(2, 1))])
     dataset = labelled(**both.variables("gearset"))
     return dataset, [f"{_FLANK} --out out/flank"]
 
