@@ -14,7 +14,7 @@ from asperity.casefile import read_case
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.rating.tables import TABLES
-from asperity.studies import compare
+from asperity.studies.methods import compare
 from asperity.vibration import Vibration
 
 case = read_case("gearset-2", TABLES)

@@ -15,7 +15,9 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions
-from asperity.studies import compare, optimise, sensitivity
+from asperity.studies.methods import compare
+from asperity.studies.optimise import optimise
+from asperity.studies.sensitivity import sensitivity
 
 RAISES = ("pressure_angle", "centre_distance", "worm_speed")
 LOWERS = ("gear_ratio", "diameter_factor", "axial_module", "worm_roughness")

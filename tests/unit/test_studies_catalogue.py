@@ -13,7 +13,8 @@ from asperity.gearset import Gearset
 from asperity.gearset.sizing import MODULES
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.store import read_dataset, write_dataset
-from asperity.studies import Bounds, search
+from asperity.studies.catalogue import search
+from asperity.studies.design import Bounds
 
 RATIOS = [5.0, 10.0, 20.0, 40.0, 60.0, 100.0]
 DISTANCES = [0.04, 0.06, 0.1, 0.2]

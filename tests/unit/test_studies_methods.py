@@ -15,7 +15,8 @@ from asperity.rating.tables import TABLES as RATING
 from asperity.slider.closed_forms import directed_ratio, vibration_power
 from asperity.slider.tables import TABLES as SLIDER
 from asperity.store import read_dataset, write_dataset
-from asperity.studies import compare, compare_case, reported_methods
+from asperity.studies.methods import compare, compare_case
+from asperity.studies.reported import reported_methods
 from asperity.studies.shaken import shake
 from asperity.vibration import Vibration
 

@@ -14,9 +14,10 @@ from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case
 from asperity.store import read_dataset, write_dataset
-from asperity.studies import Bounds, optimise, trade_off
 from asperity.studies.climb import climb, spread
-from asperity.studies.design import VARIABLES, Space
+from asperity.studies.design import VARIABLES, Bounds, Space
+from asperity.studies.optimise import optimise
+from asperity.studies.tradeoff import trade_off
 
 
 def subject(case):

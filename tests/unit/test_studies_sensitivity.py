@@ -13,7 +13,7 @@ from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.store import read_dataset, write_dataset
-from asperity.studies import sensitivity
+from asperity.studies.sensitivity import sensitivity
 
 
 def gearset(name="gearset-2", *settings):
