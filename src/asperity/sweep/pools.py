@@ -44,7 +44,7 @@ class Pool:
         raise NotImplementedError
 
 
-class Cores(Pool):
+class _Cores(Pool):
     """The cores of this machine: threads, since the compiled loops leave the interpreter free."""
 
     def __init__(self) -> None:
@@ -53,20 +53,17 @@ class Cores(Pool):
         self._stop = np.zeros(1, dtype=np.int64)
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
-        """See `Pool`."""
         return self._threads.submit(solve_task, models, self._stop)
 
     def stop(self) -> None:
-        """See `Pool`."""
         self._stop[0] = 1
         self._threads.shutdown(wait=True, cancel_futures=True)
 
     def close(self) -> None:
-        """See `Pool`."""
         self._threads.shutdown(wait=True)
 
 
-class Cluster(Pool):
+class _Cluster(Pool):
     """The workers of a Dask scheduler, which must have this version of the package.
 
     Its address is such as ``tcp://127.0.0.1:8786``; what is being waited for is told in one line.
@@ -104,12 +101,10 @@ class Cluster(Pool):
         self.room = max(_LEAST_ROOM, _ROOM_PER_THREAD * threads)
 
     def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
-        """See `Pool`."""
         future: cf.Future[list[Row]] = self._executor.submit(solve_remote, models, versions())
         return future
 
     def check(self) -> None:
-        """See `Pool`."""
         try:
             waits = not self._client.nthreads()
         except (OSError, ValueError, RuntimeError):
@@ -125,16 +120,18 @@ class Cluster(Pool):
         self._waits = waits
 
     def failure(self, error: BaseException) -> BaseException:
-        """See `Pool`."""
         if isinstance(error, AsperityError):
             return error
         reason = " ".join(str(error).split()) or type(error).__name__
         return StorageError(f"--cluster {self._address}: a task failed: {reason}")
 
     def stop(self) -> None:
-        """See `Pool`."""
         self._executor.shutdown(wait=False)
 
     def close(self) -> None:
-        """See `Pool`."""
         self._client.close()
+
+
+def pool(cluster: str, notify: Callable[[str], None]) -> Pool:
+    """Return the workers of a scheduler at an address, or the cores of this machine."""
+    return _Cluster(cluster, notify) if cluster else _Cores()

@@ -19,7 +19,7 @@ from asperity.slider.model import Model
 from asperity.slider.result import inputs
 from asperity.sweep.axes import Axis, parse_axes
 from asperity.sweep.grid import Grid, Point
-from asperity.sweep.pools import Cluster, Cores, Pool
+from asperity.sweep.pools import Pool, pool
 from asperity.sweep.result import Answers, SweepResult
 from asperity.sweep.tasks import FAILED, REFUSED, task_size
 
@@ -66,7 +66,8 @@ def run(
         Ctrl-C was pressed; what was done is in the cache.
     """
     problem = Problem(case, tuple(_parsed(axes, case)), cluster or "", cache)
-    return answer(problem, Run(progress=progress, notify=notify or _to_standard_error))
+    told = notify or (lambda line: print(line, file=sys.stderr))
+    return answer(problem, Run(progress=progress, notify=told))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,36 +159,36 @@ class _Sweep:
 
     def solve(self, cluster: str) -> None:
         """Solve what is missing."""
-        pool: Pool = Cluster(cluster, self.doing.notify) if cluster else Cores()
+        workers = pool(cluster, self.doing.notify)
         waiting: dict[cf.Future[list[Row]], list[Point]] = {}
         try:
-            self._feed(pool, waiting)
+            self._feed(workers, waiting)
         except BaseException:
-            pool.stop()
+            workers.stop()
             for future, points in waiting.items():
                 if future.done() and not future.cancelled() and future.exception() is None:
                     self._keep(points, future.result())
             raise
         finally:
-            pool.close()
+            workers.close()
 
-    def _feed(self, pool: Pool, waiting: dict[cf.Future[list[Row]], list[Point]]) -> None:
+    def _feed(self, workers: Pool, waiting: dict[cf.Future[list[Row]], list[Point]]) -> None:
         tasks = self._tasks()
         while True:
-            while len(waiting) < pool.room and (indices := next(tasks, None)):
+            while len(waiting) < workers.room and (indices := next(tasks, None)):
                 points = list(self.grid.points(indices))
-                waiting[pool.submit([point.model for point in points])] = points
+                waiting[workers.submit([point.model for point in points])] = points
             if not waiting:
                 return
             done, _ = cf.wait(waiting, timeout=_LOOK_SECONDS, return_when=cf.FIRST_COMPLETED)
             if not done:
-                pool.check()
+                workers.check()
             for future in done:
                 try:
                     rows = future.result()
                 except (Exception, cf.CancelledError) as error:
-                    pool.check()
-                    raise pool.failure(error) from None
+                    workers.check()
+                    raise workers.failure(error) from None
                 self._accept(waiting[future], rows)
                 del waiting[future]
 
@@ -236,7 +237,3 @@ def _parsed(axes: Sequence[Axis | str], case: Case) -> Iterator[Axis]:
     texts = iter(parse_axes([axis for axis in axes if isinstance(axis, str)], case))
     for axis in axes:
         yield next(texts) if isinstance(axis, str) else axis
-
-
-def _to_standard_error(line: str) -> None:
-    print(line, file=sys.stderr)

@@ -95,15 +95,3 @@ GEARSETS = {"gearset 2": GEARSET_2, "gearset 3": GEARSET_3}
 
 OPTIMISED = tuple(gear.command("optimise") for gear in GEARSETS.values())
 """How their optima are come by."""
-
-
-def besides() -> dict[str, bool]:
-    """What else 3.3.5 says of the optima, and whether it holds of gearsets 2 and 3."""
-    second, third = changes = [gear.changes for gear in GEARSETS.values()]
-    return {
-        "M_w rises a little": all(0.0 < own["M_w"] < 0.1 for own in changes),
-        "M_s stays": all(abs(own["M_s"]) < 1e-6 for own in changes),
-        "eta_AGMA does not rise in all": min(own["eta_AGMA"] for own in changes) <= 0.0,
-        "q_1 rises for gearset 3 only": second["q_1"] <= 0.0 < third["q_1"],
-        "sigma_a rises for gearset 3 only": second["sigma_a"] <= 0.0 < third["sigma_a"],
-    }

@@ -18,10 +18,10 @@ _BY = {"agma6034": ", AGMA 6034", "bs721": ", BS 721"}
 class _Row(NamedTuple):
     """A number of a rating, what survives of it in the thesis, and where the one here is from."""
 
-    standard: str
     key: str
     thesis: str = "lost"
     here: str = "computed"
+    standard: str = "iso14521"
 
     def entry(self, rated: Rated) -> Entry:
         return rated.found[self.standard].entry(self.key)
@@ -34,35 +34,35 @@ _FROM_ETA = "inferred from eta_z, with the other two of q_1, m_x1 and a"
 _STAND_IN = "assumed: Table 6.9 is lost; without influence on efficiency"
 
 _TABLE_3_2 = (
-    _Row("iso14521", "centre_distance_mm", here=_FROM_ETA),
-    _Row("iso14521", "gear_ratio", here="inferred from where the calculation fails (3.2.3)"),
-    _Row("iso14521", "starts", "1 (3.2.3)", "stated"),
-    _Row("iso14521", "wheel_teeth", here="inferred with the ratio"),
-    _Row("iso14521", "diameter_factor", here=_FROM_ETA),
-    _Row("iso14521", "axial_module_mm", here=_FROM_ETA),
-    _Row("iso14521", "pressure_angle_deg", here="assumed: the guideline of BS 721 (3.2.1)"),
-    _Row("iso14521", "worm_speed_rpm", here="assumed: that of gearset 3 (7.2.4)"),
-    _Row("iso14521", "worm_roughness_um", here="inferred for gearset 3, equal for all (3.3.4)"),
-    _Row("iso14521", "output_torque_Nm", here="inferred from eta_ges"),
-    _Row("iso14521", "nu_40_mm2_s", here=_STAND_IN),
-    _Row("iso14521", "nu_100_mm2_s", here=_STAND_IN),
-    _Row("iso14521", "Y_W", here="inferred: aluminium bronze (7.2.2), equal for all (3.3.4)"),
-    _Row("iso14521", "lead_angle_deg"),
-    _Row("iso14521", "profile_shift"),
-    _Row("iso14521", "sliding_velocity_m_s"),
-    _Row("iso14521", "mu_0T", "0.0715 (3.2.2)"),
-    _Row("iso14521", "Y_S"),
-    _Row("iso14521", "h_star"),
-    _Row("iso14521", "Y_G"),
-    _Row("iso14521", "Y_R"),
-    _Row("iso14521", "mu_zm"),
-    _Row("iso14521", "eta_z1_2", "38 % (3.2.1)"),
-    _Row("iso14521", "output_power_W"),
-    _Row("iso14521", "loss_meshing_W"),
-    _Row("iso14521", "loss_idle_W"),
-    _Row("iso14521", "loss_bearing_W"),
-    _Row("iso14521", "loss_seal_W"),
-    _Row("iso14521", "eta_ges", "31 % (3.2.1)"),
+    _Row("centre_distance_mm", here=_FROM_ETA),
+    _Row("gear_ratio", here="inferred from where the calculation fails (3.2.3)"),
+    _Row("starts", "1 (3.2.3)", "stated"),
+    _Row("wheel_teeth", here="inferred with the ratio"),
+    _Row("diameter_factor", here=_FROM_ETA),
+    _Row("axial_module_mm", here=_FROM_ETA),
+    _Row("pressure_angle_deg", here="assumed: the guideline of BS 721 (3.2.1)"),
+    _Row("worm_speed_rpm", here="assumed: that of gearset 3 (7.2.4)"),
+    _Row("worm_roughness_um", here="inferred for gearset 3, equal for all (3.3.4)"),
+    _Row("output_torque_Nm", here="inferred from eta_ges"),
+    _Row("nu_40_mm2_s", here=_STAND_IN),
+    _Row("nu_100_mm2_s", here=_STAND_IN),
+    _Row("Y_W", here="inferred: aluminium bronze (7.2.2), equal for all (3.3.4)"),
+    _Row("lead_angle_deg"),
+    _Row("profile_shift"),
+    _Row("sliding_velocity_m_s"),
+    _Row("mu_0T", "0.0715 (3.2.2)"),
+    _Row("Y_S"),
+    _Row("h_star"),
+    _Row("Y_G"),
+    _Row("Y_R"),
+    _Row("mu_zm"),
+    _Row("eta_z1_2", "38 % (3.2.1)"),
+    _Row("output_power_W"),
+    _Row("loss_meshing_W"),
+    _Row("loss_idle_W"),
+    _Row("loss_bearing_W"),
+    _Row("loss_seal_W"),
+    _Row("eta_ges", "31 % (3.2.1)"),
 )
 
 
@@ -160,43 +160,35 @@ def _number(value: float) -> float | None:
 
 
 _INFERRED = "inferred"
+_GROWS = "computed; grows here from 2 to 3, with the inferred torque of gearset 2"
 _TABLE_3_5 = (
-    _Row("iso14521", "centre_distance_mm", "grows from gearset 1 to 4", _INFERRED),
-    _Row("iso14521", "gear_ratio", "gearset 3: 15 (1440 and 96 rpm, 7.4.1)",
-         "gearset 3: stated; 2: inferred"),
-    _Row("iso14521", "starts", "gearset 2: 1", "gearset 2: stated; 3: from ratio and teeth"),
-    _Row("iso14521", "wheel_teeth", "gearset 3: 60 (7.2.2)", "gearset 3: stated; 2: inferred"),
-    _Row("iso14521", "diameter_factor", here=_INFERRED),
-    _Row("iso14521", "axial_module_mm", here=_INFERRED),
-    _Row("iso14521", "pressure_angle_deg", here="assumed: the guideline of BS 721 (3.2.1)"),
-    _Row("iso14521", "worm_speed_rpm", "gearset 3: 1440 (7.2.4)",
-         "gearset 3: stated; 2: assumed"),
-    _Row("iso14521", "worm_roughness_um", "the same for all", _INFERRED),
-    _Row("iso14521", "Y_W", "the same for all", "inferred from the alloy"),
-    _Row("iso14521", "output_torque_Nm", "gearset 3: 366 (7.2.4)",
-         "gearset 3: stated; 2: inferred"),
-    _Row("iso14521", "through_travel_torque_Nm", "usually a third of T_R (3.2.1)", "a third"),
-    _Row("iso14521", "sliding_velocity_m_s", "grows; gearset 3: 1.5108 (7.2.4)"),
-    _Row("iso14521", "mu_0T", "gearset 2: 0.0715"),
-    _Row("iso14521", "mu_zm", "gearset 3: 0.1344 (7.2.4)"),
-    _Row("iso14521", "eta_z1_2", "38 %; 73 % (7.4.1)"),
-    _Row("iso14521", "eta_ges", "gearset 2: 31 %; below eta_z"),
-    _Row("agma6034", "mu"),
-    _Row("agma6034", "eta", "much higher than eta_z"),
-    _Row("bs721", "M_26k_Nm", "below T_G,all"),
-    _Row("bs721", "M_w_Nm", "above M_26k and T_2"),
-    _Row("bs721", "M_s_Nm", "above M_26k and T_R"),
-    _Row("agma6034", "allowable_torque_Nm", "above M_26k"),
-    _Row(
-        "agma6034",
-        "bending_stress_MPa",
-        "does not grow with T_R (3.3.4)",
-        "computed; grows here from 2 to 3, with the inferred torque of gearset 2",
-    ),
-    _Row("iso14521", "sigma_line_MPa", "gearset 3: 778 (7.2.4)",
-         "computed as a Hertz line contact"),
-    _Row("iso14521", "sigma_Hm_MPa", here="computed by ISO/TR 14521"),
-)  # fmt: skip
+    _Row("centre_distance_mm", "grows from gearset 1 to 4", _INFERRED),
+    _Row("gear_ratio", "gearset 3: 15 (1440 and 96 rpm, 7.4.1)", "gearset 3: stated; 2: inferred"),
+    _Row("starts", "gearset 2: 1", "gearset 2: stated; 3: from ratio and teeth"),
+    _Row("wheel_teeth", "gearset 3: 60 (7.2.2)", "gearset 3: stated; 2: inferred"),
+    _Row("diameter_factor", here=_INFERRED),
+    _Row("axial_module_mm", here=_INFERRED),
+    _Row("pressure_angle_deg", here="assumed: the guideline of BS 721 (3.2.1)"),
+    _Row("worm_speed_rpm", "gearset 3: 1440 (7.2.4)", "gearset 3: stated; 2: assumed"),
+    _Row("worm_roughness_um", "the same for all", _INFERRED),
+    _Row("Y_W", "the same for all", "inferred from the alloy"),
+    _Row("output_torque_Nm", "gearset 3: 366 (7.2.4)", "gearset 3: stated; 2: inferred"),
+    _Row("through_travel_torque_Nm", "usually a third of T_R (3.2.1)", "a third"),
+    _Row("sliding_velocity_m_s", "grows; gearset 3: 1.5108 (7.2.4)"),
+    _Row("mu_0T", "gearset 2: 0.0715"),
+    _Row("mu_zm", "gearset 3: 0.1344 (7.2.4)"),
+    _Row("eta_z1_2", "38 %; 73 % (7.4.1)"),
+    _Row("eta_ges", "gearset 2: 31 %; below eta_z"),
+    _Row("mu", standard="agma6034"),
+    _Row("eta", standard="agma6034", thesis="much higher than eta_z"),
+    _Row("M_26k_Nm", standard="bs721", thesis="below T_G,all"),
+    _Row("M_w_Nm", standard="bs721", thesis="above M_26k and T_2"),
+    _Row("M_s_Nm", standard="bs721", thesis="above M_26k and T_R"),
+    _Row("allowable_torque_Nm", standard="agma6034", thesis="above M_26k"),
+    _Row("bending_stress_MPa", "does not grow with T_R (3.3.4)", _GROWS, "agma6034"),
+    _Row("sigma_line_MPa", "gearset 3: 778 (7.2.4)", "computed as a Hertz line contact"),
+    _Row("sigma_Hm_MPa", here="computed by ISO/TR 14521"),
+)
 
 
 @table(
@@ -271,22 +263,22 @@ def _constraints() -> Grid:
 
 
 _TABLE_3_7 = (
-    _Row("iso14521", "pressure_angle_deg", "30 for all"),
-    _Row("iso14521", "diameter_factor", "rises for gearset 3 only"),
-    _Row("iso14521", "axial_module_mm", "changes are small"),
-    _Row("iso14521", "worm_roughness_um", "0.8"),
-    _Row("iso14521", "profile_shift"),
-    _Row("iso14521", "mu_zm"),
-    _Row("iso14521", "eta_z1_2", "rises for all; 7 % more, to 45 % (3.4)"),
-    _Row("iso14521", "eta_ges"),
-    _Row("agma6034", "mu"),
-    _Row("agma6034", "eta", "does not rise for all"),
-    _Row("bs721", "M_26k_Nm", "close to T_G,all"),
-    _Row("bs721", "M_w_Nm", "rises slightly"),
-    _Row("bs721", "M_s_Nm", "unchanged"),
-    _Row("agma6034", "allowable_torque_Nm"),
-    _Row("agma6034", "bending_stress_MPa", "rises for gearset 3 only"),
-    _Row("iso14521", "sigma_line_MPa"),
+    _Row("pressure_angle_deg", "30 for all"),
+    _Row("diameter_factor", "rises for gearset 3 only"),
+    _Row("axial_module_mm", "changes are small"),
+    _Row("worm_roughness_um", "0.8"),
+    _Row("profile_shift"),
+    _Row("mu_zm"),
+    _Row("eta_z1_2", "rises for all; 7 % more, to 45 % (3.4)"),
+    _Row("eta_ges"),
+    _Row("mu", standard="agma6034"),
+    _Row("eta", standard="agma6034", thesis="does not rise for all"),
+    _Row("M_26k_Nm", standard="bs721", thesis="close to T_G,all"),
+    _Row("M_w_Nm", standard="bs721", thesis="rises slightly"),
+    _Row("M_s_Nm", standard="bs721", thesis="unchanged"),
+    _Row("allowable_torque_Nm", standard="agma6034"),
+    _Row("bending_stress_MPa", standard="agma6034", thesis="rises for gearset 3 only"),
+    _Row("sigma_line_MPa"),
 )
 
 
