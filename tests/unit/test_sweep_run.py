@@ -16,6 +16,7 @@ from asperity.slider import TABLES, Model, solve
 from asperity.store import read_dataset
 from asperity.sweep import Axis, SweepResult, parse_axes, read_grid, run
 from asperity.sweep.grid import Grid
+from asperity.sweep.result import Answers
 from asperity.sweep.tasks import solve_remote, versions
 
 SHORT = ["solve.duration=20 ms", "vibration.start=2 ms"]
@@ -266,3 +267,17 @@ def test_a_large_grid_is_announced_before_it_is_looked_at(monkeypatch):
 def test_a_grid_of_more_than_a_million_points_is_refused_at_once():
     with pytest.raises(InputError, match=r"9.09e\+6 values; at most 1000000 are allowed"):
         run(case(), ["friction.mu=0.1:0.2:1.1e-8"])
+
+
+def test_filling_in_a_point_costs_the_same_in_a_grid_of_any_size():
+    answers = Answers(1_000_000)
+    rows = [dict.fromkeys(("ratio", "power_drive"), 0.5)] * 2000
+    answers.put(0, rows[0], None)
+    tracemalloc.start()
+    try:
+        for index, row in enumerate(rows):
+            answers.put(index, row, None)
+        assert tracemalloc.get_traced_memory()[1] < 100_000
+    finally:
+        tracemalloc.stop()
+    assert np.count_nonzero(answers.arrays["ratio"] == 0.5) == 2000

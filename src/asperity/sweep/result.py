@@ -186,9 +186,10 @@ class Answers:
                 self.reasons[index] = failed
             return
         for name, value in row.items():
-            array = self._arrays.setdefault(name, np.full(self._size, math.nan))
+            if name not in self._arrays:
+                self._arrays[name] = np.full(self._size, math.nan)
             if isinstance(value, int | float):
-                array[index] = value
+                self._arrays[name][index] = value
 
     @property
     def arrays(self) -> dict[str, FloatArray]:
