@@ -118,6 +118,15 @@ COMMANDS = (
         counts="steps",
     ),
     Command(
+        "static",
+        "Pull a body on a vibrating base steadily: the largest force under which it holds.",
+        "The drive is left out; the body needs slider.mass. With --out also static.json, static.nc "
+        "and static.png.",
+        prepare="asperity.slider.static:prepare",
+        solve="asperity.slider.static:answer",
+        counts="pulls",
+    ),
+    Command(
         "block",
         "Pull an elastic block over a vibrating base: the same by finite elements.",
         "With --out also block.nc, block.png, block_pressure.png, block.json and block.pvd, an "

@@ -142,7 +142,7 @@ def prime(state, p, increments):
     ux = p.base_x * increments[0]
     uy = p.base_y * increments[0]
     own = p.own_1 + p.own_2
-    free = p.stiffness * state.stretch + p.damping * p.drive
+    free = p.stiffness * state.stretch + p.damping * p.drive + p.pull
     if p.rigid:
         state.velocity_x = p.drive
     else:
@@ -218,7 +218,7 @@ def march_block(state, sums, p, increments, steps, nodes):
         last_fx = fx
         last_fy = fy
         last_fd = fd
-        free = stiffness * stretch + damping * drive
+        free = stiffness * stretch + damping * drive + p.pull
         wx1 = wx
         wy1 = wy
         if model == DAHL:
@@ -255,7 +255,7 @@ def march_block(state, sums, p, increments, steps, nodes):
         else:
             fd = free - damping * 0.5 * (wx + wx1)
             drag = damping * (drive - 0.5 * (wx + wx1))
-            last_drag = last_fd - stiffness * (stretch - drive + wx)
+            last_drag = last_fd - stiffness * (stretch - drive + wx) - p.pull
             sums.drag_work += 0.5 * (drag + last_drag) * (drive - wx)
         add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, rigid)
         if recording:

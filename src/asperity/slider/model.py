@@ -337,6 +337,7 @@ class Model:
         sign = -1.0 if self.on_body else 1.0
         scaled = Parameters(
             drive=slider.drive_velocity * step / length,
+            pull=0.0,
             stiffness=stiffness,
             damping=damping,
             retained=(1.0 - lost) / (1.0 + lost),

@@ -144,21 +144,7 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     steps = cycle_steps(model)
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
     cycle = Cycle(model, steps, step)
-    found = _settled(cycle)
-    growth = cycle.multiplier() if found else math.inf
-    notes: tuple[str, ...] = ()
-    if found and growth > _UNSTABLE:
-        notes = (
-            f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
-        )
-    if cycle.q is not None and not growth <= _UNSTABLE:
-        if found:
-            ratio = cycle.body.sums["drive_force"] / cycle.body.sums["steps"]
-            notes = (
-                f"the state that repeats itself every cycle, with the ratio {ratio:.5g}, is "
-                f"unstable: a disturbance grows {growth:.3g} times a cycle",
-            )
-        found, growth = _longer(cycle)
+    found, growth, notes = settle(cycle)
     if not found and cycle.residual <= ACCEPTED:
         raise ConvergenceError(
             "no stable periodic state found: those that repeat themselves after 1, 2 or 4 cycles "
@@ -187,9 +173,34 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     )  # fmt: skip
 
 
-def _settled(cycle: Cycle) -> bool:
-    """Find the state from rest, or after ever more cycles."""
-    return any(cycle.find(settle) for settle in (0, *SETTLING))
+def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:
+    """Find the state from rest, or after ever more cycles; of a pressed body, a stable one.
+
+    Returns
+    -------
+    found : bool
+        Whether the cycle is in it now.
+    growth : float
+        Its multiplier.
+    notes : tuple of str
+        What a reader should know of states that are not stable.
+    """
+    found = any(cycle.find(cycles) for cycles in (0, *SETTLING))
+    growth = cycle.multiplier() if found else math.inf
+    notes: tuple[str, ...] = ()
+    if found and growth > _UNSTABLE:
+        notes = (
+            f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
+        )
+    if cycle.q is not None and not growth <= _UNSTABLE:
+        if found:
+            ratio = cycle.body.sums["drive_force"] / cycle.body.sums["steps"]
+            notes = (
+                f"the state that repeats itself every cycle, with the ratio {ratio:.5g}, is "
+                f"unstable: a disturbance grows {growth:.3g} times a cycle",
+            )
+        found, growth = _longer(cycle)
+    return found, growth, notes
 
 
 def _longer(cycle: Cycle) -> tuple[bool, float]:

@@ -154,7 +154,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
         load = node_load(elastic, rate, 0.5 * q.mobility, q.damping)
         rise += q.mobility * (load - 1.0)
         limit = friction_limit(load, q.load_power)
-        free = p.stiffness * state.stretch + p.damping * p.drive
+        free = p.stiffness * state.stretch + p.damping * p.drive + p.pull
         wx1 = wx
         wy1 = wy
         gain = 0.0
@@ -214,7 +214,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
         else:
             fd = free - p.damping * 0.5 * (wx + wx1)
             drag = p.damping * (p.drive - 0.5 * (wx + wx1))
-            last_drag = last_fd - p.stiffness * (state.stretch - p.drive + wx)
+            last_drag = last_fd - p.stiffness * (state.stretch - p.drive + wx) - p.pull
             sums.drag_work += 0.5 * (drag + last_drag) * (p.drive - wx)
         add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, p.rigid)
         _add_load(

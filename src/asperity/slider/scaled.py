@@ -23,6 +23,8 @@ class Parameters(NamedTuple):
     ----------
     drive : float
         Drive velocity.
+    pull : float
+        A constant force along the drive.
     stiffness, damping : float
         Of the drive.
     retained : float
@@ -49,6 +51,7 @@ class Parameters(NamedTuple):
     """
 
     drive: float
+    pull: float
     stiffness: float
     damping: float
     retained: float

@@ -33,7 +33,7 @@ SETTLING = (20, 80, 320, 1280)  # cycles before each further attempt
 def _on_other_drive(p, rigid, damping, retained, mobility_x, mobility_y):
     """Return the body with another drive and other mobility."""
     return Parameters(
-        p.drive, p.stiffness, damping, retained, mobility_x, mobility_y,
+        p.drive, p.pull, p.stiffness, damping, retained, mobility_x, mobility_y,
         p.base_x, p.base_y, p.own_1, p.own_2, p.exponent, p.rate_damping, p.slip_damping,
         p.static_ratio, p.stribeck, rigid, p.smooth, p.model, p.law,
     )  # fmt: skip
