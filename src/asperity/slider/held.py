@@ -11,15 +11,14 @@ import math
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
 from asperity.friction.loaded import STIFFNESS
+from asperity.slider.held_kernels import carry
 from asperity.slider.integrators import Pressed
 from asperity.slider.model import Model
 from asperity.slider.periodic import Cycle, cycle_steps, settle
 from asperity.slider.pressed import friction_limit
 from asperity.slider.scaled import COULOMB, SPRINGS, Parameters
-from asperity.slider.shooting import run_cycle
 
 # Cycles: of growing, and of the first stretch a creep is taken from; or rings of the asperities.
 _GROWING = 48
@@ -27,19 +26,10 @@ _FIRST = 16
 _RINGS = 4
 _DOUBLINGS = 8
 # Creep a cycle over the deflection limit, for Coulomb friction over the drive's way in a step.
-_STANDING = 1e-7
+_STANDING = 1e-6
 _STEADY = 0.9
 _SETTLED = 1e-3
 _APERIODIC = 64  # cycles that stand for those of a motion that never repeats itself
-
-
-@kernel
-def carry(state, springs, p, q, increments, rises, sums, shares):
-    """March a cycle for each share of the vibration in the plane; sums are those of the last."""
-    shaken = np.empty_like(increments)
-    for share in shares:
-        shaken[:] = share * increments
-        run_cycle(state, springs, p, q, shaken, rises, sums)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -24,8 +24,6 @@ _FARTHEST = 64.0
 # From this frequency on, over that of the body on its asperities, a heavy body stands still.
 _STANDS_STILL = 10.0
 _PROFILES: dict[str, Profile] = {"linear": "flat", "hertz": "hertz", "rough": "rough"}
-# Deflection at which the springs pressed most slip, over the deflection limit.
-_LAST_SLIP = {"flat": 1.0, "hertz": 1.5, "rough": 1.0}
 
 
 class LeastLoad(Quantities):
@@ -241,12 +239,12 @@ def closed_form(body: HeldBody) -> tuple[float | None, str]:
     sine = model.shape is not None and model.shape.code == SINE
     if body.frequency_ratio < _STANDS_STILL and not (sine and profile == "flat"):
         return None, ""
-    limit = _LAST_SLIP[profile] * friction.deflection_limit(model.slider.normal_force)
+    limit = friction.deflection_limit(model.slider.normal_force)
     amplitude = model.amplitude
     if sine:
         try:
             amplitude *= float(load_swing(1.0, body.frequency_ratio, 0.0))
         except InputError:
             return None, ""
-    forms = {"flat": "1 - u/s_max", "hertz": "(1 - u/s_max)^1.5", "rough": "exp(-u/s_max)"}
+    forms = {"flat": "1 - u/s_max", "hertz": "(1 - 2u/(3 s_max))^1.5", "rough": "exp(-u/s_max)"}
     return float(plane_static_ratio(amplitude, limit, profile)), forms[profile]
