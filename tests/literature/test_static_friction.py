@@ -60,10 +60,22 @@ def test_vibration_along_the_normal_leaves_the_least_load(law, control, ratio, e
     assert found.creep > 0.0
 
 
-@pytest.mark.parametrize("model", ["springs", "lugre", "coulomb"])
+@pytest.mark.parametrize("model", ["lugre", "coulomb"])
 def test_every_friction_holds_at_the_least_load(model):
     found = pressed(**{"friction.model": model, "normal.law": "hertz"})
     assert found.static_ratio == pytest.approx(0.7039, abs=5e-4)
+
+
+@pytest.mark.parametrize("damped", [0.0, 0.05])
+def test_springs_hold_what_elasticity_carries_at_the_least_penetration(damped):
+    found = pressed(
+        **{"friction.model": "springs", "normal.law": "hertz", "normal.damping_ratio": damped}
+    )
+    assert found.closed_form == "mu N(d_min)"
+    assert found.static_ratio == pytest.approx(found.closed_form_ratio, abs=5e-4)
+    # What damping takes off the least load presses no spring.
+    missing = found.closed_form_ratio - found.normal.normal_min / 55.0
+    assert missing == pytest.approx(0.0026 if damped else 0.0, abs=1e-4)
 
 
 def test_nothing_holds_where_the_contact_opens():
@@ -98,21 +110,21 @@ def test_a_light_body_on_a_flat_contact_loses_what_its_resonance_leaves():
     assert found.static_ratio == pytest.approx(found.closed_form_ratio, abs=1e-4)
 
 
-@pytest.mark.parametrize("share", [0.25, 0.6])
+@pytest.mark.parametrize("share", [0.25, pytest.param(0.6, marks=pytest.mark.slow)])
 def test_a_hertz_contact_loses_to_the_power_of_three_halves(share):
     # Its springs pressed most slip at 1.5 times the deflection limit of the first slope.
     found = static(
         **HEAVY
         | {
             "friction.model": "springs",
-            "friction.springs": 64,
+            "friction.springs": 32,
             "normal.law": "hertz",
             "normal.control": "displacement",
             "normal.stiffness": "97.12 MN/m",
             "vibration.displacement_amplitude": f"{share * 1.5 * 68.75:g} nm",
         }
     )
-    assert found.closed_form_ratio == pytest.approx((1.0 - share) ** 1.5, rel=2e-3)
+    assert found.closed_form_ratio == pytest.approx((1.0 - share) ** 1.5, rel=3e-3)
     assert found.static_ratio == pytest.approx((1.0 - share) ** 1.5, rel=5e-3)
 
 

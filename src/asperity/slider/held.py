@@ -111,15 +111,19 @@ class HeldBody:
             friction=model.friction.model_copy(update=friction),
         )
         pressed = Cycle(alone, steps, self.step)
-        found, growth, notes = settle(pressed)
-        self.notes = notes
+        found, growth, _ = settle(pressed)
         if found:
             self.period, self.multiplier = pressed.period, growth
         else:
             self.period = None
+            pressed.disturb()
             pressed.repeat(_APERIODIC // pressed.period)
-            pressed.find(1)
-            self.notes += (
+            body = pressed.body
+            carry(
+                body.kept["state"], pressed.springs, body.p, pressed.q, pressed.increments,
+                pressed.rises, body.sums, np.ones(2),
+            )  # fmt: skip
+            self.notes = (
                 f"the motion normal to the plane does not repeat itself: its least load is that of "
                 f"{_APERIODIC} cycles",
             )

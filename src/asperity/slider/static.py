@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
+from asperity.normal import elastic_force
 from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.runs import Run
 from asperity.slider.closed_forms import load_swing, plane_static_ratio
@@ -152,21 +153,19 @@ def _limit(body: HeldBody, run: Run) -> tuple[float, tuple[str, ...]]:
     while at_rest <= 0.0 and body.creep(high).velocity <= 0.0:
         low, high = high, 2.0 * high
         _bounded(high)
-    below = 0.0 if low == 0.0 else math.nan
     halvings = math.ceil(math.log2((high - low) / _RESOLUTION))
     with run.going_on():
         for done in range(halvings):
             middle = 0.5 * (low + high)
-            velocity = body.creep(middle).velocity
-            if velocity > 0.0:
+            if body.creep(middle).velocity > 0.0:
                 high = middle
             else:
-                low, below = middle, velocity
+                low = middle
             run.progress(done + 1, halvings)
-    if at_rest != 0.0 and below != 0.0:
+    if at_rest != 0.0 and body.creep(low - _ABOVE).velocity < 0.0:
         return low, (
-            "the vibration carries the body along: it goes backward under a smaller pull, forward "
-            "under a greater one, and stands under this one alone",
+            "the vibration carries the body along: it goes backward under 1 % of mu W less, "
+            "forward under more",
         )
     return low, ()
 
@@ -213,15 +212,19 @@ def closed_form(body: HeldBody) -> tuple[float | None, str]:
     r"""Return static friction over :math:`\mu W` by a closed form, and which; (None, "") without.
 
     Vibration along the normal leaves :math:`\mu` times the least load of a period, here that of the
-    body itself. Vibration along the pull takes the amplitude of the asperities' deflection from the
-    indentation: for a flat contact under a sine by the body's resonance on its asperities too, else
-    where the body is too heavy to follow. Dahl's asperities with an exponent above 0 creep there
-    under any pull: from a closed path they come back less deflected.
+    body itself; of springs, what the contact's elasticity carries at the least penetration, for its
+    damping presses none of them. Vibration along the pull takes the amplitude of the asperities'
+    deflection from the indentation: for a flat contact under a sine by the body's resonance on its
+    asperities too, else where the body is too heavy to follow. Dahl's asperities with an exponent
+    above 0 creep there under any pull: from a closed path they come back less deflected.
     """
     model = body.model
     friction = model.friction
     along, across, up = model.unit_direction
-    if body.sums is not None and along == across == 0.0:
+    if model.normal is not None and body.sums is not None and along == across == 0.0:
+        if friction.model == "springs":
+            least = elastic_force(model.normal.code, float(body.sums["penetration_min"]))
+            return float(least), "mu N(d_min)"
         if friction.model != "coulomb" and friction.keeps == "deflection":
             return None, ""
         static = (friction.static_mu or friction.mu) / friction.mu
