@@ -75,7 +75,7 @@ def test_springs_hold_what_elasticity_carries_at_the_least_penetration(damped):
     assert found.static_ratio == pytest.approx(found.closed_form_ratio, abs=5e-4)
     # What damping takes off the least load presses no spring.
     missing = found.closed_form_ratio - found.normal.normal_min / 55.0
-    assert missing == pytest.approx(0.0026 if damped else 0.0, abs=1e-4)
+    assert missing == pytest.approx(0.0027 if damped else 0.0, abs=1e-4)
 
 
 def test_nothing_holds_where_the_contact_opens():

@@ -65,7 +65,7 @@ class StaticResult(Result):
     model: Model
     static_force: float = quantity("F_s", "N", "largest steady pull that does not creep")
     static_ratio: float = quantity("F_s/(mu W)", "", "static friction over mu W")
-    creep: float | None = quantity("v", "m/s", "creep under 1 % of mu W more")
+    creep: float | None = quantity("v", "m/s", "creep under 1 % of mu W more", key="creep_m_s")
     closed_form_ratio: float | None = quantity("", "", "the same by a closed form")
     closed_form: str = quantity("", "", "closed form", only="json", shown=False)
     normal: LeastLoad | None = part(LeastLoad, default=None)
