@@ -283,3 +283,12 @@ def test_numbers_that_make_no_gearset_are_refused():
     wrong = gearset(centre_distance="90 mm")
     with pytest.raises(InputError, match=r"gearset\.centre_distance is 90 mm"):
         Pair.of(wrong)
+
+
+def test_a_side_that_is_asked_for_leaves_the_helicoid_as_it_is():
+    worm = Helicoid.worm(GEOMETRY, "ZI")
+    before = worm.thread.form.copy()
+    asked = worm.facing(-1, core=False)
+    assert (asked.form["side"], worm.facing().form["side"]) == (-1.0, 0.0)
+    assert asked.form["root"] < before["root"]
+    assert worm.thread.form == before

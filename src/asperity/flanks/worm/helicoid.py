@@ -10,7 +10,6 @@ import functools
 import math
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
@@ -243,7 +242,7 @@ class Helicoid:
         ``side`` is the flank of the thread space that counts, 1 or -1, 0 for the nearest; without
         the ``core`` the flanks go on below the root.
         """
-        form = np.array(self.thread.form)[()]
+        form = self.thread.form.copy()
         form["side"] = side
         if not core:
             form["root"] *= _DEEP
