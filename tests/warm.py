@@ -20,6 +20,8 @@ ROOMS = (
     (
         "slide table-4.3 --set solve.method=periodic --out OUT",
         "slide table-4.4 LUGRE --set solve.method=periodic",
+        "static table-4.3",
+        "static normal-pin",
     ),
     (
         "slide table-4.3 EARLY --out OUT",

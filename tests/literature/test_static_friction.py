@@ -9,7 +9,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.runs import Run
-from asperity.slider import TABLES
+from asperity.slider import TABLES, closed_forms
 from asperity.slider.static import answer, prepare
 
 NORMAL = {
@@ -135,9 +135,16 @@ def test_asperities_that_yield_before_they_slip_creep_in_the_plane_under_any_pul
     assert found.creep > 0.0
 
 
-def test_creep_above_the_limit_is_the_drift_of_a_spring_that_slips_once_a_cycle():
-    # The excess of the pull over the least load stretches the asperities anew in every cycle; a
-    # heavy body does not follow within it, so that this is all that is told of order.
-    found = pressed(**{"normal.control": "displacement", "friction.exponent": 0})
-    once = 0.01 * 68.75e-9 * 4000.0
-    assert once / 3.0 < found.creep < 3.0 * once
+def test_a_heavy_body_creeps_where_the_master_curve_meets_its_pull():
+    found = pressed(
+        **{
+            "slider.mass": "120 kg",
+            "friction.exponent": 0,
+            "normal.control": "displacement",
+            "normal.damping_ratio": 0.0,
+        }
+    )
+    swing = 1.0 - found.closed_form_ratio
+    critical = closed_forms.critical_velocity(68.75e-9, swing, 4000.0, "flat")
+    sliding = closed_forms.normal_ratio(found.creep / critical, swing, "flat")
+    assert sliding == pytest.approx(found.static_ratio + 0.01, abs=2e-4)
