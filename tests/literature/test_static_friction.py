@@ -148,3 +148,18 @@ def test_a_heavy_body_creeps_where_the_master_curve_meets_its_pull():
     critical = closed_forms.critical_velocity(68.75e-9, swing, 4000.0, "flat")
     sliding = closed_forms.normal_ratio(found.creep / critical, swing, "flat")
     assert sliding == pytest.approx(found.static_ratio + 0.01, abs=2e-4)
+
+
+@pytest.mark.slow
+def test_a_contact_that_never_repeats_itself_holds_nothing_where_it_opens():
+    found = pressed(
+        **{
+            "normal.law": "hertz",
+            "normal.damping_ratio": 0.001,
+            "vibration.velocity_ratio": 60,
+        }
+    )
+    assert found.normal.period is None
+    assert found.normal.open_share > 0.1
+    assert found.static_force == 0.0
+    assert "does not repeat itself" in found.notes[0]

@@ -29,6 +29,7 @@ _DOUBLINGS = 8
 _STANDING = 1e-6
 _STEADY = 0.9
 _SETTLED = 1e-3
+_KEPT = 0.02
 _APERIODIC = 64  # cycles that stand for those of a motion that never repeats itself
 
 
@@ -120,7 +121,7 @@ class HeldBody:
             pressed.repeat(_APERIODIC // pressed.period)
             body = pressed.body
             carry(
-                body.kept["state"], pressed.springs, body.p, pressed.q, pressed.increments,
+                body.state, pressed.springs, body.p, pressed.q, pressed.increments,
                 pressed.rises, body.sums, np.ones(2),
             )  # fmt: skip
             self.notes = (
@@ -183,9 +184,10 @@ class HeldBody:
             if abs(speeds[-1]) <= _STANDING * self._cycles:
                 return Creep(0.0, steady=True)
             if len(speeds) > 2 and _lasts(speeds[-3:], _SETTLED if settled else None):
-                return Creep(speeds[-1] * unit, steady=abs(speeds[-1] / speeds[-2] - 1.0) < 0.02)
+                return Creep(speeds[-1] * unit, steady=_lasts(speeds[-3:], _KEPT))
         fades = abs(speeds[-1]) < _STEADY * abs(speeds[-2])
-        return Creep(0.0 if fades else speeds[-1] * unit, steady=fades)
+        steady = fades or _lasts(speeds[-3:], _KEPT)
+        return Creep(0.0 if fades else speeds[-1] * unit, steady=steady)
 
     def _deflect(self, state: np.void, springs: FloatArray, pull: float) -> None:
         """Put the asperities where they carry a pull, or as much of it as they can."""

@@ -50,7 +50,8 @@ class StaticResult(Result):
         The largest steady pull that does not creep forward, N and over :math:`\mu W`. Negative
         where the vibration carries the body forward that much.
     creep : float or None
-        Mean velocity under a pull 1 % of :math:`\mu W` above it, m/s; None: the body runs away.
+        Mean velocity under a pull 1 % of :math:`\mu W` above it, m/s; None: it does not
+        settle, or runs away.
     closed_form_ratio : float or None
         What a closed form says; None where there is none.
     closed_form : str
@@ -182,7 +183,10 @@ def _bounded(pull: float) -> None:
 def _remarks(model: Model, creep: Creep) -> tuple[str, ...]:
     notes: tuple[str, ...] = ()
     if not creep.steady:
-        notes += ("under 1 % of mu W more the body runs away: there is no steady creep",)
+        notes += (
+            "under 1 % of mu W more the body finds no steady creep: it runs away, or never repeats "
+            "itself",
+        )
     if model.normal is not None and model.friction.keeps == "deflection":
         notes += (
             "with friction.keeps 'deflection' asperities gain energy under a changing normal "
