@@ -82,7 +82,7 @@ def lsoda_seconds(model, span):
     limit = friction.max_deflection
     force = model.full_friction
     omega = 2.0 * math.pi * model.frequency
-    cos, sin = model.unit_direction
+    cos, sin, _ = model.unit_direction
     ua, eta = model.amplitude, friction.transfer
     split = friction.law == "split"
 
