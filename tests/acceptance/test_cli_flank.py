@@ -140,8 +140,14 @@ def test_tables_for_people_have_values_with_units_and_notes(asperity):
 
 @pytest.fixture
 def without(monkeypatch):
-    """Make a package one that cannot be imported."""
-    return lambda package: monkeypatch.setitem(sys.modules, package, None)
+    """Hide a package that is installed, and what of it another test has loaded."""
+
+    def hide(package):
+        loaded = [name for name in sys.modules if name.startswith(f"{package}.")]
+        for name in (package, *loaded):
+            monkeypatch.setitem(sys.modules, name, None)
+
+    return hide
 
 
 @pytest.fixture(params=[False, pytest.param(True, marks=pytest.mark.slow)], ids=["flat", "space"])

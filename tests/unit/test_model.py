@@ -63,7 +63,10 @@ def test_a_case_without_vibration_or_solve_tables_has_their_defaults(tmp_path):
     [(0, (1, 0)), (90, (0, 1)), (180, (-1, 0)), (270, (0, -1)), (360, (1, 0)), (-90, (0, -1))],
 )
 def test_quarter_turns_are_exact(theta, expected):
-    assert body(vibration=SINE | {"direction": math.radians(theta)}).unit_direction == expected
+    assert body(vibration=SINE | {"direction": math.radians(theta)}).unit_direction == (
+        *expected,
+        0.0,
+    )
 
 
 @pytest.mark.parametrize(
@@ -223,6 +226,5 @@ def test_a_square_wave_needs_a_fine_step_only_for_its_flanks():
 
 @pytest.mark.parametrize("entry", [{"model": "springs"}, {"load_exponent": 2 / 3}])
 def test_what_a_changing_normal_force_is_needed_for_is_refused_under_a_constant_one(entry):
-    assert "that of [slider] is constant" in refusal(body, friction=DAHL | entry).replace(
-        "the normal force of", "that of"
-    )
+    told = refusal(body, friction=DAHL | entry)
+    assert "[normal]" in told or "the normal force of [slider] is constant" in told
