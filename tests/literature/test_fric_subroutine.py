@@ -166,7 +166,7 @@ def histories(model, seed):
 
 def own_motion(model, history, n):
     """Slip along both axes, and its two parts as the package counts them."""
-    cos, sin = model.unit_direction
+    cos, sin, _ = model.unit_direction
     eta = model.friction.transfer
     own, base = history.body[n], history.base[n]
     if model.on_body:
@@ -413,7 +413,7 @@ def test_a_body_solved_with_the_subroutine_slides_as_the_package_says(build, law
     own = march(model).to_json()
 
     step, mass, force = model.step, model.slider.mass, model.slider.normal_force
-    cos, sin = model.unit_direction
+    cos, sin, _ = model.unit_direction
     total = round(model.duration / step)
     base = model.amplitude * model.shape.increments(
         -model.start * model.frequency, model.frequency * step, total

@@ -33,7 +33,7 @@ def table_4_2(model, start, exponent):
     """Equations (20) and (33)-(59) one after the other, carrying what Table 4.2 carries."""
     slider, limit = model.slider, model.friction.deflection_limit(model.slider.normal_force)
     stiffness = model.friction.stiffness(slider.normal_force)
-    cos, sin = model.unit_direction
+    cos, sin, _ = model.unit_direction
     way_x = way_y = x = y = x_b = y_b = dx_b = m_x = m_y = s_1 = 0.0
     f_d = f_x = f_y = 0.0
     rows = []
@@ -66,7 +66,7 @@ def table_7_3(model, exponent):
     """Equations (77)-(91) with the stored y in (81), under a body with its drive and mass."""
     slider, limit = model.slider, model.friction.deflection_limit(model.slider.normal_force)
     stiffness = model.friction.stiffness(slider.normal_force)
-    cos, sin = model.unit_direction
+    cos, sin, _ = model.unit_direction
     way_x = way_y = own_x = x = y = u = m_x = m_y = s_1 = 0.0
     f_d = f_x = f_y = 0.0
     rows = []
