@@ -30,6 +30,7 @@ ROOMS = (
     ),
     ("sweep table-4.3 --over vibration.velocity_ratio=1,6 EARLY",),
     ("slide table-4.3 --set solve.method=homogenised --out OUT",),
+    ("slide normal-pin", "slide normal-pin EARLY --set solve.method=march"),
     ("block block-longitudinal BLOCK", "block block-longitudinal BLOCK --set contact.normal=hard"),
     ("flank gearset-3b --density coarse",),
 )

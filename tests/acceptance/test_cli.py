@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from apparatus.grid import slow
 
 from asperity.cli.main import main
 from asperity.store import read_dataset
@@ -274,8 +275,8 @@ def test_a_mistake_is_one_line_and_ends_with_2(folder, monkeypatch, capsys, argu
     [
         ["--help"],
         ["slide", "table-4.3", *SHORT],
-        ["slide", "table-4.4", *OVERSHOT, "--set", "vibration.velocity_ratio=30", "--json"],
-        ["rate", "gearset-3", "--standard", "bs721"],
+        slow(["slide", "table-4.4", *OVERSHOT, "--set", "vibration.velocity_ratio=30", "--json"]),
+        slow(["rate", "gearset-3", "--standard", "bs721"]),
     ],
 )
 def test_a_process_of_its_own_answers_what_is_answered_here(asperity, asperity_process, arguments):

@@ -114,6 +114,7 @@ def test_without_a_tilt_the_pattern_lies_near_the_edge_of_the_face(asperity, nom
     assert "give mount.backlash" in answer["notes"][0]
 
 
+@pytest.mark.slow
 def test_a_reader_is_told_what_was_assumed_and_what_is_from_memory(asperity):
     code, output, _ = asperity(
         "flank", "gearset-3b", "--json",

@@ -60,6 +60,7 @@ def test_a_name_is_shown_so_that_a_terminal_does_not_obey_it(shell):
     assert "\x1b" not in errors
 
 
+@pytest.mark.slow
 def test_a_case_whose_name_is_not_utf_8_is_solved(shell, tmp_path):
     name = os.fsdecode(b"caf\xe9.toml")
     (tmp_path / name).write_text(

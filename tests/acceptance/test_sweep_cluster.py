@@ -59,6 +59,7 @@ def worker(dask, address):
     return dask("worker", address, "--nthreads", 1, "--no-nanny", "--no-dashboard")
 
 
+@pytest.mark.slow
 def test_a_sweep_outlives_a_worker_and_equals_that_of_this_machine(
     start, asperity_process, dask, scheduler, environment, new_user, kept, wait_for
 ):

@@ -202,7 +202,8 @@ def test_a_sphere_on_finite_elements_converges_with_the_mesh(quarter_patch):
     assert found[-1].radius_of_area == pytest.approx(1.0, abs=0.01)
 
 
-@pytest.mark.parametrize("law", ["hard", slow("linear")])
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["hard", "linear"])
 def test_a_sphere_on_a_half_space_converges_with_the_mesh(quarter_of_half_space, law):
     found = []
     for per_width in (4, 8, 12):

@@ -102,7 +102,7 @@ SHARES = [0.3, 0.6, 0.9]
 STIFF = 3e-4
 
 
-@pytest.mark.parametrize("nu", [0.0, 0.3])
+@pytest.mark.parametrize("nu", [slow(0.0), 0.3])
 def test_spheres_stick_within_cattaneo_s_circle_and_give_as_mindlin_says(quarter_of_half_space, nu):
     pair = spheres(quarter_of_half_space, 12, nu)
     solver, along, state = pair.pressed(pair.friction(STIFF))
@@ -115,6 +115,7 @@ def test_spheres_stick_within_cattaneo_s_circle_and_give_as_mindlin_says(quarter
         assert state.contact.force[2::3].sum() == pytest.approx(pair.share * pair.normal, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_stick_radius_under_a_given_force_is_cattaneo_s(quarter_of_half_space):
     pair = spheres(quarter_of_half_space, 12, 0.0)
     solver, along, state = pair.pressed(pair.friction(STIFF))
@@ -183,7 +184,8 @@ class Cycle:
         self.stored = (elastic[1] - elastic[0]) / pair.share
 
 
-@pytest.mark.parametrize("share", [0.4, slow(0.7), slow(0.9)])
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.4, 0.7, 0.9])
 def test_a_cycle_of_rubbing_dissipates_what_mindlin_and_deresiewicz_say(
     quarter_of_half_space, share
 ):
@@ -216,7 +218,13 @@ def rubbed(pair, friction):
 
 @pytest.mark.parametrize(
     ("exponent", "least", "most"),
-    [(0.0, 0.9, 1.1), (0.5, 0.9, 1.1), (1.0, 0.9, 1.1), (1.5, 0.8, 1.0), (2.0, 0.6, 0.9)],
+    [
+        slow(0.0, 0.9, 1.1),
+        slow(0.5, 0.9, 1.1),
+        (1.0, 0.9, 1.1),
+        slow(1.5, 0.8, 1.0),
+        slow(2.0, 0.6, 0.9),
+    ],
 )
 def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
     quarter_of_half_space, exponent, least, most

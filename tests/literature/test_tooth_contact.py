@@ -188,6 +188,7 @@ def test_both_flanks_are_alike_turned_about_the_line_of_centres(tilted):
     assert other["transmission_error_mean_rad"] == pytest.approx(one["transmission_error_mean_rad"])
 
 
+@pytest.mark.slow
 def test_left_hand_is_the_mirror_image_of_right_hand():
     mount = Mount(centre_distance_error=0.05e-3, axial_offset=0.1e-3, shaft_angle_error=1e-3)
     seen = Mount(centre_distance_error=0.05e-3, axial_offset=-0.1e-3, shaft_angle_error=-1e-3)

@@ -49,6 +49,7 @@ def test_the_command_answers_by_the_method_of_the_case(monkeypatch):
     assert asked == [problem]
 
 
+@pytest.mark.slow
 def test_windows_that_do_not_agree_are_told(monkeypatch, found):
     monkeypatch.setattr(settled, "STEADY", 1e-9)
     monkeypatch.setattr(settled, "_LONGEST", settled._SHORTEST)

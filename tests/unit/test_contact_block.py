@@ -6,7 +6,7 @@ import types
 
 import numpy as np
 import pytest
-from apparatus.grid import grid, slow
+from apparatus.grid import grid
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution import march as block_march
@@ -169,6 +169,7 @@ def test_increments_that_end_above_their_tolerance_are_counted_also_over_an_inte
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_step_that_does_not_resolve_the_bounce_is_integrated_for_impacts_and_says_so():
     block = problem()
     longest = block.system.resolving_step
@@ -483,7 +484,8 @@ def test_stages_left_out_are_those_of_the_element():
     assert given == dataclasses.replace(law, initial=2e13)
 
 
-@pytest.mark.parametrize("modes", [0, slow(4)])
+@pytest.mark.slow
+@pytest.mark.parametrize("modes", [0, 4])
 def test_the_stiffest_contact_comes_to_rest_and_closes_its_ledger(modes):
     kept = f"block.modes={modes}", "block.elements=[4, 3, 3]"
     stiff, stiffest = (problem(*kept, f"contact.stiffness={k} Pa/m") for k in ("1e16", "1e20"))

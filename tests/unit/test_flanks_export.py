@@ -7,7 +7,6 @@ from collections import Counter
 import numpy as np
 import pytest
 import trimesh
-from apparatus.grid import slow
 from apparatus.step import read_step
 
 from asperity.errors import ConvergenceError, InputError, MissingExtraError, StorageError
@@ -107,7 +106,8 @@ def finer(body):
     return Body(body.name, [patch.finer(2) for patch in body.patches], rings)
 
 
-@pytest.mark.parametrize("name", ["tooth", slow("worm")])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["tooth", "worm"])
 def test_the_triangles_of_a_body_are_closed_and_hold_its_volume(wheel, tmp_path, name):
     body = tooth_body(wheel) if name == "tooth" else worm_body(wheel.pair, 10.0)
     volume = write_step(tmp_path / "a.step", body).check.volume
