@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from asperity import store
+from asperity.errors import InputError
 from asperity.gearset.library import GIVEN
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.rating.inputs import Inputs, scaled
@@ -161,6 +162,11 @@ def _given_entries(given: Inputs, section: str) -> list[Entry]:
             value = math.degrees(value)
         elif fact.unit in _FROM_SI:
             value = scaled(value, _FROM_SI[fact.unit])
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(
+                f"the {fact.meaning} cannot be calculated ({key} is {value}): the numbers of this "
+                "case are too far apart; look for a value with a wrong unit or exponent"
+            )
         meaning = fact.meaning
         made.append(
             Entry(key, fact.symbol, value, fact.unit, meaning, equation, source, bool(reason))
