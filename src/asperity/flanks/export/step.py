@@ -57,7 +57,10 @@ def _settings(name: str) -> Iterator[None]:
     """
     from OCP.Interface import Interface_Static
     from OCP.Message import Message
+    from OCP.STEPControl import STEPControl_Controller
 
+    # Before this the keys are unknown, and setting them is ignored without a word.
+    STEPControl_Controller.Init_s()
     wanted = {
         "write.step.product.name": name,
         "write.step.schema": "AP214IS",
