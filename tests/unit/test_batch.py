@@ -10,7 +10,9 @@ from asperity.casefile import read_case
 from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, Stopped, solve, solve_many
-from asperity.slider.batch_kernels import BLOCK, WIDTH
+from asperity.slider.batch import fits_batch
+from asperity.slider.batch_kernels import BLOCK
+from asperity.slider.batch_rows import WIDTH
 from asperity.slider.march import march
 from asperity.vibration import Vibration
 
@@ -50,8 +52,22 @@ def assert_same(answer, alone):
     rounding = 1e-9 * max(abs(power) for power in powers.values())
     assert dataclasses.asdict(answer.ledger) == pytest.approx(powers, abs=rounding)
     if answer.model.solve.scheme == "exponential":
-        assert answer.ledger.residual < 1e-6
+        bounces = answer.normal is not None and answer.normal.landings_per_cycle > 0.0
+        assert answer.ledger.residual < (1e-4 if bounces else 1e-6)
     assert answer.history is None
+
+
+def pressed(changes, *settings):
+    """Bodies of table 4.3 on a contact of 0.85 um, shaken out of the plane.
+
+    Not for long: some bounce without end and double every rounding ever again.
+    """
+    common = (
+        "friction.law=vector", "solve.duration=12 ms", "vibration.start=2 ms", "normal.law=hertz",
+        "normal.penetration=0.85 um", "normal.damping_ratio=0.05", "vibration.velocity_ratio=6",
+    )  # fmt: skip
+    case = read_case("table-4.3", TABLES, [*common, *settings])
+    return [Model.from_case(case.replace_values(change)) for change in changes]
 
 
 def assert_all_same(models):
@@ -240,3 +256,47 @@ def test_a_batch_keeps_greatest_and_least_friction_across_apart():
         other = march(single, history=False)
         assert one.friction_max == pytest.approx(other.friction_max, rel=1e-9)
         assert one.friction_min == pytest.approx(other.friction_min, rel=1e-9)
+
+
+@pytest.mark.parametrize("law", ["linear", "hertz"])
+@pytest.mark.parametrize("control", ["force", "displacement"])
+@pytest.mark.parametrize("amplitude", [2e-7, 1.2e-6])
+def test_pressed_bodies_side_by_side_answer_as_each_alone(law, control, amplitude):
+    rng = np.random.default_rng(5)
+    models = pressed(
+        [
+            {
+                "vibration.elevation": rng.uniform(0.0, math.pi),
+                "vibration.direction": rng.uniform(0.0, 2.0 * math.pi),
+                "vibration.normal_phase": n % 2 * rng.uniform(0.0, 2.0 * math.pi),
+                "vibration.ramp": n % 3 * 1e-3,
+            }
+            for n in range(WIDTH + 3)
+        ],
+        f"normal.law={law}",
+        f"normal.control={control}",
+        f"vibration.displacement_amplitude={amplitude} m",
+    )
+    together = solve_many(models)
+    assert all(fits_batch(model) for model in models)
+    assert any(one.normal.open_share > 0.0 for one in together) or amplitude < 5e-7
+    for model, answer in zip(models, together, strict=True):
+        alone = march(model, history=False)
+        assert_same(answer, alone)
+        known = {name: v for name, v in dataclasses.asdict(alone.normal).items() if v is not None}
+        found = {name: getattr(answer.normal, name) for name in known}
+        assert found == pytest.approx(known, rel=1e-8, abs=1e-15)
+
+
+def test_pressed_bodies_that_a_batch_cannot_take_are_solved_alone_in_their_place():
+    tilts = [{"vibration.elevation": tilt} for tilt in (0.3, 1.2)]
+    models = pressed(tilts)
+    for setting in (
+        "normal.law=rough", "friction.model=springs", "friction.keeps=deflection",
+        "friction.load_exponent=0.9", "friction.law=unsplit",
+    ):  # fmt: skip
+        other = pressed(tilts, setting)
+        assert not any(map(fits_batch, other))
+        models += other
+    models.append(body())
+    assert_all_same(models)

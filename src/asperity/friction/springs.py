@@ -175,7 +175,7 @@ def advance_springs_along(s, slip, indentation_0, indentation_1, heights, weight
     return share
 
 
-@kernel
+@kernel(fastmath=_REORDER)
 def stored_in_springs(sx, sy, weights):
     """Elastic energy of the springs, over mu N_ref s_max."""
     stored = 0.0

@@ -3,23 +3,89 @@
 import math
 import time
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError, ConvergenceError
-from asperity.slider import batch_kernels as bk
+from asperity.friction.dahl import VECTOR
+from asperity.friction.loaded import STIFFNESS
+from asperity.normal import HERTZ, LINEAR, elastic_force
+from asperity.slider import batch_rows as row
+from asperity.slider.batch_kernels import BLOCK, march_batch
+from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.slider.scaled import STATE, SUMS, Parameters
-from asperity.slider.summary import energies, summarise
+from asperity.slider.scaled import (
+    PRESSED_STATE,
+    PRESSED_SUMS,
+    STATE,
+    SUMS,
+    Parameters,
+    Pressing,
+)
+from asperity.slider.summary import energies, pressed_energies, summarise
 from asperity.slider.timetable import Timetable, march_notes
+from asperity.vibration import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
-_STRETCH = 16384 * bk.BLOCK
+_STRETCH = 16384 * BLOCK
 _FEWEST = 2  # a batch of two costs no more than two single marches
+# Elastic force over the penetration: a number, and one times its root.
+_FORCES = {LINEAR: (1.0, 0.0), HERTZ: (0.0, 1.5**-1.5)}
+
+
+# Rows of what the single-body kernels carry, by its name there.
+_STATE_ROWS = {
+    "stretch": row.STRETCH,
+    "velocity_x": row.WX,
+    "velocity_y": row.WY,
+    "deflection_x": row.SX,
+    "deflection_y": row.SY,
+    "friction_x": row.SX,
+    "friction_y": row.SY,
+    "rise": row.RISE,
+    "height": row.HEIGHT,
+    "penetration": row.PENETRATION,
+    "load": row.LOAD,
+}
+# Of a step the batch adds the forces in the plane at both its ends, not their mean.
+_SUM_ROWS = {
+    "friction_x": (row.SUM_FX, 0.5),
+    "friction_y": (row.SUM_FY, 0.5),
+    "unit_work_x": (row.SUM_VX, 0.5),
+    "unit_work_y": (row.SUM_VY, 0.5),
+    "slip_work": (row.SUM_SLIP, 0.5),
+    "friction_x_max": (row.MAX_FX, 1.0),
+    "friction_x_min": (row.MIN_FX, 1.0),
+    "friction_y_max": (row.MAX_FY, 1.0),
+    "friction_y_min": (row.MIN_FY, 1.0),
+    "load": (row.SUM_LOAD, 1.0),
+    "load_max": (row.MAX_LOAD, 1.0),
+    "load_min": (row.MIN_LOAD, 1.0),
+    "penetration": (row.SUM_PENETRATION, 1.0),
+    "penetration_max": (row.MAX_PENETRATION, 1.0),
+    "penetration_min": (row.MIN_PENETRATION, 1.0),
+    "approach_max": (row.MAX_APPROACH, 1.0),
+    "open": (row.SUM_OPEN, 1.0),
+    "landings": (row.SUM_LANDINGS, 1.0),
+    "rise_work": (row.SUM_RISE, 1.0),
+    "contact_damping": (row.SUM_LOSS, 1.0),
+    "gain": (row.SUM_GAIN, 1.0),
+    "wear": (row.SUM_WEAR, 1.0),
+}
+
+
+class _Body(NamedTuple):
+    """One of a batch: its numbers for the kernels."""
+
+    model: Model
+    table: Timetable
+    p: Parameters
+    q: Pressing | None
 
 
 def solve_many(
@@ -27,8 +93,9 @@ def solve_many(
 ) -> list[SlideResult | AsperityError]:
     """Solve many bodies, without histories.
 
-    Marches of Dahl friction with exponent 1 run thirty-two at a time in vector instructions; the
-    interpreter's lock is free meanwhile, so threads share a processor's cores.
+    Marches of Dahl friction with exponent 1 run thirty-two at a time in vector instructions, those
+    of bodies under a linear or Hertz contact too; the interpreter's lock is free meanwhile, so
+    threads share a processor's cores.
 
     Parameters
     ----------
@@ -57,7 +124,7 @@ def solve_many(
             continue
         own = model.friction.transfer if model.on_body else None
         size = model.shape.table.size if model.shape is not None else 2
-        key = (model.friction.law_code, own, table.steps, size)
+        key = (model.friction.law_code, own, table.steps, size, model.normal is None)
         groups.setdefault(key, []).append((index, table))
     for members in groups.values():
         for batch in _batches(members):
@@ -82,10 +149,20 @@ def fits_batch(model: Model) -> bool:
     return (
         model.solve.method == "march"
         and model.solve.scheme == "exponential"
-        and model.normal is None
         and model.friction.model == "dahl"
         and model.friction.exponent == 1.0
         and model.slider.drive_damping == 0.0
+        and (model.normal is None or _fits_pressed(model))
+    )
+
+
+def _fits_pressed(model: Model) -> bool:
+    return (
+        model.normal is not None
+        and model.normal.code in _FORCES
+        and model.friction.law_code == VECTOR
+        and model.friction.keeps_code == STIFFNESS
+        and model.friction.load_exponent == 1.0
     )
 
 
@@ -94,110 +171,147 @@ def _batches(
 ) -> Iterator[list[tuple[int, Timetable]]]:
     # Neighbours in step size share the edges of their windows, which divide the march.
     ordered = sorted(members, key=lambda member: (member[1].window_start, member[1].middle))
-    for first in range(0, len(ordered), bk.WIDTH):
-        yield ordered[first : first + bk.WIDTH]
+    for first in range(0, len(ordered), row.WIDTH):
+        yield ordered[first : first + row.WIDTH]
+
+
+def _body(model: Model, table: Timetable) -> _Body:
+    q = None if model.normal is None else model.pressing(table.step)
+    return _Body(model, table, model.parameters(table.step), q)
 
 
 def _march(
     models: Sequence[Model], tables: Sequence[Timetable], flag: np.ndarray
 ) -> list[SlideResult | AsperityError]:
     began = time.perf_counter()
-    parameters = [model.parameters(t.step) for model, t in zip(models, tables, strict=True)]
-    lead = parameters[0]
-    flat = np.zeros(bk.ROWS * bk.WIDTH)
-    buffer = flat.reshape(bk.ROWS, bk.WIDTH)
-    for place in range(bk.WIDTH):
-        _load(buffer, place, parameters[min(place, len(models) - 1)])
-    waves, shapes, shared = _waves(models, tables)
-    increments = np.empty(bk.BLOCK * bk.WIDTH)
+    bodies = [_body(*each) for each in zip(models, tables, strict=True)]
+    lead = bodies[0].p
+    flat = np.zeros(row.ROWS * row.WIDTH)
+    buffer = flat.reshape(row.ROWS, row.WIDTH)
+    for place in range(row.WIDTH):
+        _load(buffer[:, place], bodies[min(place, len(bodies) - 1)])
+    waves, shapes, shared = _waves(bodies)
+    normal_waves = waves.copy()
+    normal_waves[9] = [bodies[min(n, len(bodies) - 1)].model.normal_lead for n in range(row.WIDTH)]
+    shared = shared and bool(np.all(normal_waves == normal_waves[:, :1]))
+    increments = np.empty(BLOCK * row.WIDTH)
+    rises = np.empty(0 if bodies[0].q is None else (BLOCK + 1) * row.WIDTH)
     done = 0
-    start_energies: list[tuple[float, float]] = [(0.0, 0.0)] * len(models)
-    start_free = np.zeros(len(models))
-    first_half = np.zeros(len(models))
+    start_energies: list[tuple[float, float]] = [(0.0, 0.0)] * len(bodies)
+    start_free = np.zeros(len(bodies))
+    first_half = np.zeros(len(bodies))
     edges = {t.window_start for t in tables} | {t.middle for t in tables}
     first_window = min(t.window_start for t in tables)
     for edge in sorted(edges | {tables[0].steps}):
         while done < edge:
             steps = min(edge - done, _STRETCH)
-            waiting = bool(np.any(buffer[bk.WAITING] > 0.0))
-            bk.march_batch(
-                flat, waves, shapes, shared, increments, steps, lead.own_1, lead.own_2,
-                lead.law, done >= first_window, waiting, flag,
-            )  # fmt: skip
+            waiting = bool(np.any(buffer[row.WAITING] > 0.0))
+            stage = done >= first_window, waiting, flag
+            if rises.size > 0:
+                march_pressed_batch(
+                    flat, waves, normal_waves, shapes, shared, increments, rises, steps,
+                    lead.own_1 + lead.own_2, *stage,
+                )  # fmt: skip
+            else:
+                march_batch(
+                    flat, waves, shapes, shared, increments, steps, lead.own_1, lead.own_2,
+                    lead.law, *stage,
+                )  # fmt: skip
             if flag[0]:
                 raise Stopped
             done += steps
-        for place, table in enumerate(tables):
+        for place, (body, table) in enumerate(zip(bodies, tables, strict=True)):
+            column = buffer[:, place]
             if table.window_start == edge:
-                buffer[bk.SUM_FREE : bk.MAX_FX, place] = 0.0
-                buffer[[bk.MAX_FX, bk.MAX_FY], place] = -1e300
-                buffer[[bk.MIN_FX, bk.MIN_FY], place] = 1e300
-                state = _state(buffer, place, parameters[place])
-                start_energies[place] = energies(state, parameters[place], elastic=True)
-                start_free[place] = state["drive_force"]
+                column[[*row.SUMS]] = 0.0
+                column[[*row.GREATEST]] = -1e300
+                column[[*row.LEAST]] = 1e300
+                column[row.MAX_APPROACH] = 0.0
+                start_energies[place] = _energies(column, body)
+                start_free[place] = _state(column, body)["drive_force"]
             if table.middle == edge:
-                first_half[place] = _drive_sum(buffer, place, parameters[place], start_free[place])
-    seconds = (time.perf_counter() - began) / len(models)
-    answers: list[SlideResult | AsperityError] = []
-    for place, (model, table) in enumerate(zip(models, tables, strict=True)):
-        p = parameters[place]
-        state = _state(buffer, place, p)
-        if not np.all(np.isfinite(buffer[:, place])):
-            answers.append(
-                ConvergenceError("the march left the finite numbers; give a smaller solve.step")
-            )
-            continue
-        sums = _sums(buffer, place, p, table.window, start_free[place])
-        half = table.middle - table.window_start
-        first = first_half[place] / half
-        second = (sums["drive_force"] - first_half[place]) / (table.window - half)
-        waited = buffer[bk.WAITED, place]
-        broke = buffer[bk.WAITING, place] == 0.0 and not model.slider.rigid
-        residual = abs(float(second - first))
-        try:
-            answer: SlideResult | AsperityError = summarise(
-                model, p, table.step, sums, start_energies[place], energies(state, p, elastic=True),
-                residual=residual,
-                steps=table.steps,
-                cycles=table.cycles,
-                seconds=seconds,
-                breakaway_time=float(waited) * table.step if broke else None,
-                substeps=model.substeps,
-                notes=march_notes(model, table, residual, broke=broke),
-            )  # fmt: skip
-        except ConvergenceError as error:
-            answer = error
-        answers.append(answer)
-    return answers
+                first_half[place] = _drive_sum(column, body.p, start_free[place])
+    seconds = (time.perf_counter() - began) / len(bodies)
+    return [
+        _answer(buffer[:, place], body, start_energies[place], start_free[place], half, seconds)
+        for place, (body, half) in enumerate(zip(bodies, first_half, strict=True))
+    ]
 
 
-def _load(buffer: FloatArray, place: int, p: Parameters) -> None:
-    buffer[bk.DRIVE, place] = p.drive
-    buffer[bk.STIFFNESS, place] = p.stiffness
-    buffer[bk.MOBILITY_X, place] = p.mobility_x
-    buffer[bk.MOBILITY_Y, place] = p.mobility_y
-    buffer[bk.BASE_X, place] = p.base_x
-    buffer[bk.BASE_Y, place] = p.base_y
-    buffer[bk.WX, place] = p.drive if p.rigid else 0.0
-    buffer[bk.WAITING, place] = 1.0
+def _answer(
+    column: FloatArray,
+    body: _Body,
+    start: tuple[float, float],
+    start_free: float,
+    first_half: float,
+    seconds: float,
+) -> SlideResult | AsperityError:
+    """Result of a body whose march is at its end."""
+    model, table, p, _ = body
+    if not np.all(np.isfinite(column)):
+        return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
+    sums = _sums(column, body, start_free)
+    half = table.middle - table.window_start
+    second = (sums["drive_force"] - first_half) / (table.window - half)
+    residual = abs(float(second - first_half / half))
+    broke = column[row.WAITING] == 0.0 and not model.slider.rigid
+    try:
+        return summarise(
+            model, p, table.step, sums, start, _energies(column, body),
+            residual=residual,
+            steps=table.steps,
+            cycles=table.cycles,
+            seconds=seconds,
+            breakaway_time=float(column[row.WAITED]) * table.step if broke else None,
+            substeps=model.substeps,
+            notes=march_notes(model, table, residual, broke=broke),
+        )  # fmt: skip
+    except ConvergenceError as error:
+        return error
 
 
-def _waves(
-    models: Sequence[Model], tables: Sequence[Timetable]
-) -> tuple[FloatArray, FloatArray, bool]:
-    waves = np.zeros((9, bk.WIDTH))
-    size = models[0].shape.table.size if models[0].shape is not None else 2
-    shapes = np.zeros((bk.WIDTH, size))
-    for place in range(bk.WIDTH):
-        member = min(place, len(models) - 1)
-        model, step = models[member], tables[member].step
+def _load(column: FloatArray, body: _Body) -> None:
+    """Put a body at rest on its base."""
+    p, q = body.p, body.q
+    column[row.DRIVE] = p.drive
+    column[row.STIFFNESS] = p.stiffness
+    column[row.MOBILITY_X] = p.mobility_x
+    column[row.MOBILITY_Y] = p.mobility_y
+    column[row.BASE_X] = p.base_x
+    column[row.BASE_Y] = p.base_y
+    column[row.WX] = p.drive if p.rigid else 0.0
+    column[row.WAITING] = 1.0
+    if q is None:
+        return
+    column[[row.LINEAR, row.ROOT]] = _FORCES[q.law]
+    column[row.BASE_Z] = q.base
+    column[row.MOBILITY_Z] = q.mobility
+    column[row.LOSS] = q.damping
+    column[row.PENETRATION] = q.reference
+    if q.mobility == 0.0 and body.model.shape is not None:
+        wave = body.model.shape.wave(lead=body.model.normal_lead)
+        column[row.PENETRATION] += q.base * displacement_at(wave, -_start(body.model))
+    column[[row.LOAD, row.ELASTIC]] = elastic_force(q.law, column[row.PENETRATION])
+
+
+def _start(model: Model) -> float:
+    """Start of the vibration in its cycles."""
+    return model.start * model.frequency
+
+
+def _waves(bodies: Sequence[_Body]) -> tuple[FloatArray, FloatArray, bool]:
+    waves = np.zeros((10, row.WIDTH))
+    first = bodies[0].model.shape
+    shapes = np.zeros((row.WIDTH, 2 if first is None else first.table.size))
+    for place in range(row.WIDTH):
+        model, table = bodies[min(place, len(bodies) - 1)][:2]
         if model.shape is None:
             continue
-        rate = model.frequency * step
+        rate = model.frequency * table.step
         turn = 2.0 * math.pi * rate
         waves[:6, place] = (
-            model.shape.code, model.shape.rise, -model.start * model.frequency, rate,
-            math.cos(turn), math.sin(turn),
+            model.shape.code, model.shape.rise, -_start(model), rate, math.cos(turn),
+            math.sin(turn),
         )  # fmt: skip
         waves[8, place] = model.shape.ramp
         shapes[place] = model.shape.table
@@ -205,35 +319,40 @@ def _waves(
     return waves, shapes, shared
 
 
-def _state(buffer: FloatArray, place: int, p: Parameters) -> np.void:
+def _state(column: FloatArray, body: _Body) -> np.void:
     """A body's state as the single-body kernels have it."""
-    stretch, wx, wy, sx, sy = buffer[: bk.SY + 1, place]
-    pull = sx if p.rigid else p.stiffness * stretch
-    state: np.void = np.array([(stretch, wx, wy, sx, sy, sx, sy, pull, 0.0)], STATE)[0]
+    p = body.p
+    state: np.void = np.zeros(1, STATE if body.q is None else PRESSED_STATE)[0]
+    for name, at in _STATE_ROWS.items():
+        if name in (state.dtype.names or ()):
+            state[name] = column[at]
+    state["drive_force"] = state["friction_x"] if p.rigid else p.stiffness * state["stretch"]
     return state
 
 
-def _drive_sum(buffer: FloatArray, place: int, p: Parameters, start: float) -> float:
+def _energies(column: FloatArray, body: _Body) -> tuple[float, float]:
+    """Mechanical and elastic energy, see `asperity.slider.summary`."""
+    model, table, p, q = body
+    state = _state(column, body)
+    if q is None:
+        return energies(state, p, elastic=True)
+    return pressed_energies(state, np.zeros((2, 0)), p, q, model.normal_unit(table.step))
+
+
+def _drive_sum(column: FloatArray, p: Parameters, start: float) -> float:
     """Trapezoidal sum of the drive force since the start of the window."""
     if p.rigid:
-        return float(0.5 * buffer[bk.SUM_FX, place])
-    end = p.stiffness * buffer[bk.STRETCH, place]
-    return float(buffer[bk.SUM_FREE, place] + 0.5 * (start - end))
+        return float(0.5 * column[row.SUM_FX])
+    end = p.stiffness * column[row.STRETCH]
+    return float(column[row.SUM_FREE] + 0.5 * (start - end))
 
 
-def _sums(buffer: FloatArray, place: int, p: Parameters, steps: int, start: float) -> np.void:
+def _sums(column: FloatArray, body: _Body, start: float) -> np.void:
     """A body's sums as the single-body kernels have them."""
-    sums: np.void = np.zeros(1, SUMS)[0]
-    sums["drive_force"] = _drive_sum(buffer, place, p, start)
-    # The batch adds the forces at both ends of a step, not their mean.
-    sums["friction_x"] = 0.5 * buffer[bk.SUM_FX, place]
-    sums["friction_y"] = 0.5 * buffer[bk.SUM_FY, place]
-    sums["unit_work_x"] = 0.5 * buffer[bk.SUM_VX, place]
-    sums["unit_work_y"] = 0.5 * buffer[bk.SUM_VY, place]
-    sums["slip_work"] = 0.5 * buffer[bk.SUM_SLIP, place]
-    sums["friction_x_max"] = buffer[bk.MAX_FX, place]
-    sums["friction_x_min"] = buffer[bk.MIN_FX, place]
-    sums["friction_y_max"] = buffer[bk.MAX_FY, place]
-    sums["friction_y_min"] = buffer[bk.MIN_FY, place]
-    sums["steps"] = steps
+    sums: np.void = np.zeros(1, SUMS if body.q is None else PRESSED_SUMS)[0]
+    for name, (at, share) in _SUM_ROWS.items():
+        if name in (sums.dtype.names or ()):
+            sums[name] = share * column[at]
+    sums["drive_force"] = _drive_sum(column, body.p, start)
+    sums["steps"] = body.table.window
     return sums
