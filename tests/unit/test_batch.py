@@ -259,8 +259,10 @@ def test_a_batch_keeps_greatest_and_least_friction_across_apart():
 
 
 @pytest.mark.parametrize("law", ["linear", "hertz"])
-@pytest.mark.parametrize("control", ["force", "displacement"])
-@pytest.mark.parametrize("amplitude", [2e-7, 1.2e-6])
+@pytest.mark.parametrize(
+    ("control", "amplitude"),
+    [("force", 2e-7), ("force", 6e-7), ("displacement", 2e-7), ("displacement", 1.2e-6)],
+)
 def test_pressed_bodies_side_by_side_answer_as_each_alone(law, control, amplitude):
     rng = np.random.default_rng(5)
     models = pressed(
