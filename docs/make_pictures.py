@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.casefile import read_case
+from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve, solve_many
 from asperity.slider.closed_forms import (
     critical_velocity,
@@ -15,6 +16,7 @@ from asperity.slider.closed_forms import (
 )
 from asperity.slider.plots_normal import plot_directions, plot_master_curve, plot_two_cycles
 from asperity.store import write_atomically
+from asperity.sweep.branches import answer, prepare
 from asperity.thesis.contents import FIGURES
 
 if TYPE_CHECKING:
@@ -80,12 +82,22 @@ def in_flight() -> "Figure":
     )  # fmt: skip
 
 
+def two_states() -> "Figure":
+    """States of a ball that is shaken harder and harder, and less and less again."""
+    case = read_case(
+        "normal-pin", TABLES, ["vibration.frequency=1.7 kHz", "vibration.elevation=90 deg"]
+    )
+    over = "vibration.displacement_amplitude=0.02:0.7:0.02 um"
+    return answer(prepare(case, over=[over]), Run()).figure()
+
+
 if __name__ == "__main__":
     drawn = {
         "directions": FIGURES["4.23"].make().figure,
         "master_curve": one_curve(),
         "in_space": in_space(),
         "in_flight": in_flight(),
+        "two_states": two_states(),
     }
     for name, figure in drawn.items():
         write_atomically(

@@ -159,6 +159,24 @@ COMMANDS = (
         ),
     ),
     Command(
+        "branches",
+        "Follow a body's periodic state along one axis and back: where it has two.",
+        "With --out also branches.json, branches.nc and branches.png.",
+        prepare="asperity.sweep.branches:prepare",
+        solve="asperity.sweep.branches:answer",
+        read="asperity.sweep.axes:read_first",
+        counts="states",
+        options=(
+            Option(
+                "over",
+                "The axis: 1,2,3 or start:stop:step, with units.",
+                "TABLE.KEY=VALUES",
+                default=None,
+                many=True,
+            ),
+        ),
+    ),
+    Command(
         "rate",
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
         "With --out also rate.json, rate.nc, rate.html and rate.csv.",

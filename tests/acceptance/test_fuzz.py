@@ -41,7 +41,9 @@ BLOCK = [
 ]  # fmt: skip
 # Command, cases, settings that make them small, how many inputs of a hundred.
 COMMANDS = {
-    "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 42),
+    "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 34),
+    "static": (["normal-pin", "table-4.4"], [], 2),
+    "branches": (["normal-pin", "table-4.3"], [], 4),
     "rate": (["gearset-2", "gearset-3"], [], 24),
     "methods": (["gearset-2", "gearset-3"], [], 12),
     "sweep": (["table-4.3", "table-4.1-L2"], BODY, 7),
@@ -52,6 +54,8 @@ COMMANDS = {
 }
 ROOMS = {
     "slide": ["slider", "friction", "vibration", "solve"],
+    "static": ["slider", "friction", "vibration", "solve", "normal"],
+    "branches": ["slider", "friction", "vibration", "solve", "normal"],
     "sweep": ["slider", "friction", "vibration", "solve"],
     "rate": ["gearset", "operation", "rating"],
     "sensitivity": ["gearset", "operation", "rating"],

@@ -45,14 +45,3 @@ def test_flight_is_shaded_where_the_normal_force_is_zero():
         assert ("in flight" in labels(upper)) == bool(flights)
         assert "µs" in lower.get_xlabel()
         figure.draw_without_rendering()
-
-
-def test_both_branches_are_told_apart():
-    frequency = np.linspace(1e3, 3e3, 21)
-    branches = [(name, size * np.ones(21), np.zeros(21)) for name, size in
-                (("upwards", 1e-7), ("downwards", 2e-7))]  # fmt: skip
-    figure = plots_normal.plot_branches(frequency, branches, 2218.0)
-    upper = figure.axes[0]
-    assert labels(upper) == ["upwards", "downwards"]
-    assert [line.get_ydata()[0] for line in upper.lines[:2]] == pytest.approx([0.1, 0.2])
-    figure.draw_without_rendering()

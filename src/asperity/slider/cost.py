@@ -19,10 +19,19 @@ def estimate(model: Model) -> float:
     InputError
         The case cannot be solved.
     """
+    if model.solve.method == "march":
+        return _step(model) * Timetable(model).steps
+    points = _TABLE if model.solve.method == "homogenised" and model.vibrates else 1
+    return cycles(model, points * _CYCLES)
+
+
+def cycles(model: Model, count: int) -> float:
+    """Return roughly how long a number of cycles takes, s."""
+    return _step(model) * count * cycle_steps(model)
+
+
+def _step(model: Model) -> float:
     step = _STEP[model.friction.model]
     if model.friction.model == "dahl" and model.friction.exponent != 1.0:
         step *= _POWERS
-    if model.solve.method == "march":
-        return step * Timetable(model).steps
-    points = _TABLE if model.solve.method == "homogenised" and model.vibrates else 1
-    return step * points * _CYCLES * cycle_steps(model)
+    return step

@@ -30,6 +30,7 @@ _STANDING = 1e-6
 _STEADY = 0.9
 _SETTLED = 1e-3
 _KEPT = 0.02
+_STRETCH = 2_000_000  # steps in one call of a kernel: then Ctrl-C is heard
 _APERIODIC = 64  # cycles that stand for those of a motion that never repeats itself
 
 
@@ -162,7 +163,8 @@ class HeldBody:
 
         def march(shares: FloatArray) -> float:
             nonlocal taken
-            carry(state[0], springs, p, cycle.q, cycle.increments, cycle.rises, sums, shares)
+            for part in np.array_split(shares, math.ceil(len(shares) * length / _STRETCH)):
+                carry(state[0], springs, p, cycle.q, cycle.increments, cycle.rises, sums, part)
             taken += len(shares) * length
             if not all(map(math.isfinite, state[0].item())):
                 raise ConvergenceError(

@@ -18,7 +18,7 @@ from asperity.slider.summary import history_of, summarise
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
-_UNSTABLE = 1.0 + 1e-3
+UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
 
 
@@ -158,11 +158,25 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
             "it does",
             reached={"residual": float(cycle.residual), "cycles": float(cycle.run)},
         )
+    return answer_of(model, step, cycle, growth, notes, began, history=history)
+
+
+def answer_of(
+    model: Model,
+    step: float,
+    cycle: Cycle,
+    growth: float,
+    notes: tuple[str, ...],
+    began: float,
+    *,
+    history: bool,
+) -> SlideResult:
+    """Return the result of a state that was found, with its multiplier, since a `perf_counter`."""
     end = cycle.body.energies()
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
         residual=float(cycle.residual),
-        steps=cycle.run * steps,
+        steps=cycle.run * (len(cycle.increments) - 1) // cycle.period,
         cycles=cycle.run,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
@@ -188,11 +202,11 @@ def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:
     found = any(cycle.find(cycles) for cycles in (0, *SETTLING))
     growth = cycle.multiplier() if found else math.inf
     notes: tuple[str, ...] = ()
-    if found and growth > _UNSTABLE:
+    if found and growth > UNSTABLE:
         notes = (
             f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
         )
-    if cycle.q is not None and not growth <= _UNSTABLE:
+    if cycle.q is not None and not growth <= UNSTABLE:
         if found:
             ratio = cycle.body.sums["drive_force"] / cycle.body.sums["steps"]
             notes = (
@@ -210,7 +224,7 @@ def _longer(cycle: Cycle) -> tuple[bool, float]:
     for _ in range(2):
         cycle.repeat(2)
         for settle in SETTLING[1:3]:
-            if cycle.find(settle) and (growth := cycle.multiplier()) <= _UNSTABLE:
+            if cycle.find(settle) and (growth := cycle.multiplier()) <= UNSTABLE:
                 return True, growth
     return False, growth
 

@@ -1,6 +1,6 @@
 """Pictures of vibration out of the plane, from plain arrays."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,6 @@ from asperity.results.figures import (
     BLUE,
     COLOURS,
     DASHES,
-    GREEN,
     SKY,
     VERMILION,
     legend,
@@ -19,7 +18,6 @@ from asperity.results.figures import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MARKERS = ("o", "s", "^", "D")
@@ -148,49 +146,3 @@ def plot_two_cycles(
 
 def _mean(time: FloatArray, values: FloatArray) -> float:
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
-
-
-def plot_branches(
-    frequency: FloatArray,
-    branches: Sequence[tuple[str, FloatArray, FloatArray]],
-    own_frequency: float,
-) -> "Figure":
-    """Draw how far the contact swings over the frequency, and where it opens, for every branch.
-
-    Parameters
-    ----------
-    frequency : ndarray, shape (n,)
-        Hz.
-    branches : sequence of tuple of str and 2 ndarrays
-        Name, amplitude of the approach (m), share of the time open; one for each way up or down.
-    own_frequency : float
-        Of the contact at rest, Hz.
-    """
-    figure, (upper, lower) = panels(2, height=5.4)
-    at = 1e-3 * frequency
-    for index, (name, amplitude, open_share) in enumerate(branches):
-        style: dict[str, Any] = {
-            "color": (VERMILION, BLUE, GREEN)[index % 3], "marker": _MARKERS[index % 4],
-            "markersize": 3.5, "fillstyle": "none", "linewidth": 1.0, "label": name,
-        }  # fmt: skip
-        upper.plot(at, 1e6 * amplitude, **style)
-        lower.plot(at, open_share, **style)
-    for axes in (upper, lower):
-        axes.axvline(1e-3 * own_frequency, color=BLACK, dashes=(4, 3), linewidth=1.0)
-        axes.margins(x=0.0)
-    _name(upper, 1e-3 * own_frequency)
-    upper.set_ylabel("amplitude (µm)")
-    upper.set_title("Swing of the approach", loc="left")
-    lower.set_title("Contact lost", loc="left")
-    lower.set_ylabel("share of the time")
-    lower.set_xlabel("frequency (kHz)")
-    lower.set_ylim(0.0, None)
-    legend(upper, loc="best")
-    return figure
-
-
-def _name(axes: "Axes", at: float) -> None:
-    axes.annotate(
-        "contact at rest", (at, 1.0), (3, -3), xycoords=("data", "axes fraction"),
-        textcoords="offset points", va="top", fontsize=9.0,
-    )  # fmt: skip

@@ -27,6 +27,8 @@ class NormalMotion(Quantities):
         How often the body comes back into contact in a cycle of the vibration.
     penetration_mean : float
         Mean penetration, below 0 where there is a gap, m.
+    penetration_swing : float
+        Half of what the penetration changes, m.
     critical_velocity : float or None
         :math:`v^* = \mu (k_z/k_t)\,\omega\,\hat d`, m/s, with the swing :math:`\hat d` of the
         penetration: drive velocity above which elastic asperities keep up with the load, and
@@ -51,6 +53,7 @@ class NormalMotion(Quantities):
     open_share: float = quantity("", "", "share of the time without contact")
     landings_per_cycle: float = quantity("", "", "landings in a cycle")
     penetration_mean: float = quantity("d", "m", "mean penetration")
+    penetration_swing: float = quantity("d^", "m", "swing of the penetration")
     critical_velocity: float | None = quantity(
         "v*", "m/s", "velocity above which nothing is reduced", key="critical_velocity_m_s"
     )
@@ -76,8 +79,8 @@ def normal_motion(
     cycles = count * step * model.frequency
     watts = model.full_friction * model.length(step) / (count * step)
     critical = None
+    swing = 0.5 * float(sums["penetration_max"] - sums["penetration_min"])
     if friction.model != "coulomb" and model.vibrates:
-        swing = 0.5 * float(sums["penetration_max"] - sums["penetration_min"])
         turn = 2.0 * math.pi * model.frequency
         critical = friction.deflection_limit(load) * turn * swing
     frequency = None
@@ -95,6 +98,7 @@ def normal_motion(
         open_share=float(sums["open"] / count),
         landings_per_cycle=float(sums["landings"] / cycles) if cycles else 0.0,
         penetration_mean=float(sums["penetration"] / count) * length,
+        penetration_swing=swing * length,
         critical_velocity=critical,
         contact_frequency=frequency,
         period=period,

@@ -12,6 +12,7 @@ from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.runs import Run
 from asperity.slider.closed_forms import load_swing, plane_static_ratio
 from asperity.slider.closed_forms.profiles import Profile
+from asperity.slider.cost import cycles
 from asperity.slider.held import Creep, HeldBody
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
@@ -22,6 +23,9 @@ from asperity.vibration import SINE
 _RESOLUTION = 1e-5
 _ABOVE = 0.01
 _FARTHEST = 64.0
+# Pulls that are tried, and cycles under each, of most cases.
+_PULLS = 20
+_CYCLES = 160
 # From this frequency on, over that of the body on its asperities, a heavy body stands still.
 _STANDS_STILL = 10.0
 _PROFILES: dict[str, Profile] = {"linear": "flat", "hertz": "hertz", "rough": "rough"}
@@ -127,6 +131,7 @@ def answer(model: Model, run: Run) -> StaticResult:
         The body creeps, or stands, under every pull.
     """
     began = time.perf_counter()
+    run.forecast(cycles(model, _PULLS * _CYCLES), f"{_PULLS} pulls")
     body = HeldBody(model)
     ratio, notes = _limit(body, run)
     creep = body.creep(ratio + _ABOVE, settled=True)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.errors import InputError
-from asperity.results.figures import COLOURS, legend, panels
+from asperity.results.figures import BLUE, COLOURS, VERMILION, legend, panels
 from asperity.sweep.result import MOST_AXES
 
 if TYPE_CHECKING:
@@ -46,6 +46,33 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         _many_lines(panel, along, curves, across)
     panel.set(xlabel=_label(along), ylabel=r"mean drive force over $\mu F_N$")
     panel.set_ylim(bottom=min(0.0, float(np.nanmin(ratio))) if np.isfinite(ratio).any() else 0.0)
+    return figure
+
+
+def plot_branches(dataset: "xr.Dataset") -> "Figure":
+    """Draw what was found there and back: ratio and, of a pressed body, its swing and flight."""
+    drawn = {
+        "ratio": (r"mean drive force over $\mu W$", 1.0),
+        "penetration_swing": ("swing of the penetration (µm)", 1e6),
+        "open_share": ("share of the time in flight", 1.0),
+    }
+    drawn = {name: how for name, how in drawn.items() if np.isfinite(dataset[name]).any()}
+    figure, every = panels(len(drawn), height=2.6 * len(drawn) + 0.6)
+    name = dataset.attrs["axis"].partition(".")[2].replace("_", " ")
+    unit = dataset.attrs["axis_unit"].replace("um", "µm")
+    for panel, (variable, (label, scale)) in zip(every, drawn.items(), strict=True):
+        for way, colour, marker in (("there", VERMILION, "o"), ("back", BLUE, "s")):
+            found = dataset[variable].sel(way=way)
+            order = np.argsort(found["value"].values)
+            panel.plot(
+                found["value"].values[order], scale * found.values[order], color=colour,
+                marker=marker, markersize=4.0 if way == "there" else 6.5, fillstyle="none",
+                linewidth=1.0, label=way,
+            )  # fmt: skip
+        panel.set_ylabel(label)
+        panel.margins(x=0.01)
+    legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    every[-1].set_xlabel(f"{name} ({unit})" if unit else name)
     return figure
 
 

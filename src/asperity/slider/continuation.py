@@ -1,0 +1,114 @@
+"""Periodic states one after the other, each sought from the one before: branches of states.
+
+Where a body has several stable states, which one it is in follows from where it comes from: a
+contact that is shaken harder and harder jumps into flight later than it comes back out of it.
+"""
+
+import time
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.errors import ConvergenceError
+from asperity.slider.model import Model
+from asperity.slider.periodic import UNSTABLE, Cycle, answer_of, cycle_steps, settle
+from asperity.slider.result import SlideResult
+from asperity.slider.shooting import SETTLING
+
+_PERIODS = (1, 2, 4)
+_SAME = 1e-7
+# Numbers of a state that are lengths (0), and lengths in a step (1).
+_IN_PLANE = {
+    "stretch": 0, "deflection_x": 0, "deflection_y": 0, "velocity_x": 1, "velocity_y": 1,
+}  # fmt: skip
+_NORMAL = {"penetration": 0, "rise": 1}
+
+
+def follow(models: Sequence[Model]) -> Iterator[SlideResult | ConvergenceError]:
+    """Find the stable periodic state of each body, starting from that of the one before.
+
+    Parameters
+    ----------
+    models : sequence of Model
+        Bodies that differ little from one to the next. Start, duration and breakaway have no
+        meaning here.
+
+    Yields
+    ------
+    SlideResult or ConvergenceError
+        Of each body; the exception of one that repeats itself after neither 1, 2 nor 4 cycles. The
+        next starts from where that one was left.
+    """
+    last: tuple[Model, Cycle] | None = None
+    for model in models:
+        began = time.perf_counter()
+        steps = cycle_steps(model)
+        step = 1.0 / (model.frequency * steps)
+        cycle = Cycle(model, steps, step)
+        notes: tuple[str, ...] = ()
+        if last is None:
+            found, growth, notes = settle(cycle)
+        else:
+            _take_over(cycle, *last)
+            cycle, found, growth = _from_there(cycle, model, steps, step)
+        last = model, cycle
+        if found:
+            yield answer_of(model, step, cycle, growth, notes, began, history=False)
+        else:
+            yield ConvergenceError(
+                "no stable state that repeats itself after 1, 2 or 4 cycles",
+                reached={"residual": float(cycle.residual)},
+            )
+
+
+def _take_over(cycle: Cycle, model: Model, other: Cycle) -> None:
+    """Put the body where another is, in its own units."""
+    body, before = cycle.body, other.body
+    step = body.rate / body.model.frequency
+    last_step = before.rate / model.frequency
+    length = model.length(last_step) / body.model.length(step)
+    units = [(_IN_PLANE, length)]
+    if cycle.q is not None and cycle.q.mobility > 0.0:
+        units.append((_NORMAL, model.normal_length / body.model.normal_length))
+    for names, ratio in units:
+        for name, power in names.items():
+            body.state[name] = before.state[name] * ratio * (step / last_step) ** power
+    if cycle.springs.shape == other.springs.shape:
+        cycle.springs[:] = other.springs * length
+
+
+def _from_there(cycle: Cycle, model: Model, steps: int, step: float) -> tuple[Cycle, bool, float]:
+    """Look for a stable state from where the body is, after ever more cycles."""
+    state, springs = cycle.body.kept["state"].copy(), cycle.springs.copy()
+    for cycles in SETTLING[:3]:
+        for period in _PERIODS:
+            trial = Cycle(model, steps, step)
+            trial.repeat(period)
+            _put(trial, state, springs)
+            if trial.find(cycles) and (growth := trial.multiplier()) <= UNSTABLE:
+                return _shortest(trial, growth, model, steps, step)
+    return trial, False, np.inf
+
+
+def _shortest(
+    found: Cycle, growth: float, model: Model, steps: int, step: float
+) -> tuple[Cycle, bool, float]:
+    """Return the state over the shortest of the cycles after which it repeats itself."""
+    for period in _PERIODS[: _PERIODS.index(found.period)]:
+        trial = Cycle(model, steps, step)
+        trial.repeat(period)
+        _put(trial, found.body.kept["state"], found.springs)
+        same = trial.find(1) and abs(_ratio(trial) - _ratio(found)) <= _SAME
+        if same and (smaller := trial.multiplier()) <= UNSTABLE:
+            return trial, True, smaller
+    return found, True, growth
+
+
+def _ratio(cycle: Cycle) -> float:
+    return float(cycle.body.sums["drive_force"] / cycle.body.sums["steps"])
+
+
+def _put(cycle: Cycle, state: np.ndarray, springs: FloatArray) -> None:
+    cycle.body.kept["state"][:] = state
+    cycle.springs[:] = springs

@@ -1,0 +1,200 @@
+"""The periodic state of a sliding body along one axis, followed there and back."""
+
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.errors import ConvergenceError, InputError
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+from asperity.runs import Run
+from asperity.slider.continuation import follow
+from asperity.slider.cost import cycles
+from asperity.slider.model import Model
+from asperity.slider.periodic import cycle_steps
+from asperity.slider.result import SlideResult, inputs
+from asperity.sweep.axes import Axis, parse_axes
+from asperity.sweep.grid import Grid
+
+_WAYS = ("there", "back")
+_DIMS = ("way", "value")
+# Of mu W: two states nearer to each other than this are one.
+_APART = 1e-4
+_CYCLES = 40  # of a state, in most cases
+
+
+class Branches(Result):
+    r"""Stable periodic states along an axis, each sought from the one before, there and back.
+
+    Where both ways have the same state there is one, as far as they can tell; where they differ the
+    body has two, and which it is in follows from where it comes from.
+
+    Attributes
+    ----------
+    source : str
+        The case.
+    axis : Axis
+        What changes, in the order of the way there.
+    value : ndarray, shape (n,)
+        Its values in its unit.
+    ratio, ratio_mean_load, penetration_swing, open_share, normal_min, normal_max, period,
+    multiplier
+        ndarray, shape (2, n), there and back; NaN where no state was found that repeats itself
+        after 1, 2 or 4 cycles. What is normal to the plane is NaN without ``[normal]``.
+    missing : int
+        States that were not found.
+    """
+
+    title: ClassVar[str] = "Periodic states of a sliding body, there and back"
+    stem: ClassVar[str] = "branches"
+    drawings: ClassVar[Mapping[str, str]] = {"branches": "asperity.sweep.plots:plot_branches"}
+    labels: ClassVar[Mapping[str, tuple[Sequence[str | float], str]]] = {
+        "way": (_WAYS, "from the first value to the last, or back")
+    }
+
+    source: str
+    axis: Axis
+    shared: Mapping[str, Any]
+    value: FloatArray = quantity("", "", "value of the axis", dims=("value",), coordinate=True)
+    ratio: FloatArray = quantity("F/mu W", "", "mean drive force over mu W", dims=_DIMS)
+    ratio_mean_load: FloatArray = quantity(
+        "F/mu N", "", "mean drive force over mu times mean load", dims=_DIMS
+    )
+    penetration_swing: FloatArray = quantity("d^", "m", "swing of the penetration", dims=_DIMS)
+    open_share: FloatArray = quantity("", "", "share of the time without contact", dims=_DIMS)
+    normal_min: FloatArray = quantity("N_min", "N", "least normal force", dims=_DIMS)
+    normal_max: FloatArray = quantity("N_max", "N", "greatest normal force", dims=_DIMS)
+    period: FloatArray = quantity("", "", "cycles until the state repeats itself", dims=_DIMS)
+    multiplier: FloatArray = quantity("", "", "growth of a disturbance over it", dims=_DIMS)
+    missing: int = quantity("", "", "states not found")
+    seconds: float = quantity(
+        "", "s", "time it took", key="seconds", only="json", shown=False, default=0.0
+    )
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What all states share, by ``table.key`` in SI, and the axis."""
+        return {**self.shared, "axis": self.axis.path, "axis_unit": self.axis.unit}
+
+    @property
+    def two(self) -> FloatArray:
+        """Values at which the ways differ, in the axis's unit."""
+        there, back = self.ratio
+        found: FloatArray = self.value[np.abs(there - back) > _APART]
+        return found
+
+    @property
+    def failure(self) -> ConvergenceError | None:
+        """What keeps it from being whole: states that were not found."""
+        if not self.missing:
+            return None
+        return ConvergenceError(
+            f"{self.missing} of {self.ratio.size} states were not found: nothing stable repeats "
+            "itself there after 1, 2 or 4 cycles; solve.method 'march' shows what the body does"
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """What was found along the axis, None where nothing was."""
+        arrays = {
+            entry.key: np.where(np.isnan(entry.value), None, entry.value).tolist()
+            for entry in self.entries()
+            if entry.label.dims == _DIMS and not np.isnan(entry.value).all()
+        }
+        ends = {"dims": ["way", self.axis.path], "unit": self.axis.unit, "ways": list(_WAYS)}
+        return {**ends, "values": self.value.tolist(), **arrays, **super().to_json()}
+
+    def heading(self) -> str:
+        """Return where there are two states."""
+        if not self.two.size:
+            return "the same states both ways"
+        low, high = self.axis_text(self.two.min()), self.axis_text(self.two.max())
+        between = f"at {low}" if low == high else f"between {low} and {high}"
+        return f"two stable states {between}, by where the body comes from"
+
+    def axis_text(self, value: float) -> str:
+        """Return a value of the axis with its unit."""
+        return f"{value:.6g} {self.axis.unit}".rstrip()
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return ratio, load, flight and period, a table each way."""
+        shown = {
+            "ratio": self.ratio, "F/mu N": self.ratio_mean_load, "N_min (N)": self.normal_min,
+            "open": self.open_share, "period": self.period, "growth": self.multiplier,
+        }  # fmt: skip
+        shown = {name: values for name, values in shown.items() if not np.isnan(values).all()}
+        unit = f" ({self.axis.unit})" if self.axis.unit else ""
+        headings = [f"value{unit}", *shown]
+        return tuple(
+            Table.of(
+                headings,
+                np.stack(
+                    [self.value, *(values[way] for values in shown.values())], axis=1
+                ).tolist(),
+                title=f"{title}: {self.axis.path}",
+            )
+            for way, title in enumerate(_WAYS)
+        )
+
+
+def prepare(case: Case, *, over: Sequence[str]) -> tuple[Case, Axis, list[Model]]:
+    """Return the bodies along an axis, refused if they cannot be followed.
+
+    Raises
+    ------
+    InputError
+        Naming the axis, or the point.
+    """
+    axes = parse_axes(over, case)
+    if len(axes) != 1 or not axes[0].numeric or len(axes[0].values) < 2:
+        given = " ".join(f"--over {text}" for text in over)
+        raise InputError(
+            f"{given}: states are followed along one axis of two numbers or more, as in "
+            "--over vibration.frequency=2000:5000:50"
+        )
+    grid = Grid(case, axes)
+    models = [point.model for point in grid.points(range(grid.size))]
+    for model in models:
+        if not model.vibrates:
+            raise InputError("nothing vibrates; a periodic state needs a [vibration]")
+        if model.solve.scheme == "two-phase":
+            raise InputError(
+                "solve.scheme is 'two-phase', which has no periodic states; leave it out"
+            )
+        cycle_steps(model)
+    return case, axes[0], models
+
+
+def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
+    """Follow the states there and back."""
+    began = time.perf_counter()
+    case, axis, models = problem
+    found: list[SlideResult | ConvergenceError] = []
+    run.forecast(2 * sum(cycles(model, _CYCLES) for model in models), f"{2 * len(models)} states")
+    with run.going_on():
+        for state in follow([*models, *reversed(models)]):
+            found.append(state)
+            run.progress(len(found), 2 * len(models))
+    ways = [found[: len(models)], found[: len(models) - 1 : -1]]
+    names = [entry.name for entry in Branches.declared() if entry.label.dims == _DIMS]
+    return Branches(
+        source=case.source,
+        axis=axis,
+        shared={path: value for path, value in inputs(models[0]).items() if path != axis.path},
+        value=np.array(axis.shown, dtype=float),
+        **{name: np.array([[_of(state, name) for state in way] for way in ways]) for name in names},
+        missing=sum(isinstance(state, ConvergenceError) for state in found),
+        seconds=time.perf_counter() - began,
+    )
+
+
+def _of(state: SlideResult | ConvergenceError, name: str) -> float:
+    """A number of a state, NaN where it has none."""
+    if isinstance(state, ConvergenceError):
+        return np.nan
+    holder = state if name == "ratio" else state.normal
+    value = getattr(holder, name, None)
+    return np.nan if value is None else float(value)

@@ -1,0 +1,43 @@
+"""States along an axis and back, from the command line."""
+
+import json
+
+import pytest
+
+from asperity.store import read_dataset
+
+
+def test_the_command_names_the_loop_and_draws_it(asperity, tmp_path):
+    over = "vibration.displacement_amplitude=0.2:0.5:0.1 um"
+    code, output, errors = asperity(
+        "branches", "normal-pin", "--set", "vibration.frequency=1.7 kHz",
+        "--set", "vibration.elevation=90 deg",
+        "--over", over, "--out", tmp_path,
+    )  # fmt: skip
+    assert code == 0
+    assert errors == f"written to {tmp_path}: branches.json, branches.nc, branches.png\n"
+    assert "two stable states between 0.3 um and 0.4 um" in output
+    dataset = read_dataset(tmp_path / "branches.nc")
+    assert dataset["ratio"].dims == ("way", "value")
+    assert dataset["value"].values.tolist() == [0.2, 0.3, 0.4, 0.5]
+    assert dataset.attrs["axis_unit"] == "um"
+    answer = json.loads((tmp_path / "branches.json").read_text())
+    assert answer["period"] == [[1.0] * 4] * 2
+    assert answer["missing"] == 0
+    assert (tmp_path / "branches.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--over", "friction.mu=0.1"], "one axis of two numbers or more"),
+        (["--over", "friction.law=vector,unsplit"], "one axis of two numbers or more"),
+        (["--over", "friction.mu=0.1,0.2", "--over", "slider.mass=1,2"], "one axis of two"),
+        (["--over", "friction.mu=0.1,0.2", "--set", "vibration.velocity_ratio=0"], "nothing vibr"),
+    ],
+)
+def test_what_cannot_be_followed_is_refused_in_one_line(asperity, arguments, told):
+    code, output, errors = asperity("branches", "normal-pin", *arguments)
+    assert (code, output) == (2, "")
+    assert errors.count("\n") == 1
+    assert told in errors
