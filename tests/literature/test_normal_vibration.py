@@ -9,11 +9,12 @@ area of a Hertz contact.
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 from asperity.friction import Friction
 from asperity.normal import Normal
-from asperity.slider import Model, Slider, Solve, solve
+from asperity.slider import Model, Slider, Solve, homogenise, solve
 from asperity.vibration import Vibration
 
 LIMIT = 68.75e-9
@@ -277,3 +278,46 @@ def test_an_elliptic_vibration_of_rigid_friction_has_its_closed_form(phase):
     swing = a * math.sin(math.radians(phase)) * math.sqrt(1.0 - 1.0 / k**2)
     closed = 2.0 / math.pi * (math.asin(1.0 / k) - swing)
     assert solve(model, history=False).ratio == pytest.approx(closed, abs=1e-5)
+
+
+def test_the_whole_body_is_solved_to_second_order():
+    model = body(6.0, 40.0, azimuth=30.0, lateral="free")
+    steps = [256, 384, 512, 768, 1024, 1536, 2560]
+
+    def ratio(count):
+        asked = Solve(method="periodic", step=1.0 / (4e3 * count))
+        return solve(dataclasses.replace(model, solve=asked), history=False).ratio
+
+    exact = ratio(40960)
+    errors = [abs(ratio(count) - exact) for count in steps]
+    slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert -slope == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("elevation", "law", "control"),
+    [(30.0, "linear", "force"), (150.0, "hertz", "force"), (90.0, "hertz", "displacement")],
+)
+def test_the_law_of_a_cycle_leads_to_the_steady_state_and_tells_its_load(elevation, law, control):
+    model = body(6.0, elevation, law, control)
+    periodic = solve(model, history=False)
+    slow = solve(dataclasses.replace(model, solve=Solve(method="homogenised")), history=False)
+    assert slow.ratio == pytest.approx(periodic.ratio, abs=1e-6)
+    assert slow.ledger.residual < 1e-6
+    assert dataclasses.asdict(slow.normal) == dataclasses.asdict(periodic.normal)
+
+
+def test_a_body_that_goes_the_other_way_meets_the_vibration_of_the_other_side():
+    law, other = (homogenise(body(6.0, elevation)) for elevation in (30.0, 150.0))
+    speeds = np.array([1e-4, 5e-4, 2e-3, 1e-2])
+    assert law(-speeds) == pytest.approx(-other(speeds), abs=2e-3 * 5.5)
+    assert np.abs(law(-speeds) + law(speeds)).max() > 0.1 * 5.5
+
+
+def test_the_cycle_mean_law_follows_the_march_into_its_steady_state():
+    model = dataclasses.replace(body(6.0, 30.0), solve=Solve(duration=0.2, step=5e-7))
+    fast = solve(model)
+    slow = solve(dataclasses.replace(model, solve=Solve(method="homogenised", duration=0.2)))
+    at = np.linspace(0.142, 0.2, 59)
+    apart = [np.interp(at, one.history.time, one.history.drive_force) for one in (fast, slow)]
+    assert np.abs(apart[0] - apart[1]).max() < 5e-3 * 5.5

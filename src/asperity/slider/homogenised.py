@@ -14,7 +14,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
-from asperity.results.ledger import REFUSED, PowerLedger, guard
+from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.slider import homogenised_law as hl
 from asperity.slider.homogenised_law import (
     HomogenisedLaw,
@@ -24,6 +24,7 @@ from asperity.slider.homogenised_law import (
 )
 from asperity.slider.march import March
 from asperity.slider.model import Model
+from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import History, SlideResult
 from asperity.slider.timetable import march_notes
 
@@ -272,14 +273,21 @@ def _result(
         return mean(law.column(column, rows[:, 2]))
 
     drive_force = mean(pull)
-    ledger = PowerLedger(
-        drive=drive_force * model.slider.drive_velocity,
-        vibration=column(hl.POWER_IN),
-        friction=column(hl.POWER_LOST),
-        damping=mean(damping) + column(hl.POWER_DAMPED),
-        stored=stored,
-        untransferred=column(hl.UNTRANSFERRED) + 0.0,  # no -0.0
-    )
+    powers = {
+        "drive": drive_force * model.slider.drive_velocity,
+        "vibration": column(hl.POWER_IN),
+        "friction": column(hl.POWER_LOST),
+        "damping": mean(damping) + column(hl.POWER_DAMPED),
+        "stored": stored,
+        "untransferred": column(hl.UNTRANSFERRED) + 0.0,  # no -0.0
+    }
+    cycle = _pressed(model, law)
+    ledger = PowerLedger(**powers)
+    if cycle is not None and isinstance(cycle.ledger, PressedLedger):
+        of_cycle = cycle.ledger
+        ledger = PressedLedger(
+            **powers, normal=of_cycle.normal, contact_damping=of_cycle.contact_damping
+        )
     answer = SlideResult(
         model=model,
         ratio=drive_force / force,
@@ -289,12 +297,14 @@ def _result(
         friction_min=(column(hl.LOWEST_X) * force, column(hl.LOWEST_Y) * force),
         breakaway_time=breakaway,
         ledger=ledger,
+        normal=None if cycle is None else cycle.normal,
+        wear=None if cycle is None else cycle.wear,
         residual=law.residual,
         steps=steps,
         cycles=0,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
-        notes=(_what_it_is(model, law), *law.notes),
+        notes=(_what_it_is(model, law), *law.notes, *(() if cycle is None else cycle.notes)),
     )
     numbers = [entry.value for entry in answer.entries() if isinstance(entry.value, float)]
     if not np.all(np.isfinite(numbers)):
@@ -305,6 +315,13 @@ def _result(
     most = math.inf if model.slider.drive_velocity in law.missing else REFUSED
     noted = guard(ledger, _ADVICE, reached={"ratio": answer.ratio}, most=most)
     return dataclasses.replace(answer, notes=(*answer.notes, *noted))
+
+
+def _pressed(model: Model, law: HomogenisedLaw) -> SlideResult | None:
+    """Return the cycle at the drive velocity, of which what is normal to the plane is told."""
+    if model.normal is None or model.slider.drive_velocity in law.missing:
+        return None
+    return solve_periodic(model, history=False)
 
 
 def _what_it_is(model: Model, law: HomogenisedLaw) -> str:

@@ -166,8 +166,11 @@ def homogenise(model: Model) -> HomogenisedLaw:
     if not model.vibrates:
         return _without_vibration(model)
     speeds = _grid(model)
-    # A wave whose halves mirror each other does not notice half a turn.
-    symmetric = model.vibration is not None and model.vibration.waveform != "sampled"
+    # A wave whose halves mirror each other does not notice half a turn, unless it lifts as well.
+    along, across, up = model.unit_direction
+    oblique = up != 0.0 and (along != 0.0 or across != 0.0)
+    sampled = model.vibration is not None and model.vibration.waveform == "sampled"
+    symmetric = not (oblique or sampled)
     tried = speeds if symmetric else np.concatenate([speeds, -speeds])
     rows, missing, residual = _rows(model, tried)
     front = {v: row for v, row in rows.items() if v > 0.0}

@@ -100,7 +100,7 @@ class Branches(Result):
     def to_json(self) -> dict[str, Any]:
         """What was found along the axis, None where nothing was."""
         arrays = {
-            entry.key: np.where(np.isnan(entry.value), None, entry.value).tolist()
+            entry.key: [[None if np.isnan(v) else v for v in way] for way in entry.value.tolist()]
             for entry in self.entries()
             if entry.label.dims == _DIMS and not np.isnan(entry.value).all()
         }
@@ -179,13 +179,17 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
             found.append(state)
             run.progress(len(found), 2 * len(models))
     ways = [found[: len(models)], found[: len(models) - 1 : -1]]
-    names = [entry.name for entry in Branches.declared() if entry.label.dims == _DIMS]
+    numbers: dict[str, Any] = {
+        entry.name: np.array([[_of(state, entry.name) for state in way] for way in ways])
+        for entry in Branches.declared()
+        if entry.label.dims == _DIMS
+    }
     return Branches(
         source=case.source,
         axis=axis,
         shared={path: value for path, value in inputs(models[0]).items() if path != axis.path},
         value=np.array(axis.shown, dtype=float),
-        **{name: np.array([[_of(state, name) for state in way] for way in ways]) for name in names},
+        **numbers,
         missing=sum(isinstance(state, ConvergenceError) for state in found),
         seconds=time.perf_counter() - began,
     )

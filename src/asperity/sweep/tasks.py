@@ -10,7 +10,7 @@ from asperity.compiled import machine
 from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.runs.rows import Row
 from asperity.slider.batch import fits_batch, solve_many
-from asperity.slider.batch_kernels import WIDTH
+from asperity.slider.batch_rows import WIDTH
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 

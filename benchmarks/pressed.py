@@ -1,0 +1,77 @@
+"""What a normal freedom costs: a step of a pressed body over one of a body in the plane.
+
+Run it with ``make bench``. Ratios in one run, of processor time: a step under each contact over a
+step without one; a batch of 32 over single marches; a periodic point.
+"""
+
+import time
+
+import numpy as np
+from _common import best, finish
+
+from asperity.casefile import read_case
+from asperity.slider.batch import solve_many
+from asperity.slider.march import march
+from asperity.slider.model import Model
+from asperity.slider.periodic import solve_periodic
+from asperity.slider.tables import TABLES
+
+MARCH = (
+    "solve.method=march", "solve.duration=0.5 s", "vibration.start=0.05 s", "friction.law=vector",
+    "vibration.velocity_ratio=3",
+)  # fmt: skip
+CONTACT = ("normal.penetration=0.85 um", "normal.damping_ratio=0.05", "vibration.elevation=60 deg")
+SPRINGS = ("friction.model=springs", "friction.springs=16")
+LAWS = {
+    "linear": ("normal.law=linear", *CONTACT),
+    "hertz": ("normal.law=hertz", *CONTACT),
+    "rough": ("normal.law=rough", *CONTACT),
+    "16 springs along": ("normal.law=hertz", *CONTACT, *SPRINGS),
+    "16 springs across": ("normal.law=hertz", *CONTACT, *SPRINGS, "vibration.direction=30 deg"),
+}
+
+
+def body(*settings):
+    """The body of table 4.3 on a contact."""
+    return Model.from_case(read_case("table-4.3", TABLES, [*MARCH, *settings]))
+
+
+def a_step(model):
+    """Time of a step, s."""
+    steps = march(model, history=False).steps
+    return best(lambda: march(model, history=False), clock=time.thread_time) / steps
+
+
+def main():
+    """Run all and print one line a figure."""
+    report = {}
+    plain = a_step(body())
+    report["step"] = {"in the plane, ns": 1e9 * plain} | {
+        f"{name}_over_plane": a_step(body(*settings)) / plain for name, settings in LAWS.items()
+    }
+    for law in ("linear", "hertz"):
+        models = [
+            body(*LAWS[law], f"vibration.elevation={e} deg", f"vibration.direction={d} deg")
+            for e, d in zip(np.linspace(5, 90, 32), np.linspace(0, 180, 32), strict=True)
+        ]
+        steps = march(models[3], history=False).steps
+        together = best(lambda m=models: solve_many(m), clock=time.thread_time) / 32
+        single = best(lambda m=models: march(m[3], history=False), clock=time.thread_time)
+        report[f"batch, {law}"] = {
+            "ns": together / steps * 1e9, "single_over_batch": single / together,
+        }  # fmt: skip
+    times = []
+    for k in (2.0, 6.0, 20.0):
+        for elevation in (30, 60, 90):
+            settings = f"vibration.velocity_ratio={k}", f"vibration.elevation={elevation} deg"
+            point = body(*LAWS["hertz"], *settings, "solve.method=periodic")
+            solve_periodic(point, history=False)
+            times.append(
+                best(lambda m=point: solve_periodic(m, history=False), clock=time.thread_time)
+            )
+    report["periodic"] = {"median_ms": 1e3 * np.median(times), "longest_ms": 1e3 * max(times)}
+    finish(report)
+
+
+if __name__ == "__main__":
+    main()
