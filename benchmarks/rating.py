@@ -83,7 +83,7 @@ def plain(row, law, material_factor):
 
 def plainly(given, count):
     """Rate the first gearsets in a loop of plain formulas."""
-    law = iso14521.friction_constants("aluminium bronze", "bath", "mineral")
+    law = iso14521.tables.friction_constants("aluminium bronze", "bath", "mineral")
     factor = GEARSET.wheel_material.material_factor
     names = ["shift" if name == "profile_shift" else name for name in given]
     rows = zip(*(values[:count].tolist() for values in given.values()), strict=True)
