@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.formulas import formulas_of
 
 from asperity.rating import agma6034 as agma
 from asperity.rating.agma6034 import capacity, forces, mesh, thermal
@@ -243,6 +244,8 @@ def test_efficiency_of_gearset_3():
     assert round(100.0 * e, 1) == 90.7
 
 
+FORMULAS = formulas_of(agma)
+
 # Place in the standard's units, and height in percent.
 JUMPS = {
     "friction": {0.0: -17.33, 10.0: -2.12},
@@ -252,7 +255,7 @@ JUMPS = {
 
 
 def in_inches(name):
-    formula = getattr(agma, name)
+    formula = FORMULAS[name]
     return formula if name == "ratio_correction_factor" else lambda v: formula(v, **IN)
 
 
@@ -263,7 +266,7 @@ def test_jumps_are_as_high_as_the_formulas_say(name, at, percent):
     formula = in_inches(name)
     before, after = formula(max(np.nextafter(at, -np.inf), 0.0)), formula(np.nextafter(at, np.inf))
     assert 100.0 * (after / before - 1.0) == pytest.approx(percent, abs=5e-3)
-    assert f"{percent:.2f} %" in getattr(agma, name).__doc__
+    assert f"{percent:.2f} %" in FORMULAS[name].__doc__
 
 
 def largest_step(formula, lower, upper, points, known):
@@ -304,8 +307,7 @@ def test_there_are_no_other_jumps(name, formula, lower, upper):
 
 
 def test_every_formula_has_a_source():
-    formulas = {name for name in agma.__all__ if name[0].islower()}
-    assert all(isinstance(getattr(agma, name).source, Source) for name in formulas)
+    assert all(isinstance(formula.source, Source) for formula in FORMULAS.values())
     assert agma.mesh.maximum_lead_angle.source.confidence == "from memory"
 
 

@@ -52,9 +52,9 @@ def rated(given: Inputs) -> Values:
     if mean is None:
         mean = mesh.friction(v["sliding_velocity_m_s"])
     v["mu"] = mean * given.friction_factor
-    mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["eta"] = mesh.worm_driving_efficiency(*mesh)
-    v["eta_back"] = mesh.wheel_driving_efficiency(*mesh)
+    teeth = v["mu"], given.lead_angle, given.pressure_angle
+    v["eta"] = mesh.worm_driving_efficiency(*teeth)
+    v["eta_back"] = mesh.wheel_driving_efficiency(*teeth)
     v["C_s"] = capacity.materials_factor(given.centre_distance, given.wheel_mean_diameter, casting)
     v["C_m"] = capacity.ratio_correction_factor(given.gear_ratio)
     v["C_v"] = capacity.velocity_factor(v["sliding_velocity_m_s"])
@@ -70,7 +70,7 @@ def rated(given: Inputs) -> Values:
     torque = given.operation.application_factor * given.output_torque
     v["safety_torque"] = strength.safety(v["allowable_torque_Nm"], torque)
     v["W_G_N"] = 2000.0 * torque / given.wheel_mean_diameter
-    v["W_W_N"] = forces.worm_tangential_load(v["W_G_N"], *mesh)
+    v["W_W_N"] = forces.worm_tangential_load(v["W_G_N"], *teeth)
     v["bending_stress_MPa"] = forces.bending_stress(
         v["W_G_N"],
         given.axial_pitch,
@@ -87,8 +87,8 @@ def _heat(given: Inputs, v: Values) -> None:
         given.output_torque, given.worm_speed, given.gear_ratio
     )
     load = 2000.0 * given.output_torque / given.wheel_mean_diameter
-    mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["W_f_N"] = forces.friction_force(load, *mesh)
+    teeth = v["mu"], given.lead_angle, given.pressure_angle
+    v["W_f_N"] = forces.friction_force(load, *teeth)
     v["loss_meshing_W"] = thermal.friction_power(v["sliding_velocity_m_s"], v["W_f_N"])
     v["input_power_W"] = v["output_power_W"] + v["loss_meshing_W"]
     v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
