@@ -10,9 +10,11 @@ def formulas_of(package):
         importlib.import_module(f"{package.__name__}.{found.name}")
         for found in pkgutil.iter_modules(package.__path__)
     ]
-    return {
+    formulas = {
         name: thing
         for module in modules
         for name, thing in vars(module).items()
         if hasattr(thing, "equation") and thing.__module__ == module.__name__
     }
+    assert formulas
+    return formulas
