@@ -248,9 +248,9 @@ def leaving_speed(height, *, impact):
     method = hht.step_operator(mass, none, 1.0, impact=impact)
     state = hht.Coordinates.at_rest(1, place=np.array([height]), velocity=np.array([-1.0]))
     for _ in range(60):
-        place, _ = method.predict(state, np.zeros(1))
+        place, _ = hht.predict(method, state, np.zeros(1))
         force = np.maximum(-place / method.compliance[0], 0.0)
-        state, _, _ = method.complete(state, place + method.compliance[0] * force, force)
+        state, _, _ = hht.complete(method, state, place + method.compliance[0] * force, force)
     return float(state.velocity[0])
 
 

@@ -276,7 +276,7 @@ def mechanism(
     mass[:6, :6] = body.mass
     stiffness[6:, 6:] = np.diag(body.mode_stiffness)
     resistance = np.zeros(size)
-    resistance[6:] = 2.0 * damping_ratio * np.sqrt(body.mode_mass * body.mode_stiffness)
+    resistance[6:] = 2.0 * damping_ratio * np.sqrt(body.mode_stiffness)
     pull, damping = drive
     port = _combined(body, {_DRIVE: 1.0})
     return mo.Mechanism(

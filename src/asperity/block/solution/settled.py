@@ -51,33 +51,7 @@ STEADY = 1e-3
 
 
 class SettledBlock(Result):
-    """What an elastic block under vibration comes to.
-
-    Attributes
-    ----------
-    problem : BlockProblem
-        What was solved.
-    ratio : float
-        Mean friction along the drive over mu F_N, at the drive's velocity.
-    unsteadiness : float
-        Half of what the highest and the lowest of four successive windows of the ratio, as long as
-        one another, are apart.
-    slider_ratio : float
-        The sliding body's periodic state.
-    cycles : int
-        In the four windows together.
-    late : float
-        By how much of the drive's velocity the block was slower in them, which the ratio is
-        corrected for.
-    increments : int
-        Taken in all.
-    seconds : float
-        Time the solution took, s.
-    phase : ndarray, shape (n,)
-        Share of a cycle.
-    friction, slider_friction : ndarray, shape (n, 2)
-        On the block in the last cycle read, and on the sliding body in each, N.
-    """
+    """What an elastic block under vibration comes to."""
 
     title: ClassVar[str] = "Settled elastic block"
     stem: ClassVar[str] = "block"
@@ -85,7 +59,9 @@ class SettledBlock(Result):
     labels: ClassVar[Labels] = SlideResult.labels
 
     problem: BlockProblem
+    #: At the drive's velocity; of the block's own friction.
     ratio: float = quantity("F_dv/F_ds", "", "mean drive force over mu F_N")
+    #: Of four successive windows as long as one another.
     unsteadiness: float = quantity("", "", "how far windows of the ratio are apart, half of it")
     slider_ratio: float = quantity("", "", "mean drive force over mu F_N, sliding body")
     cycles: int = quantity("", "", "whole cycles of the vibration that were read")
@@ -324,14 +300,14 @@ def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemStat
     if system.mechanism.drive is not None:
         pull = float(history.drive_force[-1])
         reach = drive.way + pull / system.mechanism.drive.stiffness
-        drive = dataclasses.replace(drive, force=pull, reach=reach)
+        drive = drive._replace(force=pull, reach=reach)
     contact = rest.contact
     deflection = np.zeros_like(contact.state.deflection)
     deflection[:, :2] = history.deflection[-1]
     contact = dataclasses.replace(
         contact, state=dataclasses.replace(contact.state, deflection=deflection)
     )
-    coordinates = dataclasses.replace(coordinates, velocity=velocity)
+    coordinates = coordinates._replace(velocity=velocity)
     return dataclasses.replace(rest, coordinates=coordinates, drive=drive, contact=contact)
 
 

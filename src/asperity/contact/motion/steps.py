@@ -14,7 +14,7 @@ from asperity.contact.increment.solver import IncrementSolver, SolverMemory
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.motion.hht import Coordinates
 from asperity.contact.motion.ledger import Sums, over_step
-from asperity.contact.motion.mechanism import DriveState, Imposed, MotionStep
+from asperity.contact.motion.mechanism import DriveState, Imposed, MotionStep, approach, settle
 from asperity.contact.motion.system import System, SystemState
 from asperity.contact.motion.works import Resultants, resultants
 from asperity.errors import ConvergenceError
@@ -52,9 +52,9 @@ def take_step(
     Returns those at its end, and the energy the method and the damping of the coordinates took, J.
     A ConvergenceError has residual, iterations and points in contact.
     """
-    start = moving.approach(coordinates, drive, imposed)
+    start = approach(moving, coordinates, drive, imposed)
     result = solver.solve(start.free, surface_motion, contact)
-    end, pull, taken = moving.settle(coordinates, drive, imposed, start, result.force)
+    end, pull, taken = settle(moving, coordinates, drive, imposed, start, result.force)
     return result, end, pull, taken
 
 
@@ -177,7 +177,7 @@ class Stepper:
         broke = drive.force >= system.full_friction
         # All at once, so that whoever stops in the middle of a step finds the state before it.
         self.sums, self.mean_pressure = (
-            self.sums + over_step(system, state, after, base, taken),
+            self.sums.with_(over_step(system, state, after, base, taken)),
             mean,
         )
         if self.breakaway is None and broke:

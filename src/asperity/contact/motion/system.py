@@ -35,6 +35,13 @@ class Shaking:
     transfer: float = 1.0
     on_body: bool = False  #: Whether the body is shaken: its prescribed motion is added to its own
 
+    @functools.cached_property
+    def body(self) -> tuple[FloatArray, FloatArray]:
+        """What each part of the slip sees of the body's own displacement, (3, 3) each."""
+        if not self.on_body:
+            return np.eye(3), np.zeros((3, 3))
+        return np.diag([1.0, 0.0, 1.0]), np.diag([0.0, self.transfer, 0.0])
+
     def increment(self, begin: float, end: float) -> float:
         """Increment of the unit displacement between two times."""
         frequency = self.shape.frequency
@@ -147,8 +154,7 @@ class System:
             pose,
             Drift(np.array([x, 0.0, 0.0])),
             Drift(np.array([0.0, through, 0.0])),
-            np.diag([1.0, 0.0, 1.0]) if shaking.on_body else np.eye(3),
-            np.diag([0.0, shaking.transfer, 0.0]) if shaking.on_body else np.zeros((3, 3)),
+            *shaking.body,
             one_sided,
         ), BaseMotion(x, through, y, z)
 
