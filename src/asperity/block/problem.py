@@ -149,6 +149,11 @@ class BlockProblem:
         return self.model.slider.mass or 0.0
 
     @property
+    def mean_pressure(self) -> float:
+        """Nominal mean pressure of the contact, Pa."""
+        return self.model.slider.normal_force / self.block.area
+
+    @property
     def top_pressure(self) -> float:
         """Pressure on the top that adds to gravity what is missing from the normal force, Pa."""
         return (self.model.slider.normal_force - self.mass * STANDARD_GRAVITY) / self.block.area
@@ -250,8 +255,8 @@ class BlockProblem:
     @functools.cached_property
     def compliance(self) -> BaseCompliance:
         """How the bottom gives under friction spread evenly over it, at the mean pressure."""
-        mean_pressure = self.model.slider.normal_force / self.surface.area
-        return base_compliance(self.system.mechanism, self.surface, self.normal, mean_pressure)
+        mechanism = self.system.mechanism
+        return base_compliance(mechanism, self.surface, self.normal, self.mean_pressure)
 
 
 def _pull() -> Traction:
