@@ -286,7 +286,7 @@ def test_an_increment_that_fails_is_taken_in_halves(monkeypatch):
     monkeypatch.setattr(IncrementSolver, "solve", stumbles)
     cut = solve_block(problem(), history=False)
     assert cut.cuts == len(failed) == 3
-    assert "3 increments did not converge at once" in " ".join(cut.notes)
+    assert "3 increments were not solved at once" in " ".join(cut.notes)
     assert cut.ratio == pytest.approx(whole.ratio, rel=1e-3)
     assert cut.ledger.residual < 1e-4
 

@@ -70,7 +70,7 @@ def block_notes(
             "contact does better"
         )
     if stepper.cuts:
-        notes.append(f"{stepper.cuts} increments did not converge at once and were taken in halves")
+        notes.append(f"{stepper.cuts} increments were not solved at once and were taken in halves")
     return tuple(notes)
 
 
