@@ -557,6 +557,6 @@ def test_a_block_without_a_mass_is_refused():
 
 def test_a_block_that_is_not_pressed_on_its_base_does_not_come_to_rest():
     block = problem()
-    up = dataclasses.replace(block.loads[0], generalised=-block.loads[0].generalised)
+    up = block.loads[0]._replace(generalised=-block.loads[0].generalised)
     with pytest.raises(ConvergenceError, match=r"press it on its base|no equilibrium at rest"):
         rest_under_load(block.system, (up,))
