@@ -189,8 +189,8 @@ def rate(
     ------
     InputError
         The gearset's numbers do not belong together, or the only standard asked for cannot be
-        applied; `asperity.rating.iso14521.FilmParameterError` where h* is not above
-        zero.
+        applied; `asperity.rating.iso14521.film_failure.FilmParameterError` where h* is
+        not above zero.
     """
     options = options or RatingOptions()
     wanted = known_standards(standards)
