@@ -18,6 +18,7 @@ import numpy.typing as npt
 from scipy import sparse
 
 from asperity.arrays import FloatArray
+from asperity.contact.increment.predictor import Predictor
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.records import Committed, Interface
@@ -129,50 +130,6 @@ class IncrementProblem:
             self.normal.numbers,
             self.friction.numbers(self.step),
         )
-
-
-# Weights of the last increments, the latest first: constant, linear, quadratic.
-_WEIGHTS = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0))
-
-
-@dataclass(frozen=True, eq=False)
-class Predictor:
-    """Forces and displacements of the last increments, the latest first."""
-
-    #: forces, displacements (3n,): Contact forces, N, and displacement of the contact nodes, m
-    forces: tuple[FloatArray, ...] = ()
-    displacements: tuple[FloatArray, ...] = ()
-    order: int = 0  #: Order of the extrapolation that would have met the latest forces best
-    #: `IncrementProblem.mark` of those increments: others begin anew
-    mark: tuple[float, float] = (0.0, 0.0)
-
-    def followed_by(
-        self, force: FloatArray, displacement: FloatArray, mark: tuple[float, float]
-    ) -> Predictor:
-        """Return the predictor with one more increment."""
-        if mark != self.mark or not self.forces:
-            return Predictor((force,), (displacement,), 0, mark)
-        forces = (force, *self.forces[: len(_WEIGHTS)])
-        displacements = (displacement, *self.displacements[: len(_WEIGHTS) - 1])
-        errors = [
-            float(np.linalg.norm(force - _combined(weights, forces[1:])))
-            for weights in _WEIGHTS[: len(forces) - 1]
-        ]
-        return Predictor(forces[: len(_WEIGHTS)], displacements, int(np.argmin(errors)), mark)
-
-    def predicted(self, mark: tuple[float, float]) -> tuple[FloatArray, FloatArray] | None:
-        """Forces and displacement of the coming increment; None without a past."""
-        if mark != self.mark or not self.forces:
-            return None
-        weights = _WEIGHTS[min(self.order, len(self.forces) - 1)]
-        return _combined(weights, self.forces), _combined(weights, self.displacements)
-
-
-def _combined(weights: tuple[float, ...], vectors: tuple[FloatArray, ...]) -> FloatArray:
-    total = weights[0] * vectors[0]
-    for weight, vector in zip(weights[1:], vectors[1:], strict=False):
-        total += weight * vector
-    return total
 
 
 @dataclass(frozen=True, eq=False)

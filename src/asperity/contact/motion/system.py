@@ -142,11 +142,12 @@ class System:
         shaking = self.shaking
         if shaking is None:
             return SurfaceMotion(pose=self.pose), BaseMotion()
-        way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.amplitude)
-        x, y, z = map(float, shaking.increment(begin, end) * way)
+        sign = -1.0 if shaking.on_body else 1.0
+        moved = sign * shaking.increment(begin, end)
+        x, y, z = [moved * amplitude for amplitude in shaking.amplitude]
         pose = self.pose
-        if way[2] != 0.0:
-            height = shaking.increment(shaking.start, end) * way[2]
+        if shaking.amplitude[2] != 0.0:
+            height = sign * shaking.increment(shaking.start, end) * shaking.amplitude[2]
             pose = Pose(pose.rotation, pose.translation + np.array([0.0, 0.0, height]))
         through = shaking.transfer * y
         one_sided = end <= shaking.start * (1.0 + 1e-12)
