@@ -221,7 +221,10 @@ class BlockProblem:
         """Friction at a point of the contact."""
         slider, solve = self.model.slider, self.model.solve
         return PointFriction.of(
-            self.model.friction, slider.normal_force, two_phase=solve.scheme == "two-phase"
+            self.model.friction,
+            slider.normal_force,
+            area=self.block.size[0] * self.block.size[1],
+            two_phase=solve.scheme == "two-phase",
         )
 
     @functools.cached_property

@@ -99,7 +99,7 @@ def mean_tangent(points, committed, interface, motion, out):
     fx = ny * ez - nz * ey
     fy = nz * ex - nx * ez
     fz = nx * ey - ny * ex
-    _, _, _, _, _, t1, _ = share_and_tangent(
+    _, _, _, _, _, t1, _, _ = share_and_tangent(
         (bent[0] * ex + bent[1] * ey + bent[2] * ez) / area,
         (bent[0] * fx + bent[1] * fy + bent[2] * fz) / area,
         size / area,
@@ -109,6 +109,7 @@ def mean_tangent(points, committed, interface, motion, out):
         (slip_2[0] * fx + slip_2[1] * fy + slip_2[2] * fz) / area,
         motion.one_sided,
         friction,
+        p / area,
     )
     scale = -friction.mu * p / area
     e = (ex, ey, ez)
