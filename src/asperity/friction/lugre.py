@@ -88,10 +88,11 @@ def lugre_loaded(
     dy = slip_1[1] + slip_2[1]
     speed = math.sqrt(dx * dx + dy * dy) / step
     ratio = stribeck_share(speed, static_ratio, stribeck_speed)
-    per = 1.0 / limit
+    sx = deflection[0] / limit
+    sy = deflection[1] / limit
     new, _, _, tangents, (slope_0, slope_1) = update_loaded(
-        (deflection[0] * per, deflection[1] * per), (slip_1[0] * per, slip_1[1] * per),
-        (slip_2[0] * per, slip_2[1] * per), load_0 * ratio, load_1 * ratio, 1.0, law, STIFFNESS,
+        (sx, sy), (slip_1[0] / limit, slip_1[1] / limit),
+        (slip_2[0] / limit, slip_2[1] / limit), load_0 * ratio, load_1 * ratio, 1.0, law, STIFFNESS,
     )  # fmt: skip
     # Both limits follow the speed: d(ratio)/dD = dratio/dspeed D/(|D| step), here per limit.
     hx = load_0 * slope_0[0] + load_1 * slope_1[0]
@@ -104,11 +105,11 @@ def lugre_loaded(
         gy = bend * dy
     over = 1.0 / load_1
     rate = rate_damping * limit / step
-    elastic = (over + rate) * per
+    elastic = (over + rate) / limit
     viscous = slip_damping / step
     share = (
-        over * new[0] + rate * (new[0] - deflection[0] * per) + viscous * dx,
-        over * new[1] + rate * (new[1] - deflection[1] * per) + viscous * dy,
+        over * new[0] + rate * (new[0] - sx) + viscous * dx,
+        over * new[1] + rate * (new[1] - sy) + viscous * dy,
     )
     t1 = tangents[0]
     t2 = tangents[1]
