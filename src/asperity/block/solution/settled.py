@@ -20,6 +20,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import inputs
+from asperity.block.solution.notes import GAINS
 from asperity.block.solution.stability import Stability, flutter_note
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
@@ -173,6 +174,8 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
 def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, ...]:
     flutter = Stability(problem).flutter()
     notes = [] if flutter is None else [flutter_note(problem, flutter)]
+    if problem.friction.keeps_deflection:
+        notes.append(f"{GAINS}; solve.method 'march' says how much")
     if reading.apart > STEADY * abs(ratio):
         notes.append(
             f"not steady: in {reading.cycles} cycles the ratio still swings by "

@@ -319,6 +319,21 @@ class PointFriction:
         two_phase : bool
             Advance Dahl's law by the thesis's explicit phases.
         """
+        if friction.model == "springs":
+            raise InputError(
+                "friction.model is 'springs'; the points of an elastic contact, which have a "
+                "pressure each, take 'dahl' of exponent 0 for it"
+            )
+        if friction.load_exponent != 1.0:
+            raise InputError(
+                f"friction.load_exponent is {friction.load_exponent:g}; friction at the points of "
+                "an elastic contact is proportional to the pressure: leave it out"
+            )
+        if two_phase and "keeps" in friction.model_fields_set and friction.keeps == "stiffness":
+            raise InputError(
+                "friction.keeps is 'stiffness'; solve.scheme 'two-phase' keeps the deflection: "
+                "give that, or leave the scheme out"
+            )
         full = friction.mu * normal_force
         if not full > 0.0:
             raise InputError(f"normal force is {normal_force:g} N; it must be positive")
@@ -345,6 +360,11 @@ class PointFriction:
             friction.viscous_damping / full,
             reference,
         )
+
+    @property
+    def keeps_deflection(self) -> bool:
+        """Whether asperities keep their deflection where the pressure changes, and gain energy."""
+        return self.model != COULOMB and self.mu > 0.0 and self.reference == 0.0
 
     def numbers(self, step: float) -> PointNumbers:
         """The law as kernels take it, for a time step in s (LuGre needs it)."""

@@ -52,6 +52,7 @@ class Sums(NamedTuple):
     pressure_work: float = 0.0
     overclosure_work: float = 0.0
     asperity_work: float = 0.0
+    friction_gain: float = 0.0
     transfer_work: float = 0.0
     untransferred: float = 0.0
     iterations: float = 0.0
@@ -90,7 +91,7 @@ def over_step(
     of_points = works(
         one.pressure, one.traction, one.normal, one.distance, one.state.deflection,
         other.pressure, other.traction, other.normal, other.distance, other.state.deflection,
-        slip, system.weights, system.normal.numbers, system.friction.mu / system.friction.limit,
+        slip, system.weights, system.normal.numbers, system.asperities,
     )  # fmt: skip
     first, last, start, end = before.forces, after.forces, before.drive, after.drive
     step = after.time - before.time
@@ -122,6 +123,7 @@ def over_step(
         pressure_work=of_points.pressure,
         overclosure_work=of_points.overclosure,
         asperity_work=of_points.asperities,
+        friction_gain=of_points.gained,
         transfer_work=transfer,
         untransferred=-fy * (base.whole_y - base.y),
         iterations=other.iterations,
@@ -175,7 +177,7 @@ def energies(system: System, state: SystemState) -> Energies:
     contact = state.contact
     over, asperities = surface_energies(
         contact.pressure, contact.distance, contact.state.deflection, system.weights,
-        system.normal.numbers, system.friction.mu, system.friction.limit,
+        system.normal.numbers, system.asperities,
     )  # fmt: skip
     body = body_energies(
         system.mechanism, state.coordinates, state.drive, contact.force, state.load

@@ -15,7 +15,7 @@ from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion.hht import ALPHA, Coordinates, coefficients
 from asperity.contact.motion.mechanism import DriveState, Mechanism, MotionStep, motion_step
-from asperity.contact.motion.works import Resultants
+from asperity.contact.motion.works import Asperities, Resultants
 from asperity.vibration import Shape, fill_increments
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
@@ -82,6 +82,12 @@ class System:
     def weights(self) -> FloatArray:
         """Area of each point of the surface, m^2."""
         return np.ascontiguousarray(self.surface.weights.ravel())
+
+    @property
+    def asperities(self) -> Asperities:
+        """What the energy of the asperities follows from."""
+        friction = self.friction
+        return Asperities(friction.mu / friction.limit, float(friction.reference))
 
     def motion_step(self, step: float) -> MotionStep:
         """What a length of the step makes of the body."""
