@@ -31,7 +31,9 @@ def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
     assert 0.0 < told["unsteadiness"] < 0.5 * settled.STEADY * told["slider_ratio"]
     assert told["drive_force_N"] == pytest.approx(told["ratio"] * 5.5)
     assert told["method"] == "settled"
-    assert (told["cycles"], told["notes"]) == (16, [])
+    assert told["cycles"] == 16
+    (gains,) = told["notes"]
+    assert gains.startswith("asperities keep their deflection")
 
 
 @pytest.mark.slow
