@@ -27,7 +27,12 @@ LUGRE = (
     "friction.contact_damping=300 N s/m", "friction.viscous_damping=0.4 N s/m",
 )  # fmt: skip
 TWO_PHASE = ("solve.scheme=two-phase",)
+KEPT = (
+    ("friction.keeps=stiffness", "friction.law=split"),
+    ("friction.keeps=stiffness", "friction.law=vector", "friction.exponent=0"),
+)
 LAWS = (
+    *KEPT,
     ("friction.law=split",),
     ("friction.law=vector", "friction.exponent=2"),
     ("friction.law=vector", "friction.exponent=0"),
@@ -127,6 +132,8 @@ def check_thrown(law, normal, element, modes, ratio, direction, where, lift, til
         stepper.step_to(number * SECONDS, SECONDS)
         check_contact(system, stepper.state.contact, bounded=law is not LUGRE)
         assert stepper.state.contact.residual <= 1e-9
+    if law in KEPT:
+        assert stepper.sums.friction_gain <= 1e-9 * stepper.sums.slip_work
     balance = ledger.power_ledger(stepper.sums, before, ledger.energies(system, stepper.state))
     sums = powers(balance)
     assert np.isfinite(sums).all()

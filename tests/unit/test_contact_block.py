@@ -105,6 +105,7 @@ CLOSING = {
         "friction.model=lugre", "friction.static_mu=0.15", "friction.stribeck_velocity=1 mm/s",
         "friction.contact_damping=300 N s/m", "friction.viscous_damping=0.4 N s/m",
     ),
+    "stiffness kept": ("friction.keeps=stiffness", "vibration.direction=45 deg"),
     "two stages": ("contact.normal=two-stage", "vibration.direction=45 deg"),
     "hard": ("contact.normal=hard",),
     "square wave": ("vibration.waveform=square", "vibration.rise_time=30 us"),

@@ -142,6 +142,25 @@ def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypat
         assert balance(stepper, before).residual > 3.0 * CLOSED
 
 
+@pytest.mark.parametrize(
+    "law",
+    [
+        (),
+        ("friction.law=vector", "friction.exponent=0"),
+        ("vibration.direction=45 deg",),
+        ("friction.model=lugre", "friction.law=vector"),
+    ],
+)
+def test_friction_gives_energy_where_asperities_keep_their_deflection_alone(law):
+    shares = {}
+    for keeps in ("stiffness", "deflection"):
+        stepper, before = marched(80, settings=(f"friction.keeps={keeps}", *law), **SHAKEN)
+        assert balance(stepper, before).residual < CLOSED
+        shares[keeps] = stepper.sums.friction_gain / stepper.sums.slip_work
+    assert shares["stiffness"] < 1e-9
+    assert shares["deflection"] > 1e-3
+
+
 def test_friction_is_what_it_is_whatever_is_said_to_be_stored(monkeypatch):
     stepper, before = marched(160, **SHAKEN)
     friction = balance(stepper, before).friction
