@@ -12,7 +12,8 @@ from _common import best, finish, on_one_core
 
 from asperity.errors import InputError
 from asperity.gearset import Gearset
-from asperity.rating import Operation, RatingOptions, iso14521, variants
+from asperity.rating import Operation, RatingOptions, variants
+from asperity.rating.iso14521.tables import friction_constants
 
 VARIANTS = 1_000_000
 SINGLE = 100
@@ -83,7 +84,7 @@ def plain(row, law, material_factor):
 
 def plainly(given, count):
     """Rate the first gearsets in a loop of plain formulas."""
-    law = iso14521.friction_constants("aluminium bronze", "bath", "mineral")
+    law = friction_constants("aluminium bronze", "bath", "mineral")
     factor = GEARSET.wheel_material.material_factor
     names = ["shift" if name == "profile_shift" else name for name in given]
     rows = zip(*(values[:count].tolist() for values in given.values()), strict=True)

@@ -6,9 +6,8 @@ returns a :class:`asperity.results.Result`.
 """
 
 import dataclasses
-import functools
 import importlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,21 +15,45 @@ if TYPE_CHECKING:
     from asperity.results import Result
     from asperity.runs import Run
 
-_TABLES = (
-    "asperity.slider.tables",
-    "asperity.rating.tables",
-    "asperity.block.tables",
-    "asperity.flanks.tables",
-)
+_TABLES = {
+    "slider": "asperity.slider.parameters:Slider",
+    "friction": "asperity.friction.parameters:Friction",
+    "vibration": "asperity.vibration:Vibration",
+    "normal": "asperity.normal:Normal",
+    "wear": "asperity.slider.wear:Wear",
+    "solve": "asperity.slider.parameters:Solve",
+    "gearset": "asperity.gearset.parameters:Gearset",
+    "operation": "asperity.rating.parameters:Operation",
+    "rating": "asperity.rating.parameters:RatingOptions",
+    "block": "asperity.block.parameters:Block",
+    "contact": "asperity.block.parameters:Contact",
+    "hob": "asperity.flanks.parameters:Hob",
+    "disc": "asperity.flanks.parameters:Disc",
+    "modification": "asperity.flanks.parameters:Modification",
+    "mount": "asperity.flanks.parameters:Mount",
+}
 
 
-@functools.cache
+class _Tables(Mapping[str, "type[Table]"]):
+    """The tables of a case file; the module of each is imported when it is asked for."""
+
+    def __getitem__(self, name: str) -> "type[Table]":
+        table: type[Table] = _load(_TABLES[name])
+        return table
+
+    def __contains__(self, name: object) -> bool:
+        return name in _TABLES
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_TABLES)
+
+    def __len__(self) -> int:
+        return len(_TABLES)
+
+
 def case_tables() -> "Mapping[str, type[Table]]":
     """Return every table a case file may have, whichever command reads it, by name."""
-    found: dict[str, type[Table]] = {}
-    for module in _TABLES:
-        found |= importlib.import_module(module).TABLES
-    return found
+    return _Tables()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -102,10 +125,9 @@ class Command:
         return _load(self.read) if self.read else None
 
 
-def _load(place: str) -> Callable[..., Any]:
+def _load(place: str) -> Any:
     module, _, name = place.partition(":")
-    function: Callable[..., Any] = getattr(importlib.import_module(module), name)
-    return function
+    return getattr(importlib.import_module(module), name)
 
 
 COMMANDS = (

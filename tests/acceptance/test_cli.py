@@ -328,12 +328,17 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
         (["--help"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
         (["cases"], {"numpy", "numba", "pydantic", "matplotlib", "xarray", "scipy"}),
         (
+            ["rate gearset-2", "sensitivity gearset-2"],
+            {"matplotlib", "pint", "rich", "scipy"}
+            | {f"asperity.{room}" for room in ("block", "flanks", "slider", "vibration")},
+        ),
+        (
             ["rate gearset-3", "sensitivity gearset-3", "methods gearset-3"],
-            {"numba", "llvmlite", "matplotlib", "pint", "scipy.stats"},
+            {"numba", "llvmlite", "matplotlib", "pint", "rich", "scipy.stats"},
         ),
         (
             [shlex.join(["slide", "table-4.3", *SHORT, "--json"])],
-            {"matplotlib", "xarray", "pandas", "h5py", "distributed", "sqlite3", "rich.table"}
+            {"matplotlib", "xarray", "pandas", "h5py", "distributed", "sqlite3", "rich"}
             | {f"scipy.{part}" for part in ("integrate", "interpolate", "optimize", "special")},
         ),
     ],

@@ -68,12 +68,12 @@ def sliding(tmp_path_factory):
 def test_the_mean_contact_pressure_is_load_over_area(sliding):
     assert sliding.area[0] == pytest.approx(sliding.setup.block.area, rel=1e-6)
     mean = sliding.normal[0] / sliding.area[0]
-    assert mean == pytest.approx(sliding.setup.mean_pressure, rel=1e-6)
+    assert mean == pytest.approx(sliding.setup.problem.mean_pressure, rel=1e-6)
 
 
 def test_the_pressure_over_the_face_is_that_of_the_package(tmp_path):
     run = Run(tmp_path, "block.elements=[6,5,4]", "block.element=hex8i", steps=1)
-    problem, mean = run.setup.problem, run.setup.mean_pressure
+    problem, mean = run.setup.problem, run.setup.problem.mean_pressure
     surface = problem.surface
     own = rest_under_load(problem.system, problem.loads).contact.pressure
     own = own.reshape(surface.weights.shape)
@@ -144,8 +144,8 @@ def test_without_friction_and_weight_the_block_is_a_bar_between_two_pressures(tm
     setup = run.setup
     bottom, top = range(1, 13), range(25, 37)
     pressure = [field(run, "CONTACT", 0)[node][3] for node in bottom]
-    np.testing.assert_allclose(pressure, setup.mean_pressure, rtol=1e-5)
+    np.testing.assert_allclose(pressure, setup.problem.mean_pressure, rtol=1e-5)
     moved = np.array([field(run, "DISP", 0)[node][2] for node in (*bottom, *top)])
-    squeeze = setup.mean_pressure * setup.block.size[2] / setup.block.youngs_modulus
+    squeeze = setup.problem.mean_pressure * setup.block.size[2] / setup.block.youngs_modulus
     np.testing.assert_allclose(moved[:12], 0.0, atol=1e-5 * overclosure(setup))
     np.testing.assert_allclose(moved[12:], -squeeze, rtol=1e-5)

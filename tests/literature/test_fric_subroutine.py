@@ -182,12 +182,23 @@ def own_motion(model, history, n):
 def own_update(model, committed, part_1, part_2, exponent, one_sided):
     """The package's update of a contact point: deflection over the limit, and its signed size."""
     law = PointFriction.of(
-        model.friction, model.slider.normal_force, two_phase=model.solve.scheme == "two-phase"
+        model.friction,
+        model.slider.normal_force,
+        area=1.0,
+        two_phase=model.solve.scheme == "two-phase",
     )
-    p = dataclasses.replace(law, exponent=exponent).numbers(1e-6)
+    # FRIC is given the pressure of the end of a step only: the limit holds at any.
+    p = dataclasses.replace(law, exponent=exponent, reference=0.0).numbers(1e-6)
     limit = model.friction.max_deflection
     _, _, size, *share = share_and_tangent(
-        committed[0] * limit, committed[1] * limit, committed[2], *part_1, *part_2, one_sided, p
+        committed[0] * limit,
+        committed[1] * limit,
+        committed[2],
+        *part_1,
+        *part_2,
+        one_sided,
+        p,
+        1.0,
     )[:5]
     return (*share, size or float(np.hypot(*share)))
 

@@ -128,15 +128,15 @@ def test_every_gearset_of_the_family_fits_gearset_3(q, m, c, x2, eta):
 @pytest.mark.parametrize(("q", "m", "c", "x2", "eta"), FAMILY_3)
 def test_mean_contact_stress_of_gearset_3_is_below_its_line_contact_stress(q, m, c, x2, eta):
     shift = relations.profile_shift(c, m, q, 60)
-    parameter = iso.contact_parameter(4, 60, q, m, c, ALPHA, shift)
-    stress = iso.contact_stress(parameter, 366.0, 174053.0, c)
+    parameter = iso.contact.contact_parameter(4, 60, q, m, c, ALPHA, shift)
+    stress = iso.contact.contact_stress(parameter, 366.0, 174053.0, c)
     assert 524.0 < stress < 570.0
 
 
 def test_film_of_gearset_2_ends_where_the_thesis_met_negative_numbers():
     shape = {name: GEARSET_2[name] for name in NAMES}
     shift = relations.profile_shift(60.17, 1.7, 10.8, 60)
-    limits = film_limits(iso.film_parameter.body, {**shape, "profile_shift": shift})
+    limits = film_limits(iso.film.film_parameter.body, {**shape, "profile_shift": shift})
     assert 1.27 < limits["ratio"] / 60.0 < 1.28
     assert 1.37 < limits["axial_module"] / 1.70 < 1.38
     for name, factors in (("wheel_teeth", [1.25, 1.30]), ("axial_module", [1.35, 1.40])):
@@ -189,10 +189,10 @@ def test_thirty_degrees_and_smooth_flanks_add_what_the_thesis_gained_by_design()
 @pytest.mark.parametrize(("gamma", "mu", "forward"), [(20.0, 0.05, 0.86322), (5.0, 0.1, 0.46255)])
 def test_efficiency_is_that_of_the_inclined_plane(gamma, mu, forward):
     lead = math.radians(gamma)
-    assert iso.worm_driving_efficiency(lead, mu) == pytest.approx(forward, abs=5e-6)
+    assert iso.efficiency.worm_driving_efficiency(lead, mu) == pytest.approx(forward, abs=5e-6)
     slope = math.tan(lead)
     plane = (slope - mu) / (1.0 + mu * slope) / slope
-    assert iso.wheel_driving_efficiency(lead, mu) == pytest.approx(plane, rel=1e-13)
+    assert iso.efficiency.wheel_driving_efficiency(lead, mu) == pytest.approx(plane, rel=1e-13)
 
 
 @pytest.mark.parametrize(
@@ -208,7 +208,7 @@ def test_efficiency_is_that_of_the_inclined_plane(gamma, mu, forward):
 )
 def test_equivalent_modulus_against_case_hardened_steel_is_the_printed_one(name, modulus):
     worm, wheel = find(WormMaterial, "case-hardened steel"), find(WheelMaterial, name)
-    ours = iso.reduced_modulus(
+    ours = iso.contact.reduced_modulus(
         worm.youngs_modulus * 1e-6,
         worm.poisson_ratio,
         wheel.youngs_modulus * 1e-6,
@@ -222,7 +222,7 @@ def test_heat_balance_at_100_mm_is_the_known_one_and_cooler_with_a_fan(fan, idle
     place = {"worm_speed": 1500.0, "ratio": 20.0, "centre_distance": 100.0, "viscosity_40": 220.0}
     oil = 1.0 - 9.0 / (0.332 * math.sqrt(1500.0) - 14.9 + 82.877)
     still, loaded = (
-        (iso.sump_temperature(torque, **place, ambient_temperature=0.0, fan=fan)) / oil
+        (iso.thermal.sump_temperature(torque, **place, ambient_temperature=0.0, fan=fan)) / oil
         for torque in (0.0, 1000.0)
     )
     assert still == pytest.approx(idle, abs=0.1)
@@ -231,7 +231,7 @@ def test_heat_balance_at_100_mm_is_the_known_one_and_cooler_with_a_fan(fan, idle
 
 def test_the_heat_balance_without_a_fan_dips_at_one_viscosity():
     def at(viscosity):
-        return iso.sump_temperature(0.0, 1500.0, 20.0, 100.0, viscosity, 0.0)
+        return iso.thermal.sump_temperature(0.0, 1500.0, 20.0, 100.0, viscosity, 0.0)
 
     assert at(220.3) < 0.6 * at(200.0)
     assert at(220.0) < 0.92 * at(200.0)
@@ -241,7 +241,7 @@ def test_the_heat_balance_without_a_fan_dips_at_one_viscosity():
 def test_edition_1998_knows_no_pressure_angle_and_ends_for_a_40_tooth_wheel_likewise():
     shape = dict(zip(NAMES, (1, 40, 8.0, 1.7, ALPHA), strict=True))
     gearset = {**shape, "profile_shift": 0.0, "edition": "1998"}
-    limits = film_limits(iso.film_parameter.body, gearset)
+    limits = film_limits(iso.film.film_parameter.body, gearset)
     assert limits["pressure_angle"] is None
     assert limits["ratio"] / 40.0 == pytest.approx(1.28, abs=0.005)
     assert limits["axial_module"] / 1.7 == pytest.approx(1.39, abs=0.005)
@@ -250,11 +250,11 @@ def test_edition_1998_knows_no_pressure_angle_and_ends_for_a_40_tooth_wheel_like
 def test_both_editions_are_near_each_other_for_common_gearsets():
     teeth, q = np.meshgrid(np.arange(30.0, 61.0, 5.0), np.arange(7.0, 13.0))
     shape = (2, teeth, q, 5.0, ALPHA)
-    film = [iso.film_parameter(*shape, edition=edition) for edition in ("1998", "2010")]
+    film = [iso.film.film_parameter(*shape, edition=edition) for edition in ("1998", "2010")]
     assert np.all(np.abs(film[0] / film[1] - 1.0) < 0.12)
     distance = relations.centre_distance(5.0, q, teeth)
     pressure = [
-        iso.contact_parameter(2, teeth, q, 5.0, distance, ALPHA, edition=edition)
+        iso.contact.contact_parameter(2, teeth, q, 5.0, distance, ALPHA, edition=edition)
         for edition in ("1998", "2010")
     ]
     assert np.all(np.abs(pressure[0] / pressure[1] - 1.0) < 0.2)
@@ -262,18 +262,23 @@ def test_both_editions_are_near_each_other_for_common_gearsets():
 
 def test_concave_flanks_carry_more_and_keep_a_thicker_film():
     shape = (2, 40.0, 10.0, 5.0)
-    assert iso.film_parameter(*shape, ALPHA, flank="ZC") > iso.film_parameter(*shape, ALPHA)
+    assert iso.film.film_parameter(*shape, ALPHA, flank="ZC") > iso.film.film_parameter(
+        *shape, ALPHA
+    )
     ours = [
-        iso.contact_parameter(*shape, 125.0, ALPHA, flank=flank) for flank in ("ZC", "ZA", "ZI")
+        iso.contact.contact_parameter(*shape, 125.0, ALPHA, flank=flank)
+        for flank in ("ZC", "ZA", "ZI")
     ]
     assert ours[0] == pytest.approx(0.78 * ours[1], rel=0.02)
     assert ours[1] == ours[2]
-    assert iso.path_parameter(20.0, 0.2, flank="ZC") > iso.path_parameter(20.0, 0.2, flank="ZK")
+    assert iso.contact.path_parameter(20.0, 0.2, flank="ZC") > iso.contact.path_parameter(
+        20.0, 0.2, flank="ZK"
+    )
 
 
 def test_the_width_of_which_programs_differ_counts_less_than_a_thousandth():
     q, m = np.meshgrid(np.linspace(6.0, 12.0, 7), np.linspace(1.0, 10.0, 10))
-    ours = iso.film_parameter(1, 60, q, m, ALPHA)
+    ours = iso.film.film_parameter(1, 60, q, m, ALPHA)
     with_term = np.sqrt(m * (m * (6.0 * q - 9.0) + 1.0))
     without = m * np.sqrt(6.0 * q - 9.0)
 
@@ -285,18 +290,18 @@ def test_the_width_of_which_programs_differ_counts_less_than_a_thousandth():
 
 
 def test_rim_factor_jumps_little_with_our_constant_and_much_with_the_transposed_one():
-    thinner = iso.rim_factor(1.0, math.nextafter(2.0, 0.0))
+    thinner = iso.strength.rim_factor(1.0, math.nextafter(2.0, 0.0))
     assert 1.0 / thinner - 1.0 == pytest.approx(-2.0e-4, abs=1e-5)
     assert 1.043 * math.log(5.281 / 2.0) - 1.0 == pytest.approx(0.0127, abs=1e-4)
 
 
 def test_worm_deflection_is_nearly_that_of_a_beam_on_two_supports():
     force, lead, mu, diameter, first, second = 4000.0, 0.3, 0.05, 30.0, 80.0, 90.0
-    ours = iso.worm_deflection(force, lead, mu, ALPHA, diameter, first, second)
+    ours = iso.strength.worm_deflection(force, lead, mu, ALPHA, diameter, first, second)
     slope = math.tan(lead + math.atan(mu))
     load = force * math.hypot(slope, math.tan(ALPHA) / math.cos(lead))
     inertia = math.pi * (1.1 * diameter) ** 4 / 64.0
-    beam = load * first**2 * second**2 / (3.0 * iso.STEEL * inertia * (first + second))
+    beam = load * first**2 * second**2 / (3.0 * iso.strength.STEEL * inertia * (first + second))
     assert ours == pytest.approx(beam, rel=0.03)
 
 

@@ -105,9 +105,7 @@ def test_a_marched_block_flutters_as_fast_as_its_eigenvalues_say():
     found, left = np.linalg.eig(np.linalg.solve(motion.mass, motion.stiffness).T)
     reader = left[:, np.argmax(np.sqrt(-found.astype(complex)).real)]
     rest = rest_under_load(problem.system, problem.loads)
-    thrown = dataclasses.replace(
-        rest.coordinates, velocity=0.05 * np.eye(len(rest.coordinates.place))[0]
-    )
+    thrown = rest.coordinates._replace(velocity=0.05 * np.eye(len(rest.coordinates.place))[0])
     stepper = Stepper(problem.system, dataclasses.replace(rest, coordinates=thrown))
     read = []
     for number in range(1, 3001):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from apparatus.grid import grid
 from apparatus.released import released
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from asperity.block.problem import BlockProblem
@@ -27,15 +27,19 @@ LUGRE = (
     "friction.contact_damping=300 N s/m", "friction.viscous_damping=0.4 N s/m",
 )  # fmt: skip
 TWO_PHASE = ("solve.scheme=two-phase",)
-# Friction of the first may exceed mu p by what its explicit steps overshoot, LuGre's by damping.
-LOOSE = (TWO_PHASE, LUGRE)
+KEPT = (
+    ("friction.keeps=stiffness", "friction.law=split"),
+    ("friction.keeps=stiffness", "friction.law=vector", "friction.exponent=0"),
+)
 LAWS = (
+    *KEPT,
     ("friction.law=split",),
     ("friction.law=vector", "friction.exponent=2"),
     ("friction.law=vector", "friction.exponent=0"),
     ("friction.law=unsplit", "friction.exponent=0.5"),
     ("friction.model=coulomb",),
-    *LOOSE,
+    TWO_PHASE,
+    LUGRE,
 )
 SECONDS = 2e-6
 INCREMENTS = 150
@@ -82,6 +86,15 @@ def check_contact(system, contact, *, bounded):
 small = st.floats(-1.0, 1.0)
 
 
+# The overshoot of the two-phase scheme, left to itself, came to 185 times the limit here, and
+# friction fell with the slip 18 times as fast as the body could follow.
+overshooting = example(
+    law=TWO_PHASE, normal="linear", element="hex8i", modes=0, ratio=2.9595662565008274,
+    direction=36.33640453602855, where=("body", "free", 1000), lift=3.2519466429822488e-06,
+    tilt=(-0.6535157832567928, 0.5524179659718711, -4.552864450995746),
+    velocity=(0.6431002894870288, -0.36043199441398865, -0.7862445308368804, -3.456925246834252),
+    spin=(0.8387138784213759, -0.4130210112586645, 0.7875175953915796),
+)  # fmt: skip
 thrown_blocks = given(
     law=st.sampled_from(LAWS),
     normal=st.sampled_from(["linear", "two-stage", "hard"]),
@@ -103,7 +116,6 @@ thrown_blocks = given(
 
 def check_thrown(law, normal, element, modes, ratio, direction, where, lift, tilt, velocity, spin):
     shaken, lateral, force = where
-    ratio = min(ratio, 6.0) if law is TWO_PHASE else ratio
     problem = block(
         *law, f"contact.normal={normal}", f"block.modes={modes}",
         f"vibration.velocity_ratio={ratio}", f"vibration.direction={direction} deg",
@@ -118,8 +130,10 @@ def check_thrown(law, normal, element, modes, ratio, direction, where, lift, til
     before = ledger.energies(system, stepper.state)
     for number in range(1, INCREMENTS + 1):
         stepper.step_to(number * SECONDS, SECONDS)
-        check_contact(system, stepper.state.contact, bounded=law not in LOOSE)
+        check_contact(system, stepper.state.contact, bounded=law is not LUGRE)
         assert stepper.state.contact.residual <= 1e-9
+    if law in KEPT:
+        assert stepper.sums.friction_gain <= 1e-9 * stepper.sums.slip_work
     balance = ledger.power_ledger(stepper.sums, before, ledger.energies(system, stepper.state))
     sums = powers(balance)
     assert np.isfinite(sums).all()
@@ -132,10 +146,17 @@ def check_thrown(law, normal, element, modes, ratio, direction, where, lift, til
 
 test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_on = settings(
     max_examples=8
-)(thrown_blocks(check_thrown))
+)(overshooting(thrown_blocks(check_thrown)))
 test_a_block_thrown_again_and_again_on_its_vibrating_base_marches_on = pytest.mark.slow(
     settings(max_examples=24)(thrown_blocks(check_thrown))
 )
+
+
+def test_asperities_that_slip_too_far_for_the_two_phase_scheme_in_any_step_are_an_error():
+    system = block(*TWO_PHASE).system
+    stepper = thrown(system, 1e-9, (0.0, 0.0), (50.0, 0.0, -1e-2), (0.0, 0.0, 0.0))
+    with pytest.raises(ConvergenceError, match=r"two-phase scheme bends asperities to .* times"):
+        stepper.step_to(SECONDS, SECONDS)
 
 
 def mechanical_energy(system, state):
@@ -248,9 +269,9 @@ def leaving_speed(height, *, impact):
     method = hht.step_operator(mass, none, 1.0, impact=impact)
     state = hht.Coordinates.at_rest(1, place=np.array([height]), velocity=np.array([-1.0]))
     for _ in range(60):
-        place, _ = method.predict(state, np.zeros(1))
+        place, _ = hht.predict(method, state, np.zeros(1))
         force = np.maximum(-place / method.compliance[0], 0.0)
-        state, _, _ = method.complete(state, place + method.compliance[0] * force, force)
+        state, _, _ = hht.complete(method, state, place + method.compliance[0] * force, force)
     return float(state.velocity[0])
 
 

@@ -69,15 +69,19 @@ def in_si(gearset):
 def test_efficiency_of_the_teeth_falls_with_friction(lead, one, other):
     low, high = sorted((one, other))
     assume(high - low > 1e-9 and lead + math.atan(high) < 1.5)
-    assert iso.worm_driving_efficiency(lead, low) > iso.worm_driving_efficiency(lead, high)
-    assert iso.wheel_driving_efficiency(lead, low) > iso.wheel_driving_efficiency(lead, high)
+    assert iso.efficiency.worm_driving_efficiency(
+        lead, low
+    ) > iso.efficiency.worm_driving_efficiency(lead, high)
+    assert iso.efficiency.wheel_driving_efficiency(
+        lead, low
+    ) > iso.efficiency.wheel_driving_efficiency(lead, high)
 
 
 @given(leads)
 def test_without_friction_nothing_is_lost_between_the_teeth(lead):
-    assert iso.worm_driving_efficiency(lead, 0.0) == 1.0
-    assert iso.wheel_driving_efficiency(lead, 0.0) == 1.0
-    assert iso.meshing_loss(100.0, 1000.0, 20.0, 1.0) == 0.0
+    assert iso.efficiency.worm_driving_efficiency(lead, 0.0) == 1.0
+    assert iso.efficiency.wheel_driving_efficiency(lead, 0.0) == 1.0
+    assert iso.losses.meshing_loss(100.0, 1000.0, 20.0, 1.0) == 0.0
 
 
 @given(leads, st.floats(0.0, 3.0), st.integers(-3, 3))
@@ -86,7 +90,7 @@ def test_wheel_cannot_drive_exactly_where_the_lead_is_within_the_friction_angle(
     for _ in range(abs(steps)):
         near = math.nextafter(near, math.inf if steps > 0 else 0.0)
     for friction in (mu, near):
-        efficiency = iso.wheel_driving_efficiency(lead, friction)
+        efficiency = iso.efficiency.wheel_driving_efficiency(lead, friction)
         assert (efficiency <= 0.0) == (lead <= np.arctan(friction))
 
 
@@ -109,8 +113,8 @@ def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
     z1, z2, q = (gearset[name] for name in ("starts", "wheel_teeth", "diameter_factor"))
     m, alpha, x2 = (gearset[name] for name in ("axial_module", "pressure_angle", "profile_shift"))
     words = {"edition": edition, "flank": flank}
-    shape = {n: v for n, v in gearset.items() if n in iso.film_parameter.parameters}
-    limits = film_limits(iso.film_parameter.body, {**shape, **words})
+    shape = {n: v for n, v in gearset.items() if n in iso.film.film_parameter.parameters}
+    limits = film_limits(iso.film.film_parameter.body, {**shape, **words})
     a = relations.centre_distance(m, q, z2, x2)
     for name, value in limits.items():
         if value is None:
@@ -128,7 +132,7 @@ def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
         for factor in (1.0 - 1e-6, 1.0 + 1e-6):
             side = {**now, key: now[key] * factor}
             shift = relations.profile_shift(side["a"], side["m"], side["q"], side["z2"])
-            masked = iso.film_parameter(
+            masked = iso.film.film_parameter(
                 *(np.array([x]) for x in (z1, side["z2"], side["q"], side["m"], side["alpha"])),
                 np.array([shift]),
                 **words,
@@ -150,12 +154,12 @@ def test_more_roughness_or_base_friction_never_helps(gearset, words):
 @given(leads, frictions, st.floats(1.0, 1e5), st.floats(0.2, 0.6))
 def test_forces_give_the_work_that_the_efficiency_says(lead, mu, force, alpha):
     assume(lead + math.atan(mu) < 1.5)
-    worm = iso.worm_tangential_force(force, lead, mu)
+    worm = iso.forces.worm_tangential_force(force, lead, mu)
     # One turn of the worm advances the wheel's pitch circle by the lead.
     assert force * math.tan(lead) / worm == pytest.approx(
-        iso.worm_driving_efficiency(lead, mu), rel=1e-12
+        iso.efficiency.worm_driving_efficiency(lead, mu), rel=1e-12
     )
-    assert iso.separating_force(worm, alpha, lead, mu) > 0.0
+    assert iso.forces.separating_force(worm, alpha, lead, mu) > 0.0
 
 
 def branch_points():
@@ -164,19 +168,19 @@ def branch_points():
         for lubrication in get_args(Lubrication):
             for oil in get_args(BaseOilName):
                 words = {"family": family, "lubrication": lubrication, "base_oil": oil}
-                law = iso.friction_constants(family, lubrication, oil)
+                law = iso.tables.friction_constants(family, lubrication, oil)
                 cap = (law.gain / (law.cap - law.offset)) ** (1.0 / law.exponent) - law.shift
                 if cap > 0.0:
-                    yield functools.partial(iso.base_friction, **words), cap
-                wear = iso.wear_constants(family, lubrication, oil)
+                    yield functools.partial(iso.friction.base_friction, **words), cap
+                wear = iso.tables.wear_constants(family, lubrication, oil)
                 if math.isfinite(wear.cap):
                     cap = (wear.scale / wear.cap) ** (1.0 / wear.exponent)
-                    yield functools.partial(iso.reference_wear_intensity, **words), cap
-    yield iso.pressure_factor, 450.0
-    yield iso.start_factor, 200.0
-    yield iso.pitting_life_factor, 25000.0 / 1.6**6
-    yield iso.pitting_ratio_factor, 20.5
-    yield iso.heat_transfer_coefficient, 150.0
+                    yield functools.partial(iso.wear.reference_wear_intensity, **words), cap
+    yield iso.wear.pressure_factor, 450.0
+    yield iso.wear.start_factor, 200.0
+    yield iso.pitting.pitting_life_factor, 25000.0 / 1.6**6
+    yield iso.pitting.pitting_ratio_factor, 20.5
+    yield iso.thermal.heat_transfer_coefficient, 150.0
 
 
 def test_no_formula_but_the_rim_factor_jumps_at_its_branch_points():
@@ -190,13 +194,13 @@ def test_no_formula_but_the_rim_factor_jumps_at_its_branch_points():
 @given(st.floats(1e-3, 1e3), st.floats(1e-12, 1e-9))
 def test_the_bent_curves_are_continuous_everywhere(value, step):
     for formula, scale in (
-        (iso.base_friction, 1.0),
-        (iso.pressure_factor, 1.0),
-        (iso.start_factor, 1.0),
-        (iso.pitting_life_factor, 100.0),
-        (iso.pitting_ratio_factor, 1.0),
-        (iso.heat_transfer_coefficient, 1.0),
-        (iso.reference_wear_intensity, 0.01),
+        (iso.friction.base_friction, 1.0),
+        (iso.wear.pressure_factor, 1.0),
+        (iso.wear.start_factor, 1.0),
+        (iso.pitting.pitting_life_factor, 100.0),
+        (iso.pitting.pitting_ratio_factor, 1.0),
+        (iso.thermal.heat_transfer_coefficient, 1.0),
+        (iso.wear.reference_wear_intensity, 0.01),
     ):
         one, other = formula(scale * value), formula(scale * value * (1.0 + step))
         assert other == pytest.approx(one, rel=10.0 * step + 1e-14), formula.__name__

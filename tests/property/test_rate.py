@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate, variants
-from asperity.rating.iso14521 import wheel_driving_efficiency
+from asperity.rating.iso14521.efficiency import wheel_driving_efficiency
 from asperity.rating.self_locking import locking_friction
 
 VARIED = {

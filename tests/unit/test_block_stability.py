@@ -113,9 +113,9 @@ def linear_step(block, motion, state):
         motion.mass, np.zeros_like(motion.mass), block.timetable.step,
         damping=np.diag(motion.damping).copy(),
     )  # fmt: skip
-    place, _ = step.predict(state, np.zeros(len(motion.mass)))
+    place, _ = hht.predict(step, state, np.zeros(len(motion.mass)))
     place = np.linalg.solve(np.eye(len(place)) + step.compliance @ motion.stiffness, place)
-    return step.complete(state, place, -motion.stiffness @ place)[0]
+    return hht.complete(step, state, place, -motion.stiffness @ place)[0]
 
 
 def test_eigenvalues_in_steps_are_those_of_the_steps_that_are_taken():

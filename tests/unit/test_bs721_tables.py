@@ -30,64 +30,66 @@ def write(tmp_path):
 
 
 def test_own_file_replaces_the_tables_it_holds_and_no_others(write):
-    own = bs721.read_tables(write(OWN))
-    assert bs721.strength_speed_factor(1000.5, tables=own) == pytest.approx(0.4)
-    assert bs721.wear_speed_factor(1.0, 100.0, tables=own) == bs721.wear_speed_factor(1.0, 100.0)
+    own = bs721.tables.read_tables(write(OWN))
+    assert bs721.torque.strength_speed_factor(1000.5, tables=own) == pytest.approx(0.4)
+    assert bs721.torque.wear_speed_factor(1.0, 100.0, tables=own) == bs721.torque.wear_speed_factor(
+        1.0, 100.0
+    )
     assert own.sources["strength_speed_factor"].confidence == "one source"
     assert own.sources["zone_factor"].confidence == "from memory"
-    assert bs721.strength_speed_factor(60.0) == 0.45
+    assert bs721.torque.strength_speed_factor(60.0) == 0.45
 
 
 def test_own_rows_of_the_zone_factor_bring_other_starts(write):
-    own = bs721.read_tables(
+    own = bs721.tables.read_tables(
         write(
             '[zone_factor]\nsource = "own"\nconfidence = "one source"\n'
             "diameter_factor = [8, 10]\nstarts = { 2 = [1.1, 1.2], 6 = [1.3, 1.4] }\n"
         )
     )
     width = 2.0 * 10.0**0.5
-    assert bs721.zone_factor(6, 9.0, width, 1.0, tables=own) == pytest.approx(1.35)
+    assert bs721.torque.zone_factor(6, 9.0, width, 1.0, tables=own) == pytest.approx(1.35)
     with pytest.raises(InputError, match="rows for 2, 6 starts"):
-        bs721.zone_factor(4, 9.0, width, 1.0, tables=own)
+        bs721.torque.zone_factor(4, 9.0, width, 1.0, tables=own)
 
 
 @pytest.mark.parametrize(
     ("call", "words"),
     [
         (
-            lambda: bs721.wear_speed_factor(31.0, 100.0),
+            lambda: bs721.torque.wear_speed_factor(31.0, 100.0),
             "sliding_velocity is 31 m/s; it must be from 0 to 30",
         ),
         (
-            lambda: bs721.wear_speed_factor(1.0, 0.1),
+            lambda: bs721.torque.wear_speed_factor(1.0, 0.1),
             "wheel_speed is 0.1 rpm; it must be from 0.5 to 600",
         ),
         (
-            lambda: bs721.strength_speed_factor(1440.0),
+            lambda: bs721.torque.strength_speed_factor(1440.0),
             "wheel_speed is 1440 rpm; it must be from 1 to 1200",
         ),
         (
-            lambda: bs721.zone_factor(4, 5.0, 10.0, 2.0),
+            lambda: bs721.torque.zone_factor(4, 5.0, 10.0, 2.0),
             "diameter_factor is 5; it must be from 6 to 20",
         ),
         (
-            lambda: bs721.zone_factor(5, 8.0, 10.0, 2.0),
+            lambda: bs721.torque.zone_factor(5, 8.0, 10.0, 2.0),
             "starts is 5; .* rows for 1, 2, 3, 4 starts",
         ),
     ],
 )
 def test_end_of_a_table_is_a_named_error(call, words):
-    with pytest.raises(bs721.TableRangeError, match=words):
+    with pytest.raises(bs721.tables.TableRangeError, match=words):
         call()
 
 
 def test_start_between_rows_is_refused():
     with pytest.raises(InputError, match="rows for 1, 2, 3, 4 starts"):
-        bs721.zone_factor(1.5, 8.0, 10.0, 2.0)
+        bs721.torque.zone_factor(1.5, 8.0, 10.0, 2.0)
 
 
 def test_end_of_a_table_is_masked_in_arrays():
-    result = bs721.strength_speed_factor([60.0, 1440.0], on_invalid="mask")
+    result = bs721.torque.strength_speed_factor([60.0, 1440.0], on_invalid="mask")
     assert result.values[0] == 0.45
     assert result.reason[0] == 0
     assert "from 1 to 1200 rpm" in result.legend[result.reason[1]]
@@ -142,14 +144,17 @@ def test_variant_masked_for_strength_alone_has_no_smallest_torque():
         (lambda t: t.bending_stress_factor("wheel", "aluminium"), "nothing for 'wheel' with"),
         (lambda t: t.surface_stress_factor("aluminium", "0.4C steel"), "no row for 'aluminium'"),
         (lambda t: t.bending_stress_factor("worm", "0.5C steel"), "did you mean '0.55C steel'"),
-        (lambda t: bs721.root_arc(50.0, 22.4, 8.0, 8.2, 0.45), "tip diameter"),
-        (lambda t: bs721.wear_speed_factor(1.0, -1.0), "speed is -1 rpm; it must be positive"),
-        (lambda t: bs721.wear_speed_factor(1.0, float("nan")), "speed is nan rpm"),
+        (lambda t: bs721.torque.root_arc(50.0, 22.4, 8.0, 8.2, 0.45), "tip diameter"),
+        (
+            lambda t: bs721.torque.wear_speed_factor(1.0, -1.0),
+            "speed is -1 rpm; it must be positive",
+        ),
+        (lambda t: bs721.torque.wear_speed_factor(1.0, float("nan")), "speed is nan rpm"),
     ],
 )
 def test_what_cannot_be_rated_is_refused(call, words):
     with pytest.raises(InputError, match=words):
-        call(bs721.read_tables())
+        call(bs721.tables.read_tables())
 
 
 HEAD = 'source = "own"\nconfidence = "one source"\n'
@@ -181,10 +186,10 @@ HEAD = 'source = "own"\nconfidence = "one source"\n'
 )
 def test_wrong_file_of_tables_is_refused_in_one_line(write, text, words):
     with pytest.raises(InputError, match=words) as caught:
-        bs721.read_tables(write(text))
+        bs721.tables.read_tables(write(text))
     assert "\n" not in str(caught.value)
 
 
 def test_missing_file_of_tables_is_refused(tmp_path):
     with pytest.raises(InputError, match="cannot be read: no such file"):
-        bs721.read_tables(tmp_path / "none.toml")
+        bs721.tables.read_tables(tmp_path / "none.toml")

@@ -359,7 +359,7 @@ def test_two_stages_are_written_point_by_point():
     # CalculiX does not come to an equilibrium with such a table: a line to the mean pressure.
     options, rows = calculix.all("SURFACE BEHAVIOR")[0]
     assert options == {"PRESSURE-OVERCLOSURE": "LINEAR"}
-    assert float(rows[0][0]) * overclosure(setup) == pytest.approx(setup.mean_pressure)
+    assert float(rows[0][0]) * overclosure(setup) == pytest.approx(setup.problem.mean_pressure)
 
 
 def test_two_stages_are_written_as_far_as_a_block_goes():
@@ -368,7 +368,7 @@ def test_two_stages_are_written_as_far_as_a_block_goes():
     table = np.array(setup.pressure_table())
     assert np.all(np.diff(table, axis=0) > 0.0)
     assert table[0] == pytest.approx([0.0, 0.0])
-    assert table[-1, 0] == pytest.approx(100.0 * setup.mean_pressure)
+    assert table[-1, 0] == pytest.approx(100.0 * setup.problem.mean_pressure)
 
 
 def test_the_block_stands_in_the_base_as_deep_as_its_mean_pressure_presses_it():
@@ -377,7 +377,7 @@ def test_the_block_stands_in_the_base_as_deep_as_its_mean_pressure_presses_it():
         setup = setup_of(*settings)
         depth = overclosure(setup)
         assert pressure(depth, 0.0, setup.normal.numbers)[0] == pytest.approx(
-            setup.mean_pressure, rel=1e-9
+            setup.problem.mean_pressure, rel=1e-9
         )
 
 

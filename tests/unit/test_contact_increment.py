@@ -43,6 +43,10 @@ LAWS = {
     "two-phase-2": PointFriction(TWO_PHASE, 0.3, LIMIT, SPLIT, 2.0),
     "lugre": PointFriction(LUGRE, 0.3, LIMIT, VECTOR, 1.0, 1.4, 2e-3, 1e-2, 2e-3),
 }
+LAWS |= {
+    f"{name}, stiffness kept": dataclasses.replace(LAWS[name], reference=4e6)
+    for name in ("dahl-vector", "dahl-vector-0", "dahl-split", "dahl-unsplit-1.5", "lugre")
+}
 
 
 def flexible(surface, *, youngs_modulus=2e11, held=1e-10):
@@ -149,7 +153,16 @@ def test_a_deflection_beyond_its_limit_stays_there_under_further_slip(exponent, 
     size, slip = 1.0 + over, 0.2
     assert phases(size, 1.0, 0.0, slip, 0.0, slip, 0.0, exponent, False) == (size, 1.0, 0.0)
     found = share_and_tangent(
-        size * LIMIT, 0.0, size, slip * LIMIT, 0.0, slip * LIMIT, 0.0, False, law.numbers(0.0)
+        size * LIMIT,
+        0.0,
+        size,
+        slip * LIMIT,
+        0.0,
+        slip * LIMIT,
+        0.0,
+        False,
+        law.numbers(0.0),
+        1.0,
     )
     assert found[:5] == pytest.approx((size * LIMIT, 0.0, size, size, 0.0), rel=1e-15)
     assert np.isfinite(found[5] + found[6]).all()

@@ -13,7 +13,13 @@ from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
-from asperity.contact.motion.works import overclosure_work, potential, surface_energies, works
+from asperity.contact.motion.works import (
+    Asperities,
+    overclosure_work,
+    potential,
+    surface_energies,
+    works,
+)
 
 LINEAR = NormalLaw(stiffness=4e13)
 TWO_STAGE = NormalLaw("two-stage", 4e13, 4e12, 1e-7, 3e-7)
@@ -35,8 +41,10 @@ def pressures(distance, law):
     return np.array([[pressure(-d, 0.0, law)[0] for d in row] for row in distance])
 
 
+@pytest.mark.parametrize("reference", [0.0, 3e6])
 @pytest.mark.parametrize("law", LAWS)
-def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law):
+def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law, reference):
+    kept = Asperities(MU / LIMIT, reference)
     parameters = LAWS[law].numbers
     distance, deflection, weights = steps_of()
     pressed = pressures(distance, parameters)
@@ -57,13 +65,13 @@ def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law):
             none,
             weights,
             parameters,
-            MU / LIMIT,
+            kept,
         )
         for n in range(len(distance) - 1)
     ]
     over, asperities = np.subtract(
         *(
-            surface_energies(pressed[n], distance[n], deflection[n], weights, parameters, MU, LIMIT)
+            surface_energies(pressed[n], distance[n], deflection[n], weights, parameters, kept)
             for n in (-1, 0)
         )
     )
@@ -132,6 +140,25 @@ def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypat
 
         monkeypatch.setattr(ledger, "surface_energies", wrong)
         assert balance(stepper, before).residual > 3.0 * CLOSED
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        (),
+        ("friction.law=vector", "friction.exponent=0"),
+        ("vibration.direction=45 deg",),
+        ("friction.model=lugre", "friction.law=vector"),
+    ],
+)
+def test_friction_gives_energy_where_asperities_keep_their_deflection_alone(law):
+    shares = {}
+    for keeps in ("stiffness", "deflection"):
+        stepper, before = marched(80, settings=(f"friction.keeps={keeps}", *law), **SHAKEN)
+        assert balance(stepper, before).residual < CLOSED
+        shares[keeps] = stepper.sums.friction_gain / stepper.sums.slip_work
+    assert shares["stiffness"] < 1e-9
+    assert shares["deflection"] > 1e-3
 
 
 def test_friction_is_what_it_is_whatever_is_said_to_be_stored(monkeypatch):

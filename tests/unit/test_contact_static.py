@@ -68,18 +68,6 @@ def test_a_turn_bears_the_moment_of_its_forces():
     assert pose.rotation @ centre + pose.translation == pytest.approx(centre, abs=1e-18)
 
 
-def test_other_loads_come_with_the_way_and_stay():
-    solver = solver_of(counter=RigidSurface.plane())
-    free = BODY.load_flexibility[:, BODY.load_index("side")] * 1e6
-    guide = Guide(UP)
-    state = move_to(solver, guide, 1e-6, free=free, increments=3)
-    assert state.contact.displacement == pytest.approx(
-        free + BODY.flexibility @ state.contact.force, abs=1e-15
-    )
-    again = move_to(solver, guide, 1e-6, start=state, free=free)
-    assert again.load == pytest.approx(state.load, rel=1e-7)
-
-
 @pytest.mark.parametrize("counter", ["plane", "sphere"])
 def test_the_work_of_the_surface_is_stored_by_the_body_and_lost_by_friction(counter):
     surface = RigidSurface.plane() if counter == "plane" else RigidSurface.sphere(RADIUS)

@@ -73,18 +73,18 @@ def value(equation, numbers):
 TOGETHER = {
     relations.worm_reach: {"wheel_outside_diameter": 9.0, "worm_tip_diameter": 3.0},
     relations.reference_chord: {"diameter_factor": 8.0},
-    iso14521.worm_driving_efficiency: {"mean_friction": 0.1},
-    iso14521.worm_tangential_force: {"lead_angle": 0.3},
-    iso14521.worm_deflection: {"lead_angle": 0.3},
-    bs721.root_arc: {"worm_tip_diameter": 3.0},
-    agma6034.friction_force: {"lead_angle": 0.3, "pressure_angle": 0.3},
-    agma6034.worm_tangential_load: {"lead_angle": 0.3, "pressure_angle": 0.3},
+    iso14521.efficiency.worm_driving_efficiency: {"mean_friction": 0.1},
+    iso14521.forces.worm_tangential_force: {"lead_angle": 0.3},
+    iso14521.strength.worm_deflection: {"lead_angle": 0.3},
+    bs721.torque.root_arc: {"worm_tip_diameter": 3.0},
+    agma6034.forces.friction_force: {"lead_angle": 0.3, "pressure_angle": 0.3},
+    agma6034.forces.worm_tangential_load: {"lead_angle": 0.3, "pressure_angle": 0.3},
 }
 # A number within each piece of what is defined by pieces.
 PIECES = {
-    agma6034.friction: (0.0, 0.03, 0.06),
-    agma6034.ratio_correction_factor: (10.0, 50.0, 100.0),
-    agma6034.velocity_factor: (1.0, 8.0, 20.0),
+    agma6034.mesh.friction: (0.0, 0.03, 0.06),
+    agma6034.capacity.ratio_correction_factor: (10.0, 50.0, 100.0),
+    agma6034.capacity.velocity_factor: (1.0, 8.0, 20.0),
 }
 
 

@@ -317,10 +317,9 @@ def test_springs_and_loads_are_checked(entries, words):
     assert words in refusal(mu=0.1, max_deflection=1e-7, **entries)
 
 
-def test_coulomb_friction_keeps_nothing():
-    assert "friction.keeps is for asperities" in refusal(
-        model="coulomb", mu=0.1, keeps="deflection"
-    )
+def test_coulomb_friction_has_no_stiffness_to_keep():
+    assert "do not deflect" in refusal(model="coulomb", mu=0.1, keeps="stiffness")
+    assert Friction(model="coulomb", mu=0.1, keeps="deflection").model == "coulomb"
 
 
 @pytest.mark.parametrize("model", ["dahl", "lugre"])
@@ -330,9 +329,17 @@ def test_an_asperity_keeps_its_stiffness_unless_told(model):
     assert kept.keeps_code == KEEPS["deflection"]
 
 
-def test_a_point_of_an_elastic_contact_does_not_claim_to_keep_its_stiffness():
-    given = {"mu": 0.1, "max_deflection": 1e-7}
-    for entries in ({}, {"keeps": "deflection"}):
-        assert PointFriction.of(Friction(**given, **entries), 55.0).limit == 1e-7
-    with pytest.raises(InputError, match="keep their deflection so far"):
-        PointFriction.of(Friction(**given, keeps="stiffness"), 55.0)
+def test_a_point_of_a_contact_takes_its_limit_at_the_mean_pressure_unless_the_deflection_stays():
+    def reference(model="dahl", two_phase=False, **entries):
+        table = Friction(model=model, mu=0.1, max_deflection=1e-7, **entries)
+        return PointFriction.of(table, 55.0, area=1e-3, two_phase=two_phase).reference
+
+    assert reference() == reference("lugre") == pytest.approx(55e3, rel=1e-15)
+    assert reference(keeps="deflection") == reference("lugre", keeps="deflection") == 0.0
+    assert reference("coulomb") == reference(two_phase=True, law="split") == 0.0
+    with pytest.raises(InputError, match="'two-phase' keeps the deflection"):
+        reference(two_phase=True, law="split", keeps="stiffness")
+    with pytest.raises(InputError, match="take 'dahl' of exponent 0"):
+        reference("springs")
+    with pytest.raises(InputError, match="proportional to the pressure"):
+        reference(load_exponent=0.5)

@@ -129,7 +129,7 @@ def differences(step, s, varied, *rest):
 
 
 def tangents(s, varied, limit_0, exponent, law, keeps):
-    _, _, _, (first, second), slope = update_loaded(
+    _, _, _, (first, second), (_, slope) = update_loaded(
         tuple(s), tuple(varied[:2]), tuple(varied[2:4]), limit_0, varied[4], exponent, law, keeps
     )
     return np.column_stack([np.reshape(first, (2, 2)), np.reshape(second, (2, 2)), slope])

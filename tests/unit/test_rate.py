@@ -24,7 +24,7 @@ from asperity.rating import (
 )
 from asperity.rating.entries import facts, starts_from, words
 from asperity.rating.inputs import inputs
-from asperity.rating.iso14521 import FilmParameterError
+from asperity.rating.iso14521.film_failure import FilmParameterError
 
 FUNCTIONS = {"sqrt", "atan", "tan", "cos", "sin", "asin", "exp", "ln", "lg", "min", "max", "pi"}
 # Words of an equation that are neither functions nor symbols of numbers in the table: what a text

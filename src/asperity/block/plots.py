@@ -1,10 +1,13 @@
-"""Pictures of a solved block: the pressure over its face. Forces in time are the slider's."""
+"""Pictures of a solved block: the pressure over its face, and friction over a settled cycle.
+
+Forces in time are the slider's.
+"""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import panels
+from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -14,6 +17,8 @@ if TYPE_CHECKING:
 
 
 _LEVELS = 24
+# Share of full friction below which a force across the drive is rounding.
+_SHOWN = 1e-4
 
 
 def plot_pressure(dataset: "xr.Dataset") -> "Figure":
@@ -51,6 +56,32 @@ def plot_pressure(dataset: "xr.Dataset") -> "Figure":
         f"Contact pressure, mean {mean:.3g} kPa;\ngreatest at an integration point {peak:.3g} kPa",
         fontsize="medium",
     )
+    return figure
+
+
+def plot_settled(dataset: "xr.Dataset") -> "Figure":
+    """Draw the friction of a settled block over one cycle beside that of the sliding body."""
+    full, mean = float(dataset["static_drive_force"]), float(dataset["mean_drive_force"])
+    largest = abs(dataset["friction"]).max("phase")
+    axes_shown = [axis for axis in ("x", "y") if largest.sel(axis=axis) > _SHOWN * full]
+    figure, panes = panels(len(axes_shown), height=2.2 + 2.0 * len(axes_shown))
+    phase = np.concatenate([[0.0], dataset["phase"].values])
+    for axes, axis in zip(panes, axes_shown, strict=True):
+        for name, label, style in (
+            ("slider_friction", "sliding body", {"color": BLACK, "dashes": (5, 2)}),
+            ("friction", "elastic block", {"color": BLUE if axis == "x" else VERMILION}),
+        ):
+            force = dataset[name].sel(axis=axis).values
+            # A cycle begins where the one before it ended.
+            axes.plot(phase, [force[-1], *force], label=label, **style)
+        axes.set_ylabel("friction (N)")
+        axes.margins(x=0.0)
+    panes[-1].set_xlabel("time over the period of the vibration")
+    panes[0].axhline(mean, color=BLUE, linewidth=1.0, dashes=(1, 1), label="mean drive force")
+    panes[0].set_title(rf"Along the drive, mean {mean / full:.4g} $\mu F_N$", loc="left")
+    if len(panes) > 1:
+        panes[1].set_title("Across it", loc="left")
+    legend(panes[0], loc="best")
     return figure
 
 

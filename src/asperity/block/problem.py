@@ -149,6 +149,11 @@ class BlockProblem:
         return self.model.slider.mass or 0.0
 
     @property
+    def mean_pressure(self) -> float:
+        """Nominal mean pressure of the contact, Pa."""
+        return self.model.slider.normal_force / self.block.area
+
+    @property
     def top_pressure(self) -> float:
         """Pressure on the top that adds to gravity what is missing from the normal force, Pa."""
         return (self.model.slider.normal_force - self.mass * STANDARD_GRAVITY) / self.block.area
@@ -216,7 +221,10 @@ class BlockProblem:
         """Friction at a point of the contact."""
         slider, solve = self.model.slider, self.model.solve
         return PointFriction.of(
-            self.model.friction, slider.normal_force, two_phase=solve.scheme == "two-phase"
+            self.model.friction,
+            slider.normal_force,
+            area=self.block.size[0] * self.block.size[1],
+            two_phase=solve.scheme == "two-phase",
         )
 
     @functools.cached_property
@@ -250,8 +258,8 @@ class BlockProblem:
     @functools.cached_property
     def compliance(self) -> BaseCompliance:
         """How the bottom gives under friction spread evenly over it, at the mean pressure."""
-        mean_pressure = self.model.slider.normal_force / self.surface.area
-        return base_compliance(self.system.mechanism, self.surface, self.normal, mean_pressure)
+        mechanism = self.system.mechanism
+        return base_compliance(mechanism, self.surface, self.normal, self.mean_pressure)
 
 
 def _pull() -> Traction:
@@ -276,7 +284,7 @@ def mechanism(
     mass[:6, :6] = body.mass
     stiffness[6:, 6:] = np.diag(body.mode_stiffness)
     resistance = np.zeros(size)
-    resistance[6:] = 2.0 * damping_ratio * np.sqrt(body.mode_mass * body.mode_stiffness)
+    resistance[6:] = 2.0 * damping_ratio * np.sqrt(body.mode_stiffness)
     pull, damping = drive
     port = _combined(body, {_DRIVE: 1.0})
     return mo.Mechanism(

@@ -15,35 +15,7 @@ from asperity.slider.result import inputs as slider_inputs
 
 
 class BlockResult(SlideResult):
-    """The answer for one elastic block; see `SlideResult` for what it shares with a sliding body.
-
-    Attributes
-    ----------
-    problem : BlockProblem
-        What was solved.
-    normal_force : float
-        Mean normal force in the window, N.
-    iterations_mean, iterations_max : float
-        Iterations of an increment in the window.
-    cuts : int
-        Increments that were taken again in halves.
-    unconverged : int
-        Increments, or parts of those taken in halves, that ended above the tolerance, where the
-        arithmetic has no more digits.
-    residual_increment_max : float
-        Greatest relative residual of an increment in the whole march.
-    march_seconds : float
-        Time that increments took, s, without the first of a program (which may have compiled
-        kernels), and without what was done between them.
-    timed : int
-        How many those are.
-    point_pressure : ndarray, shape (q,)
-        Mean pressure in the window at the points of the contact, Pa.
-    peak_pressure : float
-        Greatest pressure at any point and time in the window, Pa.
-    frames : tuple of Frame
-        Moments for an animation: the last two cycles, or the whole run without vibration.
-    """
+    """The answer for one elastic block: that of a sliding body, and what only a contact has."""
 
     title: ClassVar[str] = "Elastic block"
     stem: ClassVar[str] = "block"
@@ -68,14 +40,18 @@ class BlockResult(SlideResult):
         """Greatest pressure at any point and time in the window, MPa."""
         return 1e-6 * self.peak_pressure
 
+    #: Of increments in the window.
     iterations_mean: float = quantity("", "", "mean iterations of an increment")
     iterations_max: int = quantity("", "", "iterations of an increment, most")
     cuts: int = quantity(
         "", "", "increments taken again in halves", key="increments_cut",
         variable="increments_cut", shown=False,
     )  # fmt: skip
+    #: Increments, or parts of those taken in halves, where the arithmetic has no more digits.
     unconverged: int = quantity("", "", "increments above the tolerance", shown=False)
     residual_increment_max: float = quantity("", "", "residual of an increment, greatest")
+    #: Time that increments took, s, without the first of a program (which may have compiled
+    #: kernels), and without what was done between them; and how many those are.
     march_seconds: float
     timed: int
 
@@ -85,10 +61,11 @@ class BlockResult(SlideResult):
         """Mean time of an increment, ms."""
         return 1e3 * self.march_seconds / max(self.timed, 1)
 
-    point_pressure: FloatArray
+    point_pressure: FloatArray  #: Mean in the window at the points of the contact, Pa, (q,)
     peak_pressure: float = quantity(
         "p_max", "Pa", "greatest pressure in the window", only="file", shown=False
     )
+    #: For an animation: of the last two cycles, or of the whole run without vibration.
     frames: tuple[Frame, ...] = ()
 
     @property
@@ -188,17 +165,7 @@ class BlockResult(SlideResult):
 
 
 class UnfinishedBlock(Result):
-    """A block's motion up to where its march ended before its time.
-
-    Attributes
-    ----------
-    problem : BlockProblem
-        What was to be solved.
-    history : History
-        Motion and forces over time.
-    ended : str
-        Why.
-    """
+    """A block's motion up to where its march ended before its time, and why it did."""
 
     title: ClassVar[str] = "Elastic block, unfinished"
     stem: ClassVar[str] = "block"

@@ -33,9 +33,9 @@ def _turning_slope(sx, sy, dx, dy, limit_1, exponent, law):
 
 @kernel
 def _slip_back_slope(
-    wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law, ux, uy, tx, ty, rise
+    wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law, ux, uy, tx, ty, rise_0, rise_1
 ):  # fmt: skip
-    """Derivative of `loaded.slip_back` for ``w`` changing by u, the slip by t, the limit by one."""
+    """Derivative of `loaded.slip_back` for w, the slip and the limits changing by u, t, rise."""
     start = math.sqrt(sx * sx + sy * sy)
     size = math.sqrt(wx * wx + wy * wy)
     above = max(1.0, start / limit_0)
@@ -43,14 +43,17 @@ def _slip_back_slope(
     over = size - most
     if over <= 0.0:
         return ux, uy
+    above_t = -above / limit_0 * rise_0 if above > 1.0 else 0.0
+    most_t = above * rise_1 + limit_1 * above_t
     if exponent != 0.0 and sx * dy != sy * dx:
         rate = turning_rate(sx, sy, dx, dy, limit_1, exponent, law)
         rate /= (limit_0 + limit_1) * above
         turn = rate * over
         qx, qy, grow = _turning_slope(sx, sy, dx, dy, limit_1, exponent, law)
-        over_t = (wx * ux + wy * uy) / size - above * rise
+        over_t = (wx * ux + wy * uy) / size - most_t
         turn_t = rate * over_t
-        turn_t += turn * (qx * tx + qy * ty + (grow - 1.0 / (limit_0 + limit_1)) * rise)
+        turn_t += turn * (qx * tx + qy * ty + grow * rise_1 - above_t / above)
+        turn_t -= turn * (rise_0 + rise_1) / (limit_0 + limit_1)
         ux += turn * tx + turn_t * dx
         uy += turn * ty + turn_t * dy
         wx += turn * dx
@@ -60,16 +63,15 @@ def _slip_back_slope(
     ey = wy / size
     along = ex * ux + ey * uy
     back = most / size
-    out = above * rise
-    return back * (ux - ex * along) + ex * out, back * (uy - ey * along) + ey * out
+    return back * (ux - ex * along) + ex * most_t, back * (uy - ey * along) + ey * most_t
 
 
 @kernel
 def _held(tangent, fall):
     """Derivative by the slip after `loaded.slip_back`, of what was ``tangent`` before."""
     xx, xy, yx, yy = tangent
-    xx, yx = _slip_back_slope(*fall, xx, yx, 1.0, 0.0, 0.0)
-    xy, yy = _slip_back_slope(*fall, xy, yy, 0.0, 1.0, 0.0)
+    xx, yx = _slip_back_slope(*fall, xx, yx, 1.0, 0.0, 0.0, 0.0)
+    xy, yy = _slip_back_slope(*fall, xy, yy, 0.0, 1.0, 0.0, 0.0)
     return xx, xy, yx, yy
 
 
@@ -99,34 +101,35 @@ def update_loaded(deflection, slip_1, slip_2, limit_0, limit_1, exponent, law, k
         As `asperity.friction.friction_loss`.
     tangents : tuple of 2 tuples of 4 floats
         Derivative of the share by either slip part, ``(xx, xy, yx, yy)``.
-    slope : tuple of 2 floats
-        Derivative of the share by ``limit_1``. At kinks (a load that stays, a limit just reached)
-        that of a load that rises.
+    slopes : tuple of 2 tuples of 2 floats
+        Derivative of the share by ``limit_0`` and by ``limit_1``. At kinks (a load that stays, a
+        limit just reached) that of a load that rises.
     """
     sx, sy = deflection
     dx = slip_1[0] + slip_2[0]
     dy = slip_1[1] + slip_2[1]
     if limit_1 <= TINY:
         loss = friction_loss(sx, sy, 0.0, 0.0, dx, dy, limit_0, limit_1, keeps)
-        return (0.0, 0.0), (0.0, 0.0), loss, (_NONE, _NONE), (0.0, 0.0)
+        return (0.0, 0.0), (0.0, 0.0), loss, (_NONE, _NONE), ((0.0, 0.0), (0.0, 0.0))
     limit = 1.0 if keeps == DEFLECTION else mean_limit(limit_0, limit_1, exponent)
     (wx, wy), _, (tangent_1, tangent_2) = update(deflection, slip_1, slip_2, limit, exponent, law)
     if keeps == DEFLECTION:
         loss = friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps)
         tangents = (_times(tangent_1, limit_1), _times(tangent_2, limit_1))
-        return (wx, wy), (limit_1 * wx, limit_1 * wy), loss, tangents, (wx, wy)
+        return (wx, wy), (limit_1 * wx, limit_1 * wy), loss, tangents, ((0.0, 0.0), (wx, wy))
     hx, hy = limit_slope(
         sx / limit, sy / limit, slip_1[0] / limit, slip_1[1] / limit,
         slip_2[0] / limit, slip_2[1] / limit, exponent, law,
     )  # fmt: skip
-    if exponent != 0.0:
-        hx *= 0.5
-        hy *= 0.5
+    part = 0.0 if exponent == 0.0 else 0.5
+    slope_0 = (part * hx, part * hy)
+    slope_1 = ((1.0 - part) * hx, (1.0 - part) * hy)
     if limit_1 < limit_0 and wx * wx + wy * wy > limit_1 * limit_1:
         fall = (wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law)
         tangent_1 = _held(tangent_1, fall)
         tangent_2 = _held(tangent_2, fall)
-        hx, hy = _slip_back_slope(*fall, hx, hy, 0.0, 0.0, 1.0)
+        slope_0 = _slip_back_slope(*fall, slope_0[0], slope_0[1], 0.0, 0.0, 1.0, 0.0)
+        slope_1 = _slip_back_slope(*fall, slope_1[0], slope_1[1], 0.0, 0.0, 0.0, 1.0)
         wx, wy = slip_back(*fall)
     loss = friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps)
-    return (wx, wy), (wx, wy), loss, (tangent_1, tangent_2), (hx, hy)
+    return (wx, wy), (wx, wy), loss, (tangent_1, tangent_2), (slope_0, slope_1)

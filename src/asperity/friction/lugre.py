@@ -11,7 +11,8 @@ et al. 1995, and without a Stribeck velocity :math:`g = \mu F_N`.
 import math
 
 from asperity.compiled import kernel
-from asperity.friction.tangent import limit_slope, update
+from asperity.friction.loaded import STIFFNESS
+from asperity.friction.loaded_tangent import update_loaded
 
 
 @kernel
@@ -55,28 +56,60 @@ def lugre_update(
     tangent : tuple of 2 tuples of 4 floats
         Derivative of ``share`` by the slip parts, ``(xx, xy, yx, yy)`` each, 1/m.
     """
+    new, share, tangents, _ = lugre_loaded(
+        deflection, slip_1, slip_2, limit, 1.0, 1.0, step, static_ratio, stribeck_speed,
+        rate_damping, slip_damping, law,
+    )  # fmt: skip
+    return new, share, tangents
+
+
+@kernel
+def lugre_loaded(
+    deflection, slip_1, slip_2, limit, load_0, load_1, step,
+    static_ratio, stribeck_speed, rate_damping, slip_damping, law,
+):  # fmt: skip
+    r"""`lugre_update` under a normal force that changes, with the asperities' stiffness kept.
+
+    Parameters
+    ----------
+    limit : float
+        At the reference load.
+    load_0, load_1 : float
+        Normal force before and after the step over the reference load; 0 or more, above 0.
+
+    Returns
+    -------
+    deflection, share, tangents
+        As `lugre_update`, over the friction of the load of the end.
+    slope : tuple of 2 floats
+        Derivative by ``load_1`` of the share times it.
+    """
     dx = slip_1[0] + slip_2[0]
     dy = slip_1[1] + slip_2[1]
     speed = math.sqrt(dx * dx + dy * dy) / step
     ratio = stribeck_share(speed, static_ratio, stribeck_speed)
-    now = limit * ratio
-    new, _, tangents = update(deflection, slip_1, slip_2, now, 1.0, law)
-    hx, hy = limit_slope(
-        deflection[0] / now, deflection[1] / now, slip_1[0] / now, slip_1[1] / now,
-        slip_2[0] / now, slip_2[1] / now, 1.0, law,
+    sx = deflection[0] / limit
+    sy = deflection[1] / limit
+    new, _, _, tangents, (slope_0, slope_1) = update_loaded(
+        (sx, sy), (slip_1[0] / limit, slip_1[1] / limit),
+        (slip_2[0] / limit, slip_2[1] / limit), load_0 * ratio, load_1 * ratio, 1.0, law, STIFFNESS,
     )  # fmt: skip
-    # d(limit)/dD = limit dratio/dspeed D/(|D| step)
+    # Both limits follow the speed: d(ratio)/dD = dratio/dspeed D/(|D| step), here per limit.
+    hx = load_0 * slope_0[0] + load_1 * slope_1[0]
+    hy = load_0 * slope_0[1] + load_1 * slope_1[1]
     gx = 0.0
     gy = 0.0
     if stribeck_speed > 0.0:
         bend = -2.0 * limit * (ratio - 1.0) / (stribeck_speed * stribeck_speed * step * step)
         gx = bend * dx
         gy = bend * dy
-    elastic = 1.0 / limit + rate_damping / step
+    over = 1.0 / load_1
+    rate = rate_damping * limit / step
+    elastic = (over + rate) / limit
     viscous = slip_damping / step
     share = (
-        new[0] / limit + rate_damping * (new[0] - deflection[0]) / step + viscous * dx,
-        new[1] / limit + rate_damping * (new[1] - deflection[1]) / step + viscous * dy,
+        over * new[0] + rate * (new[0] - sx) + viscous * dx,
+        over * new[1] + rate * (new[1] - sy) + viscous * dy,
     )
     t1 = tangents[0]
     t2 = tangents[1]
@@ -92,4 +125,8 @@ def lugre_update(
         elastic * (t2[2] + hy * gx),
         elastic * (t2[3] + hy * gy) + viscous,
     )
-    return new, share, (tangent_1, tangent_2)
+    slope = (
+        share[0] - over * new[0] + (1.0 + load_1 * rate) * ratio * slope_1[0],
+        share[1] - over * new[1] + (1.0 + load_1 * rate) * ratio * slope_1[1],
+    )
+    return (new[0] * limit, new[1] * limit), share, (tangent_1, tangent_2), slope

@@ -101,10 +101,10 @@ class Friction(Table):
                 f"friction.springs is for model 'springs'; the model is '{self.model}': leave it "
                 "out or change friction.model"
             )
-        if self.model == "coulomb" and "keeps" in given:
+        if self.model == "coulomb" and "keeps" in given and self.keeps != "deflection":
             raise InputError(
-                "friction.keeps is for asperities that deflect; those of model 'coulomb' do not, "
-                "and their friction follows the normal force: leave it out"
+                f"friction.keeps is '{self.keeps}'; asperities of model 'coulomb' do not deflect, "
+                "and their friction follows the normal force at once: leave it out"
             )
         if self.model == "springs":
             self._as_springs()

@@ -23,19 +23,6 @@ _TURNED_FACES = np.array([0, 1, 2, 3, 5, 4])
 class HexMesh:
     """A mesh of 8-node or 27-node hexahedra.
 
-    Parameters
-    ----------
-    points : ndarray, shape (n, 3)
-        The nodes' coordinates, in `unit`.
-    cells : ndarray of int, shape (m, 8) or (m, 27)
-        The nodes of each cell in VTK's order (cell types 12 and 29, see `asperity.mesh.shape`).
-    node_sets : mapping of str to ndarray of int, shape (k,), optional
-        Named nodes.
-    face_sets : mapping of str to ndarray of int, shape (k, 2), optional
-        Named faces: cell and local face 0 to 5.
-    unit : {'m', 'mm'}
-        Unit of the coordinates.
-
     Raises
     ------
     InputError
@@ -43,11 +30,14 @@ class HexMesh:
         face does not exist.
     """
 
-    points: FloatArray
+    points: FloatArray  #: (n, 3): The nodes' coordinates, in `unit`
+    #: (m, 8) or (m, 27): The nodes of each cell in VTK's order (cell types 12 and 29, see
+    #: `asperity.mesh.shape`)
     cells: IntArray
-    node_sets: Mapping[str, IntArray] = field(default_factory=dict)
+    node_sets: Mapping[str, IntArray] = field(default_factory=dict)  #: (k,): Named nodes
+    #: (k, 2): Named faces: cell and local face 0 to 5
     face_sets: Mapping[str, IntArray] = field(default_factory=dict)
-    unit: Unit = "m"
+    unit: Unit = "m"  #: Unit of the coordinates
 
     def __post_init__(self) -> None:
         points = np.ascontiguousarray(self.points, dtype=np.float64)

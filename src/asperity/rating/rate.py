@@ -8,13 +8,13 @@ from asperity.casefile import Case, told
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
-from asperity.rating import bs721
 from asperity.rating.agma6034.rating import rate as rate_agma6034
 from asperity.rating.bs721.rating import rate as rate_bs721
+from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.entries import assumptions
 from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.iso14521 import FilmParameterError
 from asperity.rating.iso14521.calculation import film_parameter_of
+from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.iso14521.rating import rate as rate_iso14521
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
@@ -189,8 +189,8 @@ def rate(
     ------
     InputError
         The gearset's numbers do not belong together, or the only standard asked for cannot be
-        applied; `asperity.rating.iso14521.FilmParameterError` where h* is not above
-        zero.
+        applied; `asperity.rating.iso14521.film_failure.FilmParameterError` where h* is
+        not above zero.
     """
     options = options or RatingOptions()
     wanted = known_standards(standards)
@@ -242,10 +242,10 @@ def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
     return rate_case(*problem)
 
 
-def tables_of(options: RatingOptions, folder: Path | None) -> bs721.Tables:
+def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
     """Return the tables of BS 721 that are asked for."""
     own = options.bs721_tables
-    return bs721.read_tables(None if own is None else (folder or Path()) / own)
+    return read_tables(None if own is None else (folder or Path()) / own)
 
 
 def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
@@ -276,7 +276,7 @@ def _require_consistent(given: Inputs, by_iso: bool) -> None:
         raise
 
 
-def _rate(name: str, given: Inputs, tables: bs721.Tables) -> Rating:
+def _rate(name: str, given: Inputs, tables: Tables) -> Rating:
     if name == "iso14521":
         return rate_iso14521(given)
     if name == "bs721":

@@ -208,9 +208,10 @@ class Rating:
             columns = tuple(Column(name, right=name == "value") for name in COLUMNS)
             rows = [tuple(entry.row().values()) for entry in self.entries]
         else:
-            folded = {"meaning": 3, "equation": 4}
             names = "symbol", "value", "unit", "meaning", "equation", "trust"
-            columns = tuple(Column(n, right=n == "value", weight=folded.get(n, 0)) for n in names)
+            columns = tuple(
+                Column(n, right=n == "value", folds=n in ("meaning", "equation")) for n in names
+            )
             rows = [
                 (e.symbol or e.key, e.text, e.unit, e.meaning, e.shown_equation, e.trust)
                 for e in self.entries

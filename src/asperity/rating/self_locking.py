@@ -19,7 +19,9 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula
-from asperity.rating import agma6034, bs721
+from asperity.rating.agma6034 import mesh
+from asperity.rating.bs721 import torque
+from asperity.rating.bs721.tables import Tables
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
 from asperity.rating.iso14521 import friction as iso_friction
@@ -132,7 +134,7 @@ def locking_friction(lead_angle: gamma_m1, pressure_angle: alpha_n | None = None
     return share * np.tan(lead_angle)
 
 
-def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: bs721.Tables) -> SelfLocking:
+def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -> SelfLocking:
     """Judge by the friction of each rating, at rest and at the sliding velocity.
 
     Parameters
@@ -166,7 +168,7 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: bs721.Tab
                 state,
                 mu,
                 locking_friction(given.lead_angle, given.pressure_angle),
-                agma6034.wheel_driving_efficiency(mu, given.lead_angle, given.pressure_angle),
+                mesh.wheel_driving_efficiency(mu, given.lead_angle, given.pressure_angle),
             )
             for state, mu in _friction(given, "agma6034", ratings["agma6034"], tables)
         ]
@@ -174,7 +176,7 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: bs721.Tab
 
 
 def _friction(
-    given: Inputs, name: str, rating: Rating, tables: bs721.Tables
+    given: Inputs, name: str, rating: Rating, tables: Tables
 ) -> tuple[tuple[State, float], tuple[State, float]]:
     """Return the friction of a standard at rest and moving, with the factor on it."""
     if given.friction is not None:
@@ -182,9 +184,7 @@ def _friction(
     elif name == "iso14521":
         at_rest = _iso_at_rest(given, rating)
     else:
-        at_rest = (
-            agma6034.friction(0.0) if name == "agma6034" else bs721.friction(0.0, tables=tables)
-        )
+        at_rest = mesh.friction(0.0) if name == "agma6034" else torque.friction(0.0, tables=tables)
     moving = float(rating["mu_zm" if name == "iso14521" else "mu"])
     return ("static", given.friction_factor * at_rest), ("dynamic", moving)
 

@@ -19,13 +19,13 @@ class Column:
         Above it.
     right : bool
         Whether it is aligned to the right, as numbers are.
-    weight : int
-        Its share of the width where texts must fold; 0: it never folds.
+    folds : bool
+        Whether its texts are folded where a line would be too long.
     """
 
     heading: str
     right: bool = False
-    weight: int = 0
+    folds: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,5 +99,5 @@ def table_of(answer: Quantities, *, title: str = "", remarks: Iterable[str] = ()
         for entry in answer.entries()
         if entry.label.shown and not entry.label.dims and entry.value is not None
     ]
-    columns = Column("", weight=1), Column("symbol"), Column("value", right=True), Column("unit")
+    columns = Column("", folds=True), Column("symbol"), Column("value", right=True), Column("unit")
     return Table(columns, tuple(rows), title, tuple(remarks))

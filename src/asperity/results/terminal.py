@@ -1,14 +1,19 @@
 """Tables as text for a terminal."""
 
-import io
+import contextlib
+import itertools
+import os
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from asperity.results.table import Table
+    from asperity.results.table import Column, Table
 
 _MOST_READABLE = 79
+_USUAL = 80
+_GAP = "  "
+_NARROWEST = 8  # that a column is made where the terminal asks for less
 
 
 def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
@@ -21,37 +26,62 @@ def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
     width : int, optional
         In characters; left out: the terminal's.
     """
-    from rich import table as rich_table
-    from rich.console import Console
-    from rich.text import Text
+    width = width or _terminal_width()
+    return "\n\n".join("\n".join(_lines(table, width)) for table in tables)
 
-    console = Console(file=io.StringIO(), highlight=False, markup=False, width=width)
-    with console.capture() as capture:
-        for place, table in enumerate(tables):
-            if place:
-                console.print()
-            if table.title:
-                console.print(Text(table.title))
-            shown = rich_table.Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-            for column in table.columns:
-                shown.add_column(
-                    column.heading,
-                    justify="right" if column.right else "left",
-                    no_wrap=not column.weight,
-                    overflow="fold",
-                    ratio=column.weight or None,
-                )
-            for row in table.rows:
-                # As text, because brackets in a formula would be taken for markup.
-                shown.add_row(*map(Text, row))
-            if table.columns:
-                console.print(shown)
-            for remark in table.remarks:
-                for line in textwrap.wrap(
-                    f"- {remark}",
-                    min(console.width, _MOST_READABLE),
-                    subsequent_indent="  ",
-                    break_on_hyphens=False,
-                ):
-                    console.print(Text(line))
-    return "\n".join(line.rstrip() for line in capture.get().splitlines())
+
+def _terminal_width() -> int:
+    """Return ``COLUMNS``, or the width of the first standard stream that is a terminal."""
+    given = os.environ.get("COLUMNS", "")
+    if given.isdecimal() and int(given):
+        return int(given)
+    for stream in range(3):
+        with contextlib.suppress(OSError):
+            return os.get_terminal_size(stream).columns or _USUAL
+    return _USUAL
+
+
+def _lines(table: "Table", width: int) -> Iterator[str]:
+    yield from textwrap.wrap(table.title, width)
+    if table.columns:
+        yield from _grid(table.columns, table.rows, width)
+    for remark in table.remarks:
+        yield from textwrap.wrap(
+            f"- {remark}",
+            min(width, _MOST_READABLE),
+            subsequent_indent="  ",
+            break_on_hyphens=False,
+        )
+
+
+def _grid(columns: "Sequence[Column]", rows: Iterable[Sequence[str]], width: int) -> Iterator[str]:
+    texts = [[column.heading for column in columns], *rows]
+    widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
+    _squeeze(widths, columns, width - len(_GAP) * (len(columns) - 1))
+    cells = [[_folded(*cell) for cell in zip(row, widths, strict=True)] for row in texts]
+    widths = [
+        max(len(line) for cell in column for line in cell) for column in zip(*cells, strict=True)
+    ]
+    for row in cells:
+        for line in itertools.zip_longest(*row, fillvalue=""):
+            placed = (
+                text.rjust(wide) if column.right else text.ljust(wide)
+                for text, wide, column in zip(line, widths, columns, strict=True)
+            )
+            yield _GAP.join(placed).rstrip()
+
+
+def _squeeze(widths: list[int], columns: "Sequence[Column]", room: int) -> None:
+    """Take what is too much from the widest of the columns that fold."""
+    folding = [place for place, column in enumerate(columns) if column.folds]
+    while folding and sum(widths) > room:
+        widest = max(folding, key=widths.__getitem__)
+        if widths[widest] <= _NARROWEST:
+            break
+        widths[widest] -= 1
+
+
+def _folded(text: str, width: int) -> list[str]:
+    if len(text) <= width:
+        return [text]
+    return textwrap.wrap(text, width, break_on_hyphens=False)

@@ -39,7 +39,7 @@ def stick_slope(setup: BlockSetup) -> float:
     if friction.model == "coulomb":
         return _STICK * setup.normal.stiffness
     limit = friction.deflection_limit(setup.model.slider.normal_force)
-    return friction.mu * setup.mean_pressure / limit
+    return friction.mu * setup.problem.mean_pressure / limit
 
 
 def overclosure(setup: BlockSetup) -> float:
@@ -48,9 +48,9 @@ def overclosure(setup: BlockSetup) -> float:
     Statics need the contact closed at the start; this far it also carries what will come.
     """
     if setup.normal.name != "two-stage":
-        return setup.mean_pressure / setup.normal.stiffness
+        return setup.problem.mean_pressure / setup.normal.stiffness
     pressures, overs = np.transpose(setup.pressure_table())
-    return float(np.interp(setup.mean_pressure, pressures, overs))
+    return float(np.interp(setup.problem.mean_pressure, pressures, overs))
 
 
 def _deck(setup: BlockSetup) -> Iterator[str]:
@@ -129,7 +129,7 @@ def _heading(setup: BlockSetup) -> Iterator[str]:
 def _interaction(setup: BlockSetup) -> Iterator[str]:
     yield "*SURFACE INTERACTION, NAME=sliding"
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
-    yield numbers(setup.mean_pressure / overclosure(setup))
+    yield numbers(setup.problem.mean_pressure / overclosure(setup))
     yield from ("*FRICTION", numbers(setup.model.friction.mu, stick_slope(setup)))
     yield "*CONTACT PAIR, INTERACTION=sliding, TYPE=SURFACE TO SURFACE"
     yield "bottom, base_top"
@@ -142,7 +142,7 @@ def _steps(setup: BlockSetup) -> Iterator[str]:
     yield from _output()
     slider = setup.model.slider
     full = setup.model.full_friction
-    slack = setup.model.friction.mu * setup.mean_pressure / stick_slope(setup)
+    slack = setup.model.friction.mu * setup.problem.mean_pressure / stick_slope(setup)
     if slider.drive_stiffness is not None:
         slack += full / slider.drive_stiffness
     way = _BEYOND_BREAKAWAY * slack

@@ -61,13 +61,19 @@ def fric_subroutine(model: Model, *, before: float = 0.0, side: int = -1) -> Fri
     ------
     InputError
         The friction model is not Dahl's (Coulomb needs no subroutine; LuGre's damping is not one
-        of slip and pressure alone).
+        of slip and pressure alone), or keeps the stiffness of its asperities: FRIC follows the
+        pressure at the end of an increment, as the thesis's does, and is not told the one before.
     """
     friction = model.friction
     if friction.model != "dahl":
         raise InputError(
             f"friction.model is '{friction.model}'; FRIC is written for 'dahl' (for 'coulomb' "
             "the deck uses Abaqus's own friction)"
+        )
+    if friction.keeps != "deflection" and model.solve.scheme != "two-phase":
+        raise InputError(
+            f"friction.keeps is '{friction.keeps}'; FRIC is written for 'deflection', by which "
+            "friction follows the pressure at once: give that"
         )
     if side not in (-1, 1):
         raise InputError(f"side is {side}; it must be -1 or 1")

@@ -72,11 +72,6 @@ class BlockSetup:
         return self.problem.material.density
 
     @property
-    def mean_pressure(self) -> float:
-        """Mean contact pressure, Pa."""
-        return self.model.slider.normal_force / self.block.area
-
-    @property
     def held(self) -> tuple[int, ...]:
         """Mean motions that a rigid drive and a guide hold: 0 to 2 shifts, 3 to 5 turns."""
         slider = self.model.slider
@@ -93,7 +88,7 @@ class BlockSetup:
         Up to where no block should come, as what lies beyond is not the same in all programs.
         """
         law = self.normal
-        most = max(2.0 * law.end, law.overclosure(_MOST_OVER_MEAN * self.mean_pressure))
+        most = max(2.0 * law.end, law.overclosure(_MOST_OVER_MEAN * self.problem.mean_pressure))
         rise = (law.end - law.start) / (_POINTS_OF_RISE - 1)
         overs = [law.start + rise * i for i in range(_POINTS_OF_RISE)]
         overs = [*([0.0] if law.start > 0.0 else []), *overs, most]

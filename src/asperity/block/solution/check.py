@@ -94,7 +94,7 @@ def _check_density(problem: BlockProblem) -> None:
 def _check_squeeze(problem: BlockProblem) -> None:
     """Refuse a body or a contact that gives way by more than a small part of the block."""
     block, force = problem.block, problem.model.slider.normal_force
-    pressure, height = force / block.area, block.size[2]
+    pressure, height = problem.mean_pressure, block.size[2]
     given = f"slider.normal_force is {force:g} N, a mean pressure of {pressure:.4g} Pa; "
     if pressure > _MOST_SQUEEZE * block.youngs_modulus:
         raise InputError(

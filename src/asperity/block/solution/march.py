@@ -243,8 +243,8 @@ class BlockMarch:
         if first is None or start is None or progress.first_pressure is None:
             raise ConvergenceError(f"the march is at {self.done} of {table.steps} increments")
         second = stepper.sums
-        sums = first + second
-        if not all(map(math.isfinite, dataclasses.astuple(sums))):
+        sums = first.with_(second)
+        if not all(map(math.isfinite, sums)):
             raise ConvergenceError(_NOT_FINITE)
         end = energies(stepper.system, stepper.state)
         span = sums.time

@@ -10,9 +10,18 @@ from asperity.slider.timetable import march_notes
 
 _MOST_SLIP = 0.5
 
+# Share of friction's power that rounding and the tolerance of the increments may give.
+_MOST_GAIN = 1e-6
+
 # Share of friction's power. A block that slides loses some 1e-5 of it to the time integration, and
 # up to 1.5e-4 where the vibration has just begun; one that flutters 5e-4 and more.
 _MOST_NUMERICAL = 3e-4
+
+
+GAINS = (
+    "asperities keep their deflection (friction.keeps), so that one which is pressed harder pulls "
+    "harder without having slipped, and friction gives energy"
+)
 
 
 def block_notes(
@@ -45,6 +54,12 @@ def block_notes(
             f"{100.0 * powers.numerical / powers.friction:.2g} % of what friction does: something "
             "moves faster than the steps resolve, as a block does that flutters or bounces"
         )
+    gain = stepper.sums.friction_gain / stepper.sums.time
+    if problem.friction.keeps_deflection and gain > _MOST_GAIN * abs(powers.friction):
+        notes.append(
+            f"{GAINS}: {gain:.2g} W in the second half of the window, where it takes "
+            f"{powers.friction:.2g} W"
+        )
     slip = (model.slider.drive_velocity + model.peak_velocity) * table.step
     most = _MOST_SLIP * problem.friction.limit
     if model.friction.model != "coulomb" and slip > most:
@@ -70,7 +85,7 @@ def block_notes(
             "contact does better"
         )
     if stepper.cuts:
-        notes.append(f"{stepper.cuts} increments did not converge at once and were taken in halves")
+        notes.append(f"{stepper.cuts} increments were not solved at once and were taken in halves")
     return tuple(notes)
 
 

@@ -20,11 +20,13 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import inputs
+from asperity.block.solution.notes import GAINS
 from asperity.block.solution.stability import Stability, flutter_note
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 from asperity.contact.motion.system import Shaking, System, SystemState
 from asperity.results import Result, labelled, quantity
+from asperity.results.dataset import Labels
 from asperity.runs import Run
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic
@@ -42,47 +44,40 @@ _SETTLE_CYCLES = 14
 _WINDOWS = 4
 _SHORTEST, _LONGEST = 4, 32
 _SLOPE = 0.01
+_OVER_CYCLE = ("phase", "axis")
+_PHASE = np.arange(1, STEPS + 1) / STEPS
 
 STEADY = 1e-3
 """How far windows may be apart, over the ratio of the sliding body, for a block to have settled."""
 
 
 class SettledBlock(Result):
-    """What an elastic block under vibration comes to.
-
-    Attributes
-    ----------
-    problem : BlockProblem
-        What was solved.
-    ratio : float
-        Mean friction along the drive over mu F_N, at the drive's velocity.
-    unsteadiness : float
-        Half of what the highest and the lowest of four successive windows of the ratio, as long as
-        one another, are apart.
-    slider_ratio : float
-        The sliding body's periodic state.
-    cycles : int
-        In the four windows together.
-    late : float
-        By how much of the drive's velocity the block was slower in them, which the ratio is
-        corrected for.
-    increments : int
-        Taken in all.
-    seconds : float
-        Time the solution took, s.
-    """
+    """What an elastic block under vibration comes to."""
 
     title: ClassVar[str] = "Settled elastic block"
     stem: ClassVar[str] = "block"
+    drawings: ClassVar[Mapping[str, str]] = {"block": "asperity.block.plots:plot_settled"}
+    labels: ClassVar[Labels] = SlideResult.labels
 
     problem: BlockProblem
+    #: At the drive's velocity; of the block's own friction.
     ratio: float = quantity("F_dv/F_ds", "", "mean drive force over mu F_N")
+    #: Of four successive windows as long as one another.
     unsteadiness: float = quantity("", "", "how far windows of the ratio are apart, half of it")
     slider_ratio: float = quantity("", "", "mean drive force over mu F_N, sliding body")
     cycles: int = quantity("", "", "whole cycles of the vibration that were read")
     late: float = quantity("", "", "how much slower than the drive the block was, corrected for")
     increments: int = quantity("", "", "increments")
     seconds: float = quantity("", "s", "time it took", key="seconds", only="json", swept=False)
+    phase: FloatArray = quantity(
+        "t/T", "", "share of a cycle of the vibration", dims=("phase",), coordinate=True
+    )
+    friction: FloatArray = quantity(
+        "F", "N", "friction force on the body in the last cycle read", dims=_OVER_CYCLE
+    )
+    slider_friction: FloatArray = quantity(
+        "F", "N", "friction force on the sliding body", dims=_OVER_CYCLE
+    )
 
     @property
     @labelled("F_dv", "N", "mean drive force", variable="mean_drive_force")
@@ -115,6 +110,8 @@ class Reading:
     #: (4,): Ratio of each body in each window, at the drive's velocity
     windows: tuple[FloatArray, ...]
     late: tuple[float, ...]  #: By how much of the drive's velocity each was slower
+    #: (steps, 2): Friction on each in the last cycle, N
+    friction: tuple[FloatArray, ...]
     cycles: int  #: In the four windows together
 
     @property
@@ -167,6 +164,9 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
         late=reading.late[0],
         increments=taken,
         seconds=time.perf_counter() - began,
+        phase=_PHASE,
+        friction=reading.friction[0],
+        slider_friction=_over_a_cycle(slider),
         notes=_notes(problem, reading, slider.ratio),
     )
 
@@ -174,6 +174,8 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
 def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, ...]:
     flutter = Stability(problem).flutter()
     notes = [] if flutter is None else [flutter_note(problem, flutter)]
+    if problem.friction.keeps_deflection:
+        notes.append(f"{GAINS}; solve.method 'march' says how much")
     if reading.apart > STEADY * abs(ratio):
         notes.append(
             f"not steady: in {reading.cycles} cycles the ratio still swings by "
@@ -234,8 +236,8 @@ def read_settled(
     length = _SHORTEST
     while True:
         read = [_read(stepper, slider.model, slope, length, between) for stepper in steppers]
-        windows, late = zip(*read, strict=True)
-        reading = Reading(windows, late, _WINDOWS * length)
+        windows, late, friction = zip(*read, strict=True)
+        reading = Reading(windows, late, friction, _WINDOWS * length)
         if reading.apart <= STEADY * abs(slider.ratio) or length >= _LONGEST:
             return reading
         length *= 2
@@ -256,15 +258,34 @@ def _calmed(
 
 def _read(
     stepper: Stepper, model: Model, slope: float, length: int, between: Callable[[], None]
-) -> tuple[FloatArray, float]:
-    """Ratio in each window, brought to the drive's velocity, and how much slower the body was."""
+) -> tuple[FloatArray, float, FloatArray]:
+    """Ratio in each window, brought to the drive's velocity; how much slower the body was.
+
+    And its friction in the last cycle, (steps, 2), N.
+    """
     # The rocking comes round in other than whole cycles. Weights that fade in and out let it
     # cancel within a window, where equal ones would leave what is cut off at its ends.
     weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    cycles = np.array([_cycle(stepper, model, between) for _ in range(_WINDOWS * length)])
+    last: list[tuple[float, ...]] = []
+
+    def seen() -> None:
+        last.append(stepper.state.forces[:2])
+        between()
+
+    cycles = np.array([_cycle(stepper, model, seen) for _ in range(_WINDOWS * length)])
     means = np.average(cycles.reshape(_WINDOWS, length, 2), axis=1, weights=weights)
     late = 1.0 - means[:, 1] / model.slider.drive_velocity
-    return means[:, 0] / model.full_friction + slope * late, float(late.mean())
+    ratios = means[:, 0] / model.full_friction + slope * late
+    return ratios, float(late.mean()), np.array(last[-STEPS:])
+
+
+def _over_a_cycle(slider: SlideResult) -> FloatArray:
+    """Friction of the sliding body at the phases of the block's."""
+    history = slider.history
+    assert history is not None
+    phase = 1.0 + (history.time - history.time[-1]) * slider.model.frequency
+    columns = [np.interp(_PHASE, phase, axis, period=1.0) for axis in history.friction.T]
+    return np.stack(columns, axis=1)
 
 
 def _from_the_start(model: Model) -> Shaking | None:
@@ -282,14 +303,14 @@ def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemStat
     if system.mechanism.drive is not None:
         pull = float(history.drive_force[-1])
         reach = drive.way + pull / system.mechanism.drive.stiffness
-        drive = dataclasses.replace(drive, force=pull, reach=reach)
+        drive = drive._replace(force=pull, reach=reach)
     contact = rest.contact
     deflection = np.zeros_like(contact.state.deflection)
     deflection[:, :2] = history.deflection[-1]
     contact = dataclasses.replace(
         contact, state=dataclasses.replace(contact.state, deflection=deflection)
     )
-    coordinates = dataclasses.replace(coordinates, velocity=velocity)
+    coordinates = coordinates._replace(velocity=velocity)
     return dataclasses.replace(rest, coordinates=coordinates, drive=drive, contact=contact)
 
 

@@ -42,8 +42,7 @@ class Stability:
 
     def __init__(self, problem: BlockProblem) -> None:
         self._problem = problem
-        system = problem.system
-        pressure = problem.model.slider.normal_force / problem.surface.area
+        system, pressure = problem.system, problem.mean_pressure
         self.motions = tuple(
             sliding_motion(
                 system.mechanism, system.surface, system.normal, system.friction, pressure, way

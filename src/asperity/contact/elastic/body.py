@@ -36,26 +36,13 @@ class ElasticBody:
     """A linear elastic body, free or with nodes that are tied to a rigid one.
 
     Freedoms run node by node: freedom 3 i + a is the displacement of node i along axis a.
-
-    Parameters
-    ----------
-    mesh : HexMesh
-        In m; make it with `elastic_body`, which checks it.
-    material : ElasticMaterial
-        What it is made of.
-    element : {'hex27', 'hex8', 'hex8i'}
-        Element.
-    tied : ndarray of int
-        Nodes that do not move, or move with a rigid body; none if the body is free.
-    wanted_solver : {'auto', 'pypardiso', 'superlu'}
-        Direct solver.
     """
 
-    mesh: HexMesh
-    material: ElasticMaterial
-    element: ElementName
-    tied: IntArray
-    wanted_solver: str = "auto"
+    mesh: HexMesh  #: In m; make it with `elastic_body`, which checks it
+    material: ElasticMaterial  #: What it is made of
+    element: ElementName  #: Element
+    tied: IntArray  #: Nodes that do not move, or move with a rigid body; none if the body is free
+    wanted_solver: str = "auto"  #: Direct solver
 
     @property
     def free(self) -> bool:

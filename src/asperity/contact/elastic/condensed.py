@@ -25,84 +25,44 @@ class CondensedBody:
 
     Freedom 3 i + a is the displacement of contact node i along axis a. Loads are named; a load's
     own displacement is the one it does work with.
-
-    Parameters
-    ----------
-    nodes : ndarray of int, shape (n,)
-        The contact nodes' numbers in the mesh, ascending.
-    positions : ndarray, shape (n, 3)
-        Where they are, m.
-    flexibility : ndarray, shape (3n, 3n)
-        :math:`C`, static, symmetric, m/N. A free body's loads are balanced by its inertia.
-    rigid : ndarray, shape (3n, 6) or (3n, 0)
-        Rigid modes at the contact nodes: shifts along and turns about x, y, z through `centre`;
-        none for a tied body that stands still.
-    mass : ndarray, shape (6, 6)
-        Mass and moments of inertia about `centre`, kg and kg m^2.
-    centre : ndarray, shape (3,)
-        Centre of mass, m.
-    modes : ndarray, shape (3n, k)
-        Shapes with inertia of their own at the contact nodes, of unit generalised mass and
-        uncoupled, 1/sqrt(kg): natural modes of the free body, or of the one whose tied nodes stand
-        still, then static shapes; see `asperity.contact.elastic.modes`.
-    mode_frequency : ndarray, shape (k,)
-        Their frequencies, Hz, ascending.
-    natural_modes : int
-        How many of them are natural modes: the first.
-    mode_inertia : ndarray, shape (k, 6)
-        :math:`\Phi^T M R`, what couples modes to rigid accelerations, sqrt(kg); zero if free.
-    inertia_response : ndarray, shape (3n, 6)
-        Static displacement under the nodal forces M R of a unit rigid acceleration; zero if free.
-    load_names : tuple of str
-        L names, the first three ``gravity_x``, ``gravity_y``, ``gravity_z`` (unit: 1 m/s^2).
-    load_flexibility : ndarray, shape (3n, L)
-        Static displacement of the contact nodes under each unit load; its transpose gives the
-        loads' own displacements under contact forces.
-    load_compliance : ndarray, shape (L, L)
-        The loads' own static displacements under each other.
-    load_rigid : ndarray, shape (6, L)
-        Force and moment about `centre` of each unit load; its transpose gives the loads' own
-        displacements in the rigid modes.
-    load_modes : ndarray, shape (k, L)
-        Generalised force of each unit load on each mode; transposed as before.
-    unknowns : int
-        Freedoms of the whole mesh.
-    solver : str
-        Direct solver that was used.
-    residual : float
-        Largest relative residual of its answers.
-    seconds : float
-        Time condensing took, s.
-    from_cache : bool
-        Whether this was read back from disk.
     """
 
-    nodes: IntArray
-    positions: FloatArray
+    nodes: IntArray  #: (n,): The contact nodes' numbers in the mesh, ascending
+    positions: FloatArray  #: (n, 3): Where they are, m
+    #: (3n, 3n): :math:`C`, static, symmetric, m/N. A free body's loads are balanced by its inertia.
     flexibility: FloatArray
+    #: (3n, 6) or (3n, 0): Rigid modes at the contact nodes: shifts along and turns about x, y, z
+    #: through `centre`; none for a tied body that stands still
     rigid: FloatArray
-    mass: FloatArray
-    centre: FloatArray
+    mass: FloatArray  #: (6, 6): Mass and moments of inertia about `centre`, kg and kg m^2
+    centre: FloatArray  #: (3,): Centre of mass, m
+    #: (3n, k): Shapes with inertia of their own at the contact nodes, of unit generalised mass and
+    #: uncoupled, 1/sqrt(kg): natural modes of the free body, or of the one whose tied nodes stand
+    #: still, then static shapes; see `asperity.contact.elastic.modes`
     modes: FloatArray
-    mode_frequency: FloatArray
-    natural_modes: int
+    mode_frequency: FloatArray  #: (k,): Their frequencies, Hz, ascending
+    natural_modes: int  #: How many of them are natural modes: the first
+    #: (k, 6): :math:`\Phi^T M R`, what couples modes to rigid accelerations, sqrt(kg); zero if free
     mode_inertia: FloatArray
+    #: (3n, 6): Static displacement under the nodal forces M R of a unit rigid acceleration; zero if
+    #: free
     inertia_response: FloatArray
+    #: L names, the first three ``gravity_x``, ``gravity_y``, ``gravity_z`` (unit: 1 m/s^2)
     load_names: tuple[str, ...]
+    #: (3n, L): Static displacement of the contact nodes under each unit load; its transpose gives
+    #: the loads' own displacements under contact forces
     load_flexibility: FloatArray
-    load_compliance: FloatArray
+    load_compliance: FloatArray  #: (L, L): The loads' own static displacements under each other
+    #: (6, L): Force and moment about `centre` of each unit load; its transpose gives the loads' own
+    #: displacements in the rigid modes
     load_rigid: FloatArray
+    #: (k, L): Generalised force of each unit load on each mode; transposed as before
     load_modes: FloatArray
-    unknowns: int
-    solver: str
-    residual: float
-    seconds: float
-    from_cache: bool = False
-
-    @property
-    def mode_mass(self) -> FloatArray:
-        """Generalised masses of the modes, kg: 1 each."""
-        return np.ones(len(self.mode_frequency))
+    unknowns: int  #: Freedoms of the whole mesh
+    solver: str  #: Direct solver that was used
+    residual: float  #: Largest relative residual of its answers
+    seconds: float  #: Time condensing took, s
+    from_cache: bool = False  #: Whether this was read back from disk
 
     @property
     def mode_stiffness(self) -> FloatArray:

@@ -4,10 +4,11 @@ With the residual :math:`R` of the nodal forces the frozen iteration corrects :m
 :math:`R`. Newton's method would correct it by :math:`(I - C G)^{-1} R`, where :math:`C` is the
 tangent less the frozen stiffness :math:`K`. Two parts of it matter. Tangential forces press the
 body on harder here and less there, :math:`D R` at the nodes with :math:`D = n^T K G`, and friction
-follows pressure in the ratio :math:`\rho` of tangential to normal force at the node. And friction
-follows the slip by the tangent :math:`T` of a point with the mean deflection and slip of all, in
-proportion to the pressure :math:`p`; of the displacement :math:`G R` it takes the smooth part
-:math:`E R`, in fields :math:`\varphi_r` orthonormal over the areas :math:`a` of the nodes. So
+follows pressure in the ratio :math:`\rho` of tangential to normal force at the node, or as far of
+it as a point with the mean of all does where its limit follows the pressure. And friction follows
+the slip by the tangent :math:`T` of a point with the mean deflection and slip of all, in proportion
+to the pressure :math:`p`; of the displacement :math:`G R` it takes the smooth part :math:`E R`, in
+fields :math:`\varphi_r` orthonormal over the areas :math:`a` of the nodes. So
 
 .. math:: R' = R + \rho\,D R' + \frac{p}{\bar p}\,a \sum_r \varphi_r T\,(E R')_r ,
 
@@ -62,8 +63,9 @@ def ratios(force, dofs, normals, smooth, out, load):
 def mean_tangent(points, committed, interface, motion, out):
     """Write the tangential stiffness of a point with the mean of all in contact, 3 x 3, Pa/m.
 
-    The points are as `asperity.contact.interface.tractions.tractions` writes them. Returns the area
-    in contact, m^2.
+    The points are as `asperity.contact.interface.tractions.tractions` writes them. Returns the
+    derivative of that point's friction by its pressure, over their ratio: 1 where friction follows
+    the pressure at once.
     """
     weights, friction = interface.weights, interface.friction
     deflection0, size0 = committed.deflection, committed.size
@@ -91,7 +93,7 @@ def mean_tangent(points, committed, interface, motion, out):
             bent[c] += weight * deflection0[q, c]
     length = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
     if friction.mu == 0.0 or length <= 0.5 * area:
-        return area
+        return 1.0
     nx = normal[0] / length
     ny = normal[1] / length
     nz = normal[2] / length
@@ -99,7 +101,7 @@ def mean_tangent(points, committed, interface, motion, out):
     fx = ny * ez - nz * ey
     fy = nz * ex - nx * ez
     fz = nx * ey - ny * ex
-    _, _, _, _, _, t1, _ = share_and_tangent(
+    _, _, _, wx, wy, t1, _, by_p = share_and_tangent(
         (bent[0] * ex + bent[1] * ey + bent[2] * ez) / area,
         (bent[0] * fx + bent[1] * fy + bent[2] * fz) / area,
         size / area,
@@ -109,6 +111,7 @@ def mean_tangent(points, committed, interface, motion, out):
         (slip_2[0] * fx + slip_2[1] * fy + slip_2[2] * fz) / area,
         motion.one_sided,
         friction,
+        p / area,
     )
     scale = -friction.mu * p / area
     e = (ex, ey, ez)
@@ -118,7 +121,8 @@ def mean_tangent(points, committed, interface, motion, out):
             out[i, j] = scale * (
                 (t1[0] * e[i] + t1[2] * f[i]) * e[j] + (t1[1] * e[i] + t1[3] * f[i]) * f[j]
             )
-    return area
+    square = wx * wx + wy * wy
+    return (wx * by_p[0] + wy * by_p[1]) / square if square > 0.0 else 1.0
 
 
 @kernel

@@ -8,6 +8,7 @@ nothing is asked of them, so that a contact may begin and end in any increment.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -136,5 +137,5 @@ class Increment:
     def _last_digits(self, u: FloatArray) -> float:
         problem = self.problem
         reach = problem.reach + float(np.abs(u).max())
-        reach += float(np.linalg.norm(self.motion.translation))
+        reach += math.hypot(*self.motion.translation)
         return _ROUNDING * reach * problem.normal.stiffness * problem.area_norm

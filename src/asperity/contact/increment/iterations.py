@@ -210,7 +210,7 @@ def modified_newton(
         last = min(last, residual)
         if iteration == 1:
             ratios(force, tangent.dofs, tangent.normals, tangent.smooth, room.shares, room.load)
-            mean_tangent(points, committed, interface, motion, room.tangent)
+            room.shares[:] *= mean_tangent(points, committed, interface, motion, room.tangent)
             room.tangent[:] -= tangent.own
             mean_correction(room.tangent, tangent.spread, room.correction)
         couple(

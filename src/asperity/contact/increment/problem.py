@@ -18,6 +18,7 @@ import numpy.typing as npt
 from scipy import sparse
 
 from asperity.arrays import FloatArray
+from asperity.contact.increment.predictor import Predictor
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.records import Committed, Interface
@@ -28,42 +29,24 @@ from asperity.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class IncrementProblem:
-    """What stays the same from increment to increment.
+    """What stays the same from increment to increment."""
 
-    Attributes
-    ----------
-    flexibility : ndarray, shape (3n, 3n)
-        :math:`A`, displacement of the contact nodes by unit forces on them (number 3 node + axis),
-        m/N. It belongs to one time step; in statics it is that of the held body.
-    surface : ContactSurface
-        The body's faces that may touch, with n nodes and q quadrature points in all; values at
-        points are numbered face by face.
-    counter : RigidSurface
-        What the body meets.
-    normal : NormalLaw
-        Pressure against overclosure.
-    friction : PointFriction
-        Friction law.
-    step : float
-        Time step, s; 0 in statics (LuGre needs it).
-    tolerance : float
-        Relative residual at which an increment counts as solved, see `IncrementResult`.
-    penetration : float
-        Hard contact: the overclosure about a node times the penalty, over the largest pressure,
-        at which the multipliers count as found.
-    most_iterations : int
-        Newton iterations of one increment before it is given up.
-    """
-
+    #: (3n, 3n): :math:`A`, displacement of the contact nodes by unit forces on them (number 3 node
+    #: + axis), m/N. It belongs to one time step; in statics it is that of the held body.
     flexibility: FloatArray
+    #: The body's faces that may touch, with n nodes and q quadrature points in all; values at
+    #: points are numbered face by face
     surface: ContactSurface
-    counter: RigidSurface
-    normal: NormalLaw
-    friction: PointFriction = field(default_factory=PointFriction)
-    step: float = 0.0
+    counter: RigidSurface  #: What the body meets
+    normal: NormalLaw  #: Pressure against overclosure
+    friction: PointFriction = field(default_factory=PointFriction)  #: Friction law
+    step: float = 0.0  #: Time step, s; 0 in statics (LuGre needs it)
+    #: Relative residual at which an increment counts as solved, see `IncrementResult`
     tolerance: float = 1e-9
+    #: Hard contact: the overclosure about a node times the penalty, over the largest pressure, at
+    #: which the multipliers count as found
     penetration: float = 1e-6
-    most_iterations: int = 60
+    most_iterations: int = 60  #: Newton iterations of one increment before it is given up
 
     def __post_init__(self) -> None:
         nodes = len(self.surface.positions)
@@ -149,82 +132,19 @@ class IncrementProblem:
         )
 
 
-# Weights of the last increments, the latest first: constant, linear, quadratic.
-_WEIGHTS = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0))
-
-
-@dataclass(frozen=True, eq=False)
-class Predictor:
-    """Forces and displacements of the last increments, the latest first."""
-
-    #: forces, displacements (3n,): Contact forces, N, and displacement of the contact nodes, m
-    forces: tuple[FloatArray, ...] = ()
-    displacements: tuple[FloatArray, ...] = ()
-    order: int = 0  #: Order of the extrapolation that would have met the latest forces best
-    #: `IncrementProblem.mark` of those increments: others begin anew
-    mark: tuple[float, float] = (0.0, 0.0)
-
-    def followed_by(
-        self, force: FloatArray, displacement: FloatArray, mark: tuple[float, float]
-    ) -> Predictor:
-        """Return the predictor with one more increment."""
-        if mark != self.mark or not self.forces:
-            return Predictor((force,), (displacement,), 0, mark)
-        forces = (force, *self.forces[: len(_WEIGHTS)])
-        displacements = (displacement, *self.displacements[: len(_WEIGHTS) - 1])
-        errors = [
-            float(np.linalg.norm(force - _combined(weights, forces[1:])))
-            for weights in _WEIGHTS[: len(forces) - 1]
-        ]
-        return Predictor(forces[: len(_WEIGHTS)], displacements, int(np.argmin(errors)), mark)
-
-    def predicted(self, mark: tuple[float, float]) -> tuple[FloatArray, FloatArray] | None:
-        """Forces and displacement of the coming increment; None without a past."""
-        if mark != self.mark or not self.forces:
-            return None
-        weights = _WEIGHTS[min(self.order, len(self.forces) - 1)]
-        return _combined(weights, self.forces), _combined(weights, self.displacements)
-
-
-def _combined(weights: tuple[float, ...], vectors: tuple[FloatArray, ...]) -> FloatArray:
-    total = weights[0] * vectors[0]
-    for weight, vector in zip(weights[1:], vectors[1:], strict=False):
-        total += weight * vector
-    return total
-
-
 @dataclass(frozen=True, eq=False)
 class ContactState:
-    """What an increment starts from: the committed history. Never changed by an iteration.
+    """What an increment starts from: the committed history. Never changed by an iteration."""
 
-    Attributes
-    ----------
-    displacement : ndarray, shape (3n,)
-        Of the contact nodes, m.
-    force : ndarray, shape (3n,)
-        Contact forces on the body, N.
-    deflection : ndarray, shape (q, 3)
-        Of the asperities, in space, m.
-    size : ndarray, shape (q,)
-        Two-phase scheme: its signed size over the limit.
-    multiplier : ndarray, shape (n,)
-        Hard contact: pressure of the multipliers at the nodes, Pa.
-    pressure : ndarray, shape (q,)
-        At the points, Pa.
-    traction : ndarray, shape (q, 3)
-        On the body at the points, Pa.
-    predictor : Predictor
-        What the next increment begins with. The solution does not depend on it, the number of
-        iterations does.
-    """
-
-    displacement: FloatArray
-    force: FloatArray
-    deflection: FloatArray
-    size: FloatArray
-    multiplier: FloatArray
-    pressure: FloatArray
-    traction: FloatArray
+    displacement: FloatArray  #: (3n,): Of the contact nodes, m
+    force: FloatArray  #: (3n,): Contact forces on the body, N
+    deflection: FloatArray  #: (q, 3): Of the asperities, in space, m
+    size: FloatArray  #: (q,): Two-phase scheme: its signed size over the limit
+    multiplier: FloatArray  #: (n,): Hard contact: pressure of the multipliers at the nodes, Pa
+    pressure: FloatArray  #: (q,): At the points, Pa
+    traction: FloatArray  #: (q, 3): On the body at the points, Pa
+    #: What the next increment begins with. The solution does not depend on it, the number of
+    #: iterations does.
     predictor: Predictor
 
     @property
@@ -255,31 +175,17 @@ class ContactState:
 
 @dataclass(frozen=True, eq=False)
 class IncrementResult:
-    """A solved increment. Nothing is committed: the caller goes on from `state` if it accepts.
+    """A solved increment. Nothing is committed: the caller goes on from `state` if it accepts."""
 
-    Attributes
-    ----------
-    state : ContactState
-        Trial state at the end.
-    distance : ndarray, shape (q,)
-        To the surface, m, negative for an overclosure.
-    normal : ndarray, shape (q, 3)
-        Of the surface.
-    slip_1, slip_2 : ndarray, shape (q, 3)
-        The two parts of the slip, in the tangent plane, m.
-    iterations : int
-        Evaluations of the contact.
-    residual : float
-        Norm of the difference between the nodal forces that the body answers to and those of the
-        tractions, over the norm of the forces.
-    """
-
-    state: ContactState
-    distance: FloatArray
-    normal: FloatArray
+    state: ContactState  #: Trial state at the end
+    distance: FloatArray  #: (q,): To the surface, m, negative for an overclosure
+    normal: FloatArray  #: (q, 3): Of the surface
+    #: slip_1, slip_2 (q, 3): The two parts of the slip, in the tangent plane, m
     slip_1: FloatArray
     slip_2: FloatArray
-    iterations: int
+    iterations: int  #: Evaluations of the contact
+    #: Norm of the difference between the nodal forces that the body answers to and those of the
+    #: tractions, over the norm of the forces
     residual: float
 
     @property

@@ -73,4 +73,4 @@ class SurfaceMotion:
 
 def _own(values: FloatArray) -> FloatArray:
     # Kernels are compiled for one layout alone.
-    return np.array(values, dtype=np.float64)
+    return np.ascontiguousarray(values, dtype=np.float64)

@@ -1,9 +1,10 @@
 r"""Friction at one point of a contact: the friction room's update in stress form.
 
 The traction on the body is :math:`-\mu p\,\sigma` with the friction share :math:`\sigma` that the
-laws of `asperity.friction` return, which holds for every pressure: at a point the limit of the
-deflection is a property of the surfaces and does not depend on the load. Coulomb friction sticks
-by an elastic slip (`asperity.friction.return_mapping`).
+laws of `asperity.friction` return. Where a reference pressure is given, the asperities of Dahl and
+LuGre keep their stiffness, and the limit of their deflection follows the pressure; else the limit
+holds at any pressure, and so it does for Coulomb friction, which sticks by an elastic slip
+(`asperity.friction.return_mapping`), and for the two-phase scheme.
 """
 
 from __future__ import annotations
@@ -17,7 +18,10 @@ import numpy as np
 from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.friction import Friction, lugre_update, update
-from asperity.friction.dahl import SPLIT, advance
+from asperity.friction.dahl import SPLIT, TINY, advance
+from asperity.friction.loaded import STIFFNESS, advance_loaded
+from asperity.friction.loaded_tangent import update_loaded
+from asperity.friction.lugre import lugre_loaded
 from asperity.friction.return_mapping import return_mapping
 from asperity.friction.two_phase_tangent import phases_and_tangent
 
@@ -40,30 +44,38 @@ class PointNumbers(NamedTuple):
     rate_damping: float
     slip_damping: float
     step: float
+    reference: float
 
 
 @kernel
-def share_of(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p):
+def share_of(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, pressure):
     """Friction share after a slip, without its tangent.
 
     Parameters and result as `share_and_tangent`, less the tangents.
     """
     model = p.model
     limit = p.limit
+    if model == DAHL and p.reference > 0.0:
+        load = max(pressure / p.reference, TINY)
+        nsx, nsy, wx, wy = advance_loaded(
+            sx / limit, sy / limit, d1x / limit, d1y / limit, d2x / limit, d2y / limit,
+            size, load, p.exponent, p.law, STIFFNESS,
+        )  # fmt: skip
+        return nsx * limit, nsy * limit, load, wx / load, wy / load
     if model == DAHL:
         wx, wy = advance(
             sx / limit, sy / limit, d1x / limit, d1y / limit, d2x / limit, d2y / limit,
             p.exponent, p.law,
         )  # fmt: skip
         return wx * limit, wy * limit, 0.0, wx, wy
-    nsx, nsy, nsize, wx, wy, _, _ = share_and_tangent(
-        sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p
+    nsx, nsy, nsize, wx, wy, _, _, _ = share_and_tangent(
+        sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, pressure
     )
     return nsx, nsy, nsize, wx, wy
 
 
 @kernel
-def share_and_tangent(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p):
+def share_and_tangent(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, pressure):
     """Friction share after a slip, with its tangent.
 
     Parameters
@@ -71,29 +83,35 @@ def share_and_tangent(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p):
     sx, sy : float
         Committed deflection in the tangent plane, m.
     size : float
-        Two-phase scheme: its signed size over the limit.
+        Two-phase scheme: its signed size over the limit. Stiffness kept: the pressure there was,
+        over the reference.
     d1x, d1y, d2x, d2y : float
         The two parts of the slip of the body on the surface, m.
     one_sided : bool
         Two-phase scheme: before the start of the vibration.
     p : PointNumbers
         The law.
+    pressure : float
+        At the end, Pa; above 0.
 
     Returns
     -------
     sx, sy, size : float
-        Trial deflection, m, and signed size.
+        Trial deflection, m, and signed size or pressure over the reference.
     share_x, share_y : float
         Friction over mu p, in the direction of the slip.
     tangent_1, tangent_2 : tuple of 4 floats
         Derivative of the share by the slip parts, 1/m.
+    slope : tuple of 2 floats
+        Derivative by the pressure of the share times it; the share, where the limit does not
+        follow the pressure.
     """
     model = p.model
     limit = p.limit
     if model == COULOMB:
         wx, wy, txx, txy, tyy = return_mapping(sx, sy, d1x + d2x, d1y + d2y, limit)
         tangent = (txx, txy, txy, tyy)
-        return wx * limit, wy * limit, 0.0, wx, wy, tangent, tangent
+        return wx * limit, wy * limit, 0.0, wx, wy, tangent, tangent, (wx, wy)
     if model == TWO_PHASE:
         last, ca, sa, t1, t2 = phases_and_tangent(
             sx / limit, sy / limit, size, d1x / limit, d1y / limit, d2x / limit, d2y / limit,
@@ -106,21 +124,42 @@ def share_and_tangent(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p):
             wx * limit, wy * limit, last, wx, wy,
             (t1[0] * k, t1[1] * k, t1[2] * k, t1[3] * k),
             (t2[0] * k, t2[1] * k, t2[2] * k, t2[3] * k),
+            (wx, wy),
         )  # fmt: skip
+    kept = p.reference > 0.0
+    load = max(pressure / p.reference, TINY) if kept else 0.0
+    if model == LUGRE and kept:
+        new, share, tangents, slope = lugre_loaded(
+            (sx, sy), (d1x, d1y), (d2x, d2y), limit, size, load, p.step, p.static_ratio,
+            p.stribeck_velocity, p.rate_damping, p.slip_damping, p.law,
+        )  # fmt: skip
+        return new[0], new[1], load, share[0], share[1], tangents[0], tangents[1], slope
     if model == LUGRE:
         new, share, tangents = lugre_update(
             (sx, sy), (d1x, d1y), (d2x, d2y), limit, p.step, p.static_ratio, p.stribeck_velocity,
             p.rate_damping, p.slip_damping, p.law,
         )  # fmt: skip
-        return new[0], new[1], 0.0, share[0], share[1], tangents[0], tangents[1]
-    new, share, tangents = update((sx, sy), (d1x, d1y), (d2x, d2y), limit, p.exponent, p.law)
+        return new[0], new[1], 0.0, share[0], share[1], tangents[0], tangents[1], share
+    if kept:
+        new, share, _, tangents, slopes = update_loaded(
+            (sx / limit, sy / limit), (d1x / limit, d1y / limit), (d2x / limit, d2y / limit),
+            size, load, p.exponent, p.law, STIFFNESS,
+        )  # fmt: skip
+        new = (new[0] * limit, new[1] * limit)
+        share = (share[0] / load, share[1] / load)
+        slope = slopes[1]
+        k = 1.0 / (limit * load)
+    else:
+        new, share, tangents = update((sx, sy), (d1x, d1y), (d2x, d2y), limit, p.exponent, p.law)
+        slope = share
+        k = 1.0 / limit
     t1 = tangents[0]
     t2 = tangents[1]
-    k = 1.0 / limit
     return (
-        new[0], new[1], 0.0, share[0], share[1],
+        new[0], new[1], load, share[0], share[1],
         (t1[0] * k, t1[1] * k, t1[2] * k, t1[3] * k),
         (t2[0] * k, t2[1] * k, t2[2] * k, t2[3] * k),
+        slope,
     )  # fmt: skip
 
 
@@ -161,6 +200,7 @@ def augmented_slip(
             ex = reach * nx / length - sx
             ey = reach * ny / length - sy
         return ex - dx, ey - dy
+    pressure = full / p.mu
     best = np.inf
     mx = 0.0
     my = 0.0
@@ -168,7 +208,7 @@ def augmented_slip(
     for start in range(2):
         ax = d1x if start == 0 else -d2x
         ay = d1y if start == 0 else -d2y
-        _, _, _, wx, wy, _, _ = share_and_tangent(sx, sy, size, ax, ay, d2x, d2y, one_sided, p)
+        _, _, _, wx, wy = share_of(sx, sy, size, ax, ay, d2x, d2y, one_sided, p, pressure)
         rx = full * wx + augmentation * (ax + d2x) - aim_x
         ry = full * wy + augmentation * (ay + d2y) - aim_y
         miss = rx * rx + ry * ry
@@ -177,7 +217,9 @@ def augmented_slip(
             mx = ax
             my = ay
     for _ in range(60):
-        _, _, _, wx, wy, t, _ = share_and_tangent(sx, sy, size, mx, my, d2x, d2y, one_sided, p)
+        _, _, _, wx, wy, t, _, _ = share_and_tangent(
+            sx, sy, size, mx, my, d2x, d2y, one_sided, p, pressure
+        )
         rx = full * wx + augmentation * (mx + d2x) - aim_x
         ry = full * wy + augmentation * (my + d2y) - aim_y
         kxx = full * t[0] + augmentation
@@ -194,7 +236,7 @@ def augmented_slip(
         while step > 1e-3:
             ax = mx + step * cx
             ay = my + step * cy
-            _, _, _, wx, wy, _, _ = share_and_tangent(sx, sy, size, ax, ay, d2x, d2y, one_sided, p)
+            _, _, _, wx, wy = share_of(sx, sy, size, ax, ay, d2x, d2y, one_sided, p, pressure)
             rx = full * wx + augmentation * (ax + d2x) - aim_x
             ry = full * wy + augmentation * (ay + d2y) - aim_y
             miss = rx * rx + ry * ry
@@ -228,6 +270,9 @@ class PointFriction:
         Dahl's exponent.
     static_ratio, stribeck_velocity, rate_damping, slip_damping : float
         LuGre's numbers as `asperity.friction.lugre_update` takes them, SI.
+    reference : float
+        Pressure to which Dahl's and LuGre's limit belongs, Pa: their stiffness stays and the limit
+        follows the pressure. 0: the limit holds at any pressure, by which friction can gain energy.
     """
 
     model: int = COULOMB
@@ -239,6 +284,7 @@ class PointFriction:
     stribeck_velocity: float = 0.0
     rate_damping: float = 0.0
     slip_damping: float = 0.0
+    reference: float = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.mu) and self.mu >= 0.0):
@@ -254,6 +300,7 @@ class PointFriction:
         friction: Friction,
         normal_force: float,
         *,
+        area: float,
         elastic_slip: float = 1e-9,
         two_phase: bool = False,
     ) -> PointFriction:
@@ -265,15 +312,27 @@ class PointFriction:
             The table; its forces (stiffness, damping) are those of the whole contact.
         normal_force : float
             Nominal normal force they belong to, N.
+        area : float
+            Over which it is spread, m^2.
         elastic_slip : float
             Coulomb's elastic slip, m.
         two_phase : bool
             Advance Dahl's law by the thesis's explicit phases.
         """
-        if "keeps" in friction.model_fields_set and friction.keeps == "stiffness":
+        if friction.model == "springs":
             raise InputError(
-                "friction.keeps is 'stiffness'; the points of an elastic contact keep their "
-                "deflection so far: leave it out or give 'deflection'"
+                "friction.model is 'springs'; the points of an elastic contact, which have a "
+                "pressure each, take 'dahl' of exponent 0 for it"
+            )
+        if friction.load_exponent != 1.0:
+            raise InputError(
+                f"friction.load_exponent is {friction.load_exponent:g}; friction at the points of "
+                "an elastic contact is proportional to the pressure: leave it out"
+            )
+        if two_phase and "keeps" in friction.model_fields_set and friction.keeps == "stiffness":
+            raise InputError(
+                "friction.keeps is 'stiffness'; solve.scheme 'two-phase' keeps the deflection: "
+                "give that, or leave the scheme out"
             )
         full = friction.mu * normal_force
         if not full > 0.0:
@@ -281,9 +340,14 @@ class PointFriction:
         if friction.model == "coulomb":
             return cls(COULOMB, friction.mu, elastic_slip)
         limit = friction.deflection_limit(normal_force)
+        stays = two_phase or friction.keeps == "deflection"
+        reference = 0.0 if stays else normal_force / area
         if friction.model == "dahl":
             model = TWO_PHASE if two_phase else DAHL
-            return cls(model, friction.mu, limit, friction.law_code, friction.exponent)
+            return cls(
+                model, friction.mu, limit, friction.law_code, friction.exponent,
+                reference=reference,
+            )  # fmt: skip
         return cls(
             LUGRE,
             friction.mu,
@@ -294,7 +358,13 @@ class PointFriction:
             friction.stribeck_velocity,
             friction.contact_damping / full,
             friction.viscous_damping / full,
+            reference,
         )
+
+    @property
+    def keeps_deflection(self) -> bool:
+        """Whether asperities keep their deflection where the pressure changes, and gain energy."""
+        return self.model != COULOMB and self.mu > 0.0 and self.reference == 0.0
 
     def numbers(self, step: float) -> PointNumbers:
         """The law as kernels take it, for a time step in s (LuGre needs it)."""
@@ -303,5 +373,5 @@ class PointFriction:
         return PointNumbers(
             self.model, self.law, float(self.mu), float(self.limit), float(self.exponent),
             float(self.static_ratio), float(self.stribeck_velocity), float(self.rate_damping),
-            float(self.slip_damping), float(step),
+            float(self.slip_damping), float(step), float(self.reference),
         )  # fmt: skip

@@ -240,6 +240,9 @@ def augmented_tractions(
         sx = 0.0
         sy = 0.0
         sz = 0.0
+        qx = 0.0
+        qy = 0.0
+        qz = 0.0
         if mu > 0.0:
             if nx != lx or ny != ly or nz != lz:
                 # On a plane one frame serves all points; roots and quotients are what costs here.
@@ -277,8 +280,8 @@ def augmented_tractions(
                 a1 += m1
                 a2 += m2
             if with_tangent:
-                s1, s2, new_size, w1, w2, t1, t2 = share_and_tangent(
-                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction
+                s1, s2, new_size, w1, w2, t1, t2, by_p = share_and_tangent(
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction, p
                 )
                 _tangent(
                     stiffness[q], mu * p, t1, t2, along_1, along_2,
@@ -288,8 +291,9 @@ def augmented_tractions(
             else:
                 t1 = (0.0, 0.0, 0.0, 0.0)
                 s1, s2, new_size, w1, w2 = share_of(
-                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction
+                    s1, s2, size0[q], a1, a2, b1, b2, one_sided, friction, p
                 )
+                by_p = (w1, w2)
             deflection[q, 0] = s1 * ex + s2 * fx
             deflection[q, 1] = s1 * ey + s2 * fy
             deflection[q, 2] = s1 * ez + s2 * fz
@@ -297,6 +301,9 @@ def augmented_tractions(
             sx = mu * (w1 * ex + w2 * fx)
             sy = mu * (w1 * ey + w2 * fy)
             sz = mu * (w1 * ez + w2 * fz)
+            qx = mu * (by_p[0] * ex + by_p[1] * fx)
+            qy = mu * (by_p[0] * ey + by_p[1] * fy)
+            qz = mu * (by_p[0] * ez + by_p[1] * fz)
             tx -= p * sx
             ty -= p * sy
             tz -= p * sz
@@ -304,9 +311,9 @@ def augmented_tractions(
                 off += weights[q] * ((tx - px) ** 2 + (ty - py) ** 2 + (tz - pz) ** 2)
                 c1 = mu * p * (t1[0] * m1 + t1[1] * m2)
                 c2 = mu * p * (t1[2] * m1 + t1[3] * m2)
-                tx += c1 * ex + c2 * fx - slope * far * (nx - sx)
-                ty += c1 * ey + c2 * fy - slope * far * (ny - sy)
-                tz += c1 * ez + c2 * fz - slope * far * (nz - sz)
+                tx += c1 * ex + c2 * fx - slope * far * (nx - qx)
+                ty += c1 * ey + c2 * fy - slope * far * (ny - qy)
+                tz += c1 * ez + c2 * fz - slope * far * (nz - qz)
         else:
             if aimed:
                 off += weights[q] * ((tx - px) ** 2 + (ty - py) ** 2 + (tz - pz) ** 2)
@@ -323,15 +330,15 @@ def augmented_tractions(
             gx = p * (sx * hxx + sy * hxy + sz * hxz) - slope * nx
             gy = p * (sx * hxy + sy * hyy + sz * hyz) - slope * ny
             gz = p * (sx * hxz + sy * hyz + sz * hzz) - slope * nz
-            k[0, 0] += nx * gx + p * hxx + slope * sx * nx
-            k[0, 1] += nx * gy + p * hxy + slope * sx * ny
-            k[0, 2] += nx * gz + p * hxz + slope * sx * nz
-            k[1, 0] += ny * gx + p * hxy + slope * sy * nx
-            k[1, 1] += ny * gy + p * hyy + slope * sy * ny
-            k[1, 2] += ny * gz + p * hyz + slope * sy * nz
-            k[2, 0] += nz * gx + p * hxz + slope * sz * nx
-            k[2, 1] += nz * gy + p * hyz + slope * sz * ny
-            k[2, 2] += nz * gz + p * hzz + slope * sz * nz
+            k[0, 0] += nx * gx + p * hxx + slope * qx * nx
+            k[0, 1] += nx * gy + p * hxy + slope * qx * ny
+            k[0, 2] += nx * gz + p * hxz + slope * qx * nz
+            k[1, 0] += ny * gx + p * hxy + slope * qy * nx
+            k[1, 1] += ny * gy + p * hyy + slope * qy * ny
+            k[1, 2] += ny * gz + p * hyz + slope * qy * nz
+            k[2, 0] += nz * gx + p * hxz + slope * qz * nx
+            k[2, 1] += nz * gy + p * hyz + slope * qz * ny
+            k[2, 2] += nz * gz + p * hzz + slope * qz * nz
         traction[q, 0] = tx
         traction[q, 1] = ty
         traction[q, 2] = tz

@@ -22,18 +22,18 @@ order; that is for impacts.
 
 from __future__ import annotations
 
-import dataclasses
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
+from asperity.compiled import kernel
 from asperity.errors import InputError
 
 ALPHA = -0.05
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Coordinates:
+class Coordinates(NamedTuple):
     """A state of m generalised coordinates; each an array of shape (m,), SI."""
 
     #: place, velocity, acceleration: Of each coordinate
@@ -47,8 +47,7 @@ class Coordinates:
     @classmethod
     def at_rest(cls, size: int, **given: FloatArray) -> Coordinates:
         """Return a state at rest, without forces, but for what is given."""
-        none = dict.fromkeys((field.name for field in dataclasses.fields(cls)), np.zeros(size))
-        return cls(**none | given)
+        return cls(**dict.fromkeys(cls._fields, np.zeros(size)) | given)
 
 
 def coefficients(alpha: float = ALPHA, *, impact: bool = False) -> tuple[float, float]:
@@ -61,8 +60,7 @@ def coefficients(alpha: float = ALPHA, *, impact: bool = False) -> tuple[float, 
     return 0.5 / (1.0 + alpha) if impact else 0.25 * (1.0 - alpha) ** 2, 0.5 - alpha
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class StepOperator:
+class StepOperator(NamedTuple):
     r"""What one length of the step makes of masses and stiffnesses."""
 
     #: mass, stiffness (m, m): :math:`M` and :math:`K` of the coordinates
@@ -81,73 +79,75 @@ class StepOperator:
     beta: float
     gamma: float
     alpha: float
+    pace: float  #: Velocity at the end of a step per place there, 1/s
 
-    @property
-    def pace(self) -> float:
-        """Velocity at the end of a step per place there, 1/s."""
-        return self.gamma / (self.beta * self.step)
 
-    def _ahead(self, state: Coordinates) -> FloatArray:
-        """Place by Newmark's formula without an acceleration at the end of the step."""
-        step = self.step
-        acceleration = step * step * (0.5 - self.beta) * state.acceleration
-        return state.place + step * state.velocity + acceleration
+@kernel
+def _ahead(operator, state):
+    """Place by Newmark's formula without an acceleration at the end of the step."""
+    step = operator.step
+    acceleration = step * step * (0.5 - operator.beta) * state.acceleration
+    return state.place + step * state.velocity + acceleration
 
-    def predict(self, state: Coordinates, known: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return where forces known beforehand lead, :math:`q^*`, and its velocity."""
-        ahead = self._ahead(state)
-        velocity = state.velocity + self.step * (1.0 - self.gamma) * state.acceleration
-        push = known + self.alpha / (1.0 + self.alpha) * state.force - self.damping * velocity
-        place = self.carry @ ahead + self.compliance @ push
-        return place, velocity + self.pace * (place - ahead)
 
-    def complete(
-        self, state: Coordinates, place: FloatArray, forces: FloatArray
-    ) -> tuple[Coordinates, float, float]:
-        r"""Return the state at the end of a step, and the energy the method and the damping take.
+@kernel
+def predict(operator, state, known):
+    """Where generalised forces known beforehand, (m,), lead, :math:`q^*`, and its velocity."""
+    ahead = _ahead(operator, state)
+    velocity = state.velocity + operator.step * (1.0 - operator.gamma) * state.acceleration
+    share = operator.alpha / (1.0 + operator.alpha)
+    push = known + share * state.force - operator.damping * velocity
+    place = operator.carry @ ahead + operator.compliance @ push
+    return place, velocity + operator.pace * (place - ahead)
 
-        Parameters
-        ----------
-        state : Coordinates
-            Committed, at the start.
-        place : ndarray, shape (m,)
-            Coordinates at the end.
-        forces : ndarray, shape (m,)
-            All generalised forces :math:`Q_1` at the end.
 
-        Returns
-        -------
-        state : Coordinates
-            At the end.
-        lost : float
-            Energy dissipated numerically in the step, J. With :math:`N = Dv + Kq - Q`, the
-            imbalance :math:`e_0 = -N_0 - M a_0` the step began with and
-            :math:`\bar a = (1-\gamma) a_0 + \gamma a_1`,
+@kernel
+def complete(operator, state, place, forces):
+    r"""State at the end of a step, and the energy the method and the damping take.
 
-            .. math:: \Delta q^T [M (\tfrac12 - \gamma) \Delta a
-                + \tfrac12 (\alpha \Delta N + e_0)]
-                + h^2 (\beta - \tfrac{\gamma}{2})\, \Delta a^T M \bar a ,
+    Parameters
+    ----------
+    operator : StepOperator
+        Of the length of the step.
+    state : Coordinates
+        Committed, at the start.
+    place : ndarray, shape (m,)
+        Coordinates at the end.
+    forces : ndarray, shape (m,)
+        All generalised forces :math:`Q_1` at the end.
 
-            which is what trapezoidal works of all forces exceed the change of energy by. It
-            vanishes with :math:`\alpha`.
-        damped : float
-            Trapezoidal work of the damping, J.
-        """
-        step, beta, gamma = self.step, self.beta, self.gamma
-        acceleration = (place - self._ahead(state)) / (beta * step * step)
-        mean = (1.0 - gamma) * state.acceleration + gamma * acceleration
-        velocity = state.velocity + step * mean
-        resistance = self.damping * velocity + self.stiffness @ place - forces
-        reaction = np.where(self.held, resistance, 0.0)
-        resistance -= reaction
-        imbalance = -resistance - self.mass @ acceleration
-        moved, change = place - state.place, acceleration - state.acceleration
-        uneven = self.alpha * (resistance - state.force) + state.imbalance
-        lost = moved @ ((0.5 - gamma) * (self.mass @ change) + 0.5 * uneven)
-        lost += step * step * (beta - 0.5 * gamma) * (change @ (self.mass @ mean))
-        damped = 0.5 * (self.damping * (state.velocity + velocity)) @ moved
-        end = Coordinates(place, velocity, acceleration, resistance, imbalance, reaction)
-        return end, float(lost), float(damped)
+    Returns
+    -------
+    state : Coordinates
+        At the end.
+    lost : float
+        Energy dissipated numerically in the step, J. With :math:`N = Dv + Kq - Q`, the imbalance
+        :math:`e_0 = -N_0 - M a_0` the step began with and
+        :math:`\bar a = (1-\gamma) a_0 + \gamma a_1`,
+
+        .. math:: \Delta q^T [M (\tfrac12 - \gamma) \Delta a + \tfrac12 (\alpha \Delta N + e_0)]
+            + h^2 (\beta - \tfrac{\gamma}{2})\, \Delta a^T M \bar a ,
+
+        which is what trapezoidal works of all forces exceed the change of energy by. It vanishes
+        with :math:`\alpha`.
+    damped : float
+        Trapezoidal work of the damping, J.
+    """
+    step, beta, gamma = operator.step, operator.beta, operator.gamma
+    acceleration = (place - _ahead(operator, state)) / (beta * step * step)
+    mean = (1.0 - gamma) * state.acceleration + gamma * acceleration
+    velocity = state.velocity + step * mean
+    resistance = operator.damping * velocity + operator.stiffness @ place - forces
+    reaction = np.where(operator.held, resistance, 0.0)
+    resistance = resistance - reaction
+    imbalance = -resistance - operator.mass @ acceleration
+    moved, change = place - state.place, acceleration - state.acceleration
+    uneven = operator.alpha * (resistance - state.force) + state.imbalance
+    lost = moved @ ((0.5 - gamma) * (operator.mass @ change) + 0.5 * uneven)
+    lost += step * step * (beta - 0.5 * gamma) * (change @ (operator.mass @ mean))
+    damped = 0.5 * ((operator.damping * (state.velocity + velocity)) @ moved)
+    end = Coordinates(place, velocity, acceleration, resistance, imbalance, reaction)
+    return end, lost, damped
 
 
 def step_operator(
@@ -198,6 +198,8 @@ def step_operator(
     compliance[inner] = (1.0 + alpha) * np.linalg.inv(left)
     carry = np.eye(size)
     carry[inner] = np.linalg.solve(left, inertia)
+    step, pace = float(step), gamma / (beta * step)
     return StepOperator(
-        mass.copy(), stiffness.copy(), damping, compliance, carry, held, step, beta, gamma, alpha
-    )
+        mass.copy(), stiffness.copy(), damping, compliance, carry, held, step, beta, gamma, alpha,
+        pace,
+    )  # fmt: skip

@@ -19,20 +19,20 @@ from __future__ import annotations
 
 import dataclasses
 import operator
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.motion.hht import Coordinates
-from asperity.contact.motion.mechanism import DriveState, Mechanism, Port
+from asperity.contact.motion.mechanism import DriveState, Mechanism
 from asperity.contact.motion.system import BaseMotion, System, SystemState
 from asperity.contact.motion.works import surface_energies, works
 from asperity.results.ledger import PowerLedger
 from asperity.results.quantity import quantity
 
 
-@dataclasses.dataclass(frozen=True)
-class Sums:
+class Sums(NamedTuple):
     """Sums over steps, and what was least and greatest at their ends.
 
     Forces are trapezoidal means times the step, N s; works in J, friction in N, pressure in Pa.
@@ -52,6 +52,7 @@ class Sums:
     pressure_work: float = 0.0
     overclosure_work: float = 0.0
     asperity_work: float = 0.0
+    friction_gain: float = 0.0
     transfer_work: float = 0.0
     untransferred: float = 0.0
     iterations: float = 0.0
@@ -63,14 +64,14 @@ class Sums:
     friction_y_min: float = np.inf
     pressure_max: float = 0.0
 
-    def __add__(self, other: Sums) -> Sums:
-        pairs = zip(_TOGETHER, _values(self), _values(other), strict=True)
-        return Sums(*(together(*pair) for together, *pair in pairs))
+    def with_(self, other: Sums) -> Sums:
+        """Return the sums over the steps of both."""
+        pairs = zip(_TOGETHER, self, other, strict=True)
+        return Sums(*[together(one, another) for together, one, another in pairs])
 
 
-_NAMES = tuple(field.name for field in dataclasses.fields(Sums))
-_values = operator.attrgetter(*_NAMES)
-_TOGETHER = tuple({"max": max, "min": min}.get(name[-3:], operator.add) for name in _NAMES)
+_ENDINGS = {"max": max, "min": min}
+_TOGETHER = tuple(_ENDINGS.get(name[-3:], operator.add) for name in Sums._fields)
 
 
 def over_step(
@@ -90,7 +91,7 @@ def over_step(
     of_points = works(
         one.pressure, one.traction, one.normal, one.distance, one.state.deflection,
         other.pressure, other.traction, other.normal, other.distance, other.state.deflection,
-        slip, system.weights, system.normal.numbers, system.friction.mu / system.friction.limit,
+        slip, system.weights, system.normal.numbers, system.asperities,
     )  # fmt: skip
     first, last, start, end = before.forces, after.forces, before.drive, after.drive
     step = after.time - before.time
@@ -99,7 +100,10 @@ def over_step(
     normal, pull = 0.5 * (first.normal + last.normal), 0.5 * (start.force + end.force)
     lost, damped = taken
     load, transfer = system.mechanism.load, 0.0
-    fallen = 0.0 if load is None else _moved(load, after) - _moved(load, before)
+    fallen = 0.0
+    if load is not None:
+        moved = after.coordinates.place - before.coordinates.place
+        fallen = float(load.generalised @ moved + load.response @ (other.force - one.force))
     if system.unseen > 0.0:
         across = (one.force + other.force)[1::3] @ (other.displacement - one.displacement)[1::3]
         transfer = -0.5 * system.unseen * float(across)
@@ -119,6 +123,7 @@ def over_step(
         pressure_work=of_points.pressure,
         overclosure_work=of_points.overclosure,
         asperity_work=of_points.asperities,
+        friction_gain=of_points.gained,
         transfer_work=transfer,
         untransferred=-fy * (base.whole_y - base.y),
         iterations=other.iterations,
@@ -130,10 +135,6 @@ def over_step(
         friction_y_min=last.friction_y,
         pressure_max=of_points.greatest,
     )
-
-
-def _moved(load: Port, state: SystemState) -> float:
-    return load.moved(state.coordinates, state.contact.force)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -176,7 +177,7 @@ def energies(system: System, state: SystemState) -> Energies:
     contact = state.contact
     over, asperities = surface_energies(
         contact.pressure, contact.distance, contact.state.deflection, system.weights,
-        system.normal.numbers, system.friction.mu, system.friction.limit,
+        system.normal.numbers, system.asperities,
     )  # fmt: skip
     body = body_energies(
         system.mechanism, state.coordinates, state.drive, contact.force, state.load

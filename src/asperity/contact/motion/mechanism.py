@@ -27,12 +27,19 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
-from asperity.contact.motion.hht import ALPHA, Coordinates, StepOperator, step_operator
+from asperity.compiled import kernel
+from asperity.contact.motion.hht import (
+    ALPHA,
+    Coordinates,
+    StepOperator,
+    complete,
+    predict,
+    step_operator,
+)
 from asperity.errors import InputError
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Port:
+class Port(NamedTuple):
     """A way in for a force that is not contact: what it moves, per newton."""
 
     #: (m,): Force on each generalised coordinate; also how far the port goes per coordinate
@@ -46,8 +53,7 @@ class Port:
         return float(self.generalised @ coordinates.place + self.response @ force)
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Drive:
+class Drive(NamedTuple):
     """A spring and a dashpot side by side between the body and a point that moves."""
 
     port: Port  #: Where it holds the body, and in which direction
@@ -78,8 +84,7 @@ class Mechanism:
         return len(self.mass)
 
 
-@dataclasses.dataclass(frozen=True)
-class DriveState:
+class DriveState(NamedTuple):
     """Where a drive is, and how it pulls."""
 
     reach: float = 0.0  #: Place of its far end, m
@@ -111,8 +116,7 @@ class Approach(NamedTuple):
     force: float  #: Drive force, N
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class MotionStep:
+class MotionStep(NamedTuple):
     """A mechanism's motion over one length of the step."""
 
     operator: StepOperator  #: Of the generalised coordinates
@@ -125,48 +129,40 @@ class MotionStep:
     drop: FloatArray  #: (3 n,): What contact forces take off the drive force
     yielding: float  #: What the drive's own give divides its force by
 
-    def approach(self, state: Coordinates, drive: DriveState, imposed: Imposed) -> Approach:
-        """Return where a step leads from committed states without contact forces."""
-        place, velocity = self.operator.predict(state, imposed.load * self.load.generalised)
-        held, along = self.drive, self.drive.port.generalised
-        lag = imposed.speed - along @ velocity + drive.strain / self.operator.step
-        pull = held.stiffness * (imposed.reach - along @ place) + held.damping * lag
-        force = float(pull / self.yielding)
-        free = imposed.load * self.load.response + force * self.lift + self.shapes @ place
-        return Approach(place, velocity, free, force)
 
-    def settle(
-        self,
-        state: Coordinates,
-        drive: DriveState,
-        imposed: Imposed,
-        start: Approach,
-        forces: FloatArray,
-    ) -> tuple[Coordinates, DriveState, tuple[float, float]]:
-        """Return both states at the end of a step, the contact forces on the body, N, being known.
+@kernel
+def approach(moving, state, drive, imposed):
+    """Where a step leads from committed states without contact forces; an `Approach`."""
+    load, held = moving.load, moving.drive
+    along = held.port.generalised
+    place, velocity = predict(moving.operator, state, imposed.load * load.generalised)
+    lag = imposed.speed - along @ velocity + drive.strain / moving.operator.step
+    pull = held.stiffness * (imposed.reach - along @ place) + held.damping * lag
+    force = pull / moving.yielding
+    free = imposed.load * load.response + force * moving.lift + moving.shapes @ place
+    return Approach(place, velocity, free, force)
 
-        ``start`` is what `approach` returned. Last comes the energy dissipated by the method, and
-        by the coordinates' damping, J.
-        """
-        operator, port = self.operator, self.drive.port
-        pull = start.force - float(self.drop @ forces)
-        acting = self.shapes.T @ forces + pull * port.generalised
-        change = operator.compliance @ acting
-        place = start.place + change
-        end, lost, damped = operator.complete(
-            state, place, acting + imposed.load * self.load.generalised
-        )
-        strain = float(port.response @ forces) + port.own * pull
-        pace = port.generalised @ (start.velocity + operator.pace * change)
-        lag = imposed.speed - pace - (strain - drive.strain) / operator.step
-        drive = DriveState(
-            reach=imposed.reach,
-            way=float(port.generalised @ place) + strain,
-            force=pull,
-            strain=strain,
-            pull=float(self.drive.damping * lag),
-        )
-        return end, drive, (lost, damped)
+
+@kernel
+def settle(moving, state, drive, imposed, start, forces):
+    """Both states at the end of a step, the contact forces on the body, N, being known.
+
+    ``start`` is what `approach` returned. Last comes the energy dissipated by the method, and by
+    the coordinates' damping, J.
+    """
+    operator, port = moving.operator, moving.drive.port
+    pull = start.force - moving.drop @ forces
+    acting = moving.shapes.T @ forces + pull * port.generalised
+    change = operator.compliance @ acting
+    place = start.place + change
+    loads = imposed.load * moving.load.generalised
+    end, lost, damped = complete(operator, state, place, acting + loads)
+    strain = port.response @ forces + port.own * pull
+    pace = port.generalised @ (start.velocity + operator.pace * change)
+    lag = imposed.speed - pace - (strain - drive.strain) / operator.step
+    way = port.generalised @ place + strain
+    now = DriveState(imposed.reach, way, pull, strain, moving.drive.damping * lag)
+    return end, now, (lost, damped)
 
 
 def motion_step(
@@ -213,9 +209,15 @@ def motion_step(
         operator,
         np.ascontiguousarray(compliance),
         np.ascontiguousarray(shapes),
-        drive,
-        mechanism.load or nothing,
+        Drive(_plain(drive.port), float(drive.stiffness), float(drive.damping)),
+        _plain(mechanism.load or nothing),
         lift,
         drop,
         yielding,
     )
+
+
+def _plain(port: Port) -> Port:
+    """A port whose arrays have the one layout that kernels are compiled for."""
+    generalised, response = map(np.ascontiguousarray, (port.generalised, port.response))
+    return Port(generalised, response, float(port.own))

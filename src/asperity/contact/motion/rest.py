@@ -106,7 +106,7 @@ def at_start(system: System, result: IncrementResult, coordinates: Coordinates) 
     else:
         velocity = coordinates.velocity.copy()
         velocity[0] = system.drive_velocity if mechanism.held[0] else 0.0
-        coordinates = dataclasses.replace(coordinates, velocity=velocity)
+        coordinates = coordinates._replace(velocity=velocity)
     forces = contact_resultants(system, result)
     drive = DriveState(reach=way, way=way, strain=strain)
     return SystemState(0.0, coordinates, drive, result, forces, 1.0)

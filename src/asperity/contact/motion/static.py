@@ -25,6 +25,8 @@ from asperity.errors import ConvergenceError, InputError
 
 _MOST_CUTS = 12
 _MOST_SEARCHES = 60
+# Of a load, over itself.
+_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,29 +98,12 @@ def move_to(
     *,
     start: StaticState | float = 0.0,
     increments: int = 1,
-    free: FloatArray | None = None,
 ) -> StaticState:
-    """Move the counter-surface to a place.
+    """Move the counter-surface to a place on its guide, m or rad.
 
-    Parameters
-    ----------
-    solver : IncrementSolver
-        Of body, surface and laws; `flexibility` is that of the held body.
-    guide : Guide
-        How the surface moves.
-    place : float
-        Where to, m or rad.
-    start : StaticState or float
-        From where; a number: a place at which the body is untouched and undeformed.
-    increments : int
-        Equal parts of the way. Friction depends on the path, and its steps on their size.
-    free : ndarray, shape (3n,), optional
-        Displacement of the nodes by other loads, at the end; they grow in proportion to the way
-        from those of the start.
-
-    Returns
-    -------
-    StaticState
+    The `flexibility` of the solver is that of the held body. The start is a state, or a place at
+    which the body is untouched and undeformed. The way is gone in equal increments: friction
+    depends on the path, and its steps on their size.
 
     Raises
     ------
@@ -128,8 +113,7 @@ def move_to(
     if increments < 1:
         raise InputError(f"increments is {increments}; it must be at least 1")
     problem = solver.problem
-    state, at, load_free = _begin(problem, start)
-    last_free = np.zeros(3 * problem.nodes) if free is None else free
+    state, at = _begin(problem, start)
     begin, done, count, work = at, 0.0, 0, 0.0
     share = 1.0 / increments
     result = None
@@ -139,9 +123,8 @@ def move_to(
         if 1.0 - ahead < 1e-9 * share:
             ahead = 1.0
         to = begin + ahead * (place - begin)
-        loads = load_free + ahead * (last_free - load_free)
         try:
-            result = solver.solve(loads, _motion(guide, at, to), state)
+            result = solver.solve(_unloaded(problem), _motion(guide, at, to), state)
         except ConvergenceError as error:
             share *= 0.5
             if share * increments < 0.5**_MOST_CUTS:
@@ -164,26 +147,12 @@ def load_to(
     start: StaticState | float = 0.0,
     increments: int = 1,
     step: float | None = None,
-    free: FloatArray | None = None,
-    tolerance: float = 1e-9,
 ) -> StaticState:
-    """Push the counter-surface until it bears a load.
+    """Push the counter-surface until it bears a load, from where and in increments as `move_to`.
 
-    Parameters
-    ----------
-    solver, guide, start, increments, free
-        As `move_to`; ``free`` is there from the first increment on.
-    load : float
-        Force along the guide's axis or moment about it, on the body, N or N m. It has to grow
-        with the place.
-    step : float, optional
-        First guess of how far to go, m or rad; needed from an untouched start.
-    tolerance : float
-        Relative to the load; no tighter than the increments are solved.
-
-    Returns
-    -------
-    StaticState
+    The load is the force along the guide's axis or the moment about it, on the body, N or N m; it
+    has to grow with the place. ``step`` is a first guess of how far to go, m or rad, needed from an
+    untouched start.
 
     Raises
     ------
@@ -197,7 +166,7 @@ def load_to(
     work = 0.0
     for part in range(1, increments + 1):
         target = first + part / increments * (load - first)
-        now, way = _one_load(solver, guide, target, now, step, free, tolerance, abs(load))
+        now, way = _one_load(solver, guide, target, now, step, abs(load))
         step = way or step
         work += now.friction_work
     assert isinstance(now, StaticState)
@@ -210,23 +179,20 @@ def _one_load(
     target: float,
     start: StaticState | float,
     step: float | None,
-    free: FloatArray | None,
-    tolerance: float,
     scale: float,
 ) -> tuple[StaticState, float]:
     """One increment to a load: bracketed regula falsi (Illinois) on the place."""
     problem = solver.problem
-    state, at, _ = _begin(problem, start)
-    loads = np.zeros(3 * problem.nodes) if free is None else free
+    state, at = _begin(problem, start)
 
     def tried(way: float) -> StaticState:
-        result = solver.solve(loads, _motion(guide, at, at + way), state)
+        result = solver.solve(_unloaded(problem), _motion(guide, at, at + way), state)
         work = _friction_work(problem, state, result)
         return StaticState(at + way, guide.load(problem, result), result, 1, work)
 
     def found(state: StaticState) -> bool:
         # The forces of an increment are known no better than its residual.
-        known = max(tolerance, problem.tolerance, state.contact.residual)
+        known = max(_TOLERANCE, problem.tolerance, state.contact.residual)
         return abs(state.load - target) <= known * scale
 
     here = tried(0.0)
@@ -273,14 +239,15 @@ def _one_load(
     )
 
 
-def _begin(
-    problem: IncrementProblem, start: StaticState | float
-) -> tuple[ContactState, float, FloatArray]:
+def _begin(problem: IncrementProblem, start: StaticState | float) -> tuple[ContactState, float]:
     if isinstance(start, StaticState):
-        state = start.contact.state
-        way = state.displacement - problem.flexibility @ state.force
-        return state, start.place, way
-    return ContactState.rest(problem), float(start), np.zeros(3 * problem.nodes)
+        return start.contact.state, start.place
+    return ContactState.rest(problem), float(start)
+
+
+def _unloaded(problem: IncrementProblem) -> FloatArray:
+    """Displacement of the nodes without contact: the body is held."""
+    return np.zeros(3 * problem.nodes)
 
 
 def _motion(guide: Guide, before: float, after: float) -> SurfaceMotion:

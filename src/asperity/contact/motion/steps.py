@@ -1,7 +1,7 @@
 """Steps of a body in motion on its contact, one after the other, and the sums over them.
 
-A step changes no state: it makes a new one. One that finds no equilibrium is taken again in two
-halves, and those in halves if need be.
+A step changes no state: it makes a new one. One that finds no equilibrium, or in which the explicit
+two-phase scheme overshoots, is taken again in two halves, and those in halves if need be.
 """
 
 import dataclasses
@@ -12,9 +12,10 @@ from asperity.arrays import FloatArray
 from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver, SolverMemory
 from asperity.contact.interface.counter_motion import SurfaceMotion
+from asperity.contact.interface.friction import TWO_PHASE
 from asperity.contact.motion.hht import Coordinates
 from asperity.contact.motion.ledger import Sums, over_step
-from asperity.contact.motion.mechanism import DriveState, Imposed, MotionStep
+from asperity.contact.motion.mechanism import DriveState, Imposed, MotionStep, approach, settle
 from asperity.contact.motion.system import System, SystemState
 from asperity.contact.motion.works import Resultants, resultants
 from asperity.errors import ConvergenceError
@@ -52,9 +53,9 @@ def take_step(
     Returns those at its end, and the energy the method and the damping of the coordinates took, J.
     A ConvergenceError has residual, iterations and points in contact.
     """
-    start = moving.approach(coordinates, drive, imposed)
+    start = approach(moving, coordinates, drive, imposed)
     result = solver.solve(start.free, surface_motion, contact)
-    end, pull, taken = moving.settle(coordinates, drive, imposed, start, result.force)
+    end, pull, taken = settle(moving, coordinates, drive, imposed, start, result.force)
     return result, end, pull, taken
 
 
@@ -168,6 +169,8 @@ class Stepper:
             moving, solver, surface_motion, state.contact.state, state.coordinates, state.drive,
             imposed,
         )  # fmt: skip
+        if system.friction.model == TWO_PHASE:
+            _refuse_overshoot(state.contact, result)
         if system.mechanism.drive is None and system.mechanism.held[0]:
             place = float(coordinates.place[0])
             drive = DriveState(place, place, float(coordinates.reaction[0]))
@@ -177,7 +180,7 @@ class Stepper:
         broke = drive.force >= system.full_friction
         # All at once, so that whoever stops in the middle of a step finds the state before it.
         self.sums, self.mean_pressure = (
-            self.sums + over_step(system, state, after, base, taken),
+            self.sums.with_(over_step(system, state, after, base, taken)),
             mean,
         )
         if self.breakaway is None and broke:
@@ -185,3 +188,21 @@ class Stepper:
         self.unconverged += result.residual > solver.problem.tolerance
         self.residual_max = max(self.residual_max, float(result.residual))
         self.state = after
+
+
+def _refuse_overshoot(before: IncrementResult, after: IncrementResult) -> None:
+    """Refuse a step in which the explicit two-phase scheme bends asperities past their limit.
+
+    Dahl's law never does; its explicit steps do where the slip is long. Past the limit friction
+    falls with the slip: the overshoot grows from step to step, until friction falls faster than the
+    body can follow and an increment, however short, has no equilibrium.
+    """
+    size = np.abs(after.state.size)
+    passed = size > (1.0 + 1e-9) * np.maximum(np.abs(before.state.size), 1.0)
+    if passed.any():
+        raise ConvergenceError(
+            f"the explicit two-phase scheme bends asperities to {size[passed].max():.3g} times "
+            "their limit, since they slip too far in a step; give a smaller solve.step, or "
+            "solve.scheme 'exponential'",
+            reached={"residual": after.residual, "active": float(after.active)},
+        )

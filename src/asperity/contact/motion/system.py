@@ -15,7 +15,7 @@ from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion.hht import ALPHA, Coordinates, coefficients
 from asperity.contact.motion.mechanism import DriveState, Mechanism, MotionStep, motion_step
-from asperity.contact.motion.works import Resultants
+from asperity.contact.motion.works import Asperities, Resultants
 from asperity.vibration import Shape, fill_increments
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
@@ -34,6 +34,13 @@ class Shaking:
     #: Share of lateral motion that reaches the contact: of the base, or of the body
     transfer: float = 1.0
     on_body: bool = False  #: Whether the body is shaken: its prescribed motion is added to its own
+
+    @functools.cached_property
+    def body(self) -> tuple[FloatArray, FloatArray]:
+        """What each part of the slip sees of the body's own displacement, (3, 3) each."""
+        if not self.on_body:
+            return np.eye(3), np.zeros((3, 3))
+        return np.diag([1.0, 0.0, 1.0]), np.diag([0.0, self.transfer, 0.0])
 
     def increment(self, begin: float, end: float) -> float:
         """Increment of the unit displacement between two times."""
@@ -75,6 +82,12 @@ class System:
     def weights(self) -> FloatArray:
         """Area of each point of the surface, m^2."""
         return np.ascontiguousarray(self.surface.weights.ravel())
+
+    @property
+    def asperities(self) -> Asperities:
+        """What the energy of the asperities follows from."""
+        friction = self.friction
+        return Asperities(friction.mu / friction.limit, float(friction.reference))
 
     def motion_step(self, step: float) -> MotionStep:
         """What a length of the step makes of the body."""
@@ -135,11 +148,12 @@ class System:
         shaking = self.shaking
         if shaking is None:
             return SurfaceMotion(pose=self.pose), BaseMotion()
-        way = (-1.0 if shaking.on_body else 1.0) * np.array(shaking.amplitude)
-        x, y, z = map(float, shaking.increment(begin, end) * way)
+        sign = -1.0 if shaking.on_body else 1.0
+        moved = sign * shaking.increment(begin, end)
+        x, y, z = [moved * amplitude for amplitude in shaking.amplitude]
         pose = self.pose
-        if way[2] != 0.0:
-            height = shaking.increment(shaking.start, end) * way[2]
+        if shaking.amplitude[2] != 0.0:
+            height = sign * shaking.increment(shaking.start, end) * shaking.amplitude[2]
             pose = Pose(pose.rotation, pose.translation + np.array([0.0, 0.0, height]))
         through = shaking.transfer * y
         one_sided = end <= shaking.start * (1.0 + 1e-12)
@@ -147,8 +161,7 @@ class System:
             pose,
             Drift(np.array([x, 0.0, 0.0])),
             Drift(np.array([0.0, through, 0.0])),
-            np.diag([1.0, 0.0, 1.0]) if shaking.on_body else np.eye(3),
-            np.diag([0.0, shaking.transfer, 0.0]) if shaking.on_body else np.zeros((3, 3)),
+            *shaking.body,
             one_sided,
         ), BaseMotion(x, through, y, z)
 

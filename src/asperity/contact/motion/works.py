@@ -26,6 +26,25 @@ class SurfaceWorks(NamedTuple):
     pressure: float  #: Put into the overclosure, trapezoidal
     overclosure: float  #: Put into the overclosure, by the law along the way
     greatest: float
+    #: Of friction at the end on the slip, less what goes into asperities, where points give it
+    gained: float
+
+
+class Asperities(NamedTuple):
+    """What of a `asperity.contact.interface.friction.PointFriction` their energy follows from."""
+
+    bristle: float  #: mu over the deflection at full friction, 1/m
+    reference: float  #: Pressure that belongs to it where their stiffness stays, Pa; else 0
+
+
+@kernel
+def asperity_stiffness(pressure, asperities):
+    """Stiffness of the asperities of a point, Pa/m; 0 where it is open."""
+    if pressure <= 0.0:
+        return 0.0
+    if asperities.reference > 0.0:
+        return asperities.bristle * asperities.reference
+    return asperities.bristle * pressure
 
 
 @kernel
@@ -81,15 +100,15 @@ def overclosure_work(begin, end, law):
 @kernel
 def works(
     pressure_0, traction_0, normal_0, distance_0, deflection_0,
-    pressure_1, traction_1, normal_1, distance_1, deflection_1, slip, weights, law, bristle,
+    pressure_1, traction_1, normal_1, distance_1, deflection_1, slip, weights, law, asperities,
 ):  # fmt: skip
     """Works over a step, from the points at both ends and the slip between them, (q, 3), m.
 
-    ``weights`` are the areas of the points, m^2; ``bristle`` is mu over the deflection at full
-    friction, 1/m.
+    ``weights`` are the areas of the points, m^2.
     """
     on_slip = 0.0
     into_asperities = 0.0
+    gained = 0.0
     trapezoidal = 0.0
     by_law = 0.0
     most = 0.0
@@ -101,9 +120,10 @@ def works(
         w = weights[q]
         most = max(most, p1)
         work = 0.0
-        # k s^2 / 2 grows by this, k = mu p / s_max, however far p and s go in the step.
-        k0 = bristle * max(p0, 0.0)
-        k1 = bristle * max(p1, 0.0)
+        last = 0.0
+        # k s^2 / 2 grows by this, however far k and s go in the step.
+        k0 = asperity_stiffness(p0, asperities)
+        k1 = asperity_stiffness(p1, asperities)
         into = 0.0
         for c in range(3):
             s0 = deflection_0[q, c]
@@ -112,11 +132,13 @@ def works(
             work -= slip[q, c] * (
                 traction_0[q, c] - p0 * normal_0[q, c] + traction_1[q, c] - p1 * normal_1[q, c]
             )
+            last -= slip[q, c] * (traction_1[q, c] - p1 * normal_1[q, c])
         on_slip += 0.5 * w * work
+        gained += w * max(0.5 * into - last, 0.0)
         into_asperities += 0.5 * w * into
         trapezoidal += 0.5 * w * (p0 + p1) * (distance_0[q] - distance_1[q])
         by_law += w * overclosure_work(-distance_0[q], -distance_1[q], law)
-    return SurfaceWorks(on_slip, into_asperities, trapezoidal, by_law, most)
+    return SurfaceWorks(on_slip, into_asperities, trapezoidal, by_law, most, gained)
 
 
 @kernel
@@ -147,15 +169,15 @@ def potential(over, law):
 
 
 @kernel
-def surface_energies(pressure, distance, deflection, weights, law, mu, limit):
+def surface_energies(pressure, distance, deflection, weights, law, asperities):
     """Energy in the overclosure and in the asperities of a contact, J."""
     over = 0.0
     bristles = 0.0
     for q in range(weights.size):
         over += weights[q] * potential(-distance[q], law)
-        if limit > 0.0 and pressure[q] > 0.0:
-            size = 0.0
-            for c in range(3):
-                size += deflection[q, c] * deflection[q, c]
-            bristles += 0.5 * weights[q] * mu * pressure[q] / limit * size
+        stiffness = asperity_stiffness(pressure[q], asperities)
+        size = 0.0
+        for c in range(3):
+            size += deflection[q, c] * deflection[q, c]
+        bristles += 0.5 * weights[q] * stiffness * size
     return over, bristles

@@ -6,23 +6,7 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula, positive
-from asperity.rating.agma6034.symbols import (
-    F_G,
-    MILLIMETRE,
-    NEWTON,
-    NEWTON_METRE,
-    VERIFIED,
-    C,
-    C_m,
-    C_s,
-    C_v,
-    D,
-    F_e,
-    V_s,
-    W_tall,
-    d,
-    m_G,
-)
+from asperity.rating.agma6034 import symbols as s
 
 Casting = Literal["sand", "chill", "centrifugal"]
 
@@ -33,11 +17,11 @@ _LARGE_WHEEL = {"sand": (1190.0, 477.0), "chill": (1412.0, 456.0), "centrifugal"
 @formula(
     symbol="C_s",
     equation="min(720 + 10.37 (C/25.4)^3, 1000, c_1 - c_2 lg(D/25.4)) by the casting",
-    source=VERIFIED,
+    source=s.VERIFIED,
     result=positive,
     because="so large a wheel has no materials factor above zero",
 )
-def materials_factor(centre_distance: C, wheel_diameter: D, casting: Casting) -> Real:
+def materials_factor(centre_distance: s.C, wheel_diameter: s.D, casting: Casting) -> Real:
     """Materials factor of a bronze wheel on a case-hardened worm.
 
     c_1 and c_2 are 1190 and 477 for sand-cast, 1412 and 456 for chill-cast or forged, 1251 and 180
@@ -59,9 +43,9 @@ def materials_factor(centre_distance: C, wheel_diameter: D, casting: Casting) ->
     symbol="C_m",
     equation="0.0200 sqrt(-m_G^2 + 40 m_G - 76) + 0.46 if m_G <= 20 else "
     "0.0107 sqrt(-m_G^2 + 56 m_G + 5145) if m_G <= 76 else 1.1483 - 0.00658 m_G",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
-def ratio_correction_factor(gear_ratio: m_G) -> Real:
+def ratio_correction_factor(gear_ratio: s.m_G) -> Real:
     """Ratio correction factor; it jumps by -0.07 % at 20 and by 0.62 % at 76.
 
     Examples
@@ -80,9 +64,9 @@ def ratio_correction_factor(gear_ratio: m_G) -> Real:
     symbol="C_v",
     equation="0.659 exp(-0.0011 (V_s/0.00508)) if V_s < 3.556 else "
     "13.31 (V_s/0.00508)^-0.571 if V_s < 15.24 else 65.52 (V_s/0.00508)^-0.774",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
-def velocity_factor(sliding_velocity: V_s) -> Real:
+def velocity_factor(sliding_velocity: s.V_s) -> Real:
     """Velocity factor; it jumps by 3.55 % at 700 ft/min and by -3.10 % at 3000 ft/min.
 
     Examples
@@ -96,24 +80,24 @@ def velocity_factor(sliding_velocity: V_s) -> Real:
     return np.where(sliding_velocity < 700.0, slow, fast)
 
 
-@formula(symbol="F_e", unit=MILLIMETRE, equation="min(F_G, 2 d/3)", source=VERIFIED)
-def effective_face_width(wheel_face_width: F_G, worm_diameter: d) -> Real:
+@formula(symbol="F_e", unit=s.MILLIMETRE, equation="min(F_G, 2 d/3)", source=s.VERIFIED)
+def effective_face_width(wheel_face_width: s.F_G, worm_diameter: s.d) -> Real:
     """Effective face width of the wheel, by the mean diameter of the worm."""
     return np.minimum(wheel_face_width, 2.0 * worm_diameter / 3.0)
 
 
 @formula(
     symbol="W_tall",
-    unit=NEWTON,
+    unit=s.NEWTON,
     equation="4.4482216152605 C_s (D/25.4)^0.8 (F_e/25.4) C_m C_v",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
 def allowable_tangential_load(
-    materials_factor: C_s,
-    wheel_diameter: D,
-    effective_face_width: F_e,
-    ratio_correction_factor: C_m,
-    velocity_factor: C_v,
+    materials_factor: s.C_s,
+    wheel_diameter: s.D,
+    effective_face_width: s.F_e,
+    ratio_correction_factor: s.C_m,
+    velocity_factor: s.C_v,
 ) -> Real:
     """Allowable tangential load on the wheel, C_s D^0.8 F_e C_m C_v in inches.
 
@@ -123,7 +107,7 @@ def allowable_tangential_load(
     return load * ratio_correction_factor * velocity_factor
 
 
-@formula(symbol="T_Gall", unit=NEWTON_METRE, equation="W_tall D/2000", source=VERIFIED)
-def wheel_torque(tangential_load: W_tall, wheel_diameter: D) -> Real:
+@formula(symbol="T_Gall", unit=s.NEWTON_METRE, equation="W_tall D/2000", source=s.VERIFIED)
+def wheel_torque(tangential_load: s.W_tall, wheel_diameter: s.D) -> Real:
     """Torque of the wheel under a tangential load at its mean diameter."""
     return 0.5 * tangential_load * wheel_diameter

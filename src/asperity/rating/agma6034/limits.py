@@ -1,4 +1,4 @@
-"""Where AGMA 6034-B92 is valid; see also `asperity.rating.agma6034.maximum_lead_angle`."""
+"""Where AGMA 6034-B92 is valid; see also `asperity.rating.agma6034.mesh.maximum_lead_angle`."""
 
 from collections.abc import Mapping
 

@@ -6,27 +6,15 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula
-from asperity.rating.agma6034.symbols import (
-    FROM_MEMORY,
-    METRE_A_SECOND,
-    PRESSURE_ANGLES,
-    VERIFIED,
-    V_s,
-    d,
-    f,
-    lambda_,
-    n_W,
-    phi_n,
-    phi_n_tabulated,
-)
+from asperity.rating.agma6034 import symbols as s
 
 _LEAD_ANGLES = tuple(math.radians(degrees) for degrees in (16.0, 25.0, 35.0, 45.0))
 
 
 @formula(
-    symbol="V_s", unit=METRE_A_SECOND, equation="pi d n_W/(60000 cos(lambda))", source=VERIFIED
+    symbol="V_s", unit=s.METRE_A_SECOND, equation="pi d n_W/(60000 cos(lambda))", source=s.VERIFIED
 )
-def sliding_velocity(worm_diameter: d, lead_angle: lambda_, worm_speed: n_W) -> Real:
+def sliding_velocity(worm_diameter: s.d, lead_angle: s.lambda_, worm_speed: s.n_W) -> Real:
     """Sliding velocity at the worm's mean diameter.
 
     The standard goes up to 30.48 m/s and 3600 rpm (from memory).
@@ -43,9 +31,9 @@ def sliding_velocity(worm_diameter: d, lead_angle: lambda_, worm_speed: n_W) -> 
     symbol="f",
     equation="0.15 if V_s <= 0 else 0.124 exp(-0.074 (V_s/0.00508)^0.645) if V_s <= 0.0508 else "
     "0.103 exp(-0.110 (V_s/0.00508)^0.450) + 0.012",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
-def friction(sliding_velocity: V_s) -> Real:
+def friction(sliding_velocity: s.V_s) -> Real:
     """Coefficient of friction.
 
     It jumps by -17.33 % at rest and by -2.12 % at 10 ft/min.
@@ -64,9 +52,9 @@ def friction(sliding_velocity: V_s) -> Real:
 @formula(
     symbol="e_W",
     equation="(cos(phi_n) - f tan(lambda))/(cos(phi_n) + f/tan(lambda))",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
-def worm_driving_efficiency(friction: f, lead_angle: lambda_, pressure_angle: phi_n) -> Real:
+def worm_driving_efficiency(friction: s.f, lead_angle: s.lambda_, pressure_angle: s.phi_n) -> Real:
     """Efficiency of the mesh, the worm driving; zero or below: the worm cannot drive.
 
     Thesis (7).
@@ -83,17 +71,17 @@ def worm_driving_efficiency(friction: f, lead_angle: lambda_, pressure_angle: ph
 @formula(
     symbol="e_G",
     equation="(cos(phi_n) - f/tan(lambda))/(cos(phi_n) + f tan(lambda))",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
-def wheel_driving_efficiency(friction: f, lead_angle: lambda_, pressure_angle: phi_n) -> Real:
+def wheel_driving_efficiency(friction: s.f, lead_angle: s.lambda_, pressure_angle: s.phi_n) -> Real:
     """Efficiency of the mesh, the wheel driving; zero or below: the gearset locks itself."""
     return _efficiency(friction, pressure_angle, np.cos(lead_angle), np.sin(lead_angle))
 
 
-@formula(symbol="lambda_max", unit="rad", equation="table, linear over phi_n", source=FROM_MEMORY)
-def maximum_lead_angle(pressure_angle: phi_n_tabulated) -> Real:
+@formula(symbol="lambda_max", unit="rad", equation="table, linear over phi_n", source=s.FROM_MEMORY)
+def maximum_lead_angle(pressure_angle: s.phi_n_tabulated) -> Real:
     """Largest lead angle: 16, 25, 35 and 45 degrees for 14.5, 20, 25 and 30 degrees."""
-    return np.interp(pressure_angle, PRESSURE_ANGLES, _LEAD_ANGLES)
+    return np.interp(pressure_angle, s.PRESSURE_ANGLES, _LEAD_ANGLES)
 
 
 def _efficiency(friction: Real, pressure_angle: Real, sin: Real, cos: Real) -> Real:

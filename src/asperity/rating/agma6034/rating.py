@@ -9,7 +9,7 @@ import math
 from asperity.errors import InputError
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
-from asperity.rating import agma6034
+from asperity.rating.agma6034 import capacity, forces, limits, mesh, thermal
 from asperity.rating.agma6034.symbols import FROM_MEMORY
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
@@ -45,38 +45,38 @@ def rated(given: Inputs) -> Values:
             "that AGMA 6034 covers; take another, or a table with the key 'agma6034'"
         )
     v: Values = {}
-    v["sliding_velocity_m_s"] = agma6034.sliding_velocity(
+    v["sliding_velocity_m_s"] = mesh.sliding_velocity(
         given.worm_pitch_diameter, given.lead_angle, given.worm_speed
     )
     mean = given.friction
     if mean is None:
-        mean = agma6034.friction(v["sliding_velocity_m_s"])
+        mean = mesh.friction(v["sliding_velocity_m_s"])
     v["mu"] = mean * given.friction_factor
-    mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["eta"] = agma6034.worm_driving_efficiency(*mesh)
-    v["eta_back"] = agma6034.wheel_driving_efficiency(*mesh)
-    v["C_s"] = agma6034.materials_factor(given.centre_distance, given.wheel_mean_diameter, casting)
-    v["C_m"] = agma6034.ratio_correction_factor(given.gear_ratio)
-    v["C_v"] = agma6034.velocity_factor(v["sliding_velocity_m_s"])
-    v["F_e_mm"] = agma6034.effective_face_width(given.wheel_face_width, given.worm_pitch_diameter)
-    v["W_t_all_N"] = agma6034.allowable_tangential_load(
+    teeth = v["mu"], given.lead_angle, given.pressure_angle
+    v["eta"] = mesh.worm_driving_efficiency(*teeth)
+    v["eta_back"] = mesh.wheel_driving_efficiency(*teeth)
+    v["C_s"] = capacity.materials_factor(given.centre_distance, given.wheel_mean_diameter, casting)
+    v["C_m"] = capacity.ratio_correction_factor(given.gear_ratio)
+    v["C_v"] = capacity.velocity_factor(v["sliding_velocity_m_s"])
+    v["F_e_mm"] = capacity.effective_face_width(given.wheel_face_width, given.worm_pitch_diameter)
+    v["W_t_all_N"] = capacity.allowable_tangential_load(
         v["C_s"],
         given.wheel_mean_diameter,
         v["F_e_mm"],
         v["C_m"],
         v["C_v"],
     )
-    v["allowable_torque_Nm"] = agma6034.wheel_torque(v["W_t_all_N"], given.wheel_mean_diameter)
+    v["allowable_torque_Nm"] = capacity.wheel_torque(v["W_t_all_N"], given.wheel_mean_diameter)
     torque = given.operation.application_factor * given.output_torque
     v["safety_torque"] = strength.safety(v["allowable_torque_Nm"], torque)
     v["W_G_N"] = 2000.0 * torque / given.wheel_mean_diameter
-    v["W_W_N"] = agma6034.worm_tangential_load(v["W_G_N"], *mesh)
-    v["bending_stress_MPa"] = agma6034.bending_stress(
+    v["W_W_N"] = forces.worm_tangential_load(v["W_G_N"], *teeth)
+    v["bending_stress_MPa"] = forces.bending_stress(
         v["W_G_N"],
         given.axial_pitch,
         given.lead_angle,
         v["F_e_mm"],
-        agma6034.lewis_form_factor(given.pressure_angle),
+        forces.lewis_form_factor(given.pressure_angle),
     )
     _heat(given, v)
     return v
@@ -87,14 +87,14 @@ def _heat(given: Inputs, v: Values) -> None:
         given.output_torque, given.worm_speed, given.gear_ratio
     )
     load = 2000.0 * given.output_torque / given.wheel_mean_diameter
-    mesh = v["mu"], given.lead_angle, given.pressure_angle
-    v["W_f_N"] = agma6034.friction_force(load, *mesh)
-    v["loss_meshing_W"] = agma6034.friction_power(v["sliding_velocity_m_s"], v["W_f_N"])
+    teeth = v["mu"], given.lead_angle, given.pressure_angle
+    v["W_f_N"] = forces.friction_force(load, *teeth)
+    v["loss_meshing_W"] = thermal.friction_power(v["sliding_velocity_m_s"], v["W_f_N"])
     v["input_power_W"] = v["output_power_W"] + v["loss_meshing_W"]
     v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
-    v["h_CR_W_m2K"] = agma6034.heat_transfer_coefficient(given.worm_speed, fan=given.operation.fan)
-    v["A_min_m2"] = agma6034.minimum_housing_area(given.centre_distance)
-    v["t_s_degC"] = agma6034.sump_temperature(
+    v["h_CR_W_m2K"] = thermal.heat_transfer_coefficient(given.worm_speed, fan=given.operation.fan)
+    v["A_min_m2"] = thermal.minimum_housing_area(given.centre_distance)
+    v["t_s_degC"] = thermal.sump_temperature(
         given.ambient_temperature,
         v["input_power_W"],
         v["eta"],
@@ -115,8 +115,8 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
         "gear_ratio": given.gear_ratio,
         "pressure_angle": math.degrees(given.pressure_angle),
     }
-    found = [agma6034.VALIDITY[name].violation(value) for name, value in at.items()]
-    steepest = math.degrees(agma6034.maximum_lead_angle(given.pressure_angle))
+    found = [limits.VALIDITY[name].violation(value) for name, value in at.items()]
+    steepest = math.degrees(mesh.maximum_lead_angle(given.pressure_angle))
     lead = Range("lead angle", 0.0, steepest, "deg", FROM_MEMORY)
     found.append(lead.violation(math.degrees(given.lead_angle)))
     hottest, oils = oil.TEMPERATURE.upper, oil.TEMPERATURE.source

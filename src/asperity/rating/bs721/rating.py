@@ -13,21 +13,20 @@ from asperity.arrays import Real, smaller
 from asperity.errors import InputError
 from asperity.formulas import current_mask, masking
 from asperity.gearset.library import GIVEN
-from asperity.rating import bs721
+from asperity.rating.bs721 import life, torque
+from asperity.rating.bs721.limits import VALIDITY
 from asperity.rating.bs721.symbols import FROM_MEMORY
+from asperity.rating.bs721.tables import TableRangeError, Tables
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
-from asperity.rating.iso14521 import (
-    safety,
-    sliding_velocity,
-    wheel_driving_efficiency,
-    worm_driving_efficiency,
-)
+from asperity.rating.iso14521 import efficiency
+from asperity.rating.iso14521.friction import sliding_velocity
+from asperity.rating.iso14521.strength import safety
 from asperity.rating.result import Rating
 from asperity.sources import Source, weakest
 
 
-def rate(given: Inputs, tables: bs721.Tables) -> Rating:
+def rate(given: Inputs, tables: Tables) -> Rating:
     """Rate one gearset by BS 721.
 
     Raises
@@ -44,7 +43,7 @@ def rate(given: Inputs, tables: bs721.Tables) -> Rating:
     )
 
 
-def rated(given: Inputs, tables: bs721.Tables) -> tuple[Values, tuple[str, ...]]:
+def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     """Return friction and permissible torques by the keys of a rating, and notes."""
     wheel, worm = _rows(given)
     v: Values = {}
@@ -53,32 +52,32 @@ def rated(given: Inputs, tables: bs721.Tables) -> tuple[Values, tuple[str, ...]]
     )
     mean = given.friction
     if mean is None:
-        mean = bs721.friction(v["sliding_velocity_m_s"], tables=tables)
+        mean = torque.friction(v["sliding_velocity_m_s"], tables=tables)
     v["mu"] = mean * given.friction_factor
-    v["eta"] = worm_driving_efficiency(given.lead_angle, v["mu"])
-    v["eta_back"] = wheel_driving_efficiency(given.lead_angle, v["mu"])
+    v["eta"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu"])
+    v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu"])
     geometry = given.axial_module, given.diameter_factor, given.lead_angle
     m, q, lead = geometry
     at, d_2 = v["sliding_velocity_m_s"], given.wheel_reference_diameter
-    v["X_c"] = bs721.wear_speed_factor(at, given.wheel_speed, tables=tables)
-    v["Z"] = bs721.zone_factor(given.starts, q, given.wheel_face_width, m, tables=tables)
+    v["X_c"] = torque.wear_speed_factor(at, given.wheel_speed, tables=tables)
+    v["Z"] = torque.zone_factor(given.starts, q, given.wheel_face_width, m, tables=tables)
     v["S_c_MPa"] = tables.surface_stress_factor(wheel, worm)
-    v["X_b"] = bs721.strength_speed_factor(given.wheel_speed, tables=tables)
+    v["X_b"] = torque.strength_speed_factor(given.wheel_speed, tables=tables)
     v["S_b_MPa"] = tables.bending_stress_factor("wheel", wheel)
-    v["l_r_mm"] = bs721.root_arc(given.wheel_face_width, given.worm_tip_diameter, *geometry)
+    v["l_r_mm"] = torque.root_arc(given.wheel_face_width, given.worm_tip_diameter, *geometry)
 
     def wear(speed_factor: Real, stress_factor: float) -> Real:
-        return bs721.wear_torque(speed_factor, stress_factor, v["Z"], d_2, m)
+        return torque.wear_torque(speed_factor, stress_factor, v["Z"], d_2, m)
 
     def strength(speed_factor: Real, stress_factor: float) -> Real:
-        return bs721.strength_torque(speed_factor, stress_factor, m, v["l_r_mm"], d_2, lead)
+        return torque.strength_torque(speed_factor, stress_factor, m, v["l_r_mm"], d_2, lead)
 
     def worm_wear() -> Real:
-        speed = bs721.wear_speed_factor(at, given.worm_speed, member="worm", tables=tables)
+        speed = torque.wear_speed_factor(at, given.worm_speed, member="worm", tables=tables)
         return wear(speed, tables.worm_surface_stress_factor(worm, wheel))
 
     def worm_strength() -> Real:
-        speed = bs721.strength_speed_factor(given.worm_speed, member="worm", tables=tables)
+        speed = torque.strength_speed_factor(given.worm_speed, member="worm", tables=tables)
         return strength(speed, tables.bending_stress_factor("worm", worm))
 
     v["M_c_wheel_Nm"] = wear(v["X_c"], v["S_c_MPa"])
@@ -99,7 +98,7 @@ def _with_worm(v: Values, symbol: str, worm: Callable[[], Real]) -> tuple[Real, 
             return np.where(np.isnan(wheel), wheel, np.fmin(wheel, worm())), ""
     try:
         v[f"{symbol}_worm_Nm"] = worm()
-    except bs721.TableRangeError as error:
+    except TableRangeError as error:
         return wheel, f"the worm is not rated: {error}"
     return smaller(wheel, v[f"{symbol}_worm_Nm"]), ""
 
@@ -122,7 +121,7 @@ def _equations(given: Inputs, values: Values) -> dict[str, str]:
     return by_case
 
 
-def _sources(given: Inputs, tables: bs721.Tables) -> dict[str, Source]:
+def _sources(given: Inputs, tables: Tables) -> dict[str, Source]:
     row = given.gearset.wheel_material.source("bs721")
     sources = {
         "X_c": weakest(tables.sliding_speed_factor.source, tables.rotation_speed_factor.source),
@@ -145,7 +144,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
         "sliding_velocity": values["sliding_velocity_m_s"],
         "wheel_speed": given.wheel_speed,
     }
-    found = (span.violation(at[name]) for name, span in bs721.VALIDITY.items())
+    found = (span.violation(at[name]) for name, span in VALIDITY.items())
     return tuple(sentence for sentence in found if sentence)
 
 
@@ -186,8 +185,8 @@ def _rows(given: Inputs) -> tuple[str, str]:
 def _torques(given: Inputs, v: Values, wear: Real, strength: Real) -> None:
     v["M_26k_Nm"] = smaller(wear, strength)
     v["U_w_h"], v["U_s_h"] = given.wear_hours, given.strength_hours
-    v["wear_life_factor"] = bs721.wear_life_factor(v["U_w_h"])
-    v["strength_life_factor"] = bs721.strength_life_factor(v["U_s_h"])
+    v["wear_life_factor"] = life.wear_life_factor(v["U_w_h"])
+    v["strength_life_factor"] = life.strength_life_factor(v["U_s_h"])
     v["M_w_Nm"] = wear * v["wear_life_factor"]
     v["M_s_Nm"] = strength * v["strength_life_factor"]
     v["M_permissible_Nm"] = smaller(v["M_w_Nm"], v["M_s_Nm"])

@@ -6,31 +6,7 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Bounds, Symbol, formula, positive
-from asperity.rating.iso14521.symbols import (
-    DEFINITION,
-    E_1,
-    E_2,
-    N_L,
-    ONE_SOURCE,
-    T_2,
-    VERIFIED,
-    E_red,
-    L_h,
-    a,
-    alpha_n,
-    b_2H,
-    gamma_m1,
-    m_x1,
-    nu_1,
-    nu_2,
-    p_m_star,
-    s_star,
-    sigma_Hm,
-    u,
-    x_2,
-    z_1,
-    z_2,
-)
+from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.tables import Edition, Flank
 
 q_1 = Annotated[Real, Symbol("q_1", "", Bounds(0.5, above=True))]
@@ -45,20 +21,20 @@ _CONCAVE = (0.1401, 0.1866, 0.0595, 0.0419, -0.00288, -0.0089, 35.1417)
     symbol="p_m*",
     equation="0.1794 + 0.2389 a/(q_1 m_x1) + 0.0761 x_2 |x_2|^3.18 + 0.0536 q_1 - 0.00369 z_2 - "
     "0.01136 alpha_n 180/pi + 44.9814 (x_2 + 0.005657)/z_2 (z_1/q_1)^2.6872",
-    source=ONE_SOURCE,
+    source=s.ONE_SOURCE,
     result=positive,
     because="it is not above zero for this geometry; bring the profile shift near 0",
 )
 def contact_parameter(
-    starts: z_1,
-    wheel_teeth: z_2,
+    starts: s.z_1,
+    wheel_teeth: s.z_2,
     diameter_factor: q_1,
-    axial_module: m_x1,
-    centre_distance: a,
-    pressure_angle: alpha_n,
-    profile_shift: x_2 = 0.0,
+    axial_module: s.m_x1,
+    centre_distance: s.a,
+    pressure_angle: s.alpha_n,
+    profile_shift: s.x_2 = 0.0,
     *,
-    wheel_face_width: b_2H | None = None,
+    wheel_face_width: s.b_2H | None = None,
     edition: Edition = "2010",
     flank: Flank = "ZI",
 ) -> Real:
@@ -98,8 +74,8 @@ def contact_parameter(
     return sum(constant * term for constant, term in zip(constants, terms, strict=True))
 
 
-@formula(symbol="s*", equation="0.78 + 0.21 u + 5.6/tan(gamma_m1)", source=VERIFIED)
-def path_parameter(ratio: u, lead_angle: gamma_m1, *, flank: Flank = "ZI") -> Real:
+@formula(symbol="s*", equation="0.78 + 0.21 u + 5.6/tan(gamma_m1)", source=s.VERIFIED)
+def path_parameter(ratio: s.u, lead_angle: s.gamma_m1, *, flank: Flank = "ZI") -> Real:
     """Parameter of the mean sliding path.
 
     Shown for flanks A, I, N and K; C has 0.94 + 0.25 u + 6.7/tan(gamma_m1).
@@ -117,10 +93,10 @@ def path_parameter(ratio: u, lead_angle: gamma_m1, *, flank: Flank = "ZI") -> Re
     symbol="E_red",
     unit="MPa",
     equation="2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2)",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
 def reduced_modulus(
-    worm_modulus: E_1, worm_poisson: nu_1, wheel_modulus: E_2, wheel_poisson: nu_2
+    worm_modulus: s.E_1, worm_poisson: s.nu_1, wheel_modulus: s.E_2, wheel_poisson: s.nu_2
 ) -> Real:
     """Equivalent modulus of elasticity of worm and wheel.
 
@@ -136,10 +112,13 @@ def reduced_modulus(
     symbol="sigma_Hm",
     unit="MPa",
     equation="4/pi sqrt(p_m* T_2 1000 E_red/a^3)",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
 def contact_stress(
-    contact_parameter: p_m_star, wheel_torque: T_2, reduced_modulus: E_red, centre_distance: a
+    contact_parameter: s.p_m_star,
+    wheel_torque: s.T_2,
+    reduced_modulus: s.E_red,
+    centre_distance: s.a,
 ) -> Real:
     """Mean contact stress; the torque is that with the application factor.
 
@@ -152,8 +131,8 @@ def contact_stress(
     return 4.0 / np.pi * np.sqrt(load / centre_distance**3)
 
 
-@formula(symbol="N_L", equation="60 L_h n_1/u", source=DEFINITION)
-def load_cycles(life: L_h, worm_speed: n_1, ratio: u) -> Real:
+@formula(symbol="N_L", equation="60 L_h n_1/u", source=s.DEFINITION)
+def load_cycles(life: s.L_h, worm_speed: n_1, ratio: s.u) -> Real:
     """Turns of the wheel, which are the load cycles of each of its teeth.
 
     Examples
@@ -164,13 +143,13 @@ def load_cycles(life: L_h, worm_speed: n_1, ratio: u) -> Real:
     return 60.0 * life * worm_speed / ratio
 
 
-@formula(symbol="s_Wm", unit="mm", equation="s* sigma_Hm a/E_red N_L", source=ONE_SOURCE)
+@formula(symbol="s_Wm", unit="mm", equation="s* sigma_Hm a/E_red N_L", source=s.ONE_SOURCE)
 def sliding_path(
-    path_parameter: s_star,
-    contact_stress: sigma_Hm,
-    centre_distance: a,
-    reduced_modulus: E_red,
-    load_cycles: N_L,
+    path_parameter: s.s_star,
+    contact_stress: s.sigma_Hm,
+    centre_distance: s.a,
+    reduced_modulus: s.E_red,
+    load_cycles: s.N_L,
 ) -> Real:
     """Length that the worm slides over a flank of the wheel within its Hertzian width."""
     return path_parameter * contact_stress * centre_distance / reduced_modulus * load_cycles

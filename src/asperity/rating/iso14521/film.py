@@ -6,22 +6,8 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Bounds, Symbol, formula, positive
+from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.film_failure import FilmParameterError, too_thin
-from asperity.rating.iso14521.symbols import (
-    T_2,
-    VERIFIED,
-    E_red,
-    a,
-    alpha_n,
-    b_2H,
-    c_alpha,
-    eta_0M,
-    h_star,
-    m_x1,
-    x_2,
-    z_1,
-    z_2,
-)
 from asperity.rating.iso14521.tables import Edition, Flank
 
 # The width B ends at 1.5.
@@ -62,20 +48,20 @@ def _too_thin(value: float, /, **gearset: Real) -> FilmParameterError:
 @formula(
     symbol="h*",
     equation="-0.393 + 2.9157e-6 P(z_2, alpha_n, x_2, q_1, z_1/q_1, m_x1)",
-    source=VERIFIED,
+    source=s.VERIFIED,
     result=positive,
     because="it is not above zero; the formula has no answer for this geometry",
     error=_too_thin,
 )
 def film_parameter(
-    starts: z_1,
-    wheel_teeth: z_2,
+    starts: s.z_1,
+    wheel_teeth: s.z_2,
     diameter_factor: q_1,
-    axial_module: m_x1,
-    pressure_angle: alpha_n,
-    profile_shift: x_2 = 0.0,
+    axial_module: s.m_x1,
+    pressure_angle: s.alpha_n,
+    profile_shift: s.x_2 = 0.0,
     *,
-    wheel_face_width: b_2H | None = None,
+    wheel_face_width: s.b_2H | None = None,
     edition: Edition = "2010",
     flank: Flank = "ZI",
 ) -> Real:
@@ -113,16 +99,16 @@ def film_parameter(
     symbol="h_minm",
     unit="um",
     equation="21 h* c_alpha^0.6 eta_0M^0.7 n_1^0.7 a^1.39 E_red^0.03/T_2^0.13",
-    source=VERIFIED,
+    source=s.VERIFIED,
 )
 def film_thickness(
-    film_parameter: h_star,
-    pressure_coefficient: c_alpha,
-    dynamic_viscosity: eta_0M,
+    film_parameter: s.h_star,
+    pressure_coefficient: s.c_alpha,
+    dynamic_viscosity: s.eta_0M,
     worm_speed: n_1,
-    centre_distance: a,
-    reduced_modulus: E_red,
-    wheel_torque: T_2,
+    centre_distance: s.a,
+    reduced_modulus: s.E_red,
+    wheel_torque: s.T_2,
 ) -> Real:
     """Minimum thickness of the lubricant film, a mean over the contact.
 

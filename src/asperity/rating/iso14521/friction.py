@@ -5,26 +5,14 @@ import numpy as np
 from asperity.arrays import Real
 from asperity.formulas import formula
 from asperity.gearset.materials import BaseOilName, Family
-from asperity.rating.iso14521.symbols import (
-    VERIFIED,
-    Y_G,
-    Y_R,
-    Y_S,
-    Y_W,
-    Ra_1,
-    a,
-    d_m1,
-    gamma_m1,
-    h_star,
-    mu_0T,
-    n_1,
-    v_gm,
-)
+from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.tables import Lubrication, friction_constants
 
 
-@formula(symbol="v_gm", unit="m/s", equation="d_m1 n_1/(19098 cos(gamma_m1))", source=VERIFIED)
-def sliding_velocity(worm_pitch_diameter: d_m1, worm_speed: n_1, lead_angle: gamma_m1) -> Real:
+@formula(symbol="v_gm", unit="m/s", equation="d_m1 n_1/(19098 cos(gamma_m1))", source=s.VERIFIED)
+def sliding_velocity(
+    worm_pitch_diameter: s.d_m1, worm_speed: s.n_1, lead_angle: s.gamma_m1
+) -> Real:
     """Sliding velocity at the mean diameter of the worm.
 
     The standard rounds 60000/pi to 19098.
@@ -37,9 +25,9 @@ def sliding_velocity(worm_pitch_diameter: d_m1, worm_speed: n_1, lead_angle: gam
     return worm_pitch_diameter * worm_speed / (19098.0 * np.cos(lead_angle))
 
 
-@formula(symbol="mu_0T", equation="min(a_0 + b_0/(v_gm + c_0)^n, mu_max)", source=VERIFIED)
+@formula(symbol="mu_0T", equation="min(a_0 + b_0/(v_gm + c_0)^n, mu_max)", source=s.VERIFIED)
 def base_friction(
-    sliding_velocity: v_gm,
+    sliding_velocity: s.v_gm,
     *,
     family: Family = "tin bronze",
     lubrication: Lubrication = "bath",
@@ -60,8 +48,8 @@ def base_friction(
     return np.minimum(law.offset + falling, law.cap)
 
 
-@formula(symbol="Y_S", equation="sqrt(100/a)", source=VERIFIED)
-def size_factor(centre_distance: a) -> Real:
+@formula(symbol="Y_S", equation="sqrt(100/a)", source=s.VERIFIED)
+def size_factor(centre_distance: s.a) -> Real:
     """Size factor.
 
     The standard is valid from 65 to 250 mm; outside, the factor goes on, and the rating reports it.
@@ -74,8 +62,8 @@ def size_factor(centre_distance: a) -> Real:
     return np.sqrt(100.0 / centre_distance)
 
 
-@formula(symbol="Y_G", equation="sqrt(0.07/h*)", source=VERIFIED)
-def geometry_factor(film_parameter: h_star) -> Real:
+@formula(symbol="Y_G", equation="sqrt(0.07/h*)", source=s.VERIFIED)
+def geometry_factor(film_parameter: s.h_star) -> Real:
     """Geometry factor.
 
     It grows without bound as h* goes to zero. One commercial program caps it at 2; here a value
@@ -89,8 +77,8 @@ def geometry_factor(film_parameter: h_star) -> Real:
     return np.sqrt(0.07 / film_parameter)
 
 
-@formula(symbol="Y_R", equation="(Ra_1/0.5)^(1/4)", source=VERIFIED)
-def roughness_factor(worm_roughness: Ra_1) -> Real:
+@formula(symbol="Y_R", equation="(Ra_1/0.5)^(1/4)", source=s.VERIFIED)
+def roughness_factor(worm_roughness: s.Ra_1) -> Real:
     """Roughness factor, by the arithmetic mean roughness of the worm's flanks.
 
     Examples
@@ -102,13 +90,13 @@ def roughness_factor(worm_roughness: Ra_1) -> Real:
     return np.sqrt(np.sqrt(worm_roughness / 0.5))
 
 
-@formula(symbol="mu_zm", equation="mu_0T Y_S Y_G Y_W Y_R", source=VERIFIED)
+@formula(symbol="mu_zm", equation="mu_0T Y_S Y_G Y_W Y_R", source=s.VERIFIED)
 def mean_friction(
-    base_friction: mu_0T,
-    size_factor: Y_S,
-    geometry_factor: Y_G,
-    material_factor: Y_W,
-    roughness_factor: Y_R,
+    base_friction: s.mu_0T,
+    size_factor: s.Y_S,
+    geometry_factor: s.Y_G,
+    material_factor: s.Y_W,
+    roughness_factor: s.Y_R,
 ) -> Real:
     """Mean coefficient of tooth friction; Y_W is that of the wheel's material.
 

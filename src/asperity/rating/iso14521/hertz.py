@@ -11,16 +11,7 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Symbol, formula, not_negative, positive
-from asperity.rating.iso14521.symbols import (
-    E_1,
-    E_2,
-    alpha_n,
-    gamma_m1,
-    m_x1,
-    nu_1,
-    nu_2,
-    q_1,
-)
+from asperity.rating.iso14521 import symbols as s
 from asperity.sources import Source
 
 SOURCE = Source("Hertz line contact", "verified", "its use for gearset 3 is inferred")
@@ -35,7 +26,10 @@ d_2 = Annotated[Real, Symbol("d_2", "mm", positive)]
 
 @formula(symbol="E*", unit="MPa", equation="1/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2)", source=SOURCE)
 def contact_modulus(
-    youngs_modulus_1: E_1, poisson_ratio_1: nu_1, youngs_modulus_2: E_2, poisson_ratio_2: nu_2
+    youngs_modulus_1: s.E_1,
+    poisson_ratio_1: s.nu_1,
+    youngs_modulus_2: s.E_2,
+    poisson_ratio_2: s.nu_2,
 ) -> Real:
     """Modulus of a contact of two bodies; half of ISO/TR 14521's E_red.
 
@@ -70,10 +64,10 @@ def line_contact_stress(normal_load: W_n, radius: rho, length: L, contact_modulu
 def worm_contact_stress(
     wheel_torque: T_2,
     wheel_diameter: d_2,
-    axial_module: m_x1,
-    diameter_factor: q_1,
-    lead_angle: gamma_m1,
-    pressure_angle: alpha_n,
+    axial_module: s.m_x1,
+    diameter_factor: s.q_1,
+    lead_angle: s.gamma_m1,
+    pressure_angle: s.alpha_n,
     contact_modulus: E_star,
 ) -> Real:
     """Line-contact stress of worm and wheel, by the wheel's pitch diameter."""

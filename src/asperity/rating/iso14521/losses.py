@@ -4,26 +4,11 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula
-from asperity.rating.iso14521.symbols import (
-    DEFINITION,
-    FROM_MEMORY,
-    P_2,
-    T_2,
-    VERIFIED,
-    a,
-    d_m1,
-    d_m2,
-    eta_z1_2,
-    eta_z2_1,
-    k_B,
-    n_1,
-    n_D,
-    u,
-)
+from asperity.rating.iso14521 import symbols as s
 
 
-@formula(symbol="P_2", unit="W", equation="2 pi/60 T_2 n_1/u", source=DEFINITION)
-def output_power(wheel_torque: T_2, worm_speed: n_1, ratio: u) -> Real:
+@formula(symbol="P_2", unit="W", equation="2 pi/60 T_2 n_1/u", source=s.DEFINITION)
+def output_power(wheel_torque: s.T_2, worm_speed: s.n_1, ratio: s.u) -> Real:
     """Power at the wheel.
 
     Its 2 pi/60 stands beside the 0.1 of `meshing_loss`.
@@ -36,8 +21,10 @@ def output_power(wheel_torque: T_2, worm_speed: n_1, ratio: u) -> Real:
     return 2.0 * np.pi / 60.0 * wheel_torque * worm_speed / ratio
 
 
-@formula(symbol="P_Vz", unit="W", equation="0.1 T_2 n_1/u (1/eta_z1_2 - 1)", source=VERIFIED)
-def meshing_loss(wheel_torque: T_2, worm_speed: n_1, ratio: u, efficiency: eta_z1_2) -> Real:
+@formula(symbol="P_Vz", unit="W", equation="0.1 T_2 n_1/u (1/eta_z1_2 - 1)", source=s.VERIFIED)
+def meshing_loss(
+    wheel_torque: s.T_2, worm_speed: s.n_1, ratio: s.u, efficiency: s.eta_z1_2
+) -> Real:
     """Power lost between the teeth, worm driving.
 
     The standard's 0.1 rounds 2 pi/60 by 4.5 %, so that P_2/(P_2 + P_Vz) is a little above eta_z1_2.
@@ -50,9 +37,9 @@ def meshing_loss(wheel_torque: T_2, worm_speed: n_1, ratio: u, efficiency: eta_z
     return 0.1 * wheel_torque * worm_speed / ratio * (1.0 / efficiency - 1.0)
 
 
-@formula(symbol="P_Vz2_1", unit="W", equation="0.1 T_2 n_1/u (1 - eta_z2_1)", source=FROM_MEMORY)
+@formula(symbol="P_Vz2_1", unit="W", equation="0.1 T_2 n_1/u (1 - eta_z2_1)", source=s.FROM_MEMORY)
 def back_driving_meshing_loss(
-    wheel_torque: T_2, worm_speed: n_1, ratio: u, efficiency: eta_z2_1
+    wheel_torque: s.T_2, worm_speed: s.n_1, ratio: s.u, efficiency: s.eta_z2_1
 ) -> Real:
     """Power lost between the teeth, wheel driving.
 
@@ -66,8 +53,8 @@ def back_driving_meshing_loss(
     return 0.1 * wheel_torque * worm_speed / ratio * (1.0 - efficiency)
 
 
-@formula(symbol="P_V0", unit="W", equation="0.89e-4 a n_1^(4/3)", source=VERIFIED)
-def idle_loss(centre_distance: a, worm_speed: n_1) -> Real:
+@formula(symbol="P_V0", unit="W", equation="0.89e-4 a n_1^(4/3)", source=s.VERIFIED)
+def idle_loss(centre_distance: s.a, worm_speed: s.n_1) -> Real:
     """Power lost without load.
 
     Examples
@@ -78,13 +65,13 @@ def idle_loss(centre_distance: a, worm_speed: n_1) -> Real:
     return 0.89e-4 * centre_distance * worm_speed * np.cbrt(worm_speed)
 
 
-@formula(symbol="P_VLP", unit="W", equation="k_B P_2 a^0.44 u/d_m2", source=VERIFIED)
+@formula(symbol="P_VLP", unit="W", equation="k_B P_2 a^0.44 u/d_m2", source=s.VERIFIED)
 def bearing_loss(
-    output_power: P_2,
-    centre_distance: a,
-    ratio: u,
-    wheel_mean_diameter: d_m2,
-    loss_coefficient: k_B = 0.013,
+    output_power: s.P_2,
+    centre_distance: s.a,
+    ratio: s.u,
+    wheel_mean_diameter: s.d_m2,
+    loss_coefficient: s.k_B = 0.013,
 ) -> Real:
     """Power lost in the bearings under load.
 
@@ -98,8 +85,8 @@ def bearing_loss(
     return loss_coefficient * output_power * centre_distance**0.44 * ratio / wheel_mean_diameter
 
 
-@formula(symbol="P_VD", unit="W", equation="n_D 11.78e-6 d_m1^2 n_1", source=VERIFIED)
-def seal_loss(worm_pitch_diameter: d_m1, worm_speed: n_1, seals: n_D = 2) -> Real:
+@formula(symbol="P_VD", unit="W", equation="n_D 11.78e-6 d_m1^2 n_1", source=s.VERIFIED)
+def seal_loss(worm_pitch_diameter: s.d_m1, worm_speed: s.n_1, seals: s.n_D = 2) -> Real:
     """Power lost in the lip seals of the worm.
 
     Examples

@@ -4,24 +4,12 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula
-from asperity.rating.iso14521.symbols import (
-    ONE_SOURCE,
-    Z_S,
-    L_h,
-    Z_h,
-    Z_oil,
-    Z_u,
-    Z_v,
-    a,
-    sigma_HlimT,
-    u,
-    v_gm,
-)
+from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.tables import Edition
 
 
-@formula(symbol="Z_h", equation="min((25000/L_h)^(1/6), 1.6)", source=ONE_SOURCE)
-def pitting_life_factor(life: L_h) -> Real:
+@formula(symbol="Z_h", equation="min((25000/L_h)^(1/6), 1.6)", source=s.ONE_SOURCE)
+def pitting_life_factor(life: s.L_h) -> Real:
     """Life factor of pitting; bends at 1490 h and does not jump.
 
     Examples
@@ -32,8 +20,8 @@ def pitting_life_factor(life: L_h) -> Real:
     return np.minimum((25000.0 / life) ** (1.0 / 6.0), 1.6)
 
 
-@formula(symbol="Z_v", equation="sqrt(5/(4 + v_gm))", source=ONE_SOURCE)
-def pitting_velocity_factor(sliding_velocity: v_gm) -> Real:
+@formula(symbol="Z_v", equation="sqrt(5/(4 + v_gm))", source=s.ONE_SOURCE)
+def pitting_velocity_factor(sliding_velocity: s.v_gm) -> Real:
     """Velocity factor of pitting.
 
     Examples
@@ -44,8 +32,8 @@ def pitting_velocity_factor(sliding_velocity: v_gm) -> Real:
     return np.sqrt(5.0 / (4.0 + sliding_velocity))
 
 
-@formula(symbol="Z_S", equation="sqrt(3000/(2900 + a))", source=ONE_SOURCE)
-def pitting_size_factor(centre_distance: a) -> Real:
+@formula(symbol="Z_S", equation="sqrt(3000/(2900 + a))", source=s.ONE_SOURCE)
+def pitting_size_factor(centre_distance: s.a) -> Real:
     """Size factor of pitting.
 
     Examples
@@ -56,8 +44,8 @@ def pitting_size_factor(centre_distance: a) -> Real:
     return np.sqrt(3000.0 / (2900.0 + centre_distance))
 
 
-@formula(symbol="Z_u", equation="min((u/20.5)^(1/6), 1)", source=ONE_SOURCE)
-def pitting_ratio_factor(ratio: u, *, edition: Edition = "2010") -> Real:
+@formula(symbol="Z_u", equation="min((u/20.5)^(1/6), 1)", source=s.ONE_SOURCE)
+def pitting_ratio_factor(ratio: s.u, *, edition: Edition = "2010") -> Real:
     """Ratio factor of pitting; bends at 20.5 and does not jump.
 
     The edition of 1998 has no such factor: 1.
@@ -71,15 +59,15 @@ def pitting_ratio_factor(ratio: u, *, edition: Edition = "2010") -> Real:
 
 
 @formula(
-    symbol="sigma_HG", unit="MPa", equation="sigma_HlimT Z_h Z_v Z_S Z_u Z_oil", source=ONE_SOURCE
+    symbol="sigma_HG", unit="MPa", equation="sigma_HlimT Z_h Z_v Z_S Z_u Z_oil", source=s.ONE_SOURCE
 )
 def pitting_limit(
-    pitting_strength: sigma_HlimT,
-    life_factor: Z_h,
-    velocity_factor: Z_v,
-    size_factor: Z_S,
-    ratio_factor: Z_u,
-    lubricant_factor: Z_oil,
+    pitting_strength: s.sigma_HlimT,
+    life_factor: s.Z_h,
+    velocity_factor: s.Z_v,
+    size_factor: s.Z_S,
+    ratio_factor: s.Z_u,
+    lubricant_factor: s.Z_oil,
 ) -> Real:
     """Contact stress at which the wheel pits."""
     factors = life_factor * velocity_factor * size_factor * ratio_factor * lubricant_factor

@@ -7,19 +7,7 @@ import numpy as np
 from asperity.arrays import Real
 from asperity.formulas import Bounds, Symbol, check, formula, not_negative
 from asperity.gearset.materials import BaseOilName
-from asperity.rating.iso14521.symbols import (
-    A_R,
-    ONE_SOURCE,
-    P_Vz,
-    alpha_L,
-    b_2R,
-    d_m2,
-    n_1,
-    nu_40,
-    theta_0,
-    theta_S,
-    u,
-)
+from asperity.rating.iso14521 import symbols as s
 
 Immersed = Literal["worm", "wheel"]
 
@@ -35,16 +23,16 @@ _OIL_CONSTANT = {"mineral": 9.0, "polyalphaolefin": 5.0, "polyglycol": 0.0}
     symbol="theta_S",
     unit="degC",
     equation="theta_0 + (c_1 T_2/(a/63)^3 + c_0) c_2",
-    source=ONE_SOURCE,
+    source=s.ONE_SOURCE,
     because="c_2 is not above zero at this ratio and speed; lower the ratio",
 )
 def sump_temperature(
     wheel_torque: T_2,
-    worm_speed: n_1,
-    ratio: u,
+    worm_speed: s.n_1,
+    ratio: s.u,
     centre_distance: a,
-    viscosity_40: nu_40,
-    ambient_temperature: theta_0 = 20.0,
+    viscosity_40: s.nu_40,
+    ambient_temperature: s.theta_0 = 20.0,
     *,
     base_oil: BaseOilName = "mineral",
     fan: bool = False,
@@ -74,9 +62,9 @@ def sump_temperature(
 
 
 @formula(
-    symbol="alpha_L", unit="W/(m2 K)", equation="c_k max(1940 + 15 n_1, 4190)", source=ONE_SOURCE
+    symbol="alpha_L", unit="W/(m2 K)", equation="c_k max(1940 + 15 n_1, 4190)", source=s.ONE_SOURCE
 )
-def heat_transfer_coefficient(worm_speed: n_1, *, immersed: Immersed = "worm") -> Real:
+def heat_transfer_coefficient(worm_speed: s.n_1, *, immersed: Immersed = "worm") -> Real:
     """Heat transfer from the wheel to the oil; bends at 150 rpm and does not jump.
 
     c_k is 1 where the worm dips into the oil and 0.8 where the wheel does.
@@ -90,18 +78,20 @@ def heat_transfer_coefficient(worm_speed: n_1, *, immersed: Immersed = "worm") -
     return share * np.maximum(1940.0 + 15.0 * worm_speed, 4190.0)
 
 
-@formula(symbol="A_R", unit="m2", equation="1e-6 b_2R d_m2", source=ONE_SOURCE)
-def cooling_area(rim_width: b_2R, wheel_mean_diameter: d_m2) -> Real:
+@formula(symbol="A_R", unit="m2", equation="1e-6 b_2R d_m2", source=s.ONE_SOURCE)
+def cooling_area(rim_width: s.b_2R, wheel_mean_diameter: s.d_m2) -> Real:
     """Surface over which the wheel gives its heat to the oil."""
     return rim_width * wheel_mean_diameter * 1e-6
 
 
-@formula(symbol="theta_M", unit="degC", equation="theta_S + P_Vz/(alpha_L A_R)", source=ONE_SOURCE)
+@formula(
+    symbol="theta_M", unit="degC", equation="theta_S + P_Vz/(alpha_L A_R)", source=s.ONE_SOURCE
+)
 def bulk_temperature(
-    sump_temperature: theta_S,
-    meshing_loss: P_Vz,
-    heat_transfer_coefficient: alpha_L,
-    cooling_area: A_R,
+    sump_temperature: s.theta_S,
+    meshing_loss: s.P_Vz,
+    heat_transfer_coefficient: s.alpha_L,
+    cooling_area: s.A_R,
 ) -> Real:
     """Temperature of the wheel's teeth under splash lubrication.
 

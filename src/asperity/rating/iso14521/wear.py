@@ -5,31 +5,15 @@ import numpy as np
 from asperity.arrays import Real
 from asperity.formulas import formula
 from asperity.gearset.materials import BaseOilName, Family
-from asperity.rating.iso14521.symbols import (
-    J_0T,
-    J_W,
-    K_W,
-    N_S,
-    ONE_SOURCE,
-    W_H,
-    W_ML,
-    W_NS,
-    W_S,
-    eta_0M,
-    gamma_m1,
-    h_minm,
-    m_x1,
-    s_Wm,
-    sigma_Hm,
-)
+from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.tables import Lubrication, wear_constants
 
 _IRON = ("grey iron", "nodular iron")
 
 
-@formula(symbol="W_S", equation="eta_0M^-0.35", source=ONE_SOURCE)
+@formula(symbol="W_S", equation="eta_0M^-0.35", source=s.ONE_SOURCE)
 def lubricant_structure_factor(
-    dynamic_viscosity: eta_0M, *, family: Family = "tin bronze", base_oil: BaseOilName = "mineral"
+    dynamic_viscosity: s.eta_0M, *, family: Family = "tin bronze", base_oil: BaseOilName = "mineral"
 ) -> Real:
     """Lubricant structure factor, by the oil's viscosity at the wheel's temperature.
 
@@ -45,8 +29,8 @@ def lubricant_structure_factor(
     return dynamic_viscosity**-0.35
 
 
-@formula(symbol="W_H", equation="min(1, (450/sigma_Hm)^4.5)", source=ONE_SOURCE)
-def pressure_factor(contact_stress: sigma_Hm, *, family: Family = "tin bronze") -> Real:
+@formula(symbol="W_H", equation="min(1, (450/sigma_Hm)^4.5)", source=s.ONE_SOURCE)
+def pressure_factor(contact_stress: s.sigma_Hm, *, family: Family = "tin bronze") -> Real:
     """Pressure factor of wear; bends at 450 MPa and does not jump.
 
     Shown for bronze; iron has (300/sigma_Hm)^1.4.
@@ -61,17 +45,17 @@ def pressure_factor(contact_stress: sigma_Hm, *, family: Family = "tin bronze") 
     return np.minimum(1.0, (450.0 / contact_stress) ** 4.5)
 
 
-@formula(symbol="K_W", unit="um", equation="h_minm W_S W_H", source=ONE_SOURCE)
+@formula(symbol="K_W", unit="um", equation="h_minm W_S W_H", source=s.ONE_SOURCE)
 def wear_parameter(
-    film_thickness: h_minm, lubricant_structure_factor: W_S, pressure_factor: W_H
+    film_thickness: s.h_minm, lubricant_structure_factor: s.W_S, pressure_factor: s.W_H
 ) -> Real:
     """Film thickness that counts for wear."""
     return film_thickness * lubricant_structure_factor * pressure_factor
 
 
-@formula(symbol="J_0T", equation="min(A K_W^-n, J_max)", source=ONE_SOURCE)
+@formula(symbol="J_0T", equation="min(A K_W^-n, J_max)", source=s.ONE_SOURCE)
 def reference_wear_intensity(
-    wear_parameter: K_W,
+    wear_parameter: s.K_W,
     *,
     family: Family = "tin bronze",
     lubrication: Lubrication = "bath",
@@ -92,8 +76,8 @@ def reference_wear_intensity(
     return np.minimum(law.scale * wear_parameter**-law.exponent, law.cap)
 
 
-@formula(symbol="W_NS", equation="min(1 + 0.015 N_S, 4)", source=ONE_SOURCE)
-def start_factor(starts_per_hour: N_S) -> Real:
+@formula(symbol="W_NS", equation="min(1 + 0.015 N_S, 4)", source=s.ONE_SOURCE)
+def start_factor(starts_per_hour: s.N_S) -> Real:
     """Start factor of wear.
 
     Examples
@@ -104,14 +88,16 @@ def start_factor(starts_per_hour: N_S) -> Real:
     return np.minimum(1.0 + 0.015 * starts_per_hour, 4.0)
 
 
-@formula(symbol="J_W", equation="J_0T W_NS W_ML", source=ONE_SOURCE)
-def wear_intensity(reference_wear_intensity: J_0T, start_factor: W_NS, wear_factor: W_ML) -> Real:
+@formula(symbol="J_W", equation="J_0T W_NS W_ML", source=s.ONE_SOURCE)
+def wear_intensity(
+    reference_wear_intensity: s.J_0T, start_factor: s.W_NS, wear_factor: s.W_ML
+) -> Real:
     """Wear intensity; W_ML is that of the wheel's material with the base oil."""
     return reference_wear_intensity * start_factor * wear_factor
 
 
-@formula(symbol="delta_Wn", unit="mm", equation="J_W s_Wm", source=ONE_SOURCE)
-def flank_wear(wear_intensity: J_W, sliding_path: s_Wm) -> Real:
+@formula(symbol="delta_Wn", unit="mm", equation="J_W s_Wm", source=s.ONE_SOURCE)
+def flank_wear(wear_intensity: s.J_W, sliding_path: s.s_Wm) -> Real:
     """Depth worn off the wheel's flanks, in the normal section.
 
     Examples
@@ -122,7 +108,7 @@ def flank_wear(wear_intensity: J_W, sliding_path: s_Wm) -> Real:
     return wear_intensity * sliding_path
 
 
-@formula(symbol="delta_Wlim", unit="mm", equation="0.3 m_x1 cos(gamma_m1)", source=ONE_SOURCE)
-def wear_limit(axial_module: m_x1, lead_angle: gamma_m1) -> Real:
+@formula(symbol="delta_Wlim", unit="mm", equation="0.3 m_x1 cos(gamma_m1)", source=s.ONE_SOURCE)
+def wear_limit(axial_module: s.m_x1, lead_angle: s.gamma_m1) -> Real:
     """Depth that may be worn off, where nothing else is asked for."""
     return 0.3 * axial_module * np.cos(lead_angle)

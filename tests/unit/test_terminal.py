@@ -1,0 +1,66 @@
+"""Tables as a terminal shows them."""
+
+import os
+
+import pytest
+
+from asperity.results.table import Column, Table
+from asperity.results.terminal import rendered
+
+WORDS = "the power that the vibration puts into the contact"
+TABLE = Table(
+    (Column("what", folds=True), Column("value", right=True), Column("unit")),
+    ((WORDS, "123456.7", "W"), ("ratio", "2", "")),
+    "Powers",
+    ("a remark",),
+)
+
+
+def test_a_table_that_fits_has_a_line_for_each_row_and_no_space_at_the_end():
+    assert rendered([TABLE], 80).splitlines() == [
+        "Powers",
+        f"{'what':{len(WORDS)}}     value  unit",
+        f"{WORDS}  123456.7  W",
+        f"{'ratio':{len(WORDS)}}         2",
+        "- a remark",
+    ]
+
+
+@pytest.mark.parametrize("width", [34, 40, 60])
+def test_only_texts_that_may_fold_are_folded_and_no_word_is_lost(width):
+    lines = rendered([TABLE], width).splitlines()
+    assert max(map(len, lines)) <= width
+    assert any("123456.7  W" in line for line in lines)
+    folded = " ".join(line[: line.find("  ")] if "  " in line else line for line in lines)
+    assert WORDS in folded
+
+
+def test_a_terminal_too_narrow_for_a_table_cuts_nothing_short():
+    text = rendered([TABLE], 10)
+    assert all(word in text for word in ("123456.7", "vibratio", "unit"))
+
+
+def test_tables_stand_apart_by_an_empty_line():
+    assert "\n- a remark\n\nPowers\n" in rendered([TABLE, TABLE], 80)
+
+
+def test_brackets_are_no_markup():
+    table = Table((Column("equation"),), (("a [b] + [/c]",),))
+    assert "a [b] + [/c]" in rendered([table])
+
+
+@pytest.mark.parametrize(
+    ("columns", "terminal", "width"), [("50", 90, 50), ("", 90, 90), ("0", 0, 80), ("", None, 80)]
+)
+def test_the_width_is_that_of_columns_or_the_terminal_or_eighty(
+    monkeypatch, columns, terminal, width
+):
+    def size(stream):
+        if terminal is None or stream != 2:
+            raise OSError("no terminal")
+        return os.terminal_size((terminal, 24))
+
+    monkeypatch.setenv("COLUMNS", columns)
+    monkeypatch.setattr(os, "get_terminal_size", size)
+    table = Table((Column("", folds=True),), (("word " * 100,),))
+    assert width - 5 < max(map(len, rendered([table]).splitlines())) <= width
