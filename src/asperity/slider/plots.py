@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, draw, legend, panels
+from asperity.slider.plots_normal import shade_flight
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +26,8 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     """
     if "time" not in dataset.coords:
         return draw(dataset)
-    figure, (upper, lower) = panels(2, height=6.2)
+    pressed = "normal_force" in dataset
+    figure, (upper, lower, *more) = panels(3 if pressed else 2, height=8.6 if pressed else 6.2)
     time, force = dataset["time"].values, float(dataset["static_drive_force"])
     frequency = dataset.attrs.get("vibration.frequency")
     periodic = dataset.attrs["solve.method"] == "periodic"
@@ -51,11 +53,25 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
             along = dataset.sel(axis=axis).isel(time=last)
             _band(lower, shown, along, "friction", style["color"])
             lower.plot(shown, along["friction"], label=label, **style)
-    lower.set_xlabel("time in the last cycles (ms)" if frequency else "time (ms)")
+    last_time = "time in the last cycles (ms)" if frequency else "time (ms)"
+    lower.set_xlabel(last_time)
     lower.set_ylabel("friction (N)")
     lower.set_title("Friction on the body", loc="left")
     lower.margins(x=0.0)
     legend(lower, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
+    for axes in more:
+        load = dataset["normal_force"].values[last]
+        _band(axes, shown, dataset.isel(time=last), "normal_force", BLUE)
+        axes.plot(shown, load, color=BLUE)
+        axes.axhline(
+            dataset.attrs["slider.normal_force"], color=BLACK, dashes=(4, 3), linewidth=1.0
+        )
+        for each in (lower, axes):
+            shade_flight(each, shown, load, "in flight" if each is axes else None)
+        axes.set(xlabel=last_time, ylabel="normal force (N)")
+        share = float(dataset["open_share"])
+        axes.set_title(f"Normal force, {100.0 * share:.3g} % of the time in flight", loc="left")
+        axes.margins(x=0.0)
     return figure
 
 

@@ -18,6 +18,7 @@ from asperity.results.figures import (
 )
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MARKERS = ("o", "s", "^", "D")
@@ -117,13 +118,8 @@ def plot_two_cycles(
     figure, (upper, lower) = panels(2, height=5.4)
     scale, unit = (1e3, "ms") if time[-1] - time[0] > 1e-3 else (1e6, "µs")
     at = scale * (time - time[0])
-    open_ = load <= 0.0
     for axes in (upper, lower):
-        if np.any(open_):
-            axes.fill_between(
-                at, 0.0, 1.0, where=open_, color=SKY, alpha=0.3, linewidth=0.0,
-                transform=axes.get_xaxis_transform(), label="in flight" if axes is upper else None,
-            )  # fmt: skip
+        shade_flight(axes, at, load, label="in flight" if axes is upper else None)
         axes.margins(x=0.0)
     upper.plot(at, load, color=BLUE, label="normal force")
     upper.axhline(static_load, color=BLACK, dashes=(4, 3), linewidth=1.0, label="at rest")
@@ -142,6 +138,16 @@ def plot_two_cycles(
     for axes in (upper, lower):
         legend(axes, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
     return figure
+
+
+def shade_flight(axes: "Axes", at: FloatArray, load: FloatArray, label: str | None) -> None:
+    """Shade where there is no load."""
+    flight = load <= 0.0
+    if np.any(flight):
+        axes.fill_between(
+            at, 0.0, 1.0, where=flight, color=SKY, alpha=0.3, linewidth=0.0,
+            transform=axes.get_xaxis_transform(), label=label,
+        )  # fmt: skip
 
 
 def _mean(time: FloatArray, values: FloatArray) -> float:
