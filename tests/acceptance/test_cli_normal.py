@@ -45,6 +45,27 @@ def test_without_it_nothing_new_is_told(asperity):
     assert not json.loads(output).keys() & (KEYS | TOLD_OF_WEAR)
 
 
+@pytest.mark.parametrize(
+    "axis",
+    [
+        "normal.law=linear,hertz,rough", "normal.control=force,displacement",
+        "normal.damping_ratio=0.01,0.1", "normal.damping=0,20 s/m",
+        "normal.penetration=0.7,0.9 um", "normal.stiffness=80,100 MN/m",
+        "friction.keeps=stiffness,deflection", "friction.load_exponent=0.7,1",
+        "vibration.normal_phase=0,90", "vibration.ramp=0,1 ms", "wear.coefficient=1e-6,1e-5",
+        "wear.hardness=1,2 GPa",
+    ],
+)  # fmt: skip
+def test_every_key_of_vibration_out_of_the_plane_can_be_an_axis(asperity, axis):
+    wear = "wear.coefficient=1e-5", "wear.hardness=2 GPa", "wear.contact_radius=0.1 mm"
+    settings = [part for text in wear for part in ("--set", text)]
+    tilted = "--set", "vibration.elevation=45 deg"
+    code, output, _ = asperity("sweep", "normal-pin", *settings, *tilted, "--over", axis, "--json")
+    answer = json.loads(output)
+    assert (code, answer["failed"]) == (0, 0)
+    assert len(answer["ratio"]) == axis.count(",") + 1
+
+
 def test_a_sweep_over_the_elevation_keeps_the_loads(asperity, tmp_path):
     code, _, errors = asperity(
         "sweep", "normal-pin", "--over", "vibration.elevation=0 deg,30 deg,90 deg",

@@ -245,6 +245,17 @@ def test_a_dead_load_that_slides_fast_bounces_without_losing_friction(amplitude)
     assert (answer.normal.open_share > 0.0) == (amplitude > 0.5e-6)
 
 
+@pytest.mark.parametrize("law", ["linear", "hertz"])
+def test_asperities_that_yield_lag_behind_a_rising_load_and_not_behind_a_falling_one(law):
+    # Behind a load that rises by N' Dahl's asperity lags by N' s_max/v; a falling one holds it at
+    # the limit. Over a cycle friction misses f s_max (N_max - N_min)/v of the mean load's.
+    model = thrown(40e-9, law)
+    model = dataclasses.replace(model, friction=Friction(mu=0.1, max_deflection=LIMIT))
+    answer = solve(model, history=False)
+    swing = (answer.normal.normal_max - answer.normal.normal_min) / W
+    assert 1.0 - answer.ratio == pytest.approx(4e3 * LIMIT / 0.5 * swing, rel=0.03)
+
+
 def test_friction_that_follows_the_area_of_a_ball_is_reduced_by_at_most_a_tenth():
     resonance = math.sqrt(SLOPE / 0.5) / (2.0 * math.pi)
     held, lost = 60e-9, 120e-9
