@@ -19,6 +19,7 @@ RIGID = (
 )  # fmt: skip
 STEP = 1e-6
 ROCKING, BOUNCE = 4, 2
+PUSH = 4e-4  # rad/s
 MU, FORCE, LIMIT, VELOCITY = 0.1, 55.0, 68.75e-9, 0.5e-3
 LENGTH, HEIGHT, MASS, DRIVE = 0.04, 0.03, 0.5, 96068.0
 
@@ -82,7 +83,7 @@ def growth_of(swings, step=STEP, window=500):
     return np.polyfit(window * step * np.arange(len(sizes)), sizes, 1)[0]
 
 
-def rigid_rocking(count, frequency=24e3, points=4):
+def rigid_rocking(count, frequency=24e3, points=4, parts=4):
     """Rocking of a rigid block on points that keep their stiffness, in a few lines of its own."""
     at, shares = np.polynomial.legendre.leggauss(points)
     x, shares = 0.5 * LENGTH * at, 0.5 * shares
@@ -92,33 +93,34 @@ def rigid_rocking(count, frequency=24e3, points=4):
     give = LIMIT / (FORCE * shares)
     height, turn, way = -FORCE / stiffness, lean, 0.0
     limit = bent = give * stiffness * shares * (x * turn - height)
-    pace = np.array([VELOCITY, 0.0, 1e-2 * 2.0 * np.pi * frequency * lean])
+    pace = np.array([VELOCITY, 0.0, PUSH])
     turns = []
-    for number in range(1, count + 1):
-        slip = STEP * (pace[0] - 0.5 * HEIGHT * pace[2])
-        way, height, turn = np.array([way, height, turn]) + STEP * pace
+    step = STEP / parts
+    for number in range(1, parts * count + 1):
+        slip = step * (pace[0] - 0.5 * HEIGHT * pace[2])
+        way, height, turn = np.array([way, height, turn]) + step * pace
         pressing = stiffness * shares * (x * turn - height)
         before, limit = limit, give * pressing
         middle = 0.5 * (before + limit)
         bent = np.minimum(middle + (bent - middle) * np.exp(-slip / middle), limit)
         friction = MU * bent / give
-        pull = MU * FORCE + DRIVE * (VELOCITY * STEP * number - way)
+        pull = MU * FORCE + DRIVE * (VELOCITY * step * number - way)
         torque = 0.5 * HEIGHT * friction.sum() - x @ pressing
         forces = np.array([pull - friction.sum(), pressing.sum() - FORCE, torque])
-        pace += STEP * forces / np.array([MASS, MASS, inertia])
+        pace += step * forces / np.array([MASS, MASS, inertia])
         turns.append(turn)
-    return np.array(turns)
+    return np.array(turns[parts - 1 :: parts])
 
 
 @pytest.mark.slow
 def test_friction_that_follows_the_pressure_late_rocks_a_block_up_as_it_does_a_rigid_one():
     growths = {}
     for keeps in ("stiffness", "deflection"):
-        stepper = pushed(sliding(problem(f"friction.keeps={keeps}")), ROCKING, 4e-4)
+        stepper = pushed(sliding(problem(f"friction.keeps={keeps}")), ROCKING, PUSH)
         growths[keeps] = growth_of(places(stepper, ROCKING, 4000))
     alone = growth_of(rigid_rocking(4000))
-    assert alone == pytest.approx(138.0, rel=0.03)
-    assert growths["stiffness"] == pytest.approx(alone, rel=0.05)
+    assert alone > 100.0
+    assert growths["stiffness"] == pytest.approx(alone, rel=0.03)
     assert abs(growths["deflection"]) < 0.02 * alone
 
 
@@ -131,7 +133,7 @@ def test_dashpots_of_the_contact_damp_bounce_and_rocking(coordinate, share):
     still = problem(f"contact.damping_ratio={ratio}", "slider.drive_velocity=1e-9 m/s")
     system = with_(still.system, shaking=None)
     rest = Stepper(system, rest_under_load(system, still.loads))
-    push = 1e-5 if coordinate == BOUNCE else 4e-4
+    push = 1e-5 if coordinate == BOUNCE else PUSH
     swings = places(pushed(rest, coordinate, push), coordinate, 500)
     peaks = np.abs(np.fft.rfft((swings - swings.mean()) * np.hanning(500), 100_000))
     turned = 2.0 * np.pi * peaks.argmax() / (100_000 * STEP)
