@@ -52,11 +52,24 @@ def test_the_command_answers_by_the_method_of_the_case(monkeypatch):
 
 
 @pytest.mark.slow
-def test_windows_that_do_not_agree_are_told(monkeypatch, found):
+@pytest.mark.parametrize("keeps", ["deflection", "stiffness"])
+def test_windows_that_do_not_agree_are_told(monkeypatch, keeps):
     monkeypatch.setattr(settled, "STEADY", 1e-9)
     monkeypatch.setattr(settled, "_LONGEST", settled._SHORTEST)
-    (note,) = settle(found.problem).notes
+    settings = (SETTLED, "vibration.velocity_ratio=2", f"friction.keeps={keeps}")
+    *_, note = settle(BlockProblem.from_case(case(*settings))).notes
     assert note.startswith("not steady: in 16 cycles the ratio still swings by ")
+    assert note.endswith("give contact.damping_ratio") is (keeps == "stiffness")
+
+
+@pytest.mark.slow
+def test_a_damped_contact_settles_where_asperities_keep_their_stiffness():
+    """Undamped the same block rocks, its friction falls to 0.102 and swings."""
+    settings = (SETTLED, "friction.keeps=stiffness", "contact.damping_ratio=0.01")
+    found = settle(BlockProblem.from_case(case(*settings, "vibration.velocity_ratio=6")))
+    assert found.ratio == pytest.approx(found.slider_ratio, rel=5e-3)
+    assert found.unsteadiness < 1e-5
+    assert found.notes == ()
 
 
 def test_a_settled_block_is_saved_and_read(found, tmp_path):

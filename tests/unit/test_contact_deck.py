@@ -218,6 +218,12 @@ def test_friction_with_rate_effects_is_refused():
         abaqus_files(setup_of("friction.model=lugre"))
 
 
+def test_asperities_that_keep_their_stiffness_are_refused_but_by_phases():
+    with pytest.raises(InputError, match=r"keeps is 'stiffness'; FRIC is written for 'deflection'"):
+        abaqus_files(setup_of("friction.keeps=stiffness"))
+    assert "FRIC" in abaqus_files(setup_of("solve.scheme=two-phase"))["user.f"]
+
+
 def test_the_second_slip_direction_is_one_way_or_the_other():
     with pytest.raises(InputError, match="side is 0; it must be -1 or 1"):
         fric_subroutine(setup_of().model, side=0)

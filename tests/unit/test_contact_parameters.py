@@ -108,6 +108,8 @@ def test_the_blocks_that_ship_are_the_sliding_bodies_with_a_block(name, table):
     block, body = (read_case(case, case_tables()) for case in (f"block-{name}", f"table-{table}"))
     assert set(block.tables) - set(body.tables) == {"block", "contact"}
     for key, value in body.tables.items():
-        assert block[key] == value
+        # What stays where the pressure changes does not matter to a body whose load is a constant.
+        keeps = {"keeps": "deflection"} if key == "friction" else {}
+        assert block[key] == value.model_copy(update=keeps)
     assert block[Block.table] == Block(**STEEL)
     assert block[Contact.table] == Contact()

@@ -146,6 +146,9 @@ class Contact(Table):
         ``two-stage``: overclosures where the first stage ends and the last begins, m, 0 to 1 m;
         between them the stiffness rises evenly. Left out: 1 % and 3 % of the longer edge of an
         element in contact.
+    damping_ratio : float
+        Damping of the block's bounce on its contact over the critical one, 0 to below 1, by
+        dashpots spread evenly over the contact, which damp its rocking too.
     """
 
     table: ClassVar[str] = "contact"
@@ -155,6 +158,7 @@ class Contact(Table):
 
     initial_stiffness: _Stiffness | None = None
     transition: tuple[_Overclosure, _Overclosure] | None = None
+    damping_ratio: Annotated[float, Quantity("", what="a ratio", example="0.05", ge=0, lt=1)] = 0.0
 
     @field_validator("transition", mode="before")
     @classmethod

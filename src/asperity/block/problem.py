@@ -245,6 +245,7 @@ class BlockProblem:
                 load=self.loads[1],
                 held=held_coordinates(self.body, rigid=slider.rigid, guided=not slider.free),
                 damping_ratio=self.block.damping_ratio,
+                dashpots=self._dashpots,
             ),
             surface=self.surface,
             counter=RigidSurface.plane(),
@@ -254,6 +255,16 @@ class BlockProblem:
             drive_velocity=slider.drive_velocity,
             full_friction=model.full_friction if not slider.rigid else math.inf,
         )
+
+    @property
+    def _dashpots(self) -> FloatArray:
+        """Damping of the rigid body's six coordinates by its contact, SI."""
+        ratio, surface = self.contact.damping_ratio, self.surface
+        stiffness = surface.area * self.normal.slope_at(self.mean_pressure)
+        by_area = 2.0 * ratio * math.sqrt(stiffness * self.mass) / surface.area
+        along, across, _ = np.moveaxis(surface.points, -1, 0)
+        moments = [surface.integral(lever**2) for lever in (np.ones_like(along), across, along)]
+        return by_area * np.array([0.0, 0.0, *map(float, moments), 0.0])
 
     @functools.cached_property
     def compliance(self) -> BaseCompliance:
@@ -273,10 +284,12 @@ def mechanism(
     load: mo.Port,
     held: npt.NDArray[np.bool_],
     damping_ratio: float = 0.0,
+    dashpots: npt.ArrayLike = 0.0,
 ) -> mo.Mechanism:
     """Return a free condensed body with its drive's stiffness and damping, load and guides.
 
-    ``damping_ratio`` is that of the modes, over the critical damping of each.
+    ``damping_ratio`` is that of the modes, over the critical damping of each; ``dashpots`` are
+    those of the six coordinates of the rigid body, SI.
     """
     modes = len(body.mode_frequency)
     size = 6 + modes
@@ -284,6 +297,7 @@ def mechanism(
     mass[:6, :6] = body.mass
     stiffness[6:, 6:] = np.diag(body.mode_stiffness)
     resistance = np.zeros(size)
+    resistance[:6] = dashpots
     resistance[6:] = 2.0 * damping_ratio * np.sqrt(body.mode_stiffness)
     pull, damping = drive
     port = _combined(body, {_DRIVE: 1.0})

@@ -26,7 +26,7 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     """
     if "time" not in dataset.coords:
         return draw(dataset)
-    pressed = "normal_force" in dataset
+    pressed = "normal_force" in dataset and "time" in dataset["normal_force"].dims
     figure, (upper, lower, *more) = panels(3 if pressed else 2, height=8.6 if pressed else 6.2)
     time, force = dataset["time"].values, float(dataset["static_drive_force"])
     frequency = dataset.attrs.get("vibration.frequency")

@@ -180,9 +180,19 @@ def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, 
         notes.append(
             f"not steady: in {reading.cycles} cycles the ratio still swings by "
             f"{reading.apart:.2g}, as that of a block that rocks or flutters; solve.method "
-            "'march' shows it in time"
+            "'march' shows it in time" + _fed(problem)
         )
     return tuple(notes)
+
+
+def _fed(problem: BlockProblem) -> str:
+    """Say what may feed the rocking of a block that nothing damps."""
+    if problem.friction.reference == 0.0 or problem.contact.damping_ratio > 0.0:
+        return ""
+    return (
+        ". Friction that follows the pressure late feeds the rocking, and nothing damps it: give "
+        "contact.damping_ratio"
+    )
 
 
 def _periodic(model: Model) -> Model:

@@ -38,7 +38,11 @@ class Flutter:
 
 
 class Stability:
-    """Steady sliding of a block, in each direction it slides to."""
+    """Steady sliding of a block, in each direction it slides to.
+
+    Nothing is found where asperities keep their stiffness: their friction falls with the pressure
+    at once and rises behind it, which is no linear motion.
+    """
 
     def __init__(self, problem: BlockProblem) -> None:
         self._problem = problem
@@ -47,7 +51,7 @@ class Stability:
             sliding_motion(
                 system.mechanism, system.surface, system.normal, system.friction, pressure, way
             )
-            for way in slip_directions(problem)
+            for way in (slip_directions(problem) if problem.friction.reference == 0.0 else ())
         )
 
     def flutter(self) -> Flutter | None:
