@@ -15,7 +15,7 @@ from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
 from asperity.normal import Normal, elastic_slope
-from asperity.slider.parameters import Slider, Solve, check_normal
+from asperity.slider.parameters import Slider, Solve, check_normal, check_scheme
 from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.slider.wear import Wear
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
@@ -91,20 +91,7 @@ class Model:
                 "described in [normal]; add that (law = 'linear', stiffness), or leave [wear] out"
             )
         check_normal(self.slider, self.friction, self.vibration, self.normal, self.solve)
-        if self.solve.scheme == "two-phase" and (
-            self.friction.model != "dahl" or self.friction.law != "split"
-        ):
-            raise InputError(
-                "solve.scheme is 'two-phase', which exists for friction.model 'dahl' with "
-                f"friction.law 'split' only; they are '{self.friction.model}' and "
-                f"'{self.friction.law}'"
-            )
-        if self.solve.scheme == "two-phase" and self.friction.exponent < 1.0:
-            raise InputError(
-                f"friction.exponent is {self.friction.exponent:g}; the two-phase scheme needs 1 or "
-                "more (below, it never saturates or overshoots the limit): use solve.scheme "
-                "'exponential'"
-            )
+        check_scheme(self.friction, self.solve)
 
     @classmethod
     def from_case(cls, case: Case) -> Self:

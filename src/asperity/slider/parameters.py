@@ -171,3 +171,19 @@ def check_normal(
             "'displacement' is a machine that holds its height)"
         )
     normal.loss(slider.normal_force, slider.mass)
+
+
+def check_scheme(friction: Friction, solve: Solve) -> None:
+    """Refuse a scheme that the friction does not go with."""
+    if solve.scheme != "two-phase":
+        return
+    if friction.model != "dahl" or friction.law != "split":
+        raise InputError(
+            "solve.scheme is 'two-phase', which exists for friction.model 'dahl' with "
+            f"friction.law 'split' only; they are '{friction.model}' and '{friction.law}'"
+        )
+    if friction.exponent < 1.0:
+        raise InputError(
+            f"friction.exponent is {friction.exponent:g}; the two-phase scheme needs 1 or more "
+            "(below, it never saturates or overshoots the limit): use solve.scheme 'exponential'"
+        )

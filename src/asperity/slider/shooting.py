@@ -18,8 +18,9 @@ from asperity.elimination import eliminate
 from asperity.friction.loaded import STIFFNESS
 from asperity.normal import elastic_force
 from asperity.slider.kernels import clear, march_block
+from asperity.slider.other_drives import carried, damped
 from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed, node_load
-from asperity.slider.scaled import COULOMB, NODE, PRESSED_NODE, SPRINGS, Parameters
+from asperity.slider.scaled import COULOMB, NODE, PRESSED_NODE, SPRINGS
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
@@ -27,35 +28,6 @@ _NEWTON_STEPS = 25
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
 SETTLING = (20, 80, 320, 1280)  # cycles before each further attempt
-
-
-@kernel
-def _on_other_drive(p, rigid, damping, retained, mobility_x, mobility_y):
-    """Return the body with another drive and other mobility."""
-    return Parameters(
-        p.drive, p.pull, p.stiffness, damping, retained, mobility_x, mobility_y,
-        p.base_x, p.base_y, p.own_1, p.own_2, p.exponent, p.rate_damping, p.slip_damping,
-        p.static_ratio, p.stribeck, rigid, p.smooth, p.model, p.law,
-    )  # fmt: skip
-
-
-@kernel
-def _carried(p):
-    """Return the body carried along by its drive, guided."""
-    return _on_other_drive(p, True, p.damping, p.retained, 0.0, 0.0)
-
-
-@kernel
-def _damped(p):
-    """Return the body on a drive damped critically."""
-    if p.rigid:
-        return p
-    mobility = p.mobility_x * 2.0 / (1.0 + p.retained)
-    damping = 2.0 * math.sqrt(p.stiffness / mobility)
-    lost = 0.5 * mobility * damping
-    return _on_other_drive(
-        p, False, damping, (1.0 - lost) / (1.0 + lost), mobility / (1.0 + lost), p.mobility_y
-    )
 
 
 @kernel
@@ -327,7 +299,7 @@ def _first_guess(start, springs, p, q, increments, rises, sums, scales, count):
     # Friction under the drive's mean motion alone tells the mean force to start from.
     state.stretch = 0.0
     for _ in range(3):
-        _run(state, springs, _carried(p), q, increments, rises, sums)
+        _run(state, springs, carried(p), q, increments, rises, sums)
     if not p.rigid:
         state.stretch = sums.friction_x / steps / p.stiffness
     return worst, 4
@@ -375,7 +347,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         worst, used = _first_guess(start, springs, p, q, increments, rises, sums, scales, count)
     else:
         for _ in range(settle):
-            _run(start[0], springs, _damped(p), q, increments, rises, sums)
+            _run(start[0], springs, damped(p), q, increments, rises, sums)
         used = settle
     if worst > 1e-12:
         worst, cycles = _newton(

@@ -1,0 +1,35 @@
+"""A body on another drive than its own: one that carries it along, one that is damped."""
+
+import math
+
+from asperity.compiled import kernel
+from asperity.slider.scaled import Parameters
+
+
+@kernel
+def _on_other_drive(p, rigid, damping, retained, mobility_x, mobility_y):
+    """Return the body with another drive and other mobility."""
+    return Parameters(
+        p.drive, p.pull, p.stiffness, damping, retained, mobility_x, mobility_y,
+        p.base_x, p.base_y, p.own_1, p.own_2, p.exponent, p.rate_damping, p.slip_damping,
+        p.static_ratio, p.stribeck, rigid, p.smooth, p.model, p.law,
+    )  # fmt: skip
+
+
+@kernel
+def carried(p):
+    """Return the body carried along by its drive, guided."""
+    return _on_other_drive(p, True, p.damping, p.retained, 0.0, 0.0)
+
+
+@kernel
+def damped(p):
+    """Return the body on a drive damped critically."""
+    if p.rigid:
+        return p
+    mobility = p.mobility_x * 2.0 / (1.0 + p.retained)
+    damping = 2.0 * math.sqrt(p.stiffness / mobility)
+    lost = 0.5 * mobility * damping
+    return _on_other_drive(
+        p, False, damping, (1.0 - lost) / (1.0 + lost), mobility / (1.0 + lost), p.mobility_y
+    )
