@@ -12,9 +12,12 @@ import math
 import numpy as np
 import pytest
 
+from asperity.casefile import read_case
+from asperity.errors import ConvergenceError
 from asperity.friction import Friction
 from asperity.normal import Normal
-from asperity.slider import Model, Slider, Solve, homogenise, solve
+from asperity.slider import TABLES, Model, Slider, Solve, homogenise, solve, summary
+from asperity.slider.periodic import AperiodicError, solve_periodic
 from asperity.vibration import Vibration
 
 LIMIT = 68.75e-9
@@ -332,3 +335,91 @@ def test_the_cycle_mean_law_follows_the_march_into_its_steady_state():
     at = np.linspace(0.142, 0.2, 59)
     apart = [np.interp(at, one.history.time, one.history.drive_force) for one in (fast, slow)]
     assert np.abs(apart[0] - apart[1]).max() < 5e-3 * 5.5
+
+
+def pin(*settings):
+    """The ball of ``normal-pin``, shaken along the normal."""
+    fixed = "solve.method=periodic", "vibration.elevation=90 deg"
+    return Model.from_case(read_case("normal-pin", TABLES, [*fixed, *settings]))
+
+
+@pytest.mark.parametrize(
+    ("frequency", "amplitude", "period", "ratio", "multiplier"),
+    [(4.3, 0.2571429, 2, 0.52595, 0.974), (2.0, 1.0428571, 4, 0.27921, 0.965)],
+)
+def test_a_stable_state_beside_a_hardly_unstable_one_is_found(
+    frequency, amplitude, period, ratio, multiplier
+):
+    answer = solve(
+        pin(
+            f"vibration.frequency={frequency} kHz",
+            f"vibration.displacement_amplitude={amplitude} um",
+        ),
+        history=False,
+    )
+    assert answer.normal.period == period
+    assert answer.ratio == pytest.approx(ratio, abs=1e-5)
+    assert answer.normal.multiplier == pytest.approx(multiplier, abs=1e-3)
+
+
+def test_where_nothing_stable_repeats_the_march_names_what_is_unstable():
+    model = pin("vibration.frequency=3 kHz", "vibration.displacement_amplitude=0.8857 um")
+    with pytest.raises(AperiodicError) as raised:
+        solve_periodic(model)
+    assert "1, 2 or 4 cycles" in str(raised.value)
+    marched = solve(model, history=False)
+    assert "aperiodic as far as that tells" in marched.notes[0]
+    assert "a disturbance grows 2.23 times" in marched.notes[1]
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ("friction.exponent=0",),
+        ("friction.model=springs", "normal.law=linear"),
+        ("friction.model=springs",),
+        ("friction.exponent=0", "vibration.velocity_ratio=0.0001"),
+        ("friction.model=lugre",),
+    ],
+)
+def test_asperities_that_only_stick_give_no_energy(settings):
+    answer = solve(pin("solve.method=march", "solve.duration=50 ms", *settings), history=False)
+    assert answer.normal.friction_gain == 0.0
+    assert 0.0 < answer.ratio < 1.0
+
+
+def test_friction_that_gives_energy_is_an_error_and_no_march_is_told_instead(monkeypatch):
+    model = pin()
+    motion = solve(model, history=False).normal
+    gained = dataclasses.replace(motion, friction_gain=1e-6)
+    monkeypatch.setattr(summary, "normal_motion", lambda *_: gained)
+    with pytest.raises(ConvergenceError, match="friction gave 1e-06 W"):
+        solve(model, history=False)
+    kept = pin("friction.keeps=deflection")
+    assert any("friction gave 1e-06 W: with" in note for note in solve(kept).notes)
+
+
+@pytest.mark.parametrize(("amplitude", "open_"), [(50, False), (100, True)])
+def test_springs_at_resonance_slide_fast_without_losing_friction(amplitude, open_):
+    answer = solve(
+        pin(
+            "friction.model=springs", "slider.drive_velocity=0.5 m/s",
+            "vibration.frequency=2.107 kHz", f"vibration.displacement_amplitude={amplitude} nm",
+        ),
+        history=False,
+    )  # fmt: skip
+    assert (answer.normal.open_share > 0.0) == open_
+    # Sixteen springs carry a Hertz contact to 7e-4.
+    assert answer.ratio == pytest.approx(1.0, abs=7e-4)
+
+
+def test_lugre_keeps_what_it_is_told_to():
+    ratios = {}
+    for model in ("dahl", "lugre"):
+        for keeps in ("stiffness", "deflection"):
+            answer = solve(pin(f"friction.model={model}", f"friction.keeps={keeps}"))
+            ratios[model, keeps] = answer.ratio
+            assert answer.ledger.residual < 1e-6
+    for keeps in ("stiffness", "deflection"):
+        assert ratios["lugre", keeps] == pytest.approx(ratios["dahl", keeps], abs=1e-9)
+    assert ratios["lugre", "deflection"] - ratios["lugre", "stiffness"] > 0.1

@@ -13,6 +13,7 @@ from asperity.friction.loaded import relaxed_to_limit
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, FAST, STAGES, fill_batch
 from asperity.slider.batch_rows import WIDTH
+from asperity.slider.pressed import ROUNDING
 
 
 def _make_block(window: bool, wait: bool) -> Any:
@@ -99,7 +100,9 @@ def _make_block(window: bool, wait: bool) -> Any:
                     vy = dy - jy
                     gain = -(sx1 * vx + sy1 * vy + 0.5 * (jx * jx + jy * jy))
                     mean = 0.5 * (b[row.LAST_LOAD * WIDTH + j] + b[row.LOAD * WIDTH + j])
-                    b[row.SUM_GAIN * WIDTH + j] += gain if gain > 0.0 else 0.0
+                    size = sx * sx + sy * sy + sx1 * sx1 + sy1 * sy1
+                    size += abs(sx1 * dx) + abs(sy1 * dy)
+                    b[row.SUM_GAIN * WIDTH + j] += gain if gain > ROUNDING * size else 0.0
                     b[row.SUM_WEAR * WIDTH + j] += mean * math.sqrt(vx * vx + vy * vy)
                 for j in range(WIDTH):
                     height = b[row.BASE_Z * WIDTH + j] * rises[n * WIDTH + j]

@@ -12,7 +12,14 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.slider.model import Model
-from asperity.slider.periodic import UNSTABLE, Cycle, answer_of, cycle_steps, settle
+from asperity.slider.periodic import (
+    UNSTABLE,
+    AperiodicError,
+    Cycle,
+    answer_of,
+    cycle_steps,
+    settle,
+)
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import SETTLING
 
@@ -53,13 +60,12 @@ def follow(models: Sequence[Model]) -> Iterator[SlideResult | ConvergenceError]:
             _take_over(cycle, *last)
             cycle, found, growth = _from_there(cycle, model, steps, step)
         last = model, cycle
-        if found:
+        try:
+            if not found:
+                raise AperiodicError.of(cycle, notes)
             yield answer_of(model, step, cycle, growth, notes, began, history=False)
-        else:
-            yield ConvergenceError(
-                "no stable state that repeats itself after 1, 2 or 4 cycles",
-                reached={"residual": float(cycle.residual)},
-            )
+        except ConvergenceError as error:
+            yield error
 
 
 def _take_over(cycle: Cycle, model: Model, other: Cycle) -> None:

@@ -13,9 +13,8 @@ from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.march import march
 from asperity.slider.model import Model
-from asperity.slider.periodic import solve_periodic
+from asperity.slider.periodic import AperiodicError, solve_periodic
 from asperity.slider.result import SlideResult
-from asperity.slider.shooting import ACCEPTED
 from asperity.slider.timetable import Timetable
 
 
@@ -52,15 +51,17 @@ def solve(
     if model.solve.method == "periodic":
         try:
             return solve_periodic(model, history=history)
-        except ConvergenceError as error:
-            model = _to_march(model, error)
-            left = error.reached.get("residual", math.nan)
-        answer = march(model, history=history, stop=stop, run=run)
+        except AperiodicError as error:
+            none = error
+        answer = march(_to_march(model, none), history=history, stop=stop, run=run)
+        left = none.reached.get("residual", math.nan)
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
-        if left <= ACCEPTED:
-            note = "the states that repeat themselves after 1, 2 or 4 cycles are unstable, the "
-            note += "motion is aperiodic: this is a march"
-        return dataclasses.replace(answer, notes=(note, *answer.notes))
+        if none.notes:
+            note = (
+                "no stable state was found that repeats itself after 1, 2 or 4 cycles, the motion "
+                "is aperiodic as far as that tells: this is a march"
+            )
+        return dataclasses.replace(answer, notes=(note, *none.notes, *answer.notes))
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
     return march(model, history=history, stop=stop, run=run)

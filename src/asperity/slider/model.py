@@ -9,13 +9,13 @@ from typing import Self
 
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
 from asperity.normal import Normal, elastic_slope
-from asperity.slider.parameters import Slider, Solve, check_normal, check_scheme
+from asperity.slider.indentation import greatest_penetration
+from asperity.slider.parameters import Slider, Solve, check_normal, check_scheme, unit_vector
 from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.slider.wear import Wear
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
@@ -31,8 +31,10 @@ RING_BOUND = 0.25
 # Part of the penetration's length a body may come nearer in a step.
 LANDING_BOUND = 0.05
 _MOST_SWING = 1000.0
-# How far a body under a dead load may swing over the base, for which springs are laid out.
-_RESONANCE = 3.0
+# Springs are laid out to what the body comes to in so many cycles from rest, and a little more.
+_FIRST_CYCLES = 100
+_MOST_FIRST_STEPS = 1_000_000
+_DEEPER = 1.05
 COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
@@ -151,8 +153,8 @@ class Model:
     @property
     def unit_direction(self) -> tuple[float, float, float]:
         """Direction of the vibration: along the drive, across it, up."""
-        flat, up = _unit(self.elevation)
-        along, across = _unit(self.direction)
+        flat, up = unit_vector(self.elevation)
+        along, across = unit_vector(self.direction)
         return flat * along, flat * across, up
 
     @property
@@ -276,7 +278,7 @@ class Model:
                 f"times the penetration of {self.normal_length:.3g} m: no rigid machine holds that;"
                 " reduce the amplitude, or let the body rise with normal.control 'force'"
             )
-        q = self.pressing(self.step)
+        q = self._rigid_pressing(self.step)
         ring = math.sqrt(q.mobility * elastic_slope(q.law, q.reference + 2.0 * swing))
         landing = 2.0 * up * self.peak_velocity * self.step / self.normal_length
         return max(ring / RING_BOUND, landing / LANDING_BOUND)
@@ -348,9 +350,32 @@ class Model:
             raise InputError(_FAR_APART)
         return scaled
 
-    @in_proportion()
     def pressing(self, step: float) -> Pressing:
         """Return what the kernels are given of the normal direction for a time step in s."""
+        scaled = self._rigid_pressing(step)
+        if self.friction.model != "springs" or self.normal is None:
+            return scaled
+        heights, weights = spring_profile(self.normal.law, self.friction.springs, self.deepest)
+        return scaled._replace(heights=heights, weights=weights)
+
+    @functools.cached_property
+    def deepest(self) -> float:
+        """Penetration the springs are laid out to, in units of `asperity.normal`.
+
+        A little more than the body comes to from rest, in its first cycles under all of the
+        vibration.
+        """
+        q = self._rigid_pressing(self.step / self.substeps)
+        if self.shape is None or q.base == 0.0:
+            return _DEEPER * max(q.reference, 1.0)
+        rate = self.frequency * self.step / self.substeps
+        wave = self.shape.wave(lead=self.normal_lead)._replace(ramp=0.0)
+        steps = min(round(_FIRST_CYCLES / rate), _MOST_FIRST_STEPS)
+        return _DEEPER * float(greatest_penetration(q, wave, rate, steps))
+
+    @in_proportion()
+    def _rigid_pressing(self, step: float) -> Pressing:
+        """Numbers of the normal direction without springs."""
         if self.normal is None:
             raise InputError("the normal force of this body is a constant")
         load, mass = self.slider.normal_force, self.slider.mass
@@ -358,7 +383,6 @@ class Model:
         dead = self.normal.control == "force" and mass is not None
         reference = REFERENCE_INDENTATION[self.normal.law]
         base = (-1.0 if self.on_body else 1.0) * self.amplitude * self.unit_direction[2] / length
-        heights, weights = self._springs(reference, base)
         scaled = Pressing(
             law=self.normal.code,
             reference=reference,
@@ -367,25 +391,9 @@ class Model:
             damping=self.normal.loss(load, mass) * length / step,
             load_power=self.friction.load_exponent,
             keeps=self.friction.keeps_code,
-            heights=heights,
-            weights=weights,
+            heights=np.zeros(0),
+            weights=np.zeros(0),
         )
         if not all(map(math.isfinite, scaled[:6])):
             raise InputError(_FAR_APART)
         return scaled
-
-    def _springs(self, reference: float, base: float) -> tuple[FloatArray, FloatArray]:
-        """Heights and weights of the springs under the penetrations to be expected."""
-        if self.friction.model != "springs" or self.normal is None:
-            return np.zeros(0), np.zeros(0)
-        swing = abs(base) * (1.0 if self.normal.control == "displacement" else _RESONANCE)
-        return spring_profile(self.normal.law, self.friction.springs, reference + swing)
-
-
-def _unit(angle: float) -> tuple[float, float]:
-    """Cosine and sine, exact at the quarter turns."""
-    turns = angle / (0.5 * math.pi)
-    quarter = round(turns)
-    if abs(turns - quarter) < 1e-12:
-        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
-    return math.cos(angle), math.sin(angle)

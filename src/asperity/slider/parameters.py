@@ -187,3 +187,12 @@ def check_scheme(friction: Friction, solve: Solve) -> None:
             f"friction.exponent is {friction.exponent:g}; the two-phase scheme needs 1 or more "
             "(below, it never saturates or overshoots the limit): use solve.scheme 'exponential'"
         )
+
+
+def unit_vector(angle: float) -> tuple[float, float]:
+    """Cosine and sine, exact at the quarter turns."""
+    turns = angle / (0.5 * math.pi)
+    quarter = round(turns)
+    if abs(turns - quarter) < 1e-12:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
+    return math.cos(angle), math.sin(angle)

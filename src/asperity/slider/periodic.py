@@ -125,6 +125,34 @@ def _repeated(increments: FloatArray, times: int) -> FloatArray:
     return np.append(np.tile(increments[:-1], times), increments[0])
 
 
+class AperiodicError(ConvergenceError):
+    """No stable state was found that repeats itself after 1, 2 or 4 cycles.
+
+    Attributes
+    ----------
+    notes : tuple of str
+        What is known of states that are not stable.
+    """
+
+    notes: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, cycle: Cycle, notes: tuple[str, ...]) -> "AperiodicError":
+        """Return the error of a cycle in which nothing stable was found."""
+        found = "no stable state was found that repeats itself after 1, 2 or 4 cycles"
+        if not notes:
+            found = (
+                f"no periodic state found: after {cycle.run} cycles the state still changes by "
+                f"{cycle.residual:.2g} a cycle (1e-9 is asked for)"
+            )
+        error = cls(
+            f"{found}; solve.method 'march' shows what it does",
+            reached={"residual": float(cycle.residual), "cycles": float(cycle.run)},
+        )
+        error.notes = notes
+        return error
+
+
 def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     """Find the state that repeats itself every vibration cycle; of a pressed body, 1, 2 or 4.
 
@@ -137,27 +165,18 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
 
     Raises
     ------
-    ConvergenceError
+    AperiodicError
         No state repeats within 1e-9 (a body that sticks and slips at a rate of its own, say).
+    ConvergenceError
+        The powers of the state do not balance, or friction gives energy.
     """
     began = time.perf_counter()
     steps = cycle_steps(model)
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
     cycle = Cycle(model, steps, step)
     found, growth, notes = settle(cycle)
-    if not found and cycle.residual <= ACCEPTED:
-        raise ConvergenceError(
-            "no stable periodic state found: those that repeat themselves after 1, 2 or 4 cycles "
-            "are unstable; solve.method 'march' shows what the body does",
-            reached={"residual": float(cycle.residual), "multiplier": float(growth)},
-        )
     if not found:
-        raise ConvergenceError(
-            f"no periodic state found: after {cycle.run} cycles the state still changes by "
-            f"{cycle.residual:.2g} a cycle (1e-9 is asked for); solve.method 'march' shows what "
-            "it does",
-            reached={"residual": float(cycle.residual), "cycles": float(cycle.run)},
-        )
+        raise AperiodicError.of(cycle, notes)
     return answer_of(model, step, cycle, growth, notes, began, history=history)
 
 
@@ -219,11 +238,12 @@ def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:
 
 def _longer(cycle: Cycle) -> tuple[bool, float]:
     """Look for stable states that repeat themselves after two and after four cycles."""
-    cycle.disturb()
     growth = math.inf
     for _ in range(2):
         cycle.repeat(2)
-        for settle in SETTLING[1:3]:
+        for settle in SETTLING[1:]:
+            # Newton may have ended on the unstable state, where the body would stay.
+            cycle.disturb()
             if cycle.find(settle) and (growth := cycle.multiplier()) <= UNSTABLE:
                 return True, growth
     return False, growth

@@ -27,6 +27,8 @@ from asperity.slider.kernels import add_step, clear, condense, node_forces, reco
 from asperity.slider.scaled import COULOMB, DAHL, LUGRE, SPRINGS
 from asperity.vibration import displacement_at, fill_increments
 
+ROUNDING = 1e-12  # of the energies of a step
+
 
 @kernel
 def friction_limit(load, power):
@@ -55,6 +57,18 @@ def node_load(elastic, rate, half, damping):
     """
     lost = elastic * damping
     return max((elastic + lost * (rate + half)) / (1.0 + lost * half), 0.0)
+
+
+@kernel
+def above_rounding(gain, size):
+    """A gain of energy in a step, nothing if it is rounding of energies of a size."""
+    return gain if gain > ROUNDING * size else 0.0
+
+
+@kernel
+def turned_over(sx, sy, wx, wy, dx, dy):
+    """Size of the energies of a step: of the asperity before and after it, and of its work."""
+    return sx * sx + sy * sy + wx * wx + wy * wy + abs(wx * dx) + abs(wy * dy)
 
 
 @kernel
@@ -165,7 +179,10 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             sx, sy, fx, fy = advance_loaded(
                 sx, sy, dx, dy1, 0.0, dy2, last_limit, limit, p.exponent, p.law, q.keeps
             )
-            gain = -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps)
+            gain = above_rounding(
+                -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps),
+                turned_over(last_sx, last_sy, sx, sy, dx, dy),
+            )
             wear = math.hypot(dx - sx + last_sx, dy - sy + last_sy)
         elif p.model == SPRINGS:
             if along:
@@ -178,7 +195,8 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             sy = fy
             last_stored = stored
             stored = stored_in_springs(springs[0], springs[1], q.weights)
-            gain = stored - last_stored - fx * dx - fy * dy
+            work = fx * dx + fy * dy
+            gain = above_rounding(stored - last_stored - work, stored + last_stored + abs(work))
         elif p.model == COULOMB:
             ahead = increments[n + 1]
             share_x = fx / last_limit if last_limit > 0.0 else 0.0
@@ -197,13 +215,31 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             level = stribeck_share(speed, p.static_ratio, p.stribeck)
             last_sx = sx
             last_sy = sy
+            # With the deflection kept it bends as under the load W; its force goes with the load.
+            share, before, after = limit, level, level
+            if q.keeps == STIFFNESS:
+                share, before, after = 1.0, last_limit * level, limit * level
             sx, sy, fx, fy = advance_loaded(
-                sx, sy, dx, dy1, 0.0, dy2, last_limit * level, limit * level, 1.0, p.law, STIFFNESS
+                sx, sy, dx, dy1, 0.0, dy2, before, after, 1.0, p.law, STIFFNESS
+            )
+            gain = above_rounding(
+                -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps),
+                turned_over(last_sx, last_sy, sx, sy, dx, dy),
             )
             wear = math.hypot(dx - sx + last_sx, dy - sy + last_sy)
             ahead = increments[n + 1]
             fx, fy, wx1, wy1 = node_forces(
-                sx, sy, wx, wy, ux, uy, p.base_x * ahead, p.base_y * ahead, free, limit, p
+                share * sx,
+                share * sy,
+                wx,
+                wy,
+                ux,
+                uy,
+                p.base_x * ahead,
+                p.base_y * ahead,
+                free,
+                limit,
+                p,
             )
         if p.model != LUGRE:
             wx1 = p.retained * wx + p.mobility_x * (free - fx)
@@ -217,9 +253,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             last_drag = last_fd - p.stiffness * (state.stretch - p.drive + wx) - p.pull
             sums.drag_work += 0.5 * (drag + last_drag) * (p.drive - wx)
         add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, p.rigid)
-        _add_load(
-            sums, last_load, load, last_elastic, elastic, last_d, d, height, max(gain, 0.0), wear
-        )
+        _add_load(sums, last_load, load, last_elastic, elastic, last_d, d, height, gain, wear)
         if recording:
             node = nodes[n]
             at = (n + 1) * p.drive - state.stretch

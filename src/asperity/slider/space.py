@@ -124,7 +124,13 @@ def remarks(model: Model, step: float, sums: np.void, motion: NormalMotion) -> t
         notes.append(
             f"the contact is met harder than expected: give a solve.step of {step / finer:.2g} s"
         )
-    power = motion.wear_integral * model.friction.mu
+    if model.friction.model == "springs" and sums["penetration_max"] > model.deepest:
+        notes.append(
+            "the contact was pressed deeper than its springs reach, by "
+            f"{(sums['penetration_max'] - model.deepest) * model.normal_length:.2g} m, where they "
+            "carry less than they should: the body did not come there from rest"
+        )
+    power = abs(motion.wear_integral) * model.friction.mu
     if motion.friction_gain > _MOST_GAIN * power:
         if model.friction.keeps != "deflection":
             raise ConvergenceError(

@@ -49,11 +49,12 @@ def pressed_energies(
     Mechanical, beside that in the plane: kinetic, of the dead load, and in the contact; ``unit`` is
     the load over its penetration's length in the unit of `energies`.
     """
-    held = p.model == DAHL and q.keeps == STIFFNESS
-    mechanical, elastic = energies(state, p, elastic=held or p.model == LUGRE)
+    bends = p.model in (DAHL, LUGRE)
+    held = q.keeps == STIFFNESS
+    mechanical, elastic = energies(state, p, elastic=bends and held)
     if p.model == SPRINGS:
         elastic = float(stored_in_springs(*springs, q.weights))
-    elif p.model == DAHL and not held:
+    elif bends and not held:
         share = np.hypot(state["deflection_x"], state["deflection_y"])
         elastic = 0.5 * float(friction_limit(state["load"], q.load_power) * share**2)
     pressed = float(elastic_energy(q.law, state["penetration"]))

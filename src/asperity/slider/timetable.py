@@ -17,6 +17,7 @@ _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
 _UNSTEADY = 1e-3
+_WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
 
 class Timetable:
@@ -77,6 +78,15 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
         )
     if not (broke or model.vibrates or model.slider.rigid):
         notes.append("the body has not broken away; give a longer solve.duration")
+    way = model.slider.drive_velocity * model.duration
+    bent = 0.0
+    if model.friction.model != "coulomb":
+        bent = model.friction.deflection_limit(model.slider.normal_force)
+    if way < _WAYS * bent:
+        notes.append(
+            f"the drive goes {way:.2g} m, not {_WAYS:g} times the {bent:.2g} m that asperities "
+            "bend: the body is still being taken up; give a longer solve.duration"
+        )
     if residual > _UNSTEADY:
         notes.append(
             "not steady: from the first to the second half of the window the mean drive force "

@@ -192,7 +192,12 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         **numbers,
         missing=sum(isinstance(state, ConvergenceError) for state in found),
         seconds=time.perf_counter() - began,
+        notes=tuple(dict.fromkeys(note for state in found for note in _notes(state))),
     )
+
+
+def _notes(state: SlideResult | ConvergenceError) -> tuple[str, ...]:
+    return () if isinstance(state, ConvergenceError) else state.notes
 
 
 def _of(state: SlideResult | ConvergenceError, name: str) -> float:
