@@ -20,6 +20,7 @@ Kernels take penetrations in units of :math:`W/k_z` and give forces in units of 
 import math
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
 from pydantic import model_validator
 
 from asperity.casefile import Table
@@ -33,6 +34,7 @@ ROUGH = 2
 LAWS = {"linear": LINEAR, "hertz": HERTZ, "rough": ROUGH}
 # Slope of the force at the load W, over W and the penetration that is given.
 _SLOPE_AT_LOAD = {"linear": 1.0, "hertz": 1.5, "rough": 1.0}
+_FAR_OUT = -1e3  # where no asperity of a rough contact touches
 
 
 @kernel(inline="always")
@@ -45,6 +47,24 @@ def elastic_force(law, d):
         over /= 1.5
         return over * math.sqrt(over)
     return over
+
+
+@kernel
+def indentation(law, d, elastic, load):
+    """Penetration under which the elastic force alone is the load that the damping makes of it.
+
+    Asperities bear the load whatever it comes from; out of contact it is the penetration itself,
+    as far as that is below 0.
+    """
+    if load == elastic:
+        return d
+    if load <= 0.0:
+        return _FAR_OUT if law == ROUGH else min(d, 0.0)
+    if law == ROUGH:
+        return math.log(load)
+    if law == HERTZ:
+        return 1.5 * np.cbrt(load * load)
+    return load
 
 
 @kernel

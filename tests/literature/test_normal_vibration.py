@@ -423,3 +423,20 @@ def test_lugre_keeps_what_it_is_told_to():
     for keeps in ("stiffness", "deflection"):
         assert ratios["lugre", keeps] == pytest.approx(ratios["dahl", keeps], abs=1e-9)
     assert ratios["lugre", "deflection"] - ratios["lugre", "stiffness"] > 0.1
+
+
+@pytest.mark.parametrize("law", ["linear", "hertz"])
+def test_springs_bear_what_the_damping_of_the_contact_bears_too(law):
+    answer = solve(
+        pin(
+            "friction.model=springs", f"normal.law={law}", "normal.damping_ratio=0.05",
+            "slider.mass=0.05 kg", "slider.drive_velocity=2 m/s", "vibration.frequency=20 kHz",
+            "vibration.displacement_amplitude=3 um",
+        )
+    )  # fmt: skip
+    friction, load = answer.history.friction[:, 0], answer.history.normal_force
+    assert answer.normal.open_share > 0.5
+    assert not friction[load == 0.0].any()
+    # The polygon of sixteen springs lies above the curve by no more than 0.2 % of W.
+    assert (np.abs(friction) - 0.1 * load).max() <= 2e-3 * 0.1 * W
+    assert answer.ratio == pytest.approx(1.0, abs=7e-4)

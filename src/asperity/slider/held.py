@@ -13,6 +13,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.friction.loaded import STIFFNESS
+from asperity.normal import elastic_force, indentation
 from asperity.slider.held_kernels import carry
 from asperity.slider.integrators import Pressed
 from asperity.slider.model import Model
@@ -197,7 +198,9 @@ class HeldBody:
         limit = 1.0 if q is None else float(friction_limit(state["load"], q.load_power))
         carried = math.copysign(min(abs(pull), limit), pull)
         if p.model == SPRINGS and q is not None:
-            most = np.maximum(float(state["penetration"]) - q.heights, 0.0)
+            elastic = elastic_force(q.law, state["penetration"])
+            depth = indentation(q.law, state["penetration"], elastic, state["load"])
+            most = np.maximum(float(depth) - q.heights, 0.0)
             deflections = np.append(0.0, np.sort(most))
             forces = [float(q.weights @ np.minimum(most, each)) for each in deflections]
             way = np.interp(abs(pull), forces, deflections)

@@ -5,14 +5,14 @@ laid out to the depth they need.
 """
 
 from asperity.compiled import kernel
-from asperity.normal import elastic_force
+from asperity.normal import elastic_force, indentation
 from asperity.slider.pressed import node_load
 from asperity.vibration import displacement_at
 
 
 @kernel
-def greatest_penetration(q, wave, cycles_per_step, steps):
-    """Return the greatest penetration of a march of `asperity.slider.pressed.march_pressed`."""
+def greatest_indentation(q, wave, cycles_per_step, steps):
+    """Return the greatest `indentation` of a march of `asperity.slider.pressed.march_pressed`."""
     d = q.reference
     if q.mobility == 0.0:
         d += q.base * displacement_at(wave, 0.0)
@@ -25,8 +25,9 @@ def greatest_penetration(q, wave, cycles_per_step, steps):
         here = there
         there = displacement_at(wave, (n + 2) * cycles_per_step)
         d += height - rise
-        deepest = max(deepest, d)
         rate = 0.5 * (height + q.base * (there - here)) - rise
-        load = node_load(elastic_force(q.law, d), rate, 0.5 * q.mobility, q.damping)
+        elastic = elastic_force(q.law, d)
+        load = node_load(elastic, rate, 0.5 * q.mobility, q.damping)
+        deepest = max(deepest, indentation(q.law, d, elastic, load))
         rise += q.mobility * (load - 1.0)
     return deepest

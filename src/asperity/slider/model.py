@@ -1,21 +1,27 @@
 """A sliding body made ready to be solved: one object with everything in SI, and its scaled form."""
 
-import contextlib
 import dataclasses
 import functools
 import math
-from collections.abc import Iterator
 from typing import Self
 
 import numpy as np
 
 from asperity.casefile import Case
-from asperity.errors import AsperityError, InputError
+from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
 from asperity.normal import Normal, elastic_slope
-from asperity.slider.indentation import greatest_penetration
-from asperity.slider.parameters import Slider, Solve, check_normal, check_scheme, unit_vector
+from asperity.slider.indentation import greatest_indentation
+from asperity.slider.parameters import (
+    FAR_APART,
+    Slider,
+    Solve,
+    check_normal,
+    check_scheme,
+    in_proportion,
+    unit_vector,
+)
 from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.slider.wear import Wear
 from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
@@ -39,21 +45,6 @@ COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
 _MOST_SUBSTEPS = 1000
-_FAR_APART = (
-    "the numbers of this case are too far apart to calculate with; look for a value with a wrong "
-    "unit or exponent"
-)
-
-
-@contextlib.contextmanager
-def in_proportion() -> Iterator[None]:
-    """Refuse numbers that overflow or vanish when they are put together."""
-    try:
-        yield
-    except AsperityError:
-        raise
-    except (ArithmeticError, ValueError):
-        raise InputError(_FAR_APART) from None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,8 +80,9 @@ class Model:
             object.__setattr__(self, "normal", None)
         if self.normal is None and self.wear is not None:
             raise InputError(
-                "[wear] follows the feet of the asperities, which are counted where the contact is "
-                "described in [normal]; add that (law = 'linear', stiffness), or leave [wear] out"
+                "[wear] follows the feet of the asperities, which are counted under a normal.law "
+                "that is not 'constant': describe the contact in [normal] (law = 'linear', "
+                "stiffness), or leave [wear] out"
             )
         check_normal(self.slider, self.friction, self.vibration, self.normal, self.solve)
         check_scheme(self.friction, self.solve)
@@ -139,6 +131,11 @@ class Model:
     def start(self) -> float:
         """Start of the vibration, s."""
         return self.vibration.start if self.vibration is not None else 0.0
+
+    @property
+    def ramp(self) -> float:
+        """Time in which the vibration grows, s."""
+        return self.vibration.ramp if self.vibration is not None else 0.0
 
     @property
     def direction(self) -> float:
@@ -196,7 +193,7 @@ class Model:
         """Simulated time, s."""
         if self.solve.duration is not None:
             return self.solve.duration
-        return self.start + 2.0 * self.window
+        return self.start + self.ramp + 2.0 * self.window
 
     @functools.cached_property
     @in_proportion()
@@ -347,7 +344,7 @@ class Model:
             law=friction.law_code,
         )
         if not all(map(math.isfinite, scaled)):
-            raise InputError(_FAR_APART)
+            raise InputError(FAR_APART)
         return scaled
 
     def pressing(self, step: float) -> Pressing:
@@ -360,7 +357,7 @@ class Model:
 
     @functools.cached_property
     def deepest(self) -> float:
-        """Penetration the springs are laid out to, in units of `asperity.normal`.
+        """Indentation the springs are laid out to, in units of `asperity.normal`.
 
         A little more than the body comes to from rest, in its first cycles under all of the
         vibration.
@@ -371,7 +368,7 @@ class Model:
         rate = self.frequency * self.step / self.substeps
         wave = self.shape.wave(lead=self.normal_lead)._replace(ramp=0.0)
         steps = min(round(_FIRST_CYCLES / rate), _MOST_FIRST_STEPS)
-        return _DEEPER * float(greatest_penetration(q, wave, rate, steps))
+        return _DEEPER * float(greatest_indentation(q, wave, rate, steps))
 
     @in_proportion()
     def _rigid_pressing(self, step: float) -> Pressing:
@@ -395,5 +392,5 @@ class Model:
             weights=np.zeros(0),
         )
         if not all(map(math.isfinite, scaled[:6])):
-            raise InputError(_FAR_APART)
+            raise InputError(FAR_APART)
         return scaled

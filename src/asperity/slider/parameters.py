@@ -1,16 +1,23 @@
 """The `[slider]` and `[solve]` tables: the body, its drive, and how to find the answer."""
 
+import contextlib
 import math
+from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
 from asperity.casefile import Table
-from asperity.errors import InputError
+from asperity.errors import AsperityError, InputError
 from asperity.friction import Friction
 from asperity.normal import Normal
 from asperity.units import Quantity
 from asperity.vibration import Vibration
+
+FAR_APART = (
+    "the numbers of this case are too far apart to calculate with; look for a value with a wrong "
+    "unit or exponent"
+)
 
 
 class Slider(Table):
@@ -138,6 +145,12 @@ def check_normal(
                 "a constant; describe the contact in [normal] (law, stiffness), or leave the "
                 "elevation out"
             )
+        if vibration is not None and vibration.normal_phase != 0.0:
+            raise InputError(
+                f"vibration.normal_phase is {math.degrees(vibration.normal_phase):g} deg, but "
+                "nothing moves normal to the plane: describe the contact in [normal], or leave the "
+                "phase out"
+            )
         if friction.model == "springs":
             raise InputError(
                 "friction.model is 'springs', which follow the penetration; describe it in "
@@ -196,3 +209,14 @@ def unit_vector(angle: float) -> tuple[float, float]:
     if abs(turns - quarter) < 1e-12:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
     return math.cos(angle), math.sin(angle)
+
+
+@contextlib.contextmanager
+def in_proportion() -> Iterator[None]:
+    """Refuse numbers that overflow or vanish when they are put together."""
+    try:
+        yield
+    except AsperityError:
+        raise
+    except (ArithmeticError, ValueError):
+        raise InputError(FAR_APART) from None

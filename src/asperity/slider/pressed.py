@@ -22,7 +22,7 @@ from asperity.friction.springs import (
     advance_springs_along,
     stored_in_springs,
 )
-from asperity.normal import elastic_force
+from asperity.normal import elastic_force, indentation
 from asperity.slider.kernels import add_step, clear, condense, node_forces, record
 from asperity.slider.scaled import COULOMB, DAHL, LUGRE, SPRINGS
 from asperity.vibration import displacement_at, fill_increments
@@ -140,6 +140,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
     d = state.penetration
     load = state.load
     elastic = elastic_force(q.law, d)
+    depth = indentation(q.law, d, elastic, load)
     limit = friction_limit(load, q.load_power)
     along = p.base_y == 0.0 and p.mobility_y == 0.0
     stored = stored_in_springs(springs[0], springs[1], q.weights)
@@ -185,11 +186,13 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             )
             wear = math.hypot(dx - sx + last_sx, dy - sy + last_sy)
         elif p.model == SPRINGS:
+            last_depth = depth
+            depth = indentation(q.law, d, elastic, load)
             if along:
-                fx = advance_springs_along(springs[0], dx, last_d, d, q.heights, q.weights)
+                fx = advance_springs_along(springs[0], dx, last_depth, depth, q.heights, q.weights)
             else:
                 fx, fy = advance_springs(
-                    springs[0], springs[1], dx, dy, last_d, d, q.heights, q.weights
+                    springs[0], springs[1], dx, dy, last_depth, depth, q.heights, q.weights
                 )
             sx = fx
             sy = fy

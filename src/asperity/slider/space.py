@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from asperity.errors import ConvergenceError
-from asperity.normal import elastic_slope
+from asperity.normal import elastic_slope, indentation
 from asperity.results import Quantities, quantity
 from asperity.slider.model import LANDING_BOUND, RING_BOUND, Model
 
@@ -124,22 +124,27 @@ def remarks(model: Model, step: float, sums: np.void, motion: NormalMotion) -> t
         notes.append(
             f"the contact is met harder than expected: give a solve.step of {step / finer:.2g} s"
         )
-    if model.friction.model == "springs" and sums["penetration_max"] > model.deepest:
-        notes.append(
-            "the contact was pressed deeper than its springs reach, by "
-            f"{(sums['penetration_max'] - model.deepest) * model.normal_length:.2g} m, where they "
-            "carry less than they should: the body did not come there from rest"
-        )
-    power = abs(motion.wear_integral) * model.friction.mu
-    if motion.friction_gain > _MOST_GAIN * power:
-        if model.friction.keeps != "deflection":
-            raise ConvergenceError(
-                f"friction gave {motion.friction_gain:.3g} W, which it cannot: this is a defect",
-                reached={"friction_gain_W": motion.friction_gain},
+    if model.friction.model == "springs":
+        deepest = float(indentation(q.law, 0.0, math.inf, sums["load_max"]))
+        if deepest > model.deepest:
+            notes.append(
+                "the contact was pressed deeper than its springs reach, by "
+                f"{(deepest - model.deepest) * model.normal_length:.2g} m, where they carry less "
+                "than they should: the body did not come there from rest"
             )
+    power = abs(motion.wear_integral) * model.friction.mu
+    gains = motion.friction_gain > _MOST_GAIN * power
+    if model.friction.model in ("dahl", "lugre") and model.friction.keeps == "deflection":
+        gave = (
+            f"friction gave {motion.friction_gain:.3g} W" if gains else "friction can give energy"
+        )
         notes.append(
-            f"friction gave {motion.friction_gain:.3g} W: with friction.keeps 'deflection' a "
-            "deflected asperity that is pressed harder pulls harder without having slipped; "
-            "'stiffness' gains nothing"
+            f"{gave}: with friction.keeps 'deflection' a deflected asperity that is pressed harder "
+            "pulls harder without having slipped; 'stiffness' gains nothing"
+        )
+    elif gains:
+        raise ConvergenceError(
+            f"friction gave {motion.friction_gain:.3g} W, which it cannot: this is a defect",
+            reached={"friction_gain_W": motion.friction_gain},
         )
     return tuple(notes)

@@ -7,7 +7,6 @@ from typing import Any, ClassVar
 
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
-from asperity.normal import elastic_force
 from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.runs import Run
 from asperity.slider.closed_forms import load_swing, plane_static_ratio
@@ -221,8 +220,7 @@ def closed_form(body: HeldBody) -> tuple[float | None, str]:
     r"""Return static friction over :math:`\mu W` by a closed form, and which; (None, "") without.
 
     Vibration along the normal leaves :math:`\mu` times the least load of a period, here that of the
-    body itself; of springs, what the contact's elasticity carries at the least penetration, for its
-    damping presses none of them. Vibration along the pull takes the amplitude of the asperities'
+    body itself. Vibration along the pull takes the amplitude of the asperities'
     deflection from the indentation: for a flat contact under a sine by the body's resonance on its
     asperities too, else where the body is too heavy to follow. Dahl's asperities with an exponent
     above 0 creep there under any pull: from a closed path they come back less deflected.
@@ -231,9 +229,6 @@ def closed_form(body: HeldBody) -> tuple[float | None, str]:
     friction = model.friction
     along, across, up = model.unit_direction
     if model.normal is not None and body.sums is not None and along == across == 0.0:
-        if friction.model == "springs":
-            least = elastic_force(model.normal.code, float(body.sums["penetration_min"]))
-            return float(least), "mu N(d_min)"
         if friction.model != "coulomb" and friction.keeps == "deflection":
             return None, ""
         static = (friction.static_mu or friction.mu) / friction.mu

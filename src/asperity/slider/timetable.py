@@ -10,8 +10,8 @@ from asperity.slider.model import (
     SLIP_BOUND,
     WINDOW_SHARE,
     Model,
-    in_proportion,
 )
+from asperity.slider.parameters import in_proportion
 
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
@@ -86,6 +86,12 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
         notes.append(
             f"the drive goes {way:.2g} m, not {_WAYS:g} times the {bent:.2g} m that asperities "
             "bend: the body is still being taken up; give a longer solve.duration"
+        )
+    grown = model.start + model.ramp
+    if model.vibrates and grown > (table.steps - table.window) * table.step * (1.0 + 1e-9):
+        notes.append(
+            f"the vibration grows until {grown:.3g} s, into the window of the means: give a longer "
+            "solve.duration"
         )
     if residual > _UNSTEADY:
         notes.append(

@@ -25,6 +25,9 @@ _MOST_REASONS = 100
 MOST_AXES = 2
 _MOST_ROWS = 60
 _MOST_COLUMNS = 9
+_STABLE = 1.001
+# What a ratio of a body that is pressed is never shown without.
+_BESIDE = {"ratio_mean_load": "F/mu N", "open_share": "open", "period": "period"}
 
 
 class SweepResult(Result):
@@ -91,6 +94,19 @@ class SweepResult(Result):
         )
 
     @property
+    def beside(self) -> tuple[str, ...]:
+        """What of a body that is pressed stands beside the ratio."""
+        return tuple(name for name in _BESIDE if name in self.arrays)
+
+    @property
+    def aperiodic(self) -> int:
+        """Number of points that were solved and are in no stable periodic state that is known."""
+        if "period" not in self.arrays:
+            return 0
+        unstable = ~(self.arrays["multiplier"] <= _STABLE)
+        return int(np.count_nonzero(unstable & (self.status == SOLVED)))
+
+    @property
     def failure(self) -> ConvergenceError | None:
         """What keeps it from being whole: points that did not converge."""
         if not self.failed:
@@ -140,13 +156,12 @@ class SweepResult(Result):
 
     def to_json(self) -> dict[str, Any]:
         """The ratio over the grid, None where there is none, and what was done for it."""
-        ratio = self.arrays["ratio"].astype(object)
-        ratio[np.isnan(self.arrays["ratio"])] = None
         return {
             "dims": [axis.path for axis in self.axes],
             "coords": {axis.path: list(axis.shown) for axis in self.axes},
             "units": {axis.path: axis.unit for axis in self.axes},
-            "ratio": ratio.tolist(),
+            "ratio": _listed(self.arrays["ratio"]),
+            **{name: _listed(self.arrays[name]) for name in self.beside},
             "points": self.points,
             "failed": self.failed,
             "cached": self.cached,
@@ -162,7 +177,14 @@ class SweepResult(Result):
         """Return the ratio over the grid: a matrix where it fits, a list where not."""
         known = f", {self.cached} known from before" if self.cached else ""
         remark = f"{self.points} points{known}, {self.seconds:.3g} s"
-        return (_table(self.axes, self.arrays["ratio"], (remark,)),)
+        remarks = (remark,)
+        if self.aperiodic:
+            remarks += (
+                f"{self.aperiodic} points are marches, or states that are unstable: `slide` says "
+                "of each what is known",
+            )
+        beside = {_BESIDE[name]: self.arrays[name] for name in self.beside}
+        return (_table(self.axes, self.arrays["ratio"], remarks, beside),)
 
     def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
@@ -198,17 +220,32 @@ class Answers:
         return {entry.name: found[entry.name] for entry in VARIABLES if entry.name in found}
 
 
-def _table(axes: Sequence[Axis], values: FloatArray, remarks: tuple[str, ...]) -> Table:
+def _listed(values: FloatArray) -> list[Any]:
+    """Return numbers as lists, None where there is none."""
+    found = values.astype(object)
+    found[np.isnan(values)] = None
+    listed: list[Any] = found.tolist()
+    return listed
+
+
+def _table(
+    axes: Sequence[Axis],
+    values: FloatArray,
+    remarks: tuple[str, ...],
+    beside: Mapping[str, FloatArray],
+) -> Table:
     """Return a variable over a grid of at most some rows; what is left out is remarked."""
-    if len(axes) == 2 and len(axes[1].shown) <= _MOST_COLUMNS:
+    matrix = not beside and len(axes) == 2 and len(axes[1].shown) <= _MOST_COLUMNS
+    if matrix:
         headings = [" \\ ".join(map(_heading, axes)), *map(_text, axes[1].shown)]
         rows = [[shown, *row] for shown, row in zip(axes[0].shown, values.tolist(), strict=True)]
     else:
-        headings = [*map(_heading, axes), "ratio"]
+        headings = [*map(_heading, axes), "ratio", *beside]
         places = itertools.product(*(axis.shown for axis in axes))
-        pairs = zip(places, values.flat, strict=True)
-        rows = [[*place, float(value)] for place, value in itertools.islice(pairs, _MOST_ROWS + 1)]
-    more = max((len(axes[0].shown) if len(rows[0]) > len(axes) + 1 else values.size), 0)
+        columns = np.stack([values.ravel(), *(each.ravel() for each in beside.values())], axis=1)
+        pairs = zip(places, columns.tolist(), strict=True)
+        rows = [[*place, *numbers] for place, numbers in itertools.islice(pairs, _MOST_ROWS + 1)]
+    more = len(axes[0].shown) if matrix else values.size
     if more > _MOST_ROWS:
         left = f"... and {more - _MOST_ROWS} more rows; --out or --json gives all"
         remarks = (left, *remarks)
