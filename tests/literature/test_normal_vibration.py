@@ -437,6 +437,6 @@ def test_springs_bear_what_the_damping_of_the_contact_bears_too(law):
     friction, load = answer.history.friction[:, 0], answer.history.normal_force
     assert answer.normal.open_share > 0.5
     assert not friction[load == 0.0].any()
-    # The polygon of sixteen springs lies above the curve by no more than 0.2 % of W.
-    assert (np.abs(friction) - 0.1 * load).max() <= 2e-3 * 0.1 * W
+    # Sixteen springs carry a Hertz contact to 7e-4 of the greatest load.
+    assert (np.abs(friction) - 0.1 * load).max() <= 7e-4 * 0.1 * load.max()
     assert answer.ratio == pytest.approx(1.0, abs=7e-4)

@@ -110,6 +110,7 @@ def _bars(numbers: Any) -> "Figure":
         panel.barh(names, [float(array) for array in arrays], color=BLUE, height=0.6)
         panel.invert_yaxis()
         panel.set_xlabel(_with_unit("", unit))
+        panel.ticklabel_format(axis="x", style="sci", scilimits=(-3, 4))
     return figure
 
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.errors import InputError
-from asperity.results.figures import BLUE, COLOURS, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
 from asperity.sweep.result import MOST_AXES
 
 if TYPE_CHECKING:
@@ -45,7 +45,12 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     else:
         _many_lines(panel, along, curves, across)
     panel.set(xlabel=_label(along), ylabel=r"mean drive force over $\mu F_N$")
-    panel.set_ylim(bottom=min(0.0, float(np.nanmin(ratio))) if np.isfinite(ratio).any() else 0.0)
+    least = float(np.nanmin(ratio)) if np.isfinite(ratio).any() else 0.0
+    if least < 0.0:
+        # Below it the vibration drives the body.
+        panel.axhline(0.0, color=BLACK, linewidth=1.0)
+    else:
+        panel.set_ylim(bottom=0.0)
     return figure
 
 

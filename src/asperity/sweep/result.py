@@ -177,7 +177,7 @@ class SweepResult(Result):
         """Return the ratio over the grid: a matrix where it fits, a list where not."""
         known = f", {self.cached} known from before" if self.cached else ""
         remark = f"{self.points} points{known}, {self.seconds:.3g} s"
-        remarks = (remark,)
+        remarks: tuple[str, ...] = (remark,)
         if self.aperiodic:
             remarks += (
                 f"{self.aperiodic} points are marches, or states that are unstable: `slide` says "
