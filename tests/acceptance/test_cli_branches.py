@@ -1,6 +1,8 @@
 """States along an axis and back, from the command line."""
 
 import json
+import re
+import signal
 
 import pytest
 
@@ -41,3 +43,16 @@ def test_what_cannot_be_followed_is_refused_in_one_line(asperity, arguments, tol
     assert (code, output) == (2, "")
     assert errors.count("\n") == 1
     assert told in errors
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_a_walk_between_two_states_and_says_how_many_were_found(start):
+    process = start(
+        "branches", "normal-pin", "--set", "vibration.elevation=90 deg",
+        "--set", "solve.step=10 ns", "--over", "vibration.frequency=2:5:0.01 kHz",
+    )  # fmt: skip
+    assert "take about" in process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=60)
+    assert (process.returncode, output) == (130, "")
+    assert re.fullmatch(r"interrupted after \d+ of 602 states\n", errors)

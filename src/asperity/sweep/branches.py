@@ -177,7 +177,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
     with run.going_on():
         for state in follow([*models, *reversed(models)]):
             found.append(state)
-            run.progress(len(found), 2 * len(models))
+            run.checkpoint(len(found), 2 * len(models), what="states")
     ways = [found[: len(models)], found[: len(models) - 1 : -1]]
     numbers: dict[str, Any] = {
         entry.name: np.array([[_of(state, entry.name) for state in way] for way in ways])
