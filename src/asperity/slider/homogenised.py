@@ -8,8 +8,7 @@ where the body's own motion is slow against the vibration.
 import dataclasses
 import math
 import time
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -24,10 +23,10 @@ from asperity.slider.homogenised_law import (
     interpolate,
     value_and_slope,
 )
+from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.march import March
 from asperity.slider.model import Model
 from asperity.slider.result import History, SlideResult
-from asperity.slider.space import NormalMotion
 from asperity.slider.timetable import march_notes
 from asperity.slider.wear import wear_and_heat
 
@@ -286,6 +285,7 @@ def _result(
         "untransferred": column(hl.UNTRANSFERRED) + 0.0,  # no -0.0
     }
     ledger, normal, wear = PowerLedger(**powers), None, None
+    noted: tuple[str, ...] = ()
     if law.pressed:
         told = law.normal_to_the_plane(rows[:, 2])
         ledger = PressedLedger(
@@ -293,7 +293,14 @@ def _result(
             normal=mean(told.pop("normal")),
             contact_damping=mean(told.pop("contact_damping")),
         )
-        normal = _normal_motion(model, law, rows[:, 2], told, mean, drive_force)
+        # On the way there are other states, with periods and multipliers of their own.
+        drive = model.slider.drive_velocity
+        steady = bool(np.all(np.abs(rows[:, 2] - drive) <= _STEADY * drive))
+        there = None
+        if steady and drive not in law.missing:
+            there = law.normal_to_the_plane(np.array([drive]))
+        normal = mean_motion(model, told, there, mean, drive_force)
+        noted = gain_notes(model, normal, ledger.friction)
         if model.wear is not None:
             integral = normal.wear_integral
             slip = integral / normal.normal_mean
@@ -318,6 +325,7 @@ def _result(
             *_what_it_is(model, law),
             *law.notes,
             *(f"at the drive velocity {note}" for note in law.remarks),
+            *noted,
             *(() if wear is None else wear.notes),
         ),
     )
@@ -330,33 +338,6 @@ def _result(
     most = math.inf if model.slider.drive_velocity in law.missing else REFUSED
     noted = guard(ledger, _ADVICE, reached={"ratio": answer.ratio}, most=most)
     return dataclasses.replace(answer, notes=(*answer.notes, *noted))
-
-
-def _normal_motion(
-    model: Model,
-    law: HomogenisedLaw,
-    velocity: FloatArray,
-    told: dict[str, FloatArray],
-    mean: Callable[[FloatArray], float],
-    drive_force: float,
-) -> NormalMotion:
-    """Return what happens normal to the plane in the window, as the body goes at its velocities."""
-    drive = model.slider.drive_velocity
-    means: dict[str, Any] = dict.fromkeys(("critical_velocity", "contact_frequency"))
-    means |= {name: mean(values) for name, values in told.items()}
-    means["normal_min"] = float(told["normal_min"].min())
-    for name in {"normal_max", "penetration_swing", "critical_velocity"} & told.keys():
-        means[name] = float(told[name].max())
-    # On the way there are other states, with periods and multipliers of their own.
-    steady = bool(np.all(np.abs(velocity - drive) <= _STEADY * drive))
-    if steady and drive not in law.missing:
-        there = law.normal_to_the_plane(np.array([drive]))
-        means["period"] = round(float(there["period"][0]))
-        means["multiplier"] = float(there["multiplier"][0])
-    else:
-        means["period"] = means["multiplier"] = None
-    full = model.friction.mu * means["normal_mean"]
-    return NormalMotion(ratio_mean_load=drive_force / full, **means)
 
 
 def _what_it_is(model: Model, law: HomogenisedLaw) -> Iterator[str]:

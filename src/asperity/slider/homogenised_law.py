@@ -17,7 +17,7 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.lugre import stribeck_share
-from asperity.results.ledger import PressedLedger
+from asperity.slider.homogenised_normal import remarks_of, told_by
 from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
@@ -222,8 +222,8 @@ def homogenise(model: Model) -> HomogenisedLaw:
         residual=max(answer.residual for answer in answers.values()),
         viscous=model.friction.viscous_damping / model.full_friction,
         missing=tuple(sorted(missing, key=lambda v: abs(v - drive))),
-        pressed=tuple(_normal_to_the_plane(answers[max(front)])),
-        remarks=_remarks(answers[drive]) if drive in answers else (),
+        pressed=tuple(told_by(answers[max(front)])),
+        remarks=remarks_of(answers[drive]) if drive in answers else (),
     )
 
 
@@ -312,26 +312,7 @@ def _row(model: Model, answer: SlideResult) -> FloatArray:
     # The drive of a periodic state goes at the body's mean velocity: its damper takes the shaking
     # alone. What a slow motion against the drive loses there comes on top.
     row[[POWER_DAMPED, UNTRANSFERRED]] = ledger.damping, ledger.untransferred
-    return np.append(row, list(_normal_to_the_plane(answer).values()))
-
-
-def _normal_to_the_plane(answer: SlideResult) -> dict[str, float]:
-    """What a state tells of the normal direction, by the names of its fields."""
-    if answer.normal is None or not isinstance(answer.ledger, PressedLedger):
-        return {}
-    told = {name: value for name, value in vars(answer.normal).items() if value is not None}
-    del told["ratio_mean_load"]  # follows from the others
-    return told | {
-        "normal": answer.ledger.normal,
-        "contact_damping": answer.ledger.contact_damping,
-    }
-
-
-def _remarks(answer: SlideResult) -> tuple[str, ...]:
-    if answer.normal is None:
-        return ()
-    of_wear = () if answer.wear is None else answer.wear.notes
-    return tuple(note for note in answer.notes if note not in of_wear)
+    return np.append(row, list(told_by(answer).values()))
 
 
 def _without_vibration(model: Model) -> HomogenisedLaw:
@@ -352,7 +333,7 @@ def _without_vibration(model: Model) -> HomogenisedLaw:
     told: dict[str, float] = {}
     if model.normal is not None:
         # What lies still normal to the plane does so at any speed; the feet wear by theirs.
-        told = _normal_to_the_plane(solve_periodic(model, history=False))
+        told = told_by(solve_periodic(model, history=False))
         still = told | {"wear_integral": 0.0}
         rest = np.append(rest, list(still.values()))
         worn = np.multiply.outer(speeds / drive, np.array(list(told.values())) - rest[COLUMNS:])

@@ -178,7 +178,11 @@ class SlideResult(Result):
     @property
     @labelled("", "", "error of the power balance")
     def power_residual(self) -> float | None:
-        """What is missing from the power balance, over the power of the drive."""
+        """What is missing from the power balance, over the power of the drive.
+
+        Of a body that is pressed, over all that is put in, where the actuator normal to the plane
+        may do most of it.
+        """
         return None if self.ledger is None else self.ledger.residual
 
     residual: float = quantity("", "", "residual of the method")
