@@ -77,7 +77,8 @@ class Normal(Table):
     Parameters
     ----------
     law : {'constant', 'linear', 'hertz', 'rough'}
-        Normal force against penetration, see `asperity.normal`; ``constant``: as without the table.
+        Normal force against penetration, see `asperity.normal`; ``constant``: as without the table,
+        and without the keys below.
     control : {'force', 'displacement'}
         The body carries a dead load, ``slider.normal_force``, and rises and falls (needs
         ``slider.mass``); or a rigid machine holds it at the height where the normal force is that.
@@ -116,8 +117,13 @@ class Normal(Table):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Normal":
-        elastic = self.stiffness is not None or self.penetration is not None
-        if self.law != "constant" and not elastic:
+        if self.law == "constant":
+            if others := sorted(self.model_fields_set - {"law"}):
+                raise InputError(
+                    "normal.law is 'constant', which is as without the table; leave out "
+                    + ", ".join(f"normal.{key}" for key in others)
+                )
+        elif self.stiffness is None and self.penetration is None:
             raise InputError(
                 f"normal.stiffness is missing; law '{self.law}' needs it, or normal.penetration"
             )
