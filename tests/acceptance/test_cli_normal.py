@@ -42,7 +42,20 @@ def test_with_wear_it_tells_depth_and_temperature(asperity):
 
 def test_without_it_nothing_new_is_told(asperity):
     _, output, _ = asperity("slide", "table-4.3", "--set", "solve.method=periodic", "--json")
-    assert not json.loads(output).keys() & (KEYS | TOLD_OF_WEAR)
+    assert not json.loads(output).keys() & (KEYS | TOLD_OF_WEAR | {"thrust_N"})
+
+
+def test_a_vibration_that_drives_the_body_tells_its_thrust(asperity):
+    """Mirrored it holds the body back, which is no thrust."""
+    _, output, _ = asperity("slide", "oblique", "--json")
+    answer = json.loads(output)
+    assert answer["thrust_N"] == -answer["drive_force_N"] == pytest.approx(1.1014, abs=1e-4)
+    _, output, _ = asperity("slide", "oblique")
+    assert "thrust: the vibration drives the body" in output
+    _, output, _ = asperity("slide", "oblique", "--set", "vibration.elevation=150 deg", "--json")
+    answer = json.loads(output)
+    assert answer["drive_force_N"] > 0.0
+    assert "thrust_N" not in answer
 
 
 @pytest.mark.parametrize(
