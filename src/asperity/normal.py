@@ -34,6 +34,7 @@ ROUGH = 2
 LAWS = {"linear": LINEAR, "hertz": HERTZ, "rough": ROUGH}
 # Slope of the force at the load W, over W and the penetration that is given.
 _SLOPE_AT_LOAD = {"linear": 1.0, "hertz": 1.5, "rough": 1.0}
+_NEAR = 0.2  # of a load to the elastic one
 _FAR_OUT = -1e3  # where no asperity of a rough contact touches
 
 
@@ -63,7 +64,14 @@ def indentation(law, d, elastic, load):
     if law == ROUGH:
         return math.log(load)
     if law == HERTZ:
-        return 1.5 * np.cbrt(load * load)
+        more = load / elastic - 1.0
+        if abs(more) > _NEAR:
+            return 1.5 * np.cbrt(load * load)
+        # A power series and a step after Halley: the root of a library takes three times as long.
+        root = 1.0 + more * (2 / 3 + more * (-1 / 9 + more * (4 / 81 - 7 / 243 * more)))
+        wanted = (1.0 + more) ** 2
+        cubed = root * root * root
+        return d * root * (cubed + 2.0 * wanted) / (2.0 * cubed + wanted)
     return load
 
 
@@ -97,7 +105,8 @@ class Normal(Table):
     Parameters
     ----------
     law : {'constant', 'linear', 'hertz', 'rough'}
-        Normal force against penetration, see `asperity.normal`; ``constant``: as without the table.
+        Normal force against penetration, see `asperity.normal`; ``constant``: as without the table,
+        and without the keys below.
     control : {'force', 'displacement'}
         The body carries a dead load, ``slider.normal_force``, and rises and falls (needs
         ``slider.mass``); or a rigid machine holds it at the height where the normal force is that.
@@ -136,8 +145,13 @@ class Normal(Table):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Normal":
-        elastic = self.stiffness is not None or self.penetration is not None
-        if self.law != "constant" and not elastic:
+        if self.law == "constant":
+            if others := sorted(self.model_fields_set - {"law"}):
+                raise InputError(
+                    "normal.law is 'constant', which is as without the table; leave out "
+                    + ", ".join(f"normal.{key}" for key in others)
+                )
+        elif self.stiffness is None and self.penetration is None:
             raise InputError(
                 f"normal.stiffness is missing; law '{self.law}' needs it, or normal.penetration"
             )

@@ -1,10 +1,17 @@
 """States along an axis and back, from the command line."""
 
 import json
+import re
+import signal
 
+import numpy as np
 import pytest
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.store import read_dataset
+from asperity.sweep import branches
+from asperity.sweep.axes import parse_axes
 
 
 def test_the_command_names_the_loop_and_draws_it(asperity, tmp_path):
@@ -41,3 +48,41 @@ def test_what_cannot_be_followed_is_refused_in_one_line(asperity, arguments, tol
     assert (code, output) == (2, "")
     assert errors.count("\n") == 1
     assert told in errors
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_a_walk_between_two_states_and_says_how_many_were_found(start):
+    process = start(
+        "branches", "normal-pin", "--set", "vibration.elevation=90 deg",
+        "--set", "solve.step=10 ns", "--over", "vibration.frequency=2:5:0.01 kHz",
+    )  # fmt: skip
+    assert "take about" in process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=60)
+    assert (process.returncode, output) == (130, "")
+    assert re.fullmatch(r"interrupted after \d+ of 602 states\n", errors)
+
+
+@pytest.mark.parametrize(
+    ("there", "back", "told"),
+    [
+        ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], "the same states both ways"),
+        ([0.5, 0.4, 0.3], [0.5, 0.2, 0.3],
+         "two stable states at 0.2, by where the body comes from"),
+        ([0.5, 0.4, np.nan], [0.5, 0.4, 0.3],
+         "the same states both ways, at the 2 of 3 values with both"),
+        ([0.5, np.nan, np.nan], [np.nan, 0.4, 0.3], "no value with a state both ways"),
+        ([np.nan] * 3, [np.nan] * 3, "no stable periodic state found"),
+    ],
+)  # fmt: skip
+def test_the_heading_says_what_was_found(there, back, told):
+    ratio = np.array([there, back])
+    (axis,) = parse_axes(["friction.mu=0.1,0.2,0.3"], read_case("normal-pin", case_tables()))
+    numbers = dict.fromkeys(
+        (entry.name for entry in branches.Branches.declared() if entry.label.dims), ratio
+    )
+    found = branches.Branches(
+        source="normal-pin", axis=axis, shared={},
+        **numbers | {"value": np.array([0.1, 0.2, 0.3])}, missing=int(np.isnan(ratio).sum()),
+    )  # fmt: skip
+    assert found.heading() == told

@@ -42,7 +42,20 @@ def test_with_wear_it_tells_depth_and_temperature(asperity):
 
 def test_without_it_nothing_new_is_told(asperity):
     _, output, _ = asperity("slide", "table-4.3", "--set", "solve.method=periodic", "--json")
-    assert not json.loads(output).keys() & (KEYS | TOLD_OF_WEAR)
+    assert not json.loads(output).keys() & (KEYS | TOLD_OF_WEAR | {"thrust_N"})
+
+
+def test_a_vibration_that_drives_the_body_tells_its_thrust(asperity):
+    """Mirrored it holds the body back, which is no thrust."""
+    _, output, _ = asperity("slide", "oblique", "--json")
+    answer = json.loads(output)
+    assert answer["thrust_N"] == -answer["drive_force_N"] == pytest.approx(1.1014, abs=1e-4)
+    _, output, _ = asperity("slide", "oblique")
+    assert "thrust: the vibration drives the body" in output
+    _, output, _ = asperity("slide", "oblique", "--set", "vibration.elevation=150 deg", "--json")
+    answer = json.loads(output)
+    assert answer["drive_force_N"] > 0.0
+    assert "thrust_N" not in answer
 
 
 @pytest.mark.parametrize(
@@ -53,17 +66,27 @@ def test_without_it_nothing_new_is_told(asperity):
         "normal.penetration=0.7,0.9 um", "normal.stiffness=80,100 MN/m",
         "friction.keeps=stiffness,deflection", "friction.load_exponent=0.7,1",
         "vibration.normal_phase=0,90", "vibration.ramp=0,1 ms", "wear.coefficient=1e-6,1e-5",
-        "wear.hardness=1,2 GPa",
+        "wear.hardness=1,2 GPa", "wear.contact_radius=0.1,0.2 mm", "wear.conductivity=40,46 W/m/K",
+        "wear.diffusivity=10,12.5 mm**2/s",
     ],
 )  # fmt: skip
 def test_every_key_of_vibration_out_of_the_plane_can_be_an_axis(asperity, axis):
-    wear = "wear.coefficient=1e-5", "wear.hardness=2 GPa", "wear.contact_radius=0.1 mm"
-    settings = [part for text in wear for part in ("--set", text)]
     tilted = "--set", "vibration.elevation=45 deg"
-    code, output, _ = asperity("sweep", "normal-pin", *settings, *tilted, "--over", axis, "--json")
+    code, output, _ = asperity("sweep", "normal-pin", *WEAR, *tilted, "--over", axis, "--json")
     answer = json.loads(output)
     assert (code, answer["failed"]) == (0, 0)
     assert len(answer["ratio"]) == axis.count(",") + 1
+
+
+def test_the_number_of_springs_can_be_an_axis(asperity):
+    springs = "--set", "friction.model=springs"
+    code, output, errors = asperity(
+        "sweep", "normal-pin", *springs, "--over", "friction.springs=8,16", "--json"
+    )
+    assert code == 0, errors
+    eight, sixteen = json.loads(output)["ratio"]
+    assert eight == pytest.approx(sixteen, rel=0.01)
+    assert eight != sixteen
 
 
 def test_a_sweep_over_the_elevation_keeps_the_loads(asperity, tmp_path):
@@ -91,6 +114,8 @@ def test_a_sweep_over_the_elevation_keeps_the_loads(asperity, tmp_path):
         (["normal-pin", "--set", "vibration.elevation=200 deg"], "vibration.elevation"),
         (["table-4.3", "--set", "friction.model=springs", "--set", "friction.law=vector"],
          "[normal]"),
+        (["table-4.3", "--set", "normal.law=constant", "--set", "normal.control=force",
+          "--set", "normal.damping=1 s/m"], "leave out normal.control, normal.damping"),
         (["table-4.3", "--set", "wear.coefficient=1e-5", "--set", "wear.hardness=2 GPa"],
          "[normal]"),
     ],

@@ -1,9 +1,14 @@
 """Static friction from the command line."""
 
 import json
+import signal
 
 import pytest
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.runs import Run
+from asperity.slider import static
 from asperity.store import read_dataset
 
 NORMAL = [
@@ -51,3 +56,17 @@ def test_a_body_that_cannot_be_held_is_refused_in_one_line(asperity, arguments, 
     assert (code, output) == (2, "")
     assert errors.count("\n") == 1
     assert part in errors
+
+
+def test_ctrl_c_ends_the_search_at_the_pull_it_is_pressed_in():
+    pulls = []
+
+    def press(done, _):
+        pulls.append(done)
+        if done == 3:
+            signal.raise_signal(signal.SIGINT)
+
+    case = read_case("table-4.3", case_tables(), ["friction.exponent=0"])
+    with pytest.raises(KeyboardInterrupt):
+        static.answer(static.prepare(case), Run(progress=press))
+    assert pulls == [1, 2, 3]

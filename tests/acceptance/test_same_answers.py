@@ -23,6 +23,7 @@ CHANGES = (
         for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
     ),
     # (command lines, what in their answers, why it is no longer what was recorded)
+    ("slide oblique *", "json.thrust_N", "a vibration that drives the body tells its thrust"),
     ("cases", "json.cases", "three cases of vibration out of the plane have come"),
     *(
         ("flank *", f"flank.nc:{name}.units", "what labels a dimension is a number without unit")

@@ -17,6 +17,7 @@ from asperity.errors import ConvergenceError
 from asperity.friction import Friction
 from asperity.normal import Normal
 from asperity.slider import TABLES, Model, Slider, Solve, homogenise, solve, summary
+from asperity.slider.closed_forms import elliptic_ratio
 from asperity.slider.periodic import AperiodicError, solve_periodic
 from asperity.vibration import Vibration
 
@@ -70,6 +71,10 @@ def test_the_body_of_table_43_has_the_ratios_of_another_program(control, law, k)
         assert answer.normal.friction_gain == 0.0
         if control == "force":
             assert answer.normal.normal_mean == pytest.approx(W, rel=1e-9)
+        # What repeats itself leaves nothing stored: the actuator feeds the contact's damping alone.
+        # A landing within a step closes to less where it comes in every second cycle.
+        ledger, rel = answer.ledger, 1e-6 if answer.normal.period == 1 else 1e-5
+        assert ledger.normal == pytest.approx(ledger.contact_damping, rel=rel)
 
 
 @pytest.mark.parametrize(
@@ -96,12 +101,22 @@ def test_in_the_plane_the_normal_freedom_changes_nothing(k, plain):
     assert marches[0] == pytest.approx(marches[1], rel=1e-9)
 
 
-@pytest.mark.parametrize(("k", "elevation"), [(6, 30), (6, 90)])
-def test_a_march_settles_in_the_periodic_state(k, elevation):
-    model = body(k, elevation)
-    assert solve(marched(model, 1.0), history=False).ratio == pytest.approx(
-        solve(model, history=False).ratio, abs=1e-5
-    )
+@pytest.mark.parametrize(
+    ("k", "elevation", "law", "control", "duration"),
+    [
+        (2, 90, "linear", "force", 0.5), (6, 30, "linear", "force", 1.0),
+        (6, 60, "linear", "force", 1.0), (6, 90, "linear", "force", 1.0),
+        (6, 90, "hertz", "force", 0.5), (20, 30, "linear", "force", 0.5),
+        (20, 60, "hertz", "force", 0.5), (20, 90, "linear", "displacement", 1.0),
+    ],
+)  # fmt: skip
+def test_a_march_settles_in_the_periodic_state(k, elevation, law, control, duration):
+    model = body(k, elevation, law, control)
+    walked = solve(marched(model, duration), history=False)
+    state = solve(model, history=False)
+    assert walked.ratio == pytest.approx(state.ratio, abs=1e-5)
+    assert walked.normal.normal_min == pytest.approx(state.normal.normal_min, rel=1e-6)
+    assert walked.normal.wear_integral == pytest.approx(state.normal.wear_integral, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -128,10 +143,11 @@ def test_the_mirrored_azimuth_is_exact():
     assert one.friction_mean[1] == -other.friction_mean[1]
 
 
-@pytest.mark.parametrize(("k", "up", "down"), [(6, 0.09966, 0.22423), (20, -0.20025, 0.279)])
+# The other program gives the last one to three digits, 0.279; at 1/5000 of a cycle it is 0.278638.
+@pytest.mark.parametrize(("k", "up", "down"), [(6, 0.09966, 0.22423), (20, -0.20025, 0.27864)])
 def test_a_base_that_rises_with_the_drive_conveys_and_one_that_falls_does_not(k, up, down):
     found = [solve(body(k, elevation), history=False).ratio for elevation in (30, 150)]
-    assert found == pytest.approx((up, down), abs=4e-4)
+    assert found == pytest.approx((up, down), abs=1e-4)
 
 
 def test_a_state_that_repeats_after_four_cycles_is_told_from_one_after_two():
@@ -294,6 +310,30 @@ def test_an_elliptic_vibration_of_rigid_friction_has_its_closed_form(phase):
     assert solve(model, history=False).ratio == pytest.approx(closed, abs=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("azimuth", "phase", "allowed"), [(0.0, 90.0, 4e-3), (45.0, 90.0, 1e-4), (45.0, -30.0, 1e-4)]
+)
+def test_an_elliptic_vibration_of_stiff_asperities_nears_the_closed_form(azimuth, phase, allowed):
+    # Along the drive the slip turns at once, and what the asperities give there goes with the root
+    # of their deflection; across it the slip turns around.
+    k, a, amplitude, frequency = 6.0, 0.8, 0.2e-6, 4e3
+    part = amplitude * math.sqrt(0.5)
+    model = Model(
+        Slider(drive_velocity=2.0 * math.pi * frequency * part / k, normal_force=W),
+        Friction(mu=0.1, max_deflection=2.5e-5 * part),
+        Vibration(
+            frequency=frequency, displacement_amplitude=amplitude, elevation="45 deg",
+            direction=f"{azimuth} deg", normal_phase=f"{phase} deg",
+        ),
+        Solve(method="periodic", step=1.0 / (5000.0 * frequency)),
+        normal=Normal(control="displacement", penetration=part / a),
+    )  # fmt: skip
+    closed = elliptic_ratio(k, math.radians(azimuth), a, math.radians(phase))
+    assert solve(model, history=False).ratio == pytest.approx(closed, abs=allowed)
+    if azimuth == 0.0:
+        assert closed == pytest.approx(-0.3956, abs=5e-5)
+
+
 def test_the_whole_body_is_solved_to_second_order():
     model = body(6.0, 40.0, azimuth=30.0, lateral="free")
     steps = [256, 384, 512, 768, 1024, 1536, 2560]
@@ -318,7 +358,38 @@ def test_the_law_of_a_cycle_leads_to_the_steady_state_and_tells_its_load(elevati
     slow = solve(dataclasses.replace(model, solve=Solve(method="homogenised")), history=False)
     assert slow.ratio == pytest.approx(periodic.ratio, abs=1e-6)
     assert slow.ledger.residual < 1e-6
-    assert dataclasses.asdict(slow.normal) == dataclasses.asdict(periodic.normal)
+    found, expected = vars(slow.normal), vars(periodic.normal)
+    assert found == pytest.approx(expected, rel=1e-5, abs=1e-15)
+    assert found["period"] == expected["period"]
+
+
+@pytest.mark.parametrize(
+    ("k", "law", "control"), [(6.0, "hertz", "force"), (20.0, "hertz", "displacement")]
+)
+def test_on_its_way_the_law_of_a_cycle_tells_the_loads_and_the_wear_of_its_own_velocities(
+    k, law, control
+):
+    # The window of so short a march has the body start from rest in it.
+    model = body(k, 90.0, law, control)
+    model = dataclasses.replace(
+        model, vibration=model.vibration.model_copy(update={"start": 0.0}),
+        solve=Solve(duration=0.1),
+    )  # fmt: skip
+    fast = solve(model, history=False)
+    brief = Solve(method="homogenised", duration=0.1)
+    slow = solve(dataclasses.replace(model, solve=brief), history=False)
+    assert fast.ratio < 0.8 * solve(body(k, 90.0, law, control), history=False).ratio
+    for name in ("normal_mean", "normal_min", "normal_max", "penetration_mean"):
+        expected = getattr(fast.normal, name)
+        assert getattr(slow.normal, name) == pytest.approx(expected, rel=1e-6), name
+    share = slow.normal.normal_mean / W
+    assert slow.normal.ratio_mean_load == pytest.approx(slow.ratio / share, rel=1e-12)
+    for name in ("ratio_mean_load", "wear_integral"):
+        assert getattr(slow.normal, name) == pytest.approx(getattr(fast.normal, name), rel=0.03)
+    assert slow.ledger.friction == pytest.approx(fast.ledger.friction, rel=0.03)
+    assert slow.ledger.normal == pytest.approx(fast.ledger.normal, rel=1e-6)
+    assert slow.normal.period is None
+    assert slow.normal.multiplier is None
 
 
 def test_a_body_that_goes_the_other_way_meets_the_vibration_of_the_other_side():

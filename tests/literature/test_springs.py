@@ -33,7 +33,7 @@ def pulled(s, velocity, indentations, heights, weights):
     """Friction after each step of an even pull."""
     shares = np.zeros(len(indentations))
     for n in range(len(indentations)):
-        shares[n] = advance_springs_along(
+        shares[n], _ = advance_springs_along(
             s, velocity, indentations[n - 1], indentations[n], heights, weights
         )
     return shares
@@ -153,12 +153,13 @@ def walk(sx, sy, slips, indentations, heights, weights):
     share = (0.0, 0.0)
     stored = 0.0
     for n in range(len(slips)):
-        share = advance_springs(
+        fx, fy, energy = advance_springs(
             sx, sy, slips[n, 0], slips[n, 1], indentations[n], indentations[n + 1],
             heights, weights,
         )  # fmt: skip
+        share = fx, fy
         before = stored
-        stored = stored_in_springs(sx, sy, weights)
+        stored = energy
         work = share[0] * slips[n, 0] + share[1] * slips[n, 1]
         least = min(least, work - (stored - before))
     return share, least
@@ -219,10 +220,10 @@ def test_along_a_line_the_short_way_is_the_same():
     indentations = random.uniform(-0.5, 3.0, 1001)
     for n, slip in enumerate(random.standard_normal(1000)):
         here = indentations[n : n + 2]
-        share = advance_springs(*plane, slip, 0.0, *here, heights, weights)
-        assert share == pytest.approx(
-            (advance_springs_along(line, slip, *here, heights, weights), 0.0), abs=1e-14
-        )
+        share_x, share_y, stored = advance_springs(*plane, slip, 0.0, *here, heights, weights)
+        along, kept = advance_springs_along(line, slip, *here, heights, weights)
+        assert (share_x, share_y, stored) == pytest.approx((along, 0.0, kept), abs=1e-14)
+        assert stored == pytest.approx(stored_in_springs(*plane, weights), rel=1e-13)
 
 
 @pytest.mark.parametrize(

@@ -70,6 +70,15 @@ def test_what_does_not_exist_is_null_and_a_part_stands_behind_its_prefix(timed):
     }
 
 
+def test_what_is_optional_is_left_out_where_it_does_not_exist():
+    class Pushed(Result):
+        thrust: float | None = quantity("F_t", "N", "thrust", default=None, optional=True)
+
+    assert Pushed().to_json() == {"notes": []}
+    assert Pushed(thrust=2.0).to_json() == {"thrust_N": 2.0, "notes": []}
+    assert [entry.name for entry in Pushed.declared()] == ["thrust"]
+
+
 def test_numbers_that_are_not_finite_are_null():
     answer = Pull(ratio=np.nan, force=-np.inf, course=np.zeros(1)).to_json()
     assert answer["ratio"] is answer["force_N"] is None

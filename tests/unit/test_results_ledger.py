@@ -3,7 +3,7 @@ import dataclasses
 import pytest
 
 from asperity.errors import ConvergenceError
-from asperity.results.ledger import PowerLedger, guard
+from asperity.results.ledger import PowerLedger, PressedLedger, guard
 
 CLOSED = PowerLedger(
     drive=1.0, vibration=2.0, friction=2.5, damping=0.25, stored=0.25, untransferred=7.0
@@ -24,6 +24,20 @@ def test_a_ledger_that_nearly_closes_is_noted():
     (note,) = guard(missing(5e-3), ADVICE)
     assert "0.005 of the drive's" in note
     assert ADVICE in note
+
+
+def test_what_a_pressed_ledger_misses_is_told_over_the_sum_of_what_is_put_in():
+    pressed = PressedLedger(**vars(CLOSED), normal=7.0, contact_damping=7.0)
+    assert pressed.residual == 0.0
+    nearly = dataclasses.replace(pressed, normal=7.05)
+    assert nearly.residual == pytest.approx(0.05 / 10.05)
+    assert guard(nearly, ADVICE) == (
+        f"the powers balance only to 0.005 of what is put in: {ADVICE}",
+    )
+    with pytest.raises(
+        ConvergenceError, match=r"0\.11 of what is put in is missing, at most 0\.01"
+    ):
+        guard(dataclasses.replace(pressed, contact_damping=5.9), ADVICE)
 
 
 @pytest.mark.parametrize("power", [2e-2, -2e-2, float("nan")])

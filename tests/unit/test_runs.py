@@ -150,6 +150,16 @@ def test_a_work_without_a_folder_is_interrupted_without_a_trace(tmp_path):
         work(Run(), 9, press_at=3)
 
 
+def test_a_work_that_keeps_nothing_is_interrupted_at_its_next_step(tmp_path):
+    run = Run(folder=tmp_path)
+    with run.going_on():
+        run.checkpoint(3, 9, what="pulls")
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(Interrupted, match=r"^interrupted after 4 of 9 pulls$"):
+            run.checkpoint(4, 9, what="pulls")
+    assert not list(tmp_path.iterdir())
+
+
 def test_progress_is_told():
     told = []
     work(Run(progress=lambda done, total: told.append((done, total))), 3)
@@ -163,7 +173,7 @@ def test_a_work_of_more_than_a_minute_is_announced_once(monkeypatch):
     run = Run(notify=told.append)
     for done in range(1, 100):
         now[0] += 1.0
-        run.progress(done, 1000)
+        run.checkpoint(done, 1000)
     assert told == ["this will take about 17 minutes"]
 
 
@@ -174,7 +184,7 @@ def test_a_short_work_is_not_announced(monkeypatch):
     run = Run(notify=told.append)
     for done in range(1, 50):
         now[0] += 1.0
-        run.progress(done, 50)
+        run.checkpoint(done, 50)
     assert told == []
 
 
@@ -187,7 +197,7 @@ def test_a_forecast_of_more_than_a_minute_is_announced_and_not_said_again(monkey
     run.forecast(810.0, "9e+09 steps")
     for done in range(1, 100):
         now[0] += 1.0
-        run.progress(done, 1000)
+        run.checkpoint(done, 1000)
     assert told == ["9e+09 steps take about 14 minutes"]
 
 

@@ -1,4 +1,5 @@
 import contextlib
+import dataclasses
 import math
 
 import pytest
@@ -30,6 +31,17 @@ def test_a_periodic_state_is_cheaper_than_a_march_and_a_table_of_them_dearer_tha
     )
     assert periodic < 0.1 * marched
     assert homogenised == 120 * periodic
+
+
+def test_a_step_out_of_the_plane_costs_a_little_more_and_one_of_springs_twice():
+    def one(*settings):
+        case = read_case("normal-pin", TABLES, ["vibration.elevation=0 deg", *settings])
+        return Model.from_case(case)
+
+    pressed, springs = one(), one("friction.model=springs")
+    flat = estimate(dataclasses.replace(pressed, normal=None))
+    assert estimate(pressed) == pytest.approx(1.2 * flat)
+    assert estimate(springs) == pytest.approx(2.0 * flat)
 
 
 def test_a_long_work_is_announced_before_it_begins(monkeypatch):

@@ -24,6 +24,13 @@ def test_all_swings_fall_on_one_curve():
     figure.draw_without_rendering()
 
 
+def test_more_swings_than_there_are_dashes_are_drawn():
+    velocity = np.linspace(0.0, 1.0, 3)
+    curves = {0.1 * count: 1.0 - 0.1 * count * velocity for count in range(1, 10)}
+    figure = plots_normal.plot_master_curve(velocity, curves, velocity, velocity, {})
+    assert len(figure.axes[0].lines) == 9
+
+
 def test_a_thrust_has_a_colour_of_its_own():
     elevation, azimuth = np.radians([0.0, 45.0, 90.0]), np.radians([0.0, 90.0, 180.0])
     braking = 0.5 * np.ones((3, 3)) + 0.1 * azimuth

@@ -128,6 +128,8 @@ def advance_springs(sx, sy, dx, dy, indentation_0, indentation_1, heights, weigh
     -------
     share_x, share_y : float
         Friction force over mu N_ref.
+    stored : float
+        Elastic energy at the end, over mu N_ref s_max.
 
     Notes
     -----
@@ -138,6 +140,7 @@ def advance_springs(sx, sy, dx, dy, indentation_0, indentation_1, heights, weigh
     rise = 1.0 / max(indentation_1 - indentation_0, 1e-200)
     share_x = 0.0
     share_y = 0.0
+    stored = 0.0
     for j in range(heights.size):
         limit_0 = max(indentation_0 - heights[j], 0.0)
         limit_1 = max(indentation_1 - heights[j], 0.0)
@@ -158,7 +161,8 @@ def advance_springs(sx, sy, dx, dy, indentation_0, indentation_1, heights, weigh
         sy[j] = wy
         share_x += weights[j] * wx
         share_y += weights[j] * wy
-    return share_x, share_y
+        stored += weights[j] * (wx * wx + wy * wy)
+    return share_x, share_y, 0.5 * stored
 
 
 @kernel(fastmath=_REORDER)
@@ -166,13 +170,15 @@ def advance_springs_along(s, slip, indentation_0, indentation_1, heights, weight
     """`advance_springs` where neither the springs nor the slip leave a line, four times as fast."""
     rise = 1.0 / max(indentation_1 - indentation_0, 1e-200)
     share = 0.0
+    stored = 0.0
     for j in range(heights.size):
         limit = max(indentation_1 - heights[j], 0.0)
         part = 1.0 if indentation_0 > heights[j] else min(limit * rise, 1.0)
         w = min(max(s[j] + part * slip, -limit), limit)
         s[j] = w
         share += weights[j] * w
-    return share
+        stored += weights[j] * w * w
+    return share, 0.5 * stored
 
 
 @kernel(fastmath=_REORDER)

@@ -1,6 +1,7 @@
 """The power ledger of a time integration, and what becomes of one that does not close."""
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 from asperity.errors import ConvergenceError
 from asperity.results.quantity import Quantities, quantity
@@ -36,6 +37,8 @@ class PowerLedger(Quantities):
     damping: float = quantity("P_h", "W", "power lost to damping")
     stored: float = quantity("P_s", "W", "rate of change of stored energy")
     untransferred: float = quantity("P_u", "W", "friction on the untransferred vibration")
+
+    measure: ClassVar[str] = "the drive's"  #: What the residual is a share of.
 
     @property
     def _inputs(self) -> tuple[float, ...]:
@@ -78,6 +81,8 @@ class PressedLedger(PowerLedger):
 
     normal: float = quantity("P_n", "W", "power of the vibration normal to the plane")
     contact_damping: float = quantity("P_c", "W", "power lost in the contact's damping")
+
+    measure: ClassVar[str] = "what is put in"
 
     @property
     def _inputs(self) -> tuple[float, ...]:
@@ -130,10 +135,10 @@ def guard(
         return ()
     if not residual <= most:
         raise ConvergenceError(
-            f"the powers do not balance: {residual:.2g} of the drive's is missing, at most "
-            f"{most:g} may be: {advice}",
+            f"the powers do not balance: {residual:.2g} of {ledger.measure} is missing, "
+            f"at most {most:g} may be: {advice}",
             reached={**(reached or {}), "power_residual": residual},
         )
     if residual > NOTED:
-        return (f"the powers balance only to {residual:.2g} of the drive's: {advice}",)
+        return (f"the powers balance only to {residual:.2g} of {ledger.measure}: {advice}",)
     return ()

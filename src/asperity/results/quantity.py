@@ -45,6 +45,8 @@ class Label:
         Whether tables have a row of it.
     swept : bool
         Whether a sweep keeps it, if it is a number.
+    optional : bool
+        Whether it is left out where it is None, instead of being told as such.
     """
 
     symbol: str
@@ -57,6 +59,7 @@ class Label:
     only: Literal["json", "file"] | None = None
     shown: bool = True
     swept: bool = True
+    optional: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -122,9 +125,12 @@ def quantity(
     only: Literal["json", "file"] | None = None,
     shown: bool = True,
     swept: bool = True,
+    optional: bool = False,
 ) -> Any:
     """Declare a field as a quantity; the parameters are those of :class:`Label`."""
-    label = Label(symbol, unit, meaning, key, variable, dims, coordinate, only, shown, swept)
+    label = Label(
+        symbol, unit, meaning, key, variable, dims, coordinate, only, shown, swept, optional
+    )
     return dataclasses.field(default=default, metadata={_LABEL: label})
 
 
@@ -199,6 +205,8 @@ def _entries(cls: type[Quantities], holder: object, prefix: str) -> Iterator[Ent
     for name, label in cls._labels.items():
         value = None if holder is None else getattr(holder, name)
         if isinstance(label, Label):
+            if label.optional and holder is not None and value is None:
+                continue
             below = holder.resolution(name) if isinstance(holder, Quantities) else 0.0
             yield Entry(prefix + name, label, value, below)
         elif holder is None:

@@ -89,7 +89,7 @@ class Run:
             self._announced = True
             self.notify(f"{what} take about {duration(seconds)}")
 
-    def progress(self, done: int, total: int) -> None:
+    def _tell(self, done: int, total: int) -> None:
         """Tell how much is done; once it can be seen, also that it will take long."""
         self._progress(done, total)
         now = time.monotonic()
@@ -130,7 +130,7 @@ class Run:
         done, total : int
             How much is done, and of how much.
         state : callable, optional
-            Gives the state to go on from.
+            Gives the state to go on from; left out, nothing is kept here.
         what : str
             What is counted.
 
@@ -139,7 +139,7 @@ class Run:
         Interrupted
             Ctrl-C was pressed; what is kept is said.
         """
-        self.progress(done, total)
+        self._tell(done, total)
         keeper = self._keeper if state is not None else None
         if self._ears.heard:
             line = f"interrupted after {done} of {total} {what}"

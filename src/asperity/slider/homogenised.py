@@ -8,6 +8,7 @@ where the body's own motion is slow against the vibration.
 import dataclasses
 import math
 import time
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -22,11 +23,12 @@ from asperity.slider.homogenised_law import (
     interpolate,
     value_and_slope,
 )
+from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.march import March
 from asperity.slider.model import Model
-from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import History, SlideResult
 from asperity.slider.timetable import march_notes
+from asperity.slider.wear import wear_and_heat
 
 __all__ = ["HomogenisedLaw", "homogenise", "interpolate", "solve_homogenised"]
 
@@ -34,6 +36,7 @@ _RECORDS = 2000
 _BLOCK = 1024
 _RING_SHARE = 0.02
 _FAST_STEPS = 200_000
+_STEADY = 1e-3
 _ADVICE = "solve.method 'march' shows what the body does"
 # Alexander's diagonally implicit Runge-Kutta method of order 3, three stages, L-stable.
 _G = 0.43586652150845967
@@ -281,13 +284,27 @@ def _result(
         "stored": stored,
         "untransferred": column(hl.UNTRANSFERRED) + 0.0,  # no -0.0
     }
-    cycle = _pressed(model, law)
-    ledger = PowerLedger(**powers)
-    if cycle is not None and isinstance(cycle.ledger, PressedLedger):
-        of_cycle = cycle.ledger
+    ledger, normal, wear = PowerLedger(**powers), None, None
+    noted: tuple[str, ...] = ()
+    if law.pressed:
+        told = law.normal_to_the_plane(rows[:, 2])
         ledger = PressedLedger(
-            **powers, normal=of_cycle.normal, contact_damping=of_cycle.contact_damping
+            **powers,
+            normal=mean(told.pop("normal")),
+            contact_damping=mean(told.pop("contact_damping")),
         )
+        # On the way there are other states, with periods and multipliers of their own.
+        drive = model.slider.drive_velocity
+        steady = bool(np.all(np.abs(rows[:, 2] - drive) <= _STEADY * drive))
+        there = None
+        if steady and drive not in law.missing:
+            there = law.normal_to_the_plane(np.array([drive]))
+        normal = mean_motion(model, told, there, mean, drive_force)
+        noted = gain_notes(model, normal, ledger.friction)
+        if model.wear is not None:
+            integral = normal.wear_integral
+            slip = integral / normal.normal_mean
+            wear = wear_and_heat(model.wear, integral, (ledger.friction, slip), model.frequency)
     answer = SlideResult(
         model=model,
         ratio=drive_force / force,
@@ -297,14 +314,20 @@ def _result(
         friction_min=(column(hl.LOWEST_X) * force, column(hl.LOWEST_Y) * force),
         breakaway_time=breakaway,
         ledger=ledger,
-        normal=None if cycle is None else cycle.normal,
-        wear=None if cycle is None else cycle.wear,
+        normal=normal,
+        wear=wear,
         residual=law.residual,
         steps=steps,
         cycles=0,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
-        notes=(_what_it_is(model, law), *law.notes, *(() if cycle is None else cycle.notes)),
+        notes=(
+            *_what_it_is(model, law),
+            *law.notes,
+            *(f"at the drive velocity {note}" for note in law.remarks),
+            *noted,
+            *(() if wear is None else wear.notes),
+        ),
     )
     numbers = [entry.value for entry in answer.entries() if isinstance(entry.value, float)]
     if not np.all(np.isfinite(numbers)):
@@ -317,23 +340,22 @@ def _result(
     return dataclasses.replace(answer, notes=(*answer.notes, *noted))
 
 
-def _pressed(model: Model, law: HomogenisedLaw) -> SlideResult | None:
-    """Return the cycle at the drive velocity, of which what is normal to the plane is told."""
-    if model.normal is None or model.slider.drive_velocity in law.missing:
-        return None
-    return solve_periodic(model, history=False)
-
-
-def _what_it_is(model: Model, law: HomogenisedLaw) -> str:
-    if model.vibrates:
-        means = "friction and powers are means over a vibration cycle, from a table"
-        if model.slider.drive_velocity not in law.missing:
-            return means
-        return f"{means} without a state at the drive velocity itself: compare solve.method 'march'"
-    return (
-        "nothing vibrates: this is steady sliding at the drive velocity; solve.method 'march' "
-        "shows the motion"
-    )
+def _what_it_is(model: Model, law: HomogenisedLaw) -> Iterator[str]:
+    if not model.vibrates:
+        yield (
+            "nothing vibrates: this is steady sliding at the drive velocity; solve.method 'march' "
+            "shows the motion"
+        )
+        return
+    means = "friction and powers are means over a vibration cycle, from a table"
+    if model.slider.drive_velocity in law.missing:
+        means += " without a state at the drive velocity itself: compare solve.method 'march'"
+    yield means
+    if model.vibration is not None and model.vibration.ramp > 0.0:
+        yield (
+            "vibration.ramp is left out: the law is that of the full amplitude from the start on; "
+            "solve.method 'march' follows the ramp"
+        )
 
 
 def _history(model: Model, law: HomogenisedLaw, rows: FloatArray, pull: FloatArray) -> History:

@@ -17,8 +17,10 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.lugre import stribeck_share
+from asperity.slider.homogenised_normal import remarks_of, told_by
 from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
+from asperity.slider.result import SlideResult
 
 _POINTS_BELOW = 64
 _POINTS_ABOVE = 56
@@ -39,6 +41,13 @@ _SWAPPED = [
     POWER_IN, POWER_LOST, POWER_DAMPED, UNTRANSFERRED,
 ]  # fmt: skip
 _MIRROR = np.where(np.arange(COLUMNS) < POWER_IN, -1.0, 1.0)
+
+
+def _backwards(rows: FloatArray) -> FloatArray:
+    """Turn rows at some velocities into those at the opposite ones."""
+    turned = rows.copy()
+    turned[..., :COLUMNS] = rows[..., _SWAPPED] * _MIRROR
+    return turned
 
 
 @kernel
@@ -82,10 +91,10 @@ class HomogenisedLaw:
     ----------
     velocity : ndarray, shape (n,)
         Tabulated mean velocities, m/s, increasing, both signs; the drive velocity among them.
-    table : ndarray, shape (n, 10)
+    table : ndarray, shape (n, 10 + len(pressed))
         Mean, highest and lowest friction along the drive, the same across, over
         :math:`\mu F_N`; power of the vibration, dissipated by friction, dissipated in the drive's
-        damper by what the vibration shakes, and untransferred, W.
+        damper by what the vibration shakes, and untransferred, W; then what ``pressed`` names.
     full_friction : float
         :math:`\mu F_N`, N; approached at velocities far above the vibration's.
     residual : float
@@ -95,6 +104,12 @@ class HomogenisedLaw:
     missing : tuple of float
         Mean velocities without a periodic state, m/s, over which is interpolated; those next to
         the drive velocity first.
+    pressed : tuple of str
+        What the table has of a body that is pressed: fields of
+        `asperity.slider.space.NormalMotion` and the powers of
+        `asperity.results.ledger.PressedLedger`, in SI.
+    remarks : tuple of str
+        What a reader should know of a pressed body's state at the drive velocity.
     """
 
     velocity: FloatArray
@@ -103,6 +118,8 @@ class HomogenisedLaw:
     residual: float
     viscous: float = 0.0
     missing: tuple[float, ...] = ()
+    pressed: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
 
     @functools.cached_property
     def arguments(self) -> tuple[FloatArray, FloatArray, float]:
@@ -135,16 +152,25 @@ class HomogenisedLaw:
         inside = np.clip(velocity, breaks[0], breaks[-1])
         return np.array([interpolate(v, breaks, c, 0.0) for v in inside])
 
+    def normal_to_the_plane(self, velocity: FloatArray) -> dict[str, FloatArray]:
+        """What ``pressed`` names at some velocities; beyond the table's ends, that of the end."""
+        from scipy.interpolate import PchipInterpolator
+
+        cubic: Any = PchipInterpolator(self.velocity, self.table[:, COLUMNS:])
+        found = cubic(np.clip(velocity, self.velocity[0], self.velocity[-1]))
+        return dict(zip(self.pressed, found.T, strict=True))
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the law's numbers should know."""
         if not self.missing:
             return ()
         count = len(self.missing)
+        tried = len({*self.velocity, *self.missing}) - 1
         places = ", ".join(f"{velocity:.3g}" for velocity in self.missing[:_NAMED])
         more = f" and {count - _NAMED} more" if count > _NAMED else ""
         return (
-            f"no periodic state was found at {count} of {count + len(self.velocity) - 1} mean "
+            f"no periodic state was found at {count} of {tried} mean "
             f"velocities, which are interpolated over: {places} m/s{more}",
         )
 
@@ -172,11 +198,12 @@ def homogenise(model: Model) -> HomogenisedLaw:
     sampled = model.vibration is not None and model.vibration.waveform == "sampled"
     symmetric = not (oblique or sampled)
     tried = speeds if symmetric else np.concatenate([speeds, -speeds])
-    rows, missing, residual = _rows(model, tried)
+    answers, missing = _states(model, tried)
+    rows = {v: _row(model, answer) for v, answer in answers.items()}
     front = {v: row for v, row in rows.items() if v > 0.0}
-    back = {v: row[_SWAPPED] * _MIRROR for v, row in rows.items() if v < 0.0}
+    back = {v: _backwards(row) for v, row in rows.items() if v < 0.0}
     if symmetric:
-        back = {-v: row[_SWAPPED] * _MIRROR for v, row in front.items()}
+        back = {-v: _backwards(row) for v, row in front.items()}
         missing += [-v for v in missing]
     drive = model.slider.drive_velocity
     if not front or not back or not drive <= max(front):
@@ -184,16 +211,35 @@ def homogenise(model: Model) -> HomogenisedLaw:
             f"slider.drive_velocity is {drive:g} m/s and no periodic state was found at or above "
             "it; solve.method 'march' shows what the body does"
         )
+    _reach_to_rest(front, [v for v in missing if v > 0.0])
+    _reach_to_rest(back, [v for v in missing if v < 0.0])
     found = np.array(sorted([*back, 0.0, *front]))
     rest = 0.5 * (front[min(front)] + back[max(back)])
     return HomogenisedLaw(
         velocity=found,
         table=np.array([(rest if v == 0.0 else front[v] if v > 0.0 else back[v]) for v in found]),
         full_friction=model.full_friction,
-        residual=residual,
+        residual=max(answer.residual for answer in answers.values()),
         viscous=model.friction.viscous_damping / model.full_friction,
         missing=tuple(sorted(missing, key=lambda v: abs(v - drive))),
+        pressed=tuple(told_by(answers[max(front)])),
+        remarks=remarks_of(answers[drive]) if drive in answers else (),
     )
+
+
+def _reach_to_rest(rows: dict[float, FloatArray], missing: list[float]) -> None:
+    """Continue the rows of a side to the slowest velocity, if it is among those without a state.
+
+    Friction may jump at rest, and what the other side has is then no neighbour.
+    """
+    slowest = min(missing, key=abs, default=math.inf)
+    if len(rows) < 2 or abs(slowest) > min(map(abs, rows)):
+        return
+    near, far = sorted(rows, key=abs)[:2]
+    row = rows[near] + (slowest - near) / (far - near) * (rows[far] - rows[near])
+    # Losses and loads do not change their sign on the way.
+    row[POWER_LOST:] = np.where(rows[near] >= 0.0, np.maximum(row, 0.0), row)[POWER_LOST:]
+    rows[slowest] = row
 
 
 def _grid(model: Model) -> FloatArray:
@@ -213,17 +259,16 @@ def _with_drive(speeds: FloatArray, drive: float) -> FloatArray:
     return speeds
 
 
-def _rows(
+def _states(
     model: Model, velocities: Iterable[float]
-) -> tuple[dict[float, FloatArray], list[float], float]:
-    """Rows of the table by velocity, the velocities without one, and the largest residual."""
+) -> tuple[dict[float, SlideResult], list[float]]:
+    """Periodic states by mean velocity, and the velocities without one."""
     velocities = [float(v) for v in velocities]
-    rows: dict[float, FloatArray] = {}
+    found: dict[float, SlideResult] = {}
     missing: list[float] = []
-    residual = 0.0
     for velocity in velocities:
         try:
-            rows[velocity], left = _row(model, velocity)
+            found[velocity] = solve_periodic(_at(model, velocity), history=False)
         except (ConvergenceError, InputError) as error:
             # A step can be too coarse at the table's ends; at the drive velocity it is the case's.
             if isinstance(error, InputError) and velocity == model.slider.drive_velocity:
@@ -235,12 +280,11 @@ def _rows(
                     f"velocities, at {velocity:.4g} m/s: {error}",
                     reached=getattr(error, "reached", None),
                 ) from None
-        else:
-            residual = max(residual, left)
-    return rows, missing, residual
+    return found, missing
 
 
-def _row(model: Model, velocity: float) -> tuple[FloatArray, float]:
+def _at(model: Model, velocity: float) -> Model:
+    """Return the model with a mean velocity; backwards its vibration is turned by half a turn."""
     if model.vibration is None:
         raise InputError("nothing vibrates")
     slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)})
@@ -252,8 +296,10 @@ def _row(model: Model, velocity: float) -> tuple[FloatArray, float]:
             "direction": model.direction + (math.pi if velocity < 0.0 else 0.0),
         }
     )
-    at = dataclasses.replace(model, slider=slider, vibration=vibration)
-    answer = solve_periodic(at, history=False)
+    return dataclasses.replace(model, slider=slider, vibration=vibration)
+
+
+def _row(model: Model, answer: SlideResult) -> FloatArray:
     force = model.full_friction
     ledger = answer.ledger
     if ledger is None:
@@ -266,7 +312,7 @@ def _row(model: Model, velocity: float) -> tuple[FloatArray, float]:
     # The drive of a periodic state goes at the body's mean velocity: its damper takes the shaking
     # alone. What a slow motion against the drive loses there comes on top.
     row[[POWER_DAMPED, UNTRANSFERRED]] = ledger.damping, ledger.untransferred
-    return row, answer.residual
+    return np.append(row, list(told_by(answer).values()))
 
 
 def _without_vibration(model: Model) -> HomogenisedLaw:
@@ -283,11 +329,20 @@ def _without_vibration(model: Model) -> HomogenisedLaw:
     front = np.zeros((points, COLUMNS))
     front[:, [FORCE, HIGHEST_X, LOWEST_X]] = share[:, None]
     front[:, POWER_LOST] = share * force * speeds
-    back = front[::-1, _SWAPPED] * _MIRROR
+    rest = np.zeros(COLUMNS)
+    told: dict[str, float] = {}
+    if model.normal is not None:
+        # What lies still normal to the plane does so at any speed; the feet wear by theirs.
+        told = told_by(solve_periodic(model, history=False))
+        still = told | {"wear_integral": 0.0}
+        rest = np.append(rest, list(still.values()))
+        worn = np.multiply.outer(speeds / drive, np.array(list(told.values())) - rest[COLUMNS:])
+        front = np.hstack([front, rest[COLUMNS:] + worn])
     return HomogenisedLaw(
         velocity=np.concatenate([-speeds[::-1], [0.0], speeds]),
-        table=np.concatenate([back, np.zeros((1, COLUMNS)), front]),
+        table=np.concatenate([_backwards(front[::-1]), rest[None], front]),
         full_friction=force,
         residual=0.0,
         viscous=viscous,
+        pressed=tuple(told),
     )

@@ -46,8 +46,8 @@ def plot_master_curve(
     """
     figure, (left, right) = panels(1, 2, width=9.0, height=4.0)
     for index, (swing, ratio) in enumerate(curves.items()):
-        colour = COLOURS[index % len(COLOURS)]
-        left.plot(velocity, ratio, color=colour, dashes=DASHES[index], label=f"a = {swing:g}")
+        colour, dashes = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
+        left.plot(velocity, ratio, color=colour, dashes=dashes, label=f"a = {swing:g}")
     right.plot(velocity, reduction, color=BLACK, label="h(V)")
     right.plot(velocity, approximated, color=BLACK, dashes=(2, 2), linewidth=1.0, label="Popov")
     for index, (swing, (at, ratio)) in enumerate(points.items()):

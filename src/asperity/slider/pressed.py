@@ -180,26 +180,28 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             sx, sy, fx, fy = advance_loaded(
                 sx, sy, dx, dy1, 0.0, dy2, last_limit, limit, p.exponent, p.law, q.keeps
             )
-            gain = above_rounding(
-                -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps),
-                turned_over(last_sx, last_sy, sx, sy, dx, dy),
-            )
+            gain = -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps)
+            if gain > 0.0:
+                gain = above_rounding(gain, turned_over(last_sx, last_sy, sx, sy, dx, dy))
             wear = math.hypot(dx - sx + last_sx, dy - sy + last_sy)
         elif p.model == SPRINGS:
             last_depth = depth
             depth = indentation(q.law, d, elastic, load)
+            last_stored = stored
             if along:
-                fx = advance_springs_along(springs[0], dx, last_depth, depth, q.heights, q.weights)
+                fx, stored = advance_springs_along(
+                    springs[0], dx, last_depth, depth, q.heights, q.weights
+                )
             else:
-                fx, fy = advance_springs(
+                fx, fy, stored = advance_springs(
                     springs[0], springs[1], dx, dy, last_depth, depth, q.heights, q.weights
                 )
             sx = fx
             sy = fy
-            last_stored = stored
-            stored = stored_in_springs(springs[0], springs[1], q.weights)
             work = fx * dx + fy * dy
-            gain = above_rounding(stored - last_stored - work, stored + last_stored + abs(work))
+            gain = stored - last_stored - work
+            if gain > 0.0:
+                gain = above_rounding(gain, stored + last_stored + abs(work))
         elif p.model == COULOMB:
             ahead = increments[n + 1]
             share_x = fx / last_limit if last_limit > 0.0 else 0.0
@@ -225,10 +227,9 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             sx, sy, fx, fy = advance_loaded(
                 sx, sy, dx, dy1, 0.0, dy2, before, after, 1.0, p.law, STIFFNESS
             )
-            gain = above_rounding(
-                -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps),
-                turned_over(last_sx, last_sy, sx, sy, dx, dy),
-            )
+            gain = -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps)
+            if gain > 0.0:
+                gain = above_rounding(gain, turned_over(last_sx, last_sy, sx, sy, dx, dy))
             wear = math.hypot(dx - sx + last_sx, dy - sy + last_sy)
             ahead = increments[n + 1]
             fx, fy, wx1, wy1 = node_forces(
@@ -256,7 +257,9 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             last_drag = last_fd - p.stiffness * (state.stretch - p.drive + wx) - p.pull
             sums.drag_work += 0.5 * (drag + last_drag) * (p.drive - wx)
         add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, p.rigid)
-        _add_load(sums, last_load, load, last_elastic, elastic, last_d, d, height, gain, wear)
+        _add_load(
+            sums, last_load, load, last_elastic, elastic, last_d, d, height, max(gain, 0.0), wear
+        )
         if recording:
             node = nodes[n]
             at = (n + 1) * p.drive - state.stretch

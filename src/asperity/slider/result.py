@@ -120,6 +120,17 @@ class SlideResult(Result):
         r"""Drive force without vibration, :math:`\mu F_N`, N."""
         return self.model.full_friction
 
+    @property
+    @labelled(
+        "F_t", "N", "thrust: the vibration drives the body", only="json", swept=False, optional=True
+    )
+    def thrust(self) -> float | None:
+        """Mean force that holds the body back to the drive's velocity, N; None where it is pulled.
+
+        The vibration drives it forward then: the mean drive force is negative.
+        """
+        return -self.drive_force if self.drive_force < -self.resolution("drive_force") else None
+
     ratio: float = quantity("F_dv/F_ds", "", "mean drive force over mu F_N")
     breakaway_time: float | None = quantity("t_b", "s", "time of breakaway")
     friction_mean: tuple[float, float] = quantity(
@@ -178,7 +189,11 @@ class SlideResult(Result):
     @property
     @labelled("", "", "error of the power balance")
     def power_residual(self) -> float | None:
-        """What is missing from the power balance, over the power of the drive."""
+        """What is missing from the power balance, over the power of the drive.
+
+        Of a body that is pressed, over all that is put in, where the actuator normal to the plane
+        may do most of it.
+        """
         return None if self.ledger is None else self.ledger.residual
 
     residual: float = quantity("", "", "residual of the method")

@@ -159,14 +159,14 @@ def _limit(body: HeldBody, run: Run) -> tuple[float, tuple[str, ...]]:
         low, high = high, 2.0 * high
         _bounded(high)
     halvings = math.ceil(math.log2((high - low) / _RESOLUTION))
-    with run.going_on():
-        for done in range(halvings):
-            middle = 0.5 * (low + high)
-            if body.creep(middle).velocity > 0.0:
-                high = middle
-            else:
-                low = middle
-            run.progress(done + 1, halvings)
+    # Not within `going_on`: nothing is kept, so that Ctrl-C may end a pull in its middle.
+    for done in range(halvings):
+        middle = 0.5 * (low + high)
+        if body.creep(middle).velocity > 0.0:
+            high = middle
+        else:
+            low = middle
+        run.checkpoint(done + 1, halvings, what="pulls")
     if at_rest != 0.0 and body.creep(low - _ABOVE).velocity < 0.0:
         return low, (
             "the vibration carries the body along: it goes backward under 1 % of mu W less, "

@@ -177,7 +177,7 @@ class WearAndHeat(Quantities):
     heated_by: str | None = quantity(
         "",
         "",
-        "whether the mean or the peak of a cycle heats",
+        "'mean' of the cycle; 'unresolved' where a contact warms through within one",
         default=None,
         only="json",
         shown=False,
@@ -189,15 +189,14 @@ class WearAndHeat(Quantities):
         if self.warming_time is None:
             return ()
         warms = f"the contact warms through in {self.warming_time:.2g} s,"
+        if self.heated_by == "mean":
+            return (
+                f"{warms} longer than a cycle: its flash temperature is that of the cycle's mean "
+                "heat",
+            )
         return (
-            {
-                "mean": f"{warms} longer than a cycle: its flash temperature is that of the "
-                "cycle's mean heat",
-                "peak": f"{warms} shorter than a cycle: its flash temperature is that of the "
-                "greatest heat in the cycle",
-                "unresolved": f"{warms} shorter than a cycle: its flash temperature rises above "
-                "the one given, which is that of the cycle's mean heat",
-            }[self.heated_by or "mean"],
+            f"{warms} shorter than a cycle: its flash temperature rises above the one given, which "
+            "is that of the cycle's mean heat",
         )
 
 
@@ -206,9 +205,11 @@ def wear_and_heat(
     integral: float,
     mean: tuple[float, float],
     frequency: float,
-    peak: tuple[float, float] | None = None,
 ) -> WearAndHeat:
     r"""Wear and heat from what a solution counts over whole cycles.
+
+    A contact that warms through within a cycle flashes above the temperature of its mean heat: how
+    far, is not resolved, for that takes the history of the heat and not one number of it.
 
     Parameters
     ----------
@@ -220,9 +221,6 @@ def wear_and_heat(
         Power of friction, W, and slip speed, m/s, in the mean of a cycle.
     frequency : float
         Of the vibration, Hz; 0 without one: then there is no depth of a cycle, and the mean heats.
-    peak : tuple of 2 floats, optional
-        Power and slip speed where the power is greatest, which count where a cycle is longer than
-        the contact takes to warm through.
     """
     found: dict[str, Any] = {}
     if wear.coefficient is not None and wear.hardness is not None:
@@ -231,26 +229,19 @@ def wear_and_heat(
             found["wear_depth_per_cycle"] = wear_depth_per_cycle(
                 found["wear_rate"], wear.contact_radius, frequency
             )
-    return WearAndHeat(**found, **_heat(wear, mean, frequency, peak))
+    return WearAndHeat(**found, **_heat(wear, *mean, frequency))
 
 
-def _heat(
-    wear: Wear,
-    mean: tuple[float, float],
-    frequency: float,
-    peak: tuple[float, float] | None,
-) -> Mapping[str, Any]:
+def _heat(wear: Wear, power: float, speed: float, frequency: float) -> Mapping[str, Any]:
     radius = wear.contact_radius
     if wear.conductivity is None or wear.diffusivity is None or radius is None:
         return {}
     warming = warming_time(radius, wear.diffusivity)
-    slow = 0.0 < frequency * warming < 1.0
-    power, speed = peak if slow and peak is not None else mean
     peclet = peclet_number(speed, radius, wear.diffusivity)
     flux = power / (np.pi * radius**2)
     return {
         "flash_temperature": flash_temperature(flux, radius, wear.conductivity, peclet),
         "peclet": peclet,
         "warming_time": warming,
-        "heated_by": "mean" if not slow else "unresolved" if peak is None else "peak",
+        "heated_by": "unresolved" if 0.0 < frequency * warming < 1.0 else "mean",
     }

@@ -109,8 +109,13 @@ class Branches(Result):
 
     def heading(self) -> str:
         """Return where there are two states."""
+        both = np.isfinite(self.ratio).all(axis=0)
+        if not both.any():
+            found = np.isfinite(self.ratio).any()
+            return "no value with a state both ways" if found else "no stable periodic state found"
         if not self.two.size:
-            return "the same states both ways"
+            where = "" if both.all() else f", at the {both.sum()} of {both.size} values with both"
+            return f"the same states both ways{where}"
         low, high = self.axis_text(self.two.min()), self.axis_text(self.two.max())
         between = f"at {low}" if low == high else f"between {low} and {high}"
         return f"two stable states {between}, by where the body comes from"
@@ -177,7 +182,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
     with run.going_on():
         for state in follow([*models, *reversed(models)]):
             found.append(state)
-            run.progress(len(found), 2 * len(models))
+            run.checkpoint(len(found), 2 * len(models), what="states")
     ways = [found[: len(models)], found[: len(models) - 1 : -1]]
     numbers: dict[str, Any] = {
         entry.name: np.array([[_of(state, entry.name) for state in way] for way in ways])

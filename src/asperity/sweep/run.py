@@ -155,7 +155,7 @@ class _Sweep:
                     self._fill(index, rows[key])
                 else:
                     self.missing.append(index)
-        self.doing.progress(self.done, self.grid.size)
+        self.doing.checkpoint(self.done, self.grid.size, what="points")
 
     def solve(self, cluster: str) -> None:
         """Solve what is missing."""
@@ -216,7 +216,7 @@ class _Sweep:
         for point, row in zip(points, rows, strict=True):
             if REFUSED in row:
                 raise InputError(f"{self.grid.describe(point.index)}: {row[REFUSED]}")
-        self.doing.progress(self.done, self.grid.size)
+        self.doing.checkpoint(self.done, self.grid.size, what="points")
 
     def _fill(self, index: int, row: Row) -> None:
         failed = row.get(FAILED)
