@@ -460,3 +460,61 @@ def test_on_a_rigid_drive_and_without_vibration_there_is_a_history_to_draw():
         np.testing.assert_allclose(history.friction_min[:, 0], answer.friction_min[0], 1e-6)
         assert history.time[-1] == model.duration
         assert len(answer.plot().axes) == 2
+
+
+PRESSED = "normal.law=linear", "solve.method=homogenised"
+
+
+def test_friction_that_jumps_at_rest_is_reached_from_its_own_side(monkeypatch):
+    model = body("normal-pin", *PRESSED)
+    whole = homogenise(model)
+    slowest = whole.velocity[whole.velocity > 0.0][0]
+    assert whole(slowest) > 0.6 * model.full_friction
+    failing(monkeypatch, lambda v: v == slowest)
+    holed = homogenise(model)
+    assert holed.missing == (slowest, -slowest)
+    np.testing.assert_array_equal(holed.velocity, whole.velocity)
+    for side in (slowest, -slowest):
+        assert holed(side) == pytest.approx(whole(side), rel=0.05)
+        lost = holed.column(hl.POWER_LOST, np.array([side]))[0]
+        assert 0.0 <= lost < 0.05 * holed.column(hl.POWER_LOST, np.array([5e-4]))[0]
+    (note,) = holed.notes
+    assert note.startswith(f"no periodic state was found at 2 of {len(whole.velocity) - 1} mean")
+    # Its start from rest leads through there.
+    answer = solve(body("normal-pin", *PRESSED, "solve.duration=0.1 s"), history=False)
+    assert answer.power_residual < 1e-3
+
+
+def test_without_a_state_at_the_drive_velocity_loads_are_interpolated_as_all_else(monkeypatch):
+    complete = solve(body("normal-pin", *PRESSED), history=False)
+    failing(monkeypatch, lambda v: v == 0.5e-3)
+    answer = solve(body("normal-pin", *PRESSED), history=False)
+    assert answer.normal.period is None
+    assert answer.normal.multiplier is None
+    for name in ("normal_mean", "normal_min", "penetration_swing", "wear_integral"):
+        expected = getattr(complete.normal, name)
+        assert getattr(answer.normal, name) == pytest.approx(expected, rel=1e-3), name
+    assert complete.normal.period == 1
+
+
+def test_a_pressed_body_that_nothing_shakes_bears_its_load_and_wears_by_its_way():
+    answer = solve(body("normal-pin", *PRESSED, "vibration.velocity_ratio=0"), history=False)
+    normal = answer.normal
+    assert normal.ratio_mean_load == pytest.approx(1.0, rel=1e-12)
+    assert (normal.normal_min, normal.normal_max) == pytest.approx((55.0, 55.0), rel=1e-9)
+    assert normal.wear_integral == pytest.approx(55.0 * 0.5e-3, rel=1e-9)
+    law = homogenise(answer.model)
+    for way in (-1e-3, 1e-4, 1e-3):
+        told = law.normal_to_the_plane(np.array([way]))
+        assert told["wear_integral"] == pytest.approx(55.0 * abs(way), rel=1e-2)
+        assert told["normal_mean"] == pytest.approx(55.0, rel=1e-9)
+
+
+def test_a_ramp_is_left_out_and_the_answer_says_so():
+    ramped, at_once = (
+        solve(body("table-4.3", "solve.method=homogenised", *settings), history=False)
+        for settings in (["vibration.ramp=0.1 s"], [])
+    )
+    assert ramped.ratio == at_once.ratio
+    assert [note for note in ramped.notes if "vibration.ramp is left out" in note]
+    assert not [note for note in at_once.notes if "ramp" in note]

@@ -87,8 +87,8 @@ class SlideResult(Result):
         What happens normal to the plane; None where the normal force is a constant.
     wear : WearAndHeat or None
         None without the table [wear].
-    ledger : PowerLedger or None
-        None for the homogenised law without a cycle to take it from.
+    ledger : PowerLedger
+        Of a body that is pressed, a `PressedLedger`.
     residual : float
         How far from an answer it may be. ``march``: change of the mean drive force from the first
         to the second half of the window over :math:`\mu F_N` (steadiness); ``periodic``: change of
