@@ -9,6 +9,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.runs import Interrupted, Run
 from asperity.store import read_dataset
 from asperity.sweep import branches
 from asperity.sweep.axes import parse_axes
@@ -86,3 +87,32 @@ def test_the_heading_says_what_was_found(there, back, told):
         **numbers | {"value": np.array([0.1, 0.2, 0.3])}, missing=int(np.isnan(ratio).sum()),
     )  # fmt: skip
     assert found.heading() == told
+
+
+def test_a_walk_that_was_interrupted_on_its_way_back_goes_on_there(asperity, tmp_path):
+    # There and back through a loop: which state it is in follows from where it came from.
+    line = [
+        "branches", "normal-pin", "--set", "vibration.frequency=1.7 kHz",
+        "--set", "vibration.elevation=90 deg",
+        "--over", "vibration.displacement_amplitude=0.2:0.5:0.01 um", "--json",
+    ]  # fmt: skip
+    code, whole, errors = asperity(*line)
+    assert code == 0, errors
+    case = read_case("normal-pin", case_tables(), line[3:6:2])
+    _, axis, _ = problem = branches.prepare(case, over=[line[7]])
+    assert len(axis.values) == 31
+
+    def press(done, _):
+        if done == 45:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Interrupted, match="after 45 of 62 states; the same command goes on from"):
+        branches.answer(problem, Run(progress=press, folder=tmp_path, stem="branches"))
+    told = []
+    found = branches.answer(
+        problem, Run(progress=lambda done, _: told.append(done), folder=tmp_path, stem="branches")
+    )
+    assert told[0] == 46
+    expected, answer = json.loads(whole), json.loads(json.dumps(found.to_json()))
+    assert answer | {"seconds": 0.0} == expected | {"seconds": 0.0}
+    assert found.two.size

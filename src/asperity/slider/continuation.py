@@ -5,12 +5,13 @@ contact that is shaken harder and harder jumps into flight later than it comes b
 """
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
+from asperity.runs.tree import Tree
 from asperity.slider.model import Model
 from asperity.slider.periodic import (
     UNSTABLE,
@@ -32,12 +33,53 @@ _IN_PLANE = {
 _NORMAL = {"penetration": 0, "rise": 1}
 
 
-def follow(models: Sequence[Model]) -> Iterator[SlideResult | ConvergenceError]:
+class Walk:
+    """A way from body to body, each sought from where the one before was left."""
+
+    def __init__(self) -> None:
+        self._last: tuple[Model, Cycle] | None = None
+
+    def to(self, model: Model) -> SlideResult | ConvergenceError:
+        """Find the stable periodic state of the next body, as `follow`."""
+        began = time.perf_counter()
+        steps = cycle_steps(model)
+        step = 1.0 / (model.frequency * steps)
+        cycle = Cycle(model, steps, step)
+        notes: tuple[str, ...] = ()
+        if self._last is None:
+            found, growth, notes = settle(cycle)
+        else:
+            _take_over(cycle, *self._last)
+            cycle, found, growth = _from_there(cycle, model, steps, step)
+        self._last = model, cycle
+        if not found:
+            return AperiodicError.of(cycle, notes)
+        try:
+            return answer_of(model, step, cycle, growth, notes, began, history=False)
+        except ConvergenceError as error:
+            return error
+
+    def tree(self) -> Tree:
+        """Return where the last body was left; there must be one."""
+        if self._last is None:
+            raise ValueError("a walk that has not begun stands nowhere")
+        cycle = self._last[1]
+        return {"state": cycle.body.kept["state"], "springs": cycle.springs}
+
+    def restore(self, model: Model, tree: Tree) -> None:
+        """Go back to where the last body was left, which is given."""
+        steps = cycle_steps(model)
+        cycle = Cycle(model, steps, 1.0 / (model.frequency * steps))
+        _put(cycle, tree["state"], tree["springs"])
+        self._last = model, cycle
+
+
+def follow(models: Iterable[Model]) -> Iterator[SlideResult | ConvergenceError]:
     """Find the stable periodic state of each body, starting from that of the one before.
 
     Parameters
     ----------
-    models : sequence of Model
+    models : iterable of Model
         Bodies that differ little from one to the next. Start, duration and breakaway have no
         meaning here.
 
@@ -47,25 +89,9 @@ def follow(models: Sequence[Model]) -> Iterator[SlideResult | ConvergenceError]:
         Of each body; the exception of one that repeats itself after neither 1, 2 nor 4 cycles. The
         next starts from where that one was left.
     """
-    last: tuple[Model, Cycle] | None = None
+    walk = Walk()
     for model in models:
-        began = time.perf_counter()
-        steps = cycle_steps(model)
-        step = 1.0 / (model.frequency * steps)
-        cycle = Cycle(model, steps, step)
-        notes: tuple[str, ...] = ()
-        if last is None:
-            found, growth, notes = settle(cycle)
-        else:
-            _take_over(cycle, *last)
-            cycle, found, growth = _from_there(cycle, model, steps, step)
-        last = model, cycle
-        try:
-            if not found:
-                raise AperiodicError.of(cycle, notes)
-            yield answer_of(model, step, cycle, growth, notes, began, history=False)
-        except ConvergenceError as error:
-            yield error
+        yield walk.to(model)
 
 
 def _take_over(cycle: Cycle, model: Model, other: Cycle) -> None:

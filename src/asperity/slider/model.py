@@ -45,6 +45,7 @@ COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
 _MOST_SUBSTEPS = 1000
+_FAR_MORE = 1e12
 
 
 @dataclasses.dataclass(frozen=True)
@@ -293,6 +294,8 @@ class Model:
         return 2.0 * math.pi * self.frequency * least / STEPS_A_TURN
 
     def _parts(self, needed: float) -> int:
+        if not needed <= _FAR_MORE:
+            raise InputError(FAR_APART)
         if not needed <= _MOST_SUBSTEPS:
             raise InputError(
                 f"solve.step is {self.step:g} s; the march would have to divide it by "

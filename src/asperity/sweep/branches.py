@@ -12,8 +12,11 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
-from asperity.slider.continuation import follow
+from asperity.runs.key import code_key, key
+from asperity.runs.tree import Tree
+from asperity.slider.continuation import Walk
 from asperity.slider.cost import cycles
+from asperity.slider.march import march_key
 from asperity.slider.model import Model
 from asperity.slider.periodic import cycle_steps
 from asperity.slider.result import SlideResult, inputs
@@ -174,35 +177,45 @@ def prepare(case: Case, *, over: Sequence[str]) -> tuple[Case, Axis, list[Model]
 
 
 def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
-    """Follow the states there and back."""
+    """Follow the states there and back, going on from where the same walk was interrupted."""
     began = time.perf_counter()
     case, axis, models = problem
-    found: list[SlideResult | ConvergenceError] = []
-    run.forecast(2 * sum(cycles(model, _CYCLES) for model in models), f"{2 * len(models)} states")
+    bodies = [*models, *reversed(models)]
+    names = [entry.name for entry in Branches.declared() if entry.label.dims == _DIMS]
+    walk = Walk()
+    rows: list[FloatArray] = []
+    notes: list[str] = []
+
+    def standing() -> Tree:
+        return {"rows": rows, "notes": notes, "walk": walk.tree()}
+
+    asked = (march_key(model, history=False) for model in models)
+    kept = run.resume(key(code_key(__name__), *asked))
+    if kept is not None:
+        rows += kept["rows"]
+        notes += kept["notes"]
+        walk.restore(bodies[len(rows) - 1], kept["walk"])
     with run.going_on():
-        for state in follow([*models, *reversed(models)]):
-            found.append(state)
-            run.checkpoint(len(found), 2 * len(models), what="states")
-    ways = [found[: len(models)], found[: len(models) - 1 : -1]]
-    numbers: dict[str, Any] = {
-        entry.name: np.array([[_of(state, entry.name) for state in way] for way in ways])
-        for entry in Branches.declared()
-        if entry.label.dims == _DIMS
-    }
+        run.forecast(sum(cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
+        for body in bodies[len(rows) :]:
+            state = walk.to(body)
+            rows.append(np.array([_of(state, name) for name in names]))
+            if not isinstance(state, ConvergenceError):
+                notes += [note for note in state.notes if note not in notes]
+            run.checkpoint(len(rows), len(bodies), standing, what="states")
+    there, back = np.split(np.array(rows), 2)
+    ways = np.stack([there, back[::-1]])
+    numbers: dict[str, Any] = {name: ways[..., place] for place, name in enumerate(names)}
     return Branches(
         source=case.source,
         axis=axis,
         shared={path: value for path, value in inputs(models[0]).items() if path != axis.path},
         value=np.array(axis.shown, dtype=float),
         **numbers,
-        missing=sum(isinstance(state, ConvergenceError) for state in found),
+        missing=int(np.isnan(numbers["ratio"]).sum()),
         seconds=time.perf_counter() - began,
-        notes=tuple(dict.fromkeys(note for state in found for note in _notes(state))),
+        notes=tuple(notes),
     )
-
-
-def _notes(state: SlideResult | ConvergenceError) -> tuple[str, ...]:
-    return () if isinstance(state, ConvergenceError) else state.notes
 
 
 def _of(state: SlideResult | ConvergenceError, name: str) -> float:
