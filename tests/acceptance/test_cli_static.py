@@ -49,6 +49,7 @@ def test_static_friction_in_the_plane_has_no_normal_force_that_changes(asperity)
         (["table-4.1-L3"], "slider.mass is missing"),
         (["table-4.3", "--set", "vibration.velocity_ratio=0"], "nothing vibrates"),
         (["table-4.3", "--set", "solve.scheme=two-phase"], "solve.scheme is 'two-phase'"),
+        (["table-4.4", "--set", "friction.mu=4e-177"], "times as slowly as it is shaken"),
     ],
 )
 def test_a_body_that_cannot_be_held_is_refused_in_one_line(asperity, arguments, part):

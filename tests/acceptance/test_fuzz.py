@@ -173,7 +173,7 @@ def arguments(rng, folder):
         rng.choice([0, 1, 1, 1, 2, 3]) if given[0] == "broken.toml" else rng.randint(1, 3)
     ):
         given += ["--set", setting(rng, command, raw)]
-    if command == "sweep":
+    if command in ("sweep", "branches"):
         axes = [
             "friction.mu=0.1,0.2",
             "vibration.velocity_ratio=1:3:1",

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import ConvergenceError
+from asperity.errors import ConvergenceError, InputError
 from asperity.friction.loaded import STIFFNESS
 from asperity.normal import elastic_force, indentation
 from asperity.slider.held_kernels import carry
@@ -25,6 +25,7 @@ from asperity.slider.scaled import COULOMB, SPRINGS, Parameters
 _GROWING = 48
 _FIRST = 16
 _RINGS = 4
+_MOST_FIRST = 40_000
 _DOUBLINGS = 8
 # Creep a cycle over the deflection limit, for Coulomb friction over the drive's way in a step.
 _STANDING = 1e-6
@@ -90,9 +91,20 @@ class HeldBody:
         self._cycle = cycle
         self._cycles = cycle.period
         self._p = self._released(cycle)
+        if not _RINGS * self.frequency_ratio <= _MOST_FIRST:
+            raise InputError(
+                f"the body rings on its asperities {self.frequency_ratio:.3g} times as slowly as "
+                f"it is shaken; static friction is found up to {_MOST_FIRST / _RINGS:g} times: "
+                "look at slider.mass, friction.mu and friction.max_deflection"
+            )
         self._first = max(_FIRST, math.ceil(_RINGS * self.frequency_ratio))
         growing = max(_GROWING, self._first) // self._cycles + 1
         self._growing = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, growing + 1) / growing)
+
+    @property
+    def cycles(self) -> int:
+        """Cycles under a pull, of most cases."""
+        return len(self._growing) * self._cycles + 7 * self._first
 
     @property
     def frequency_ratio(self) -> float:

@@ -22,9 +22,7 @@ from asperity.vibration import SINE
 _RESOLUTION = 1e-5
 _ABOVE = 0.01
 _FARTHEST = 64.0
-# Pulls that are tried, and cycles under each, of most cases.
-_PULLS = 20
-_CYCLES = 160
+_PULLS = 20  # that are tried, of most cases
 # From this frequency on, over that of the body on its asperities, a heavy body stands still.
 _STANDS_STILL = 10.0
 _PROFILES: dict[str, Profile] = {"linear": "flat", "hertz": "hertz", "rough": "rough"}
@@ -130,8 +128,8 @@ def answer(model: Model, run: Run) -> StaticResult:
         The body creeps, or stands, under every pull.
     """
     began = time.perf_counter()
-    run.forecast(cycles(model, _PULLS * _CYCLES), f"{_PULLS} pulls")
     body = HeldBody(model)
+    run.forecast(cycles(model, _PULLS * body.cycles), f"{_PULLS} pulls")
     ratio, notes = _limit(body, run)
     creep = body.creep(ratio + _ABOVE, settled=True)
     closed, which = closed_form(body)
