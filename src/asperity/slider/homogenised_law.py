@@ -19,6 +19,7 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.friction.lugre import stribeck_share
 from asperity.slider.homogenised_normal import remarks_of, told_by
 from asperity.slider.model import Model
+from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
 
@@ -129,7 +130,8 @@ class HomogenisedLaw:
     def _pieces(self, column: int) -> tuple[FloatArray, FloatArray]:
         from scipy.interpolate import PchipInterpolator
 
-        cubic: Any = PchipInterpolator(self.velocity, self.table[:, column])
+        with in_proportion(), np.errstate(over="raise"):
+            cubic: Any = PchipInterpolator(self.velocity, self.table[:, column])
         return np.ascontiguousarray(cubic.x), np.ascontiguousarray(cubic.c)
 
     @overload
