@@ -85,7 +85,12 @@ def main():
             solve_periodic(point, history=False)
             times.append(best(lambda m=point: solve_periodic(m, history=False)))
     report["periodic"] = {"median_ms": 1e3 * np.median(times), "longest_ms": 1e3 * max(times)}
-    finish(report)
+    steps = {"linear": 1.5, "hertz": 2.0, "16 springs along": 2.0, "16 springs across": 2.0}
+    finish(
+        report,
+        most={f"{name}_over_plane": most for name, most in steps.items()} | {"longest_ms": 20.0},
+        least={"single_over_batch": 5.0},
+    )
 
 
 if __name__ == "__main__":

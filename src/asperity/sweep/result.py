@@ -13,6 +13,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.results import Result, quantity
 from asperity.results.table import Table
+from asperity.slider.periodic import UNSTABLE
 from asperity.sweep.axes import Axis
 from asperity.sweep.tasks import VARIABLES
 
@@ -25,7 +26,6 @@ _MOST_REASONS = 100
 MOST_AXES = 2
 _MOST_ROWS = 60
 _MOST_COLUMNS = 9
-_STABLE = 1.001
 # What a ratio of a body that is pressed is never shown without.
 _BESIDE = {"ratio_mean_load": "F/mu N", "open_share": "open", "period": "period"}
 
@@ -103,7 +103,7 @@ class SweepResult(Result):
         """Number of points that were solved and are in no stable periodic state that is known."""
         if "period" not in self.arrays:
             return 0
-        unstable = ~(self.arrays["multiplier"] <= _STABLE)
+        unstable = ~(self.arrays["multiplier"] <= UNSTABLE)
         return int(np.count_nonzero(unstable & (self.status == SOLVED)))
 
     @property
