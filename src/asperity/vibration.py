@@ -1,20 +1,4 @@
-r"""Vibration imposed on a contact: waveform, amplitude, direction, start.
-
-The waveform names the displacement :math:`u(t)`. Its phase is counted from the start of the
-vibration, where the displacement is zero and rising (sine, triangle, square).
-
-========== ================================= =====================================
-waveform   displacement                      peak velocity :math:`v_a`
-========== ================================= =====================================
-sine       :math:`u_a \sin 2\pi f t`         :math:`2\pi f u_a`; thesis (12)
-triangle   straight flanks                   :math:`4 f u_a`
-square     dwell at :math:`\pm u_a`, flanks  :math:`2 u_a / t_r`
-           of duration ``rise_time``
-sampled    periodic cubic spline through     the spline's
-           the samples, mean removed,
-           half its range taken as 1
-========== ================================= =====================================
-"""
+"""Vibration imposed on a contact: waveform, amplitude, direction, start."""
 
 import csv
 import dataclasses
@@ -22,7 +6,7 @@ import functools
 import io
 import math
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal, NamedTuple
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import model_validator
@@ -30,87 +14,12 @@ from pydantic import model_validator
 from asperity import store
 from asperity.arrays import FloatArray
 from asperity.casefile import Table
-from asperity.compiled import kernel
 from asperity.errors import InputError, shown
 from asperity.units import Quantity
+from asperity.waveform import SAMPLED, SINE, SQUARE, STEPS_A_TURN, TRIANGLE, Shape
 
-SINE = 0
-TRIANGLE = 1
-SQUARE = 2
-SAMPLED = 3
-_CODES = {"sine": SINE, "triangle": TRIANGLE, "square": SQUARE, "sampled": SAMPLED}
 _TABLE_POINTS = 8192
-STEPS_A_TURN = 16
 _STEPS_A_FLANK = 4
-_NO_TABLE = np.zeros(2)
-
-
-class Wave(NamedTuple):
-    """A waveform of unit amplitude as kernels take it, times in cycles.
-
-    Attributes
-    ----------
-    waveform : int
-        `SINE`, `TRIANGLE`, `SQUARE` or `SAMPLED`.
-    rise : float
-        Rise time of a square wave.
-    table : ndarray
-        One closed period of a sampled wave.
-    ramp : float
-        Time in which the amplitude grows from nothing; 0: it is there at once.
-    lead : float
-        How far the wave is ahead of one that starts at phase 0.
-    """
-
-    waveform: int
-    rise: float
-    table: FloatArray
-    ramp: float = 0.0
-    lead: float = 0.0
-
-
-AT_REST = Wave(SINE, 0.0, _NO_TABLE)
-
-
-@kernel
-def displacement_at(wave, cycles):
-    """Displacement over its amplitude at a time in cycles; before the start as at the start."""
-    share = 1.0
-    if wave.ramp > 0.0:
-        share = min(max(cycles / wave.ramp, 0.0), 1.0)
-    return share * _unit_displacement(wave, max(cycles, 0.0) + wave.lead)
-
-
-@kernel
-def _unit_displacement(wave, cycles):
-    phase = cycles - math.floor(cycles)
-    if wave.waveform == SINE:
-        return math.sin(2.0 * math.pi * phase)
-    if wave.waveform == SAMPLED:
-        table = wave.table
-        place = phase * (table.size - 1)
-        index = min(int(place), table.size - 2)
-        return table[index] + (place - index) * (table[index + 1] - table[index])
-    # Distance in phase from the nearest zero crossing, signed as the displacement is.
-    if phase < 0.25:
-        distance = phase
-    elif phase < 0.75:
-        distance = 0.5 - phase
-    else:
-        distance = phase - 1.0
-    if wave.waveform == TRIANGLE:
-        return 4.0 * distance
-    return max(-1.0, min(1.0, 2.0 * distance / wave.rise))
-
-
-@kernel
-def fill_increments(wave, first_cycles, cycles_per_step, increments):
-    """Write the unit displacement's increments over consecutive steps into ``increments``."""
-    last = displacement_at(wave, first_cycles)
-    for n in range(increments.size):
-        here = displacement_at(wave, first_cycles + (n + 1) * cycles_per_step)
-        increments[n] = here - last
-        last = here
 
 
 class Vibration(Table):
@@ -262,56 +171,6 @@ class Vibration(Table):
         if self.velocity_amplitude is not None:
             return self.velocity_amplitude
         return (self.velocity_ratio or 0.0) * abs(drive_velocity)
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Shape:
-    """A waveform made ready.
-
-    Attributes
-    ----------
-    code : int
-        `SINE`, `TRIANGLE`, `SQUARE` or `SAMPLED`.
-    frequency : float
-        Hz.
-    steepness : float
-        Peak velocity over (amplitude times frequency).
-    least_steps : float
-        Time steps a period needs: 16 for a sine and a triangle; 4 to a flank of a square wave; so
-        many for a sampled wave that its velocity changes over a step by no more of itself, in the
-        root mean square, than that of a sine over 1/16 of its period.
-    rise : float
-        Rise time of a square wave in cycles.
-    table : ndarray
-        One closed period of a sampled wave, unit amplitude.
-    ramp : float
-        Time in which the amplitude grows, in cycles.
-    """
-
-    code: int
-    frequency: float
-    steepness: float
-    least_steps: float
-    rise: float = 0.0
-    table: FloatArray = dataclasses.field(default_factory=lambda: _NO_TABLE)
-    ramp: float = 0.0
-
-    def wave(self, *, lead: float = 0.0, ramped: bool = True) -> Wave:
-        """Return the wave for kernels, ``lead`` cycles ahead; in full from the start if asked."""
-        return Wave(self.code, self.rise, self.table, self.ramp if ramped else 0.0, lead)
-
-    def increments(self, first_cycles: float, cycles_per_step: float, steps: int) -> FloatArray:
-        """Increments of the unit displacement over ``steps`` steps."""
-        out = np.empty(steps)
-        fill_increments(self.wave(), first_cycles, cycles_per_step, out)
-        return out
-
-    def cycle(self, steps: int, lead: float = 0.0) -> FloatArray:
-        """Increments of the unit displacement over a cycle's steps and the first of the next."""
-        out = np.empty(steps + 1)
-        # One cycle late, so that the wave's rest before its start is not met.
-        fill_increments(self.wave(lead=lead, ramped=False), 1.0, 1.0 / steps, out)
-        return out
 
 
 @functools.lru_cache(maxsize=32)

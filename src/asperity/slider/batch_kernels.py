@@ -14,7 +14,7 @@ from asperity.compiled import kernel
 from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR, inverse_root, relaxation_gain
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_rows import WIDTH
-from asperity.vibration import Wave, fill_increments
+from asperity.waveform import Wave, fill_increments
 
 BLOCK = 64  # steps whose increments are made at a time: 16 kB, they stay in the first cache
 

@@ -7,7 +7,7 @@ laid out to the depth they need.
 from asperity.compiled import kernel
 from asperity.normal import elastic_force, indentation
 from asperity.slider.pressed import node_load
-from asperity.vibration import displacement_at
+from asperity.waveform import displacement_at
 
 
 @kernel

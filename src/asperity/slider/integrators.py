@@ -19,7 +19,7 @@ from asperity.slider.scaled import (
 )
 from asperity.slider.summary import energies, pressed_energies
 from asperity.slider.two_phase import MEMORY, march_two_phase
-from asperity.vibration import AT_REST, fill_increments
+from asperity.waveform import AT_REST, fill_increments
 
 
 class Integrator:

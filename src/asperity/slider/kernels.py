@@ -19,7 +19,7 @@ from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import VECTOR, advance, rate_along
 from asperity.friction.lugre import stribeck_share
 from asperity.slider.scaled import COULOMB, DAHL, NODE
-from asperity.vibration import fill_increments
+from asperity.waveform import fill_increments
 
 
 @kernel

@@ -16,7 +16,7 @@ from asperity.slider.result import History, SlideResult
 from asperity.slider.scaled import Parameters
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import Timetable, march_notes
-from asperity.vibration import AT_REST
+from asperity.waveform import AT_REST
 
 _RECORDS = 4000
 _BLOCK = 1024

@@ -24,7 +24,8 @@ from asperity.slider.parameters import (
 )
 from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.slider.wear import Wear
-from asperity.vibration import SAMPLED, SINE, STEPS_A_TURN, Shape, Vibration
+from asperity.vibration import Vibration
+from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN, Shape
 
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4

@@ -25,7 +25,7 @@ from asperity.friction.springs import (
 from asperity.normal import elastic_force, indentation
 from asperity.slider.kernels import add_step, clear, condense, node_forces, record
 from asperity.slider.scaled import COULOMB, DAHL, LUGRE, SPRINGS
-from asperity.vibration import displacement_at, fill_increments
+from asperity.waveform import displacement_at, fill_increments
 
 ROUNDING = 1e-12  # of the energies of a step
 

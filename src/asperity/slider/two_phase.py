@@ -16,7 +16,7 @@ import numpy as np
 from asperity.compiled import kernel
 from asperity.friction.two_phase import phases
 from asperity.slider.kernels import add_step, condense, record
-from asperity.vibration import fill_increments
+from asperity.waveform import fill_increments
 
 # What the scheme carries beside the state: the asperity's direction, and (42)'s stored increment.
 MEMORY = np.dtype([("cos", float), ("sin", float), ("base_x", float)])

@@ -16,7 +16,7 @@ from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion.hht import ALPHA, Coordinates, coefficients
 from asperity.contact.motion.mechanism import DriveState, Mechanism, MotionStep, motion_step
 from asperity.contact.motion.works import Asperities, Resultants
-from asperity.vibration import Shape, fill_increments
+from asperity.waveform import Shape, fill_increments
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
 # touching, up to this angle of its oscillation in a step; at 3 it leaves 17 % faster.
