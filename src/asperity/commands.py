@@ -31,6 +31,9 @@ _TABLES = {
     "disc": "asperity.flanks.parameters:Disc",
     "modification": "asperity.flanks.parameters:Modification",
     "mount": "asperity.flanks.parameters:Mount",
+    "drive": "asperity.drive.parameters:Drive",
+    "shaft": "asperity.drive.parameters:Shaft",
+    "actuator": "asperity.drive.parameters:Actuator",
 }
 
 

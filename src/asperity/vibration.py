@@ -5,8 +5,10 @@ import dataclasses
 import functools
 import io
 import math
+import re
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import model_validator
@@ -14,7 +16,7 @@ from pydantic import model_validator
 from asperity import store
 from asperity.arrays import FloatArray
 from asperity.casefile import Table
-from asperity.errors import InputError, shown
+from asperity.errors import InputError, choices, shown
 from asperity.units import Quantity
 from asperity.waveform import SAMPLED, SINE, SQUARE, STEPS_A_TURN, TRIANGLE, Shape
 
@@ -22,8 +24,15 @@ _TABLE_POINTS = 8192
 _STEPS_A_FLANK = 4
 
 
+MODES = ("axial", "torsional", "wheel-axial", "screw")
+"""Which way a gearset is shaken."""
+
+_OF_BODIES = ("direction", "elevation", "normal_phase")
+_PER_TURN = re.compile(r"\s*(\S+)\s+per\s+turn\s*")
+
+
 class Vibration(Table):
-    """Vibration of the base or of the body.
+    """Vibration of the base or of the body, or of a gearset.
 
     Parameters
     ----------
@@ -31,7 +40,9 @@ class Vibration(Table):
         Shape of the displacement.
     frequency : float or str, optional
         Hz. Left out, a sampled waveform takes the period of its samples; given, it must agree with
-        them to 1e-6.
+        them to 1e-6. At a gearset also "12 per turn", as of a cam on the worm.
+    per_turn : float, optional
+        The same as a number: cycles in a turn of the worm.
     velocity_ratio : float, optional
         Peak velocity over drive velocity, k = v_a/v_d. Exactly one of the three amplitudes.
     velocity_amplitude : float or str, optional
@@ -47,9 +58,14 @@ class Vibration(Table):
         moves along: not the mirror image of the angle below.
     normal_phase : float or str
         How far the normal part leads the part in the plane, rad: an ellipse.
-    applied_to : {'base', 'body'}
+    mode : {'axial', 'torsional', 'wheel-axial', 'screw'}, optional
+        Which way a gearset is shaken: the worm along its axis, about it, the wheel along its axis,
+        or the worm along and about its axis in phase, as the screw that it is. An amplitude of
+        ``torsional`` and ``screw`` is that of the arc on the worm's reference circle.
+    applied_to : {'base', 'body', 'worm', 'seat', 'wheel', 'motor'}
         What is shaken. A body's prescribed motion is added to its own; its inertia is not
-        charged to the drive.
+        charged to the drive. Of a gearset (the worm if left out): the worm itself, the seat of its
+        bearings, the wheel, or the end of the shaft where the motor turns it.
     start : float or str
         Time at which it begins, s; the phase is counted from here.
     ramp : float or str
@@ -64,6 +80,7 @@ class Vibration(Table):
     table: ClassVar[str] = "vibration"
     alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("velocity_ratio", "velocity_amplitude", "displacement_amplitude"),
+        ("frequency", "per_turn"),
     )
     required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("velocity_ratio", "velocity_amplitude", "displacement_amplitude"),
@@ -72,6 +89,9 @@ class Vibration(Table):
     waveform: Literal["sine", "triangle", "square", "sampled"] = "sine"
     frequency: (
         Annotated[float, Quantity("Hz", what="a frequency", example="4 kHz", gt=0)] | None
+    ) = None
+    per_turn: (
+        Annotated[float, Quantity("", what="a number of cycles", example="12", gt=0, le=1e6)] | None
     ) = None
     velocity_ratio: Annotated[float, Quantity("", what="a ratio", example="6.0", ge=0)] | None = (
         None
@@ -87,11 +107,26 @@ class Vibration(Table):
         float, Quantity("rad", what="an angle", example="30 deg", ge=0, le=math.pi)
     ] = 0.0
     normal_phase: Annotated[float, Quantity("rad", what="an angle", example="90 deg")] = 0.0
-    applied_to: Literal["base", "body"] = "base"
+    mode: Literal["axial", "torsional", "wheel-axial", "screw"] | None = None
+    applied_to: Literal["base", "body", "worm", "seat", "wheel", "motor"] = "base"
     start: Annotated[float, Quantity("s", what="a time", example="0.14 s", ge=0)] = 0.0
     ramp: Annotated[float, Quantity("s", what="a time", example="0.1 s", ge=0)] = 0.0
     rise_time: Annotated[float, Quantity("s", what="a time", example="10 us", gt=0)] | None = None
     samples: Path | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_turns(cls, data: Any) -> Any:
+        """Take a frequency that is counted by the turns of a worm for what it is."""
+        written = data.get("frequency") if isinstance(data, Mapping) else None
+        found = _PER_TURN.fullmatch(written) if isinstance(written, str) else None
+        if found is None:
+            return data
+        if data.get("per_turn") is not None:
+            raise InputError("vibration.frequency and vibration.per_turn are given; keep one")
+        return {key: value for key, value in data.items() if key != "frequency"} | {
+            "per_turn": found[1]
+        }
 
     @model_validator(mode="after")
     def _consistent(self) -> "Vibration":
@@ -105,7 +140,7 @@ class Vibration(Table):
                 f"vibration.samples is given, but vibration.waveform is '{self.waveform}'; set it "
                 "to 'sampled' or leave the samples out"
             )
-        if self.frequency is None and self.waveform != "sampled":
+        if self.frequency is None and self.per_turn is None and self.waveform != "sampled":
             raise InputError("vibration.frequency is missing; give one such as '4 kHz'")
         if self.waveform == "square":
             if self.rise_time is None:
@@ -124,8 +159,60 @@ class Vibration(Table):
             )
         return self
 
-    def shape(self, folder: Path | None = None) -> "Shape":
-        """Waveform made ready for the kernels; ``folder`` is where a samples file is looked for."""
+    def of_body(self) -> Self:
+        """Return it as a sliding body takes it; raises InputError for that of a gearset."""
+        for key in ("mode", "per_turn"):
+            if getattr(self, key) is not None:
+                raise InputError(
+                    f"vibration.{key} is of a gearset (`asperity drive`); a sliding body takes "
+                    "vibration.direction and vibration.frequency: leave it out"
+                )
+        if self.applied_to not in ("base", "body"):
+            raise InputError(
+                f"vibration.applied_to is '{self.applied_to}', a part of a gearset; of a sliding "
+                "body it must be 'base' or 'body'"
+            )
+        return self
+
+    def of_gearset(self) -> Self:
+        """Return it as a gearset takes it; raises InputError for that of a sliding body."""
+        for key in _OF_BODIES:
+            if key in self.model_fields_set:
+                raise InputError(
+                    f"vibration.{key} is of a sliding body; a gearset is shaken by vibration.mode, "
+                    f"one of {choices(MODES)}: leave it out"
+                )
+        if self.mode is None:
+            raise InputError(
+                f"vibration.mode is missing; a gearset is shaken one way of {choices(MODES)}"
+            )
+        if "applied_to" not in self.model_fields_set:
+            return self.model_copy(update={"applied_to": "worm"})
+        if self.applied_to in ("base", "body"):
+            raise InputError(
+                f"vibration.applied_to is '{self.applied_to}', of a sliding body; of a gearset it "
+                "must be 'worm', 'seat', 'wheel' or 'motor'"
+            )
+        return self
+
+    def shape(self, folder: Path | None = None, *, turns: float | None = None) -> "Shape":
+        """Waveform made ready for the kernels.
+
+        Parameters
+        ----------
+        folder : path, optional
+            Where a samples file is looked for.
+        turns : float, optional
+            Of the worm in a second, which `per_turn` counts.
+        """
+        if self.per_turn is not None:
+            if turns is None:
+                raise InputError(
+                    f"vibration.frequency is {self.per_turn:g} per turn, but there is no worm "
+                    "here: give it in Hz"
+                )
+            counted = {"frequency": self.per_turn * turns, "per_turn": None}
+            return self.model_copy(update=counted).shape(folder)
         if self.waveform == "sampled":
             if self.samples is None:
                 raise InputError("vibration.samples is missing")

@@ -2,6 +2,7 @@
 
 from asperity.block.tables import TABLES as BLOCK
 from asperity.commands import case_tables
+from asperity.drive.tables import TABLES as DRIVE
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
 from asperity.slider.tables import TABLES as SLIDER
@@ -9,7 +10,7 @@ from asperity.slider.tables import TABLES as SLIDER
 
 def test_a_case_file_may_have_every_table_of_every_room():
     tables = case_tables()
-    assert dict(tables) == {**SLIDER, **RATING, **BLOCK, **FLANKS}
+    assert dict(tables) == {**SLIDER, **RATING, **BLOCK, **FLANKS, **DRIVE}
     assert len(tables) == len(list(tables))
     assert all(name in tables and table.table == name for name, table in tables.items())
     assert "oil" not in tables

@@ -92,7 +92,7 @@ class Model:
     @classmethod
     def from_case(cls, case: Case) -> Self:
         """Gather the tables of a case; [vibration] and [solve] may be missing."""
-        vibration = case.require(Vibration) if Vibration.table in case else None
+        vibration = case.require(Vibration).of_body() if Vibration.table in case else None
         shape = vibration.shape(case.folder) if vibration is not None else None
         solve = case.require(Solve) if Solve.table in case else Solve()
         normal = case.require(Normal) if Normal.table in case else None

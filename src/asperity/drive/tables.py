@@ -1,0 +1,6 @@
+"""Tables of a case file that describe the drive of a worm gearset."""
+
+from asperity.casefile import Table
+from asperity.drive.parameters import Actuator, Drive, Shaft
+
+TABLES: dict[str, type[Table]] = {table.table: table for table in (Drive, Shaft, Actuator)}
