@@ -1,0 +1,131 @@
+r"""Tooth friction of the local sliding speed and temperature, from the chain of ISO/TR 14521.
+
+The standard's mean coefficient is a function of the sliding velocity at the worm's mean diameter,
+:math:`\mu_{zm} = \mu_{0T}(v_{gm}) Y_S Y_G Y_W Y_R`, found from gearboxes that run steadily. Here it
+is taken at the speed with which the flanks slide at an instant, which the standard does not say and
+which no test of it under vibration confirms: the film is assumed to follow at once.
+
+Nor does the standard let the coefficient depend on the temperature. What falls with the speed is
+the share that asperities carry, as the film grows; and of the film, the standard's own formula
+knows the product of viscosity and speed alone, :math:`h_{min} \sim (\eta n_1)^{0.7}`. So the
+coefficient at another temperature is that of the speed with the same film,
+
+.. math:: \mu(v, \theta) = \mu_{zm}\left(v\,\eta(\theta)/\eta(\theta_M)\right)
+
+with the wheel's bulk temperature of the rating as :math:`\theta_M`: an inference, and exact where
+the temperature is that of the rating.
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case, told
+from asperity.drive.friction_curve import FrictionCurve
+from asperity.errors import InputError
+from asperity.gearset import oil
+from asperity.gearset.parameters import Gearset
+from asperity.rating.inputs import Inputs, inputs
+from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
+from asperity.rating.iso14521.friction import base_friction
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.sources import Source
+
+SOURCE = Source(
+    "ISO/TR 14521:2010, DIN 3996:2012",
+    "verified",
+    "mean coefficient of steady running, taken at the speed of an instant",
+)
+TEMPERATURE_SOURCE = Source(
+    "film thickness of ISO/TR 14521:2010", "from memory", "speed of equal film; an inference"
+)
+
+_POINTS = 4097
+_MM2 = 1e6
+_ZERO_CELSIUS = 273.15
+
+
+def rating_inputs(case: Case) -> Inputs:
+    """Return what the standard's formulas take of a case.
+
+    Raises
+    ------
+    InputError
+        The case has no ``[gearset]`` or ``[operation]``, or prescribes the friction, which then
+        does not depend on the speed.
+    """
+    with told(case):
+        options = case.require(RatingOptions) if RatingOptions.table in case else RatingOptions()
+        given = inputs(case.require(Gearset), case.require(Operation), options)
+        for key in ("friction", "base_friction"):
+            value = getattr(options, key)
+            if value is not None:
+                raise InputError(
+                    f"rating.{key} is {value:g}; friction of the sliding speed is the standard's "
+                    "own: leave it out, or keep friction constant"
+                )
+    return given
+
+
+def tooth_friction(
+    given: Inputs, speed: npt.ArrayLike, temperature: float | None = None
+) -> FloatArray:
+    """Return the coefficient of tooth friction at sliding speeds.
+
+    Parameters
+    ----------
+    given : Inputs
+        Gearset and operation.
+    speed : array_like
+        Sliding speed of the flanks, m/s, from 0.
+    temperature : float, optional
+        Of the film, K; that of the rating if left out.
+
+    Returns
+    -------
+    ndarray
+        Of the shape of ``speed``; at most the standard's cap, which holds at rest.
+    """
+    rated = rated_efficiency(given)
+    factors = rated["Y_S"] * rated["Y_G"] * rated["Y_W"] * rated["Y_R"] * given.friction_factor
+    thicker = 1.0 if temperature is None else viscosity_ratio(given, temperature)
+    operation = given.operation
+    base = base_friction(
+        np.asarray(speed, float) * thicker,
+        family=given.gearset.wheel_material.family,
+        lubrication=operation.lubrication,
+        base_oil=operation.lubricant.base_oil,
+    )
+    return np.asarray(factors * base, float)
+
+
+def viscosity_ratio(given: Inputs, temperature: float) -> float:
+    """Return the oil's dynamic viscosity at a temperature, K, over that at the rating's."""
+    rated = rated_capacity(given, rated_efficiency(given))
+    lubricant = given.operation.lubricant
+    celsius = temperature - _ZERO_CELSIUS
+    viscosity = oil.kinematic_viscosity(
+        celsius, _MM2 * lubricant.viscosity_40, _MM2 * lubricant.viscosity_100
+    )
+    density = oil.density(celsius, given.density_15, lubricant.base.density_coefficient)
+    return float(viscosity * density / _MM2 / rated["eta_0M_Pas"])
+
+
+def friction_curve(
+    given: Inputs, fastest: float, temperature: float | None = None
+) -> FrictionCurve:
+    """Return the coefficient of tooth friction as a kernel looks it up.
+
+    Parameters
+    ----------
+    given : Inputs
+        Gearset and operation.
+    fastest : float
+        Sliding speed up to which it is to be right, m/s.
+    temperature : float, optional
+        Of the film, K; that of the rating if left out.
+    """
+    if not fastest > 0.0:
+        raise InputError(f"the fastest sliding speed is {fastest:g} m/s; it must be positive")
+    speeds = np.linspace(0.0, fastest, _POINTS)
+    return FrictionCurve(float(speeds[1]), tooth_friction(given, speeds, temperature))

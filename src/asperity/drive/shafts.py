@@ -1,0 +1,262 @@
+"""What gives between worm and housing: bending, bearings, torsion and seat, at the mesh and wheel.
+
+The frame is that of the mesh: ``axial`` along the worm's axis, positive where the wheel's tooth is
+pushed; ``tangential`` along the wheel's axis, positive as the driving worm's thread moves there;
+``radial`` from the worm's axis to the wheel's. Forces are those on the wheel; on the worm they are
+opposite. Coordinates of the worm are its turn and these three shifts of the point of contact.
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.errors import InputError
+from asperity.gearset.geometry import Geometry
+from asperity.rating.shaft import torsional_stiffness
+
+COORDINATES = ("turn", "axial", "tangential", "radial")
+"""Of the worm, as the rows and columns of a compliance stand: rad, m, m, m."""
+
+_MILLIMETRES = 1e3
+_MPA = 1e-6
+
+
+@dataclasses.dataclass(frozen=True)
+class MeshAction:
+    """What a worm does to its wheel where they touch, for a wheel torque of 1 N m.
+
+    Attributes
+    ----------
+    normal : ndarray, shape (3,)
+        Unit normal from worm to wheel: axial, tangential, radial.
+    force : ndarray, shape (3,)
+        Force on the wheel per wheel torque, 1/m.
+    radius : float
+        Of the point of contact from the worm's axis, m.
+    wheel_radius : float
+        Arm of the axial force about the wheel's axis, m.
+    """
+
+    normal: FloatArray
+    force: FloatArray
+    radius: float
+    wheel_radius: float
+
+    @classmethod
+    def at_pitch_point(
+        cls, geometry: Geometry, friction: float, radius: float | None = None
+    ) -> "MeshAction":
+        """Return the action at a point of an involute worm straight below its axis.
+
+        The part of the normal along the axis, the cosine of the base lead angle, is the same at
+        every radius; for other flanks the pitch radius alone is exact.
+
+        Parameters
+        ----------
+        geometry : Geometry
+            Of the gearset.
+        friction : float
+            Coefficient of friction, worm driving; negative for the wheel driving, 0 for none.
+        radius : float, optional
+            Distance from the worm's axis, m; the pitch radius if left out.
+
+        Raises
+        ------
+        InputError
+            The radius lies within the base cylinder, or friction keeps the worm from driving.
+        """
+        r = 0.5e-3 * geometry.worm_pitch_diameter if radius is None else radius
+        lead = 1e-3 * geometry.reduced_lead
+        axial = math.cos(geometry.pressure_angle) * math.cos(geometry.lead_angle)
+        tangential = axial * lead / r
+        rest = 1.0 - axial**2 - tangential**2
+        if rest < 0.0:
+            raise InputError(
+                f"radius is {_MILLIMETRES * r:g} mm; it must lie outside the worm's base cylinder"
+            )
+        slope = math.hypot(r, lead)
+        normal = np.array([axial, tangential, math.sqrt(rest)])
+        sliding = np.array([-lead, r, 0.0]) / slope
+        force = normal + friction * sliding
+        if force[0] <= 0.0:
+            raise InputError(
+                f"friction is {friction:g}; at this lead angle it must stay below "
+                f"{axial * slope / lead:.4g}, where the worm cannot drive"
+            )
+        arm = lead * geometry.gear_ratio
+        return cls(normal, force / (force[0] * arm), r, arm)
+
+    @property
+    def worm_torque(self) -> float:
+        """Torque of the worm per wheel torque: the inverse of the mechanical advantage."""
+        return float(self.radius * self.force[1])
+
+    @property
+    def _forces(self) -> FloatArray:
+        return np.array([self.worm_torque, *self.force])
+
+    @property
+    def _turns(self) -> FloatArray:
+        """Turn of the wheel per coordinate of the worm, the flanks kept as close."""
+        lever = np.array([self.radius * self.normal[1], *self.normal])
+        turns: FloatArray = lever / (self.normal[0] * self.wheel_radius)
+        return turns
+
+    def yielded(self, compliance: FloatArray) -> FloatArray:
+        """Return how far the worm yields per wheel torque, by its coordinates: rad, m per N m."""
+        yielded: FloatArray = compliance @ self._forces
+        return yielded
+
+    def at_wheel(self, compliance: FloatArray) -> float:
+        """Return the turn that the wheel loses per its torque, rad/(N m).
+
+        With friction the way that forces take in is not the one that the flanks leave, and the
+        turn is not the second derivative of an energy.
+        """
+        return float(self._turns @ self.yielded(compliance))
+
+
+def beam_with_ends(
+    span: float, place: float, stiffness: float, first: float, second: float
+) -> FloatArray:
+    """Return deflection and slope of a beam under a force and a moment at one place.
+
+    Beam tables (Roark's Formulas for Stress and Strain, simply supported, intermediate load and
+    intermediate couple), and the beam as a rigid body on its ends.
+
+    Parameters
+    ----------
+    span : float
+        Between the ends, m.
+    place : float
+        Distance of the load from the first end, m; 0 < place < span.
+    stiffness : float
+        Bending stiffness E I, N m2; infinite for a rigid beam.
+    first, second : float
+        Stiffness of the ends, N/m; infinite for rigid ones.
+
+    Returns
+    -------
+    ndarray, shape (2, 2)
+        Deflection and slope (rows) per force and moment (columns): m/N, rad/N; m/(N m), rad/(N m).
+        The moment works along the slope.
+    """
+    if not 0.0 < place < span:
+        raise InputError(
+            f"place is {_MILLIMETRES * place:g} mm; it must lie between the bearings, "
+            f"{_MILLIMETRES * span:g} mm apart"
+        )
+    a, b = place, span - place
+    bent = np.array([[a**2 * b**2, a * b * (b - a)], [a * b * (b - a), a**2 - a * b + b**2]]) / (
+        3.0 * stiffness * span
+    )
+    rigid = [np.array([b, -1.0]) / span, np.array([a, 1.0]) / span]
+    ends = sum(
+        np.outer(share, share) / end for share, end in zip(rigid, (first, second), strict=True)
+    )
+    return np.asarray(bent + ends)
+
+
+def bending_stiffness(diameter: float, youngs_modulus: float) -> float:
+    """Return E I of a round solid shaft, N m2; diameter in m, modulus in Pa."""
+    return youngs_modulus * math.pi * diameter**4 / 64.0
+
+
+def shaft_torsional_stiffness(
+    diameter: float, length: float, youngs_modulus: float, poisson_ratio: float
+) -> float:
+    """Return the torsional stiffness of a round solid shaft, N m/rad; lengths in m, modulus in Pa.
+
+    Examples
+    --------
+    >>> round(shaft_torsional_stiffness(0.017, 0.15, 209e9, 0.3))
+    4394
+    """
+    mm = _MILLIMETRES
+    return float(
+        torsional_stiffness(mm * diameter, mm * length, _MPA * youngs_modulus, poisson_ratio)
+    )
+
+
+def compliances(
+    radius: float,
+    *,
+    span: float | None = None,
+    place: float | None = None,
+    bending: float | None = None,
+    bearing_radial: float | None = None,
+    bearing_axial: float | None = None,
+    torsion: float | None = None,
+    seat: float | None = None,
+) -> Mapping[str, FloatArray]:
+    """Return what each part between worm and housing gives at the point of contact.
+
+    Parameters
+    ----------
+    radius : float
+        Of the point of contact from the worm's axis, m: the axial force bends the shaft by it.
+    span : float, optional
+        Between the worm's bearings, m. Needed for bending and radial bearings.
+    place : float, optional
+        Distance of the wheel's middle from the first bearing, m; half the span if left out.
+    bending : float, optional
+        Bending stiffness E I of the worm's shaft, N m2.
+    bearing_radial : float, optional
+        Stiffness of each bearing, N/m.
+    bearing_axial : float, optional
+        Stiffness of the bearing that locates the shaft, N/m.
+    torsion : float, optional
+        Stiffness of the shaft between worm and motor, N m/rad.
+    seat : float, optional
+        Stiffness along the axis of what the locating bearing sits in, N/m.
+
+    Returns
+    -------
+    mapping of str to ndarray, shape (4, 4)
+        By contributor, of those that are given; what is left out is rigid. Rows and columns as
+        `COORDINATES`; symmetric.
+    """
+    found: dict[str, FloatArray] = {}
+
+    def alone(name: str, at: int, stiffness: float | None) -> None:
+        if stiffness is not None:
+            found[name] = np.zeros((4, 4))
+            found[name][at, at] = 1.0 / _positive(name, stiffness)
+
+    def across(name: str, beam: FloatArray) -> None:
+        # A slope in the plane of both axes takes the point of contact along the worm's axis.
+        lever = np.array([[0.0, -radius], [0.0, 0.0], [1.0, 0.0]])
+        radial = lever @ beam @ lever.T
+        found[name] = np.zeros((4, 4))
+        found[name][1:, 1:] = radial
+        found[name][2, 2] += beam[0, 0]
+
+    if bending is not None or bearing_radial is not None:
+        if span is None:
+            raise InputError("span is missing; a shaft bends, and bearings yield, over their span")
+        at = 0.5 * span if place is None else place
+        rigid = math.inf
+        if bending is not None:
+            stiffness = _positive("bending", bending)
+            across("bending", beam_with_ends(span, at, stiffness, rigid, rigid))
+        if bearing_radial is not None:
+            end = _positive("bearing_radial", bearing_radial)
+            across("bearing_radial", beam_with_ends(span, at, rigid, end, end))
+    alone("bearing_axial", 1, bearing_axial)
+    alone("torsion", 0, torsion)
+    alone("seat", 1, seat)
+    return found
+
+
+def _positive(name: str, stiffness: float) -> float:
+    if not stiffness > 0.0:
+        raise InputError(f"{name} is {stiffness:g}; a stiffness must be positive")
+    return stiffness
+
+
+def wheel_compliances(action: MeshAction, parts: Mapping[str, FloatArray]) -> Mapping[str, float]:
+    """Return the turn that the wheel loses per its torque by each part, rad/(N m)."""
+    return {name: action.at_wheel(part) for name, part in parts.items()}

@@ -1,0 +1,156 @@
+"""The worm's shaft and bearings against beam tables and the thesis's shaft.
+
+Roark's Formulas for Stress and Strain, simply supported beam: force P at a, deflection there
+P a^2 b^2/(3 E I L); in the middle P L^3/(48 E I); couple in the middle, slope M L/(12 E I).
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.drive.shafts import (
+    MeshAction,
+    beam_with_ends,
+    bending_stiffness,
+    compliances,
+    shaft_torsional_stiffness,
+    wheel_compliances,
+)
+from asperity.errors import InputError
+from asperity.gearset import Gearset
+from asperity.rating.iso14521.strength import worm_deflection
+
+E, D, SPAN, TORQUE, MU = 209e9, 0.017, 0.150, 366.0, 0.1344
+
+
+@pytest.fixture(scope="module")
+def geometry():
+    return read_case("gearset-3b", case_tables()).require(Gearset).geometry
+
+
+@pytest.fixture(scope="module")
+def action(geometry):
+    return MeshAction.at_pitch_point(geometry, MU, 9.81e-3)
+
+
+def test_a_beam_is_that_of_the_tables():
+    stiff, rigid = bending_stiffness(D, E), math.inf
+    middle = beam_with_ends(SPAN, 0.5 * SPAN, stiff, rigid, rigid)
+    assert middle == pytest.approx(
+        np.diag([SPAN**3 / (48.0 * stiff), SPAN / (12.0 * stiff)]), rel=1e-12, abs=1e-20
+    )
+    third = beam_with_ends(SPAN, SPAN / 3.0, stiff, rigid, rigid)
+    assert third[0, 0] == pytest.approx(4.0 * SPAN**3 / (243.0 * stiff), rel=1e-12)
+    assert third[1, 0] > 0.0  # still rising at a load left of the middle
+
+
+def test_the_beam_bends_as_its_differential_equation_integrated():
+    place, stiff = 0.04, 50.0
+    x = np.linspace(0.0, SPAN, 15001)
+    for load, column in (("force", 0), ("moment", 1)):
+        b = SPAN - place
+        left, right = (b / SPAN, place / SPAN) if load == "force" else (-1.0 / SPAN, 1.0 / SPAN)
+        moment = np.where(x <= place, left * x, right * (SPAN - x))
+        slope = np.concatenate([[0.0], np.cumsum(0.5 * (moment[1:] + moment[:-1]))]) * x[1] / stiff
+        sag = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]))]) * x[1]
+        # The beam's curvature is minus moment over stiffness; its ends stay in place.
+        deflection = x / SPAN * sag[-1] - sag
+        turned = sag[-1] / SPAN - slope
+        found = beam_with_ends(SPAN, place, stiff, math.inf, math.inf)[:, column]
+        at = np.searchsorted(x, place)
+        assert found == pytest.approx([deflection[at], turned[at]], rel=1e-3)
+
+
+def test_a_rigid_shaft_in_the_middle_of_two_bearings_has_both_under_it():
+    beam = beam_with_ends(SPAN, 0.5 * SPAN, math.inf, 1e8, 1e8)
+    assert beam == pytest.approx(np.diag([0.5e-8, 2e-8 / SPAN**2]), abs=1e-22)
+
+
+def test_the_action_at_the_mesh_is_the_closed_form_of_an_involute_worm(geometry):
+    # T_B 34.67, reversed 15.36, without friction 24.4 N m at an effective radius of 9.81 mm.
+    found = [
+        TORQUE * MeshAction.at_pitch_point(geometry, mu, 9.81e-3).worm_torque
+        for mu in (MU, -MU, 0.0)
+    ]
+    assert found == pytest.approx([34.67, 15.36, 24.4], abs=0.02)
+
+
+def test_the_thesis_shaft_twists_by_its_stiffness_over_the_ratio(action, geometry):
+    stiffness = shaft_torsional_stiffness(D, SPAN, E, 0.3)
+    assert round(stiffness) == 4394
+    turn = TORQUE * action.at_wheel(compliances(action.radius, torsion=stiffness)["torsion"])
+    worm = TORQUE * action.worm_torque / stiffness
+    assert turn == pytest.approx(worm / geometry.gear_ratio, rel=1e-12)
+
+
+def test_an_axial_bearing_costs_the_wheel_the_turn_of_its_shift(action):
+    for stiffness, expected in ((1e8, 877e-6), (5e8, 175e-6)):
+        part = compliances(action.radius, bearing_axial=stiffness)["bearing_axial"]
+        assert TORQUE * action.at_wheel(part) == pytest.approx(expected, rel=5e-3)
+
+
+def test_the_worm_shaft_of_17_mm_bends_by_a_quarter_millimetre_and_costs_3600_microradians(action):
+    part = compliances(action.radius, span=SPAN, bending=bending_stiffness(D, E))["bending"]
+    turn, axial, tangential, radial = TORQUE * action.yielded(part)
+    assert turn == 0.0
+    assert (axial, tangential, radial) == pytest.approx((7.95e-6, 0.290e-3, 0.220e-3), rel=2e-3)
+    assert TORQUE * action.at_wheel(part) == pytest.approx(3603e-6, rel=1e-3)
+
+
+def test_without_friction_the_standard_s_deflection_is_that_of_1_1_root_diameters(geometry):
+    # ISO/TR 14521 prints 6.592 where the beam of a round shaft has 64/(3 pi) = 6.79.
+    pitch = MeshAction.at_pitch_point(geometry, 0.0)
+    found = worm_deflection(
+        TORQUE / pitch.wheel_radius, geometry.lead_angle, 0.0, geometry.pressure_angle,
+        geometry.worm_root_diameter, 75.0, 75.0, 1e-6 * E,
+    )  # fmt: skip
+    stiff = bending_stiffness(1.1e-3 * geometry.worm_root_diameter, E)
+    part = compliances(pitch.radius, span=SPAN, bending=stiff)["bending"]
+    sag = 1e3 * TORQUE * np.hypot(*pitch.yielded(part)[2:])
+    assert sag == pytest.approx(found * 64.0 / (3.0 * np.pi) / 6.592, rel=1e-9)
+
+
+def test_without_friction_every_part_is_symmetric_in_force_and_turn(geometry):
+    frictionless = MeshAction.at_pitch_point(geometry, 0.0)
+    part = compliances(
+        frictionless.radius, span=SPAN, place=0.06, bending=90.0, bearing_radial=1e8
+    )["bending"]
+    assert part == pytest.approx(part.T)
+    forces = np.array([frictionless.worm_torque, *frictionless.force])
+    assert frictionless.at_wheel(part) == pytest.approx(forces @ part @ forces, rel=1e-12)
+
+
+def test_parts_add_and_what_is_left_out_is_rigid(action):
+    given = {"bearing_axial": 2e8, "torsion": 4394.0, "seat": 5e8}
+    found = wheel_compliances(action, compliances(action.radius, **given))
+    assert list(found) == list(given)
+    alone = [
+        wheel_compliances(action, compliances(action.radius, **{name: value}))[name]
+        for name, value in given.items()
+    ]
+    assert list(found.values()) == alone
+    assert compliances(action.radius) == {}
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"bending": 90.0}, "span is missing"),
+        ({"seat": 0.0}, "seat is 0; a stiffness must be positive"),
+        ({"bending": -1.0, "span": SPAN}, "bending is -1"),
+        ({"bending": 90.0, "span": SPAN, "place": 0.15}, "place is 150 mm; it must lie between"),
+    ],
+)
+def test_what_cannot_be_a_shaft_is_refused_in_one_line(given, says):
+    with pytest.raises(InputError, match=says):
+        compliances(9e-3, **given)
+
+
+def test_a_worm_that_cannot_drive_and_a_radius_within_the_base_are_refused(geometry):
+    with pytest.raises(InputError, match="where the worm cannot drive"):
+        MeshAction.at_pitch_point(geometry, 3.0)
+    with pytest.raises(InputError, match="outside the worm's base cylinder"):
+        MeshAction.at_pitch_point(geometry, 0.1, 6.8e-3)
