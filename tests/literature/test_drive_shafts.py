@@ -11,12 +11,13 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.drive.parameters import Shaft
 from asperity.drive.shafts import (
     MeshAction,
     beam_with_ends,
     bending_stiffness,
     compliances,
-    shaft_torsional_stiffness,
+    compliances_of,
     wheel_compliances,
 )
 from asperity.errors import InputError
@@ -79,9 +80,12 @@ def test_the_action_at_the_mesh_is_the_closed_form_of_an_involute_worm(geometry)
 
 
 def test_the_thesis_shaft_twists_by_its_stiffness_over_the_ratio(action, geometry):
-    stiffness = shaft_torsional_stiffness(D, SPAN, E, 0.3)
+    shaft = Shaft(diameter=D, span=SPAN)
+    stiffness = shaft.torsion
     assert round(stiffness) == 4394
-    turn = TORQUE * action.at_wheel(compliances(action.radius, torsion=stiffness)["torsion"])
+    parts = compliances_of(shaft, action.radius)
+    assert set(parts) == {"bending", "torsion"}
+    turn = TORQUE * action.at_wheel(parts["torsion"])
     worm = TORQUE * action.worm_torque / stiffness
     assert turn == pytest.approx(worm / geometry.gear_ratio, rel=1e-12)
 

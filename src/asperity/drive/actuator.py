@@ -16,9 +16,9 @@ frequency :math:`r` over that of the series resonance. The admittance over :math
 .. math:: S = \omega W \sqrt{d^2 + \left((1/k^2 - 1)(d^2 + x^2) - x\right)^2}
 
 Far below resonance that is :math:`\omega W/k^2`: the elastic energy is swung to and fro, and with
-it that of the capacitor. At resonance :math:`S = P\sqrt{1 + (1/k^2 - 1)^2 d^2}`: nearly all of it is
-real. Linear: the capacitor's own loss, heating and depolarisation are not in it, and it holds for
-one sine.
+it that of the capacitor. At resonance :math:`S = P\sqrt{1 + (1/k^2 - 1)^2 d^2}`: nearly all of
+it is real. Linear: the capacitor's own loss, heating and depolarisation are not in it, and it holds
+for one sine.
 """
 
 import dataclasses

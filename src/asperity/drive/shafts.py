@@ -13,15 +13,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.drive.parameters import STEEL_MODULUS, Shaft
 from asperity.errors import InputError
 from asperity.gearset.geometry import Geometry
-from asperity.rating.shaft import torsional_stiffness
 
 COORDINATES = ("turn", "axial", "tangential", "radial")
 """Of the worm, as the rows and columns of a compliance stand: rad, m, m, m."""
 
 _MILLIMETRES = 1e3
-_MPA = 1e-6
 
 
 @dataclasses.dataclass(frozen=True)
@@ -165,22 +164,6 @@ def bending_stiffness(diameter: float, youngs_modulus: float) -> float:
     return youngs_modulus * math.pi * diameter**4 / 64.0
 
 
-def shaft_torsional_stiffness(
-    diameter: float, length: float, youngs_modulus: float, poisson_ratio: float
-) -> float:
-    """Return the torsional stiffness of a round solid shaft, N m/rad; lengths in m, modulus in Pa.
-
-    Examples
-    --------
-    >>> round(shaft_torsional_stiffness(0.017, 0.15, 209e9, 0.3))
-    4394
-    """
-    mm = _MILLIMETRES
-    return float(
-        torsional_stiffness(mm * diameter, mm * length, _MPA * youngs_modulus, poisson_ratio)
-    )
-
-
 def compliances(
     radius: float,
     *,
@@ -249,6 +232,25 @@ def compliances(
     alone("torsion", 0, torsion)
     alone("seat", 1, seat)
     return found
+
+
+def compliances_of(shaft: Shaft, radius: float) -> Mapping[str, FloatArray]:
+    """Return what the parts of a ``[shaft]`` give; as `compliances`.
+
+    The wheel stands in the middle between the bearings, the shaft is of steel, and the stiffness of
+    its bearings is with their seats.
+    """
+    thick = None
+    if shaft.diameter is not None and shaft.span is not None:
+        thick = bending_stiffness(shaft.diameter, STEEL_MODULUS)
+    return compliances(
+        radius,
+        span=shaft.span,
+        bending=thick,
+        bearing_radial=shaft.bearing_radial,
+        bearing_axial=shaft.bearing_axial,
+        torsion=shaft.torsion,
+    )
 
 
 def _positive(name: str, stiffness: float) -> float:
