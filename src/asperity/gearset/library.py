@@ -2,8 +2,8 @@
 
 A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
 ``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
-``[base_oil.NAME]``, ``[lubricant.NAME]`` or ``[bearings.NAME]``, with the keys of its class. Its
-key ``from`` names the source of each value by key, with ``"*"`` for all others::
+``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]`` or ``[motor.NAME]``, with the keys of
+its class. Its key ``from`` names the source of each value by key, with ``"*"`` for all others::
 
     [source.maker]
     name = "data sheet of the foundry, 2024"
@@ -39,6 +39,7 @@ SECTIONS: Mapping[str, str] = {
     "base_oil": "base oil",
     "lubricant": "lubricant",
     "bearings": "arrangement of bearings",
+    "motor": "motor",
 }
 """The tables of a data file, and what they hold."""
 
@@ -91,6 +92,12 @@ def find(model: type[T], name: str) -> T:
     found = _find(model, name, _stamps())
     assert isinstance(found, model)
     return found
+
+
+def every(model: type[T]) -> tuple[T, ...]:
+    """Return all things of a kind, in the order of the data files; raises InputError as `find`."""
+    library = _library(_stamps())
+    return tuple(find(model, name) for section, name in library if section == model.section)
 
 
 def resolve(model: type[T], value: object, context: Any = None) -> T:
