@@ -96,7 +96,7 @@ class Table(pydantic.BaseModel):
             return reason
         field = str(detail["loc"][0])
         key = f"{cls.table}.{field}"
-        if reason.startswith(f"{key} "):
+        if reason.startswith((f"{key} ", f"{key}.")):
             return reason
         if detail["type"] == "extra_forbidden":
             return f"{key} is not a key of [{cls.table}]{nearest(field, cls.model_fields)}"

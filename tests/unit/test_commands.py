@@ -10,7 +10,7 @@ from asperity.slider.tables import TABLES as SLIDER
 
 def test_a_case_file_may_have_every_table_of_every_room():
     tables = case_tables()
-    assert dict(tables) == {**SLIDER, **RATING, **BLOCK, **FLANKS, **DRIVE}
+    assert dict(tables) == {**SLIDER, **RATING, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER}
     assert len(tables) == len(list(tables))
     assert all(name in tables and table.table == name for name, table in tables.items())
     assert "oil" not in tables

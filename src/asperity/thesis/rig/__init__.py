@@ -1,0 +1,1 @@
+"""Chapter 6: the disc-on-disc rig."""

@@ -1,0 +1,1 @@
+"""The disc-on-disc tribometer: configuration, recordings, reduction, laws fitted to data."""

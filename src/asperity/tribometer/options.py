@@ -1,0 +1,163 @@
+"""Tables of what is done with a rig: the plan, the simulated rig, the reduction."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from asperity.casefile import Table
+from asperity.errors import InputError
+from asperity.tribometer.quantities import (
+    Count,
+    Duration,
+    Frequency,
+    Share,
+    Span,
+    Speed,
+    Torque,
+    Velocity,
+    Voltage,
+)
+from asperity.units import Quantity
+
+Waveform = Literal["sine", "triangle"]
+Positive = Annotated[float, Quantity("", "a number", "0.18", gt=0)]
+
+
+class Plan(Table):
+    """The cells of a test matrix and how long each part of a run takes.
+
+    Parameters
+    ----------
+    modes, lubricants, waveforms : list of str
+        What is combined; ``excluded`` names those that are not run.
+    excluded : list of str
+        Combinations as ``"longitudinal grease"`` or ``"grease triangle"``: a cell that holds all
+        words of one is left out.
+    steel_supplies : list of float or str
+        V.
+    bronze_supply : float or str
+        V.
+    frequencies : list of float or str
+        Hz: those a drive signal is told apart by.
+    repeats : int
+        Recordings of each file's cells.
+    before, shaken, idle : float or str
+        Sliding without vibration, with it, and at rest, s.
+    order : {'thesis', 'randomised'}
+        Of the cells.
+    seed : int
+        Of a randomised order.
+    """
+
+    table: ClassVar[str] = "plan"
+
+    modes: tuple[Literal["transverse", "longitudinal"], ...] = ("transverse", "longitudinal")
+    lubricants: tuple[Literal["oil", "grease", "dry"], ...] = ("oil",)
+    waveforms: tuple[Waveform, ...] = ("sine", "triangle")
+    excluded: tuple[str, ...] = ()
+    steel_supplies: tuple[Voltage, ...] = ()
+    bronze_supply: Voltage = 0.0
+    frequencies: tuple[Frequency, ...] = ()
+    repeats: Count = 1
+    before: Duration = 10.0
+    shaken: Duration = 10.0
+    idle: Duration = 10.0
+    order: Literal["thesis", "randomised"] = "thesis"
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+
+
+class Twin(Table):
+    """Parameters of the simulated rig; none of them has been measured but where a case says so.
+
+    Parameters
+    ----------
+    motor_constant : float or str
+        k_e, V s/rad and N m/A.
+    motor_resistance : float or str
+        R, ohm.
+    motor_drag, bronze_drag : float or str
+        Torque of the motor and its gear without load, N m, at the motor.
+    gear_efficiency : float
+        eta_g of the steel disc's gear.
+    mu : float
+        Coefficient of friction at rest.
+    mu_drop : float
+        Share of it that is lost at speed, mu(v) = mu0 (1 - d (1 - exp(-v/v_S))).
+    stribeck_velocity : float or str
+        v_S, m/s.
+    bronze_velocity : float or str
+        v_pa, which the worm holds, m/s.
+    torque_noise, coloured_noise : float or str
+        Standard deviations of what is white from sample to sample, and of what is not, N m.
+    noise_time : float or str
+        Correlation time of the latter, s.
+    runout_steel, runout_bronze : float
+        Amplitude of the torque over a turn of each disc, as a share of it.
+    drift : float
+        Change of the torque over an hour, as a share of it.
+    """
+
+    table: ClassVar[str] = "twin"
+
+    motor_constant: Annotated[float, Quantity("V s/rad", "a constant", "0.05 V s/rad", gt=0)]
+    motor_resistance: Annotated[float, Quantity("ohm", "a resistance", "0.3 ohm", gt=0)]
+    motor_drag: Torque = 0.0
+    bronze_drag: Torque = 0.0
+    gear_efficiency: Annotated[float, Quantity("", "an efficiency", "0.7", gt=0, le=1)] = 1.0
+    mu: Positive
+    mu_drop: Annotated[float, Quantity("", "a share", "0.5", ge=0, lt=1)] = 0.0
+    stribeck_velocity: Annotated[float, Quantity("m/s", "a velocity", "6 mm/s", gt=0)] = 1.0
+    bronze_velocity: Velocity = 0.0
+    torque_noise: Torque = 0.0
+    coloured_noise: Torque = 0.0
+    noise_time: Span = 0.2
+    runout_steel: Share = 0.0
+    runout_bronze: Share = 0.0
+    drift: Annotated[float, Quantity("", "a share", "0.05", ge=-1, le=1)] = 0.0
+
+
+class Reduction(Table):
+    """How recordings become numbers.
+
+    Parameters
+    ----------
+    block : float or str
+        Samples are taken together over so long, s.
+    settling : float or str
+        Left out behind every change, s.
+    least_window : float or str
+        A shorter window is refused, s.
+    threshold : float
+        Drive signal, as a share of its largest, above which there is vibration.
+    least_drive : float or str
+        Deviation of a drive signal below which there is none at all, V.
+    running_speed : float or str
+        Of the steel disc's motor, above which it turns.
+    frequency_tolerance : float
+        Between a measured and a commanded frequency, as a share.
+    confidence : float
+        Of intervals.
+    drift : bool
+        Whether a slow drift of the torque is estimated, too.
+    """
+
+    table: ClassVar[str] = "reduction"
+
+    block: Annotated[float, Quantity("s", "a time", "20 ms", gt=0, le=1)] = 0.02
+    settling: Duration = 1.0
+    least_window: Span = 3.0
+    threshold: Annotated[float, Quantity("", "a share", "0.4", gt=0, lt=1)] = 0.4
+    least_drive: Annotated[float, Quantity("V", "a voltage", "0.1 V", gt=0)] = 0.1
+    running_speed: Speed = 2.0
+    frequency_tolerance: Annotated[float, Quantity("", "a share", "0.01", gt=0, lt=0.5)] = 0.02
+    confidence: Annotated[float, Quantity("", "a share", "0.95", gt=0.5, lt=1)] = 0.95
+    drift: bool = True
+
+    @model_validator(mode="after")
+    def _fits(self) -> "Reduction":
+        if self.least_window < 10.0 * self.block:
+            raise InputError(
+                f"reduction.least_window is {self.least_window:g} s; it must be at least ten "
+                f"times reduction.block = {self.block:g} s"
+            )
+        return self

@@ -1,0 +1,73 @@
+"""The pair of discs of a configuration: its contact, and what speeds and torques mean in it."""
+
+import dataclasses
+import functools
+from typing import Self
+
+from asperity.casefile import Case
+from asperity.tribometer import discs
+from asperity.tribometer.parameters import BronzeDisc, Drives, Lubricant, Rig, SteelDisc
+
+BOUNDARY = 1.0
+"""Film over roughness below which the lubrication is called boundary lubrication."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Pair:
+    """Two discs under their load, each with its gear; speeds are those of the motors."""
+
+    rig: Rig
+    steel: SteelDisc
+    bronze: BronzeDisc
+    drives: Drives
+
+    @classmethod
+    def from_case(cls, case: Case) -> Self:
+        """Gather the tables."""
+        return cls(*map(case.require, (Rig, SteelDisc, BronzeDisc, Drives)))
+
+    @property
+    def length(self) -> float:
+        """Length of the contact line, m."""
+        return min(self.steel.thickness, self.bronze.thickness)
+
+    @functools.cached_property
+    def half_width(self) -> float:
+        """Half the width of the contact, m."""
+        return float(
+            discs.contact_half_width(
+                self.rig.load, self.length, self.steel.diameter, self.bronze.diameter,
+                self.steel.young_modulus, self.bronze.young_modulus,
+                self.steel.poisson_ratio, self.bronze.poisson_ratio,
+            )
+        )  # fmt: skip
+
+    @property
+    def pressure(self) -> float:
+        """Largest pressure of the contact, Pa."""
+        return float(discs.contact_pressure(self.rig.load, self.half_width, self.length))
+
+    def film(self, oil: Lubricant, rolling: float) -> float | None:
+        """Return film over roughness at a rolling velocity; None where something is not known."""
+        given = oil.viscosity, oil.pressure_viscosity, self.steel.roughness, self.bronze.roughness
+        if any(one is None for one in given) or rolling <= 0.0:
+            return None
+        viscosity, pressure_viscosity, *roughness = given
+        modulus = discs.reduced_modulus(
+            self.steel.young_modulus, self.bronze.young_modulus,
+            self.steel.poisson_ratio, self.bronze.poisson_ratio,
+        )  # fmt: skip
+        radius = 0.5 / (1.0 / self.steel.diameter + 1.0 / self.bronze.diameter)
+        film = discs.film_thickness(
+            viscosity, pressure_viscosity, rolling, modulus, radius, self.rig.load, self.length
+        )
+        return float(discs.film_parameter(film, *roughness))
+
+    def rims(self, steel_motor: float, bronze_motor: float) -> tuple[float, float]:
+        """Return the velocities of both rims, m/s, of the motors' speeds in rad/s."""
+        return (
+            float(discs.peripheral_velocity(
+                self.steel.diameter, steel_motor / self.drives.gear_ratio)),
+            float(discs.peripheral_velocity(
+                self.bronze.diameter, bronze_motor / self.drives.bronze_gear_ratio)),
+        )  # fmt: skip

@@ -1,0 +1,22 @@
+"""Tables of a case file that describe a disc-on-disc rig."""
+
+from asperity.casefile import Table
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.options import Plan, Reduction, Twin
+from asperity.tribometer.parameters import (
+    BronzeDisc,
+    Drives,
+    Limits,
+    Lubricant,
+    Rig,
+    Sonotrode,
+    SteelDisc,
+)
+
+TABLES: dict[str, type[Table]] = {
+    table.table: table
+    for table in (
+        Rig, SteelDisc, BronzeDisc, Drives, Sonotrode, Channels, Lubricant, Limits, Plan, Twin,
+        Reduction,
+    )
+}  # fmt: skip

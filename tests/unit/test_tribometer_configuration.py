@@ -1,0 +1,74 @@
+"""A rig's configuration: what ships, what follows from it, and what is refused in a line."""
+
+import datetime
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.errors import InputError
+from asperity.tribometer.calibration import fitted_line
+from asperity.tribometer.tables import TABLES
+
+
+@pytest.mark.parametrize("name", ["rig-final", "rig-preliminary"])
+def test_the_rigs_of_the_thesis_ship(name):
+    case = read_case(name, TABLES)
+    assert {"rig", "steel_disc", "bronze_disc", "drives", "channels"} <= case.tables.keys()
+
+
+def test_a_velocity_is_known_between_the_frequencies_it_was_measured_at():
+    sonotrode = read_case("rig-final", TABLES)["sonotrode"]
+    assert sonotrode.velocity("transverse", 750.0) == pytest.approx(0.059)
+    assert 0.030 < sonotrode.velocity("transverse", 900.0) < 0.059
+    assert sonotrode.velocity("longitudinal", 3001.0) is None
+
+
+@pytest.mark.parametrize(
+    ("setting", "parts"),
+    [
+        ('channels.torque_steel={channel="b"}', ["torque_bronze.channel", "once"]),
+        ('channels.torque_steel={channel="A", points=[["1 V","2 kg"]]}', ["2 kg", "N m"]),
+        ('channels.torque_steel={channel="A", points=[1]}', ["list of pairs"]),
+        ('channels.torque_steel={channel="A", points=[["1 V","1 N m"]]}', ["one voltage"]),
+        ('channels.torque_steel={channel="A", poins=[]}', ["did you mean 'points'"]),
+        ("channels.torque_steel=3", ["torque_steel"]),
+        ("rig.normal_force=3 N", ["rig.platform_mass"]),
+        ('sonotrode.frequencies=["2 kHz","1 kHz"]', ["rise"]),
+        ('sonotrode.transverse_velocity=["2 mm/s"]', ["one for each of the 6"]),
+        ("sonotrode.highest_voltage=-30 V", ["lowest_voltage"]),
+        ("reduction.block=0.5 s", ["ten times"]),
+    ],
+)
+def test_a_mistake_in_a_configuration_is_one_line(setting, parts):
+    with pytest.raises(InputError) as refused:
+        read_case("rig-final", TABLES, [setting])
+    text = str(refused.value)
+    assert "\n" not in text
+    assert all(part in text for part in parts), text
+
+
+def test_a_date_of_calibration_is_read():
+    setting = 'channels.drive_voltage={channel="E", date=2026-01-31}'
+    channel = read_case("rig-final", TABLES, [setting])["channels"].drive_voltage
+    assert channel.date == datetime.date(2026, 1, 31)
+
+
+def test_a_calibration_is_the_line_of_least_squares_with_its_covariance():
+    rng = np.random.default_rng(1)
+    volts = np.linspace(-5.0, 5.0, 11)
+    found = []
+    for _ in range(2000):
+        line = fitted_line(np.column_stack((volts, 0.4 * volts + 0.01 + rng.normal(0, 0.02, 11))))
+        low, high, mixed = line.covariance_of_pair(0.1, 1.9)
+        found.append((line.of(np.array([0.225, 4.725])), low, high, mixed))
+    values = np.array([one[0] for one in found])
+    wanted = np.cov(values.T)
+    assert np.mean([one[1] for one in found]) == pytest.approx(wanted[0, 0], rel=0.1)
+    assert np.mean([one[2] for one in found]) == pytest.approx(wanted[1, 1], rel=0.1)
+    assert np.mean([one[3] for one in found]) == pytest.approx(wanted[0, 1], rel=0.15)
+
+
+def test_without_points_a_signal_is_in_its_own_unit():
+    line = fitted_line([])
+    assert (line.gain, line.offset, line.gain_deviation) == (1.0, 0.0, 0.0)
