@@ -6,6 +6,7 @@ from asperity.drive.tables import TABLES as DRIVE
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
 from asperity.slider.tables import TABLES as SLIDER
+from asperity.tribometer.tables import TABLES as TRIBOMETER
 
 
 def test_a_case_file_may_have_every_table_of_every_room():

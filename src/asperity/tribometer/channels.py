@@ -73,7 +73,8 @@ def _channel(name: str, given: Any, info: pydantic.ValidationInfo) -> Any:
         ]
     if read.get("uncertainty") is not None:
         read["uncertainty"] = number(read["uncertainty"], unit, "uncertainty")
-    own = type("Channel", (Channel,), {"table": f"channels.{name}", "__module__": __name__})
+    # Of its own class, so that what is refused is told by its own name.
+    own: Any = type("Channel", (Channel,), {"table": f"channels.{name}", "__module__": __name__})
     return own.model_validate(read)
 
 

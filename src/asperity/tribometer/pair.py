@@ -24,7 +24,8 @@ class Pair:
     @classmethod
     def from_case(cls, case: Case) -> Self:
         """Gather the tables."""
-        return cls(*map(case.require, (Rig, SteelDisc, BronzeDisc, Drives)))
+        steel, bronze = case.require(SteelDisc), case.require(BronzeDisc)
+        return cls(case.require(Rig), steel, bronze, case.require(Drives))
 
     @property
     def length(self) -> float:

@@ -49,7 +49,7 @@ class Rig(Table):
     table: ClassVar[str] = "rig"
 
     name: str = "rig"
-    mode: Literal["transverse", "longitudinal"] = TRANSVERSE
+    mode: Literal["transverse", "longitudinal"] = "transverse"
     platform_mass: Mass = 0.0
     dead_mass: Mass = 0.0
     normal_force: Force | None = None
