@@ -1,0 +1,160 @@
+"""Instruments that a person reads and sets by hand."""
+
+import sys
+from collections.abc import Callable
+
+from asperity.arrays import FloatArray
+from asperity.errors import InputError, shown
+from asperity.tribometer.instruments.protocols import Person, Reading, Waveform
+from asperity.units import to_si
+
+_MOST_TRIES = 5
+
+
+class Operator:
+    """A person at a terminal.
+
+    Parameters
+    ----------
+    ask : callable, optional
+        Shows a text and returns what is typed; left out: the terminal's.
+
+    Raises
+    ------
+    InputError
+        There is no terminal to ask at.
+    """
+
+    def __init__(self, ask: Callable[[str], str] | None = None) -> None:
+        if ask is None and not (sys.stdin and sys.stdin.isatty() and sys.stderr.isatty()):
+            raise InputError(
+                "backend 'manual' asks a person, and this is no terminal; start it in one, or "
+                "choose --backend sim"
+            )
+        self._ask = ask or _typed
+
+    def do(self, text: str) -> None:
+        """Ask for something to be done; returns when Enter is pressed."""
+        self._ask(f"{text} [Enter when done] ")
+
+    def read(self, text: str, unit: str) -> float:
+        """Ask for a number in a unit, as ``750 rpm`` or, in the unit named, ``78.5``."""
+        why = ""
+        for _ in range(_MOST_TRIES):
+            typed = self._ask(f"{why}{text} [{unit or 'number'}] ")
+            try:
+                return to_si(typed, unit, bare=unit or None)
+            except InputError as error:
+                why = f"{shown(typed)}: {error}. "
+        raise InputError(f"{text}: {why}Given up after {_MOST_TRIES} tries")
+
+
+def _typed(text: str) -> str:
+    # Standard output may be a file of answers.
+    print(text, end="", file=sys.stderr, flush=True)
+    line = sys.stdin.readline()
+    if not line:
+        raise InputError("the terminal was closed while a question stood open")
+    return line.strip()
+
+
+class _Manual:
+    """What a person does in an instrument's place."""
+
+    def __init__(self, person: Person, name: str) -> None:
+        self.name = name
+        self._person = person
+
+    def identify(self) -> str:
+        """Return its name."""
+        return f"{self.name}, by hand"
+
+    def close(self) -> None:
+        """Let go of it."""
+
+
+class ManualVibration(_Manual):
+    """A vibration controller that a person operates."""
+
+    def __init__(self, person: Person) -> None:
+        super().__init__(person, "vibration controller")
+
+    def configure(self, waveform: Waveform, frequency: float) -> None:
+        """Ask for waveform and frequency."""
+        self._person.do(f"Set the vibration to a {waveform} of {frequency:g} Hz; leave it off.")
+
+    def on(self) -> None:
+        """Ask to vibrate."""
+        self._person.do("Start the vibration.")
+
+    def off(self) -> None:
+        """Ask to stop."""
+        self._person.do("Stop the vibration.")
+
+    def safe(self) -> None:
+        """Ask to stop."""
+        self._person.do("STOP THE VIBRATION.")
+
+    def keep_alive(self) -> None:
+        """Nothing watches a person's line."""
+
+
+class ManualSupply(_Manual):
+    """A supply that a person operates."""
+
+    def set(self, voltage: float) -> None:
+        """Ask for a voltage."""
+        self._person.do(f"Set the {self.name} to {voltage:g} V; leave its output as it is.")
+
+    def on(self) -> None:
+        """Ask to give power."""
+        self._person.do(f"Switch the {self.name} on.")
+
+    def off(self) -> None:
+        """Ask to give none."""
+        self._person.do(f"Switch the {self.name} off.")
+
+    def safe(self) -> None:
+        """Ask to give none."""
+        self._person.do(f"SWITCH THE {self.name.upper()} OFF.")
+
+    def reading(self) -> Reading:
+        """Ask what it gives."""
+        voltage = self._person.read(f"Voltage that the {self.name} shows", "V")
+        return Reading(voltage, self._person.read(f"Current that the {self.name} shows", "A"))
+
+
+class ManualTachometer(_Manual):
+    """A handheld tachometer."""
+
+    def __init__(self, person: Person) -> None:
+        super().__init__(person, "tachometer")
+
+    def speed(self, motor: str) -> float:
+        """Ask for the speed of a motor, rad/s."""
+        return self._person.read(f"Speed of the {motor} disc's motor, as '1500 rpm'", "rad/s")
+
+    def safe(self) -> None:
+        """A tachometer does nothing."""
+
+
+class ManualAccelerometer(_Manual):
+    """An accelerometer whose amplitude a person reads off another instrument."""
+
+    def __init__(self, person: Person) -> None:
+        super().__init__(person, "accelerometer")
+
+    def record(self, duration: float) -> tuple[float, FloatArray]:
+        """Ask for amplitude and frequency; returns that sine."""
+        import numpy as np
+
+        amplitude = self._person.read("Peak acceleration, as '280 m/s^2'", "m/s**2")
+        frequency = self._person.read("Its frequency, as '750 Hz'", "Hz")
+        if amplitude <= 0.0 or frequency <= 0.0:
+            raise InputError("acceleration and frequency must be positive")
+        interval = 1.0 / (32.0 * frequency)
+        at = interval * np.arange(max(32, round(duration / interval)))
+        return interval, amplitude * np.sin(2.0 * np.pi * frequency * at)
+
+    def safe(self) -> None:
+        """An accelerometer does nothing."""

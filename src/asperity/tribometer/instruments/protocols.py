@@ -1,0 +1,263 @@
+"""What the rig's instruments do, whoever made them.
+
+Each kind is a small protocol; a backend is a class that follows it. All of them can be put into
+their safe state at any time, as often as one likes, and the bench does so in one order: vibration
+off, then motors off.
+"""
+
+import dataclasses
+import time
+from collections.abc import Mapping
+from typing import ClassVar, Literal, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asperity.arrays import FloatArray
+from asperity.errors import AsperityError
+
+Counts = NDArray[np.int16]
+Waveform = Literal["sine", "triangle"]
+FULL_SCALE = 32767  #: Counts of an input at the end of its range.
+
+
+class InstrumentError(AsperityError):
+    """An instrument did not answer, or not as it should.
+
+    Parameters
+    ----------
+    message : str
+        What happened, to which instrument, and what to do.
+    kind : str
+        In two or three words, such as ``"line lost"``; a latched interlock is named by it.
+    """
+
+    exit_code: ClassVar[int] = 3
+
+    def __init__(self, message: str, *, kind: str = "instrument") -> None:
+        super().__init__(message)
+        self.kind = kind
+
+
+@dataclasses.dataclass(frozen=True)
+class Input:
+    """An input of an oscilloscope.
+
+    Attributes
+    ----------
+    channel : str
+        Letter on the housing.
+    signal : str
+        What is plugged into it.
+    range : float
+        Voltage at the end of its range, V.
+    """
+
+    channel: str
+    signal: str
+    range: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Poll:
+    """What an oscilloscope handed over at one poll.
+
+    Attributes
+    ----------
+    counts : tuple of ndarray of int16
+        New samples of each input; their numbers should agree and sometimes do not.
+    clock : float
+        The computer's clock when they were there, s.
+    overrange : tuple of bool
+        What the device itself says of each input.
+    """
+
+    counts: tuple[Counts, ...]
+    clock: float
+    overrange: tuple[bool, ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class Reading:
+    """What a supply gives: V and A."""
+
+    voltage: float
+    current: float
+
+
+@runtime_checkable
+class Instrument(Protocol):
+    """What every instrument can do."""
+
+    name: str
+
+    def identify(self) -> str:
+        """Return what the device says it is; raises InstrumentError where nothing answers."""
+
+    def safe(self) -> None:
+        """Put it into its safe state, whatever it does; raises InstrumentError if that fails."""
+
+    def close(self) -> None:
+        """Let go of it."""
+
+
+@runtime_checkable
+class Scope(Instrument, Protocol):
+    """An oscilloscope that streams; its safe state is that it does not."""
+
+    inputs: tuple[Input, ...]
+
+    def start(self, interval: float) -> float:
+        """Begin to stream; returns the interval the device really takes, s."""
+
+    def poll(self) -> Poll:
+        """Return what has come since the last poll."""
+
+    def stop(self) -> None:
+        """End the stream."""
+
+
+@runtime_checkable
+class VibrationDrive(Instrument, Protocol):
+    """What makes the vibration; its safe state is off."""
+
+    def configure(self, waveform: Waveform, frequency: float) -> None:
+        """Set waveform and frequency, Hz, while it is off."""
+
+    def on(self) -> None:
+        """Vibrate."""
+
+    def off(self) -> None:
+        """Stop."""
+
+    def keep_alive(self) -> None:
+        """Tell a device that watches its line that somebody is there."""
+
+
+@runtime_checkable
+class Supply(Instrument, Protocol):
+    """An output of a direct-current supply; its safe state is off."""
+
+    def set(self, voltage: float) -> None:
+        """Set the voltage, V."""
+
+    def on(self) -> None:
+        """Give power."""
+
+    def off(self) -> None:
+        """Give none."""
+
+    def reading(self) -> Reading:
+        """Return what it gives."""
+
+
+@runtime_checkable
+class Tachometer(Instrument, Protocol):
+    """What measures a motor's speed apart from its encoder."""
+
+    def speed(self, motor: str) -> float:
+        """Return the speed of the motor of the ``steel`` or ``bronze`` disc, rad/s."""
+
+
+@runtime_checkable
+class Accelerometer(Instrument, Protocol):
+    """What measures the vibration where it arrives, in a run of its own."""
+
+    def record(self, duration: float) -> tuple[float, FloatArray]:
+        """Return an interval in s and the acceleration in m/s2."""
+
+
+class Clock(Protocol):
+    """Time as the bench has it."""
+
+    def now(self) -> float:
+        """Return seconds that never run backwards."""
+
+    def sleep(self, seconds: float) -> None:
+        """Let time pass."""
+
+
+class WallClock:
+    """The computer's own clock."""
+
+    def now(self) -> float:
+        """Return seconds that never run backwards."""
+        return time.monotonic()
+
+    def sleep(self, seconds: float) -> None:
+        """Let time pass."""
+        time.sleep(max(0.0, seconds))
+
+
+class Person(Protocol):
+    """Who stands at the rig."""
+
+    def do(self, text: str) -> None:
+        """Ask for something to be done; returns when it is."""
+
+    def read(self, text: str, unit: str) -> float:
+        """Ask for a number in a unit."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Bench:
+    """The instruments of a rig together.
+
+    Attributes
+    ----------
+    scope, vibration, tachometer : Scope, VibrationDrive, Tachometer
+        One of each.
+    motors : mapping of str to Supply
+        Of the ``steel`` and the ``bronze`` disc.
+    person : Person
+        Who does what no instrument does.
+    clock : Clock
+        What time it is at the rig.
+    amplifier : Supply, optional
+        What feeds the vibration's amplifier: a second way to stop it.
+    accelerometer : Accelerometer, optional
+        For runs that measure the vibration's velocity.
+    """
+
+    scope: Scope
+    vibration: VibrationDrive
+    motors: Mapping[str, Supply]
+    tachometer: Tachometer
+    person: Person
+    clock: Clock = dataclasses.field(default_factory=WallClock)
+    amplifier: Supply | None = None
+    accelerometer: Accelerometer | None = None
+
+    @property
+    def instruments(self) -> tuple[Instrument, ...]:
+        """All of them, in the order in which they are made safe."""
+        optional = self.amplifier, self.accelerometer
+        known: tuple[Instrument | None, ...] = (
+            self.vibration, optional[0], *self.motors.values(), self.scope, self.tachometer,
+            optional[1],
+        )  # fmt: skip
+        return tuple(instrument for instrument in known if instrument is not None)
+
+    def safe(self) -> tuple[str, ...]:
+        """Switch vibration off, then motors, then the rest.
+
+        Returns
+        -------
+        tuple of str
+            What could not be switched off; one failure keeps none of the others.
+        """
+        failures = []
+        for instrument in self.instruments:
+            try:
+                instrument.safe()
+            except (InstrumentError, OSError) as error:
+                failures.append(f"{instrument.name}: {error}")
+        return tuple(failures)
+
+    def close(self) -> None:
+        """Let go of all of them."""
+        for instrument in self.instruments:
+            try:
+                instrument.close()
+            except (InstrumentError, OSError):
+                continue
