@@ -42,6 +42,8 @@ _TABLES = {
     "plan": "asperity.tribometer.options:Plan",
     "twin": "asperity.tribometer.options:Twin",
     "reduction": "asperity.tribometer.options:Reduction",
+    "controller": "asperity.tribometer.instruments.parameters:Controller",
+    "supplies": "asperity.tribometer.instruments.parameters:Supplies",
     "drive": "asperity.drive.parameters:Drive",
     "shaft": "asperity.drive.parameters:Shaft",
     "actuator": "asperity.drive.parameters:Actuator",

@@ -155,7 +155,7 @@ class PicoScope:
         """Return what has come since the last poll."""
         if not self._streaming:
             raise InstrumentError(
-                f"{self.name} is polled before it was started", kind="not started"
+                f"{self.name} does not stream; start it first", kind="not started"
             )
         status = self._driver.ps4000aGetStreamingLatestValues(self._handle, self._ready, None)
         if status != _BUSY:

@@ -1,6 +1,7 @@
 """Bench supplies through PyMeasure's drivers."""
 
 import importlib
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -129,7 +130,10 @@ def _device(table: Supplies) -> Any:
             f"{_DRIVERS}, such as 'aimtti.aimttiPL.PL303QMDP'"
         ) from None
     try:
-        return driver(table.address)
+        with warnings.catch_warnings():
+            # Drivers ask to tell their authors about devices they have not seen.
+            warnings.simplefilter("ignore", FutureWarning)
+            return driver(table.address)
     except Exception as error:
         raise InstrumentError(
             f"the supply at {table.address} does not answer: {error}", kind="line lost"

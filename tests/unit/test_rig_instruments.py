@@ -1,0 +1,324 @@
+"""Every instrument does what its protocol says, whoever made it; and says so when it cannot."""
+
+import importlib
+import sys
+
+import numpy as np
+import pytest
+from apparatus.fake_picoscope import FakeDriver
+
+from asperity.errors import InputError, MissingExtraError
+from asperity.tribometer.instruments import manual, picoscope, pymeasure_supply, serial_vibration
+from asperity.tribometer.instruments.parameters import Controller, Supplies
+from asperity.tribometer.instruments.protocols import (
+    Bench,
+    Input,
+    Instrument,
+    InstrumentError,
+    Scope,
+    Supply,
+    Tachometer,
+    VibrationDrive,
+    WallClock,
+)
+
+# A driver of PyMeasure says so of devices its authors do not own.
+pytestmark = pytest.mark.filterwarnings("ignore:It is not known:FutureWarning")
+
+INPUTS = (Input("A", "torque_steel", 5.0), Input("C", "speed_steel", 10.0))
+
+
+class TypedPerson:
+    """A person who types what is prepared, and does what is asked."""
+
+    def __init__(self, *answers):
+        self.answers = list(answers)
+        self.asked = []
+
+    def __call__(self, text):
+        self.asked.append(text)
+        return "" if "[Enter" in text else self.answers.pop(0)
+
+
+@pytest.fixture
+def driver(monkeypatch):
+    """Replace the maker's library in C; the rest of its package runs as it is."""
+    library = pytest.importorskip("picosdk.library", reason="picosdk (extra daq) is missing")
+    fake = FakeDriver()
+    monkeypatch.setattr(library.Library, "_load", lambda self: fake)
+    monkeypatch.delitem(sys.modules, "picosdk.ps4000a", raising=False)
+    importlib.import_module("picosdk.ps4000a")
+    yield fake
+    sys.modules.pop("picosdk.ps4000a", None)
+
+
+@pytest.fixture
+def controller():
+    """Open a controller on a pseudo-terminal."""
+    pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
+    pytest.importorskip("pty")
+    from apparatus.pty_controller import DIALECT, PtyController
+
+    fake = PtyController()
+    line = serial_vibration.SerialVibration(Controller(port=fake.port, timeout="200 ms", **DIALECT))
+    yield fake, line
+    line.close()
+    fake.pull()
+
+
+def supply(pairs, driver="aimtti.aimttiPL.PL303QMDP"):
+    """Return a supply whose lines are those of the pairs, and what checks that all were said."""
+    test = pytest.importorskip("pymeasure.test", reason="PyMeasure (extra daq) is missing")
+    module, _, name = driver.rpartition(".")
+    cls = getattr(importlib.import_module(f"pymeasure.instruments.{module}"), name)
+    return test.expected_protocol(cls, pairs)
+
+
+def test_a_picoscope_copies_what_the_driver_writes_over(driver):
+    scope = picoscope.PicoScope(INPUTS)
+    assert isinstance(scope, Scope)
+    assert scope.identify() == "PicoScope 4824A JO123/456"
+    assert scope.start(49.95e-6) == pytest.approx(50e-6)
+    got = [[], []]
+    for ready in (1000, 0, 140_000, 77):
+        driver.ready = ready
+        poll = scope.poll()
+        assert {counts.size for counts in poll.counts} == {ready}
+        for parts, counts in zip(got, poll.counts, strict=True):
+            parts.append(counts)
+    for shift, parts in zip((0, 200), got, strict=True):
+        assert np.array_equal(np.concatenate(parts), (np.arange(141_077) + shift) % 30000)
+    assert [channel for channel, limit in driver.enabled.items() if limit is not None] == [0, 2]
+    assert driver.enabled[0] == 8  # 5 V
+    scope.stop()
+    assert not driver.running
+    scope.safe()
+    scope.close()
+
+
+def test_a_picoscope_powered_by_its_cable_is_told_so(driver):
+    driver.open_status = 286
+    picoscope.PicoScope(INPUTS)
+    assert driver.calls[:2] == ["OpenUnit", "ChangePowerSource"]
+
+
+def test_a_picoscope_tells_which_inputs_are_over_their_range(driver):
+    scope = picoscope.PicoScope(INPUTS)
+    scope.start(50e-6)
+    driver.ready, driver.overflow = 10, 0b100
+    assert scope.poll().overrange == (False, True)
+    driver.ready, driver.overflow = 10, 0
+    assert scope.poll().overrange == (False, False)
+
+
+def test_a_picoscope_that_fails_is_named_with_its_status(driver):
+    driver.status["RunStreaming"] = 0x7
+    scope = picoscope.PicoScope(INPUTS)
+    with pytest.raises(InstrumentError, match="starting the stream failed with PICO_"):
+        scope.start(50e-6)
+    with pytest.raises(InstrumentError, match="start it first"):
+        scope.poll()
+    driver.status["OpenUnit"] = 0x3
+    with pytest.raises(InstrumentError, match="opening it failed with PICO_NOT_FOUND"):
+        picoscope.PicoScope(INPUTS)
+
+
+def test_ranges_and_letters_a_picoscope_lacks_are_refused():
+    with pytest.raises(InputError, match="'K' of load_cell is not an input"):
+        picoscope.PicoScope((Input("K", "load_cell", 5.0),))
+    with pytest.raises(InputError, match="range of load_cell is 3 V"):
+        picoscope.PicoScope((Input("A", "load_cell", 3.0),))
+    assert picoscope.smallest_range(-5.0) == 5.0
+    with pytest.raises(InputError, match="beyond every range"):
+        picoscope.smallest_range(60.0)
+
+
+def test_a_missing_driver_is_one_line(monkeypatch):
+    monkeypatch.setitem(sys.modules, "picosdk.errors", None)
+    with pytest.raises(MissingExtraError, match=r"asperity\[daq\]"):
+        picoscope.PicoScope(INPUTS)
+
+
+def test_a_controller_on_a_line_does_as_it_is_told(controller):
+    fake, line = controller
+    assert isinstance(line, VibrationDrive)
+    assert line.identify() == "GEN 1"
+    line.configure("triangle", 750.0)
+    assert (fake.waveform, fake.frequency) == ("TRI", 750.0)
+    line.on()
+    assert fake.vibrates
+    line.keep_alive()
+    assert fake.heard[-1] == "HERE"
+    line.off()
+    assert not fake.vibrates
+    line.on()
+    line.safe()
+    line.safe()
+    assert not fake.vibrates
+
+
+@pytest.mark.parametrize(
+    ("fault", "kind"),
+    [("silent", "no answer"), ("half", "half an answer"), ("wrong", "half an answer")],
+)
+def test_a_controller_that_answers_badly_is_named(controller, fault, kind):
+    fake, line = controller
+    fake.fault = fault
+    with pytest.raises(InstrumentError) as told:
+        line.on()
+    assert told.value.kind == kind
+    assert "\n" not in str(told.value)
+    # Half a line left behind does not spoil the next answer.
+    fake.fault = ""
+    line.safe()
+    assert not fake.vibrates
+
+
+def test_a_controller_that_takes_another_frequency_is_named(controller):
+    fake, line = controller
+    fake.frequency, fake.fault = 250.0, "deaf"
+    with pytest.raises(InstrumentError, match="told 750 Hz and says 250 Hz"):
+        line.configure("sine", 750.0)
+
+
+def test_a_pulled_line_is_named(controller):
+    fake, line = controller
+    fake.pull()
+    with pytest.raises(InstrumentError) as told:
+        line.off()
+    assert told.value.kind in ("line lost", "no answer")
+    with pytest.raises(InstrumentError):
+        line.safe()
+
+
+def test_a_port_that_is_none_is_one_line():
+    pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
+    with pytest.raises(InstrumentError, match=r"look at controller\.port"):
+        serial_vibration.SerialVibration(
+            Controller(
+                port="/dev/none", set_waveform="W {waveform}", set_frequency="F {frequency}",
+                start="1", stop="0",
+            )
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "said"),
+    [
+        ("set_frequency", "F", "must hold {frequency}"),
+        ("set_waveform", "W {shape}", "may hold {waveform} and {frequency}"),
+        ("set_frequency", "{frequency:x}", "cannot be filled in"),
+        ("start", "{frequency.__class__}", "may hold"),
+        ("stop", "Aus\u00e4", "not in ASCII"),
+    ],
+)
+def test_a_dialect_that_cannot_be_spoken_is_refused(key, text, said):
+    words = {"set_waveform": "W {waveform}", "set_frequency": "F {frequency}"}
+    with pytest.raises(InputError, match=f"controller.{key} .*{said}"):
+        Controller(port="p", **{"start": "1", "stop": "0", **words, key: text})
+
+
+def test_a_supply_does_as_it_is_told():
+    pairs = [
+        ("I1 3", None), ("V1V 1", None), ("OP1 1", None), ("V1O?", "1.001V"), ("I1O?", "2.4A"),
+        ("OP1 0", None), ("OP1 0", None),
+    ]  # fmt: skip
+    with supply(pairs) as device:
+        steel = pymeasure_supply.PyMeasureSupply(device.ch_1, "supply of steel", 3.0)
+        assert isinstance(steel, Supply)
+        steel.set(1.0)
+        steel.on()
+        reading = steel.reading()
+        assert (reading.voltage, reading.current) == (1.001, 2.4)
+        steel.off()
+        steel.safe()
+
+
+def test_supplies_that_name_their_switch_otherwise_do_as_well():
+    with supply(
+        [
+            ("CH1:VOLT 3", None),
+            ("INST CH1", None),
+            ("OUTP CH1,ON", None),
+            ("INST CH1", None),
+            ("OUTP CH1,OFF", None),
+        ],
+        "siglenttechnologies.siglent_spd1305x.SPD1305X",
+    ) as device:
+        found = pymeasure_supply.PyMeasureSupply(device.ch_1, "supply of bronze")
+        found.set(3.0)
+        found.on()
+        found.safe()
+
+
+def test_a_supply_that_answers_half_is_named():
+    with supply([("V1O?", "1.0V"), ("I1O?", "?")]) as device:
+        steel = pymeasure_supply.PyMeasureSupply(device.ch_1, "supply of steel")
+        with pytest.raises(InstrumentError, match="supply of steel did not do"):
+            steel.reading()
+
+
+def test_a_driver_that_is_none_or_lacks_what_is_needed_is_refused():
+    pytest.importorskip("pymeasure", reason="PyMeasure (extra daq) is missing")
+    for driver in ("os.system", "aimtti.aimttiPL.None", "nothing"):
+        with pytest.raises(InputError, match=r"supplies.driver is"):
+            pymeasure_supply.open_supplies(Supplies(driver=driver, address="x"))
+    with pytest.raises(InputError, match="has neither voltage_setpoint nor voltage"):
+        pymeasure_supply.PyMeasureSupply(object(), "supply")
+    with pytest.raises(InputError, match="name one output twice"):
+        Supplies(driver="a.b", address="x", steel="ch_1", bronze="ch_1")
+
+
+def test_a_person_is_asked_and_read():
+    typed = TypedPerson("about 1", "1 V", "0.5 A", "1500 rpm")
+    person = manual.Operator(typed)
+    steel = manual.ManualSupply(person, "supply of steel")
+    assert isinstance(steel, Supply)
+    steel.set(1.0)
+    steel.on()
+    assert steel.reading().current == 0.5
+    assert any("is not a number" in text for text in typed.asked)
+    tachometer = manual.ManualTachometer(person)
+    assert isinstance(tachometer, Tachometer)
+    assert tachometer.speed("steel") == pytest.approx(50.0 * np.pi)
+    vibration = manual.ManualVibration(person)
+    assert isinstance(vibration, VibrationDrive)
+    vibration.configure("sine", 750.0)
+    vibration.safe()
+    assert typed.asked[-1].startswith("STOP THE VIBRATION")
+    with pytest.raises(InputError, match="Given up after 5 tries"):
+        manual.Operator(lambda text: "no").read("Speed", "rad/s")
+
+
+def test_a_person_without_a_terminal_is_refused(monkeypatch):
+    monkeypatch.setattr(sys, "stdin", None)
+    with pytest.raises(InputError, match="no terminal"):
+        manual.Operator()
+
+
+class Switch:
+    """An instrument that only notes that it was made safe."""
+
+    def __init__(self, name, order, broken=False):
+        self.name, self.order, self.broken = name, order, broken
+        self.inputs = ()
+
+    def safe(self):
+        self.order.append(self.name)
+        if self.broken:
+            raise InstrumentError("is deaf", kind="line lost")
+
+    identify = close = safe
+
+
+def test_a_bench_stops_the_vibration_before_the_motors_whatever_fails():
+    order = []
+    names = ("vibration", "amplifier", "steel", "bronze", "scope", "tachometer")
+    made = {name: Switch(name, order, broken=name in ("vibration", "steel")) for name in names}
+    assert isinstance(made["scope"], Instrument)
+    bench = Bench(
+        made["scope"], made["vibration"], {k: made[k] for k in ("steel", "bronze")},
+        made["tachometer"], None, WallClock(), made["amplifier"],
+    )  # fmt: skip
+    assert bench.safe() == ("vibration: is deaf", "steel: is deaf")
+    assert tuple(order) == names
