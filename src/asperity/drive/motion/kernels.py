@@ -1,0 +1,215 @@
+r"""A step of the march over time: rigid freedoms by velocity Verlet, the mesh by itself.
+
+A step ahead moves the poses with the accelerations of its start, the mesh answers at the new poses,
+and the accelerations of both ends make the new rates. Works are trapezoids of the forces of both
+ends over the way, which for this scheme is what the kinetic energy gains, to a term that telescopes.
+The loop itself stands with each mesh, since compiled code is kept under what it follows from.
+"""
+
+import math
+
+from asperity.compiled import kernel
+from asperity.drive.interface import AT
+from asperity.waveform import displacement_at
+
+_GROWTH = 2.0  # of a step over the last
+_WHOLE = 1.5  # rest of a stretch, in steps, that is left for a last one or two
+
+
+@kernel(inline="always")
+def next_step(system, state, end):
+    """Length of the next step: bounded, not far past a landing, and on the end of the stretch."""
+    dt = min(system.longest, _GROWTH * state.step)
+    if state.approach * dt > system.landing:
+        dt = system.landing / state.approach
+    left = end - state.time
+    if left < dt * (1.0 + 1e-9):
+        return left
+    return 0.5 * left if left < _WHOLE * dt else dt
+
+
+@kernel
+def move(system, state, dt, q, v):
+    """Fill in poses and rates at the end of a step; what is imposed is added to what is free."""
+    time = state.time + dt
+    wave = displacement_at(system.wave, time * system.frequency)
+    mean = (wave - state.wave) / dt
+    # At the end of the step, from the means of this one and the last.
+    rate = mean + (mean - state.wave_rate) * dt / (dt + state.step)
+    if system.turns:
+        half = state.turn_rate + 0.5 * dt * state.turn_push
+        q[0] = state.turn + dt * half
+        v[0] = half + 0.5 * dt * state.turn_push
+    else:
+        q[0] = system.speed * time + system.shake_motor * wave
+        v[0] = system.speed + system.shake_motor * rate
+    q[0] += system.shake_worm_turn * wave
+    v[0] += system.shake_worm_turn * rate
+    if system.shifts:
+        half = state.shift_rate + 0.5 * dt * state.shift_push
+        q[1] = state.shift + dt * half
+        v[1] = half + 0.5 * dt * state.shift_push
+    else:
+        q[1] = system.shake_seat * wave
+        v[1] = system.shake_seat * rate
+    q[1] += system.shake_worm_shift * wave
+    v[1] += system.shake_worm_shift * rate
+    if system.rolls:
+        half = state.roll_rate + 0.5 * dt * state.roll_push
+        q[2] = state.roll + dt * half
+        v[2] = half + 0.5 * dt * state.roll_push
+    else:
+        q[2] = state.roll
+        v[2] = 0.0
+    q[3] = system.shake_wheel * wave
+    v[3] = system.shake_wheel * rate
+
+
+@kernel
+def arrive(system, state, dt, q, v, out, sums):
+    """Take over a step whose mesh has answered: rates, forces, and what is summed up."""
+    time = state.time + dt
+    wave = displacement_at(system.wave, time * system.frequency)
+    mean = (wave - state.wave) / dt
+    rate = mean + (mean - state.wave_rate) * dt / (dt + state.step)
+    way = wave - state.wave
+    worm_way = system.shake_worm_turn * way
+    shift_way = system.shake_worm_shift * way
+    wheel_way = system.shake_wheel * way
+    motor_way = system.shake_motor * way
+    seat_way = system.shake_seat * way
+    worm_torque = out[AT.worm_torque]
+    worm_force = out[AT.worm_force]
+    wheel_torque = out[AT.wheel_torque]
+    wheel_force = out[AT.wheel_force]
+    mesh_turn = 0.5 * (state.worm_torque + worm_torque)
+    mesh_shift = 0.5 * (state.worm_force + worm_force)
+    mesh_roll = 0.5 * (state.wheel_torque + wheel_torque)
+    put_in = -0.5 * (state.wheel_force + wheel_force) * wheel_way
+    stored = out[AT.stored]
+    # Worm and shaft.
+    turned = system.speed * dt
+    shaft_loss = 0.0
+    if system.turns:
+        turn = q[0] - system.shake_worm_turn * wave
+        twist = system.speed * time + system.shake_motor * wave - turn
+        turn_rate = v[0] - system.shake_worm_turn * rate
+        shaft_loss = system.torsion_damping * (system.speed + system.shake_motor * rate - turn_rate)
+        torque = system.torsion * twist + shaft_loss + system.motor_torque
+        push = (torque + worm_torque) / system.worm_inertia
+        state.turn_rate += 0.5 * dt * (state.turn_push + push)
+        if system.motor_torque != 0.0:
+            turned = turn - state.turn
+        twisted = turned + motor_way - (turn - state.turn)
+        sums.shaft_damping += 0.5 * (state.shaft_loss + shaft_loss) * twisted
+        stored += 0.5 * system.torsion * twist * twist
+        stored += 0.5 * system.worm_inertia * state.turn_rate * state.turn_rate
+        state.turn_push = push
+        state.turn = turn
+        put_in -= mesh_turn * worm_way
+    else:
+        # A rigid shaft carries what the mesh asks for; of the worm's own inertia nothing is told.
+        torque = -worm_torque
+        put_in -= mesh_turn * worm_way
+        state.turn = q[0]
+    drive_torque = 0.5 * (state.torque + torque)
+    sums.drive += drive_torque * turned
+    put_in += drive_torque * motor_way
+    # Worm and seat.
+    seat_force = 0.0
+    seat_loss = 0.0
+    if system.shifts:
+        shift = q[1] - system.shake_worm_shift * wave
+        give = system.shake_seat * wave - shift
+        shift_rate = v[1] - system.shake_worm_shift * rate
+        seat_loss = system.seat_damping * (system.shake_seat * rate - shift_rate)
+        seat_force = system.seat * give + seat_loss
+        push = (seat_force + worm_force) / system.worm_mass
+        state.shift_rate += 0.5 * dt * (state.shift_push + push)
+        gave = seat_way - (shift - state.shift)
+        sums.shaft_damping += 0.5 * (state.seat_loss + seat_loss) * gave
+        stored += 0.5 * system.seat * give * give
+        stored += 0.5 * system.worm_mass * state.shift_rate * state.shift_rate
+        put_in += 0.5 * (state.seat_force + seat_force) * seat_way
+        state.shift_push = push
+        state.shift = shift
+    else:
+        put_in -= mesh_shift * seat_way
+    put_in -= mesh_shift * shift_way
+    # Wheel and load.
+    rolled = q[2] - state.roll
+    if system.rolls:
+        push = (wheel_torque - system.load) / system.wheel_inertia
+        state.roll_rate += 0.5 * dt * (state.roll_push + push)
+        stored += 0.5 * system.wheel_inertia * state.roll_rate * state.roll_rate
+        state.roll_push = push
+        state.roll = q[2]
+    sums.load += system.load * rolled
+    # Sums.
+    driving = out[AT.driving]
+    back = out[AT.back]
+    sums.actuator += put_in
+    sums.friction += out[AT.friction]
+    sums.contact_damping += out[AT.damping]
+    sums.stored = stored
+    sums.time += dt
+    sums.torque += drive_torque * dt
+    sums.wheel_torque += mesh_roll * dt
+    sums.driving += 0.5 * (state.driving + driving) * dt
+    sums.back += 0.5 * (state.back + back) * dt
+    sums.torque_min = min(sums.torque_min, torque)
+    sums.torque_max = max(sums.torque_max, torque)
+    sums.driving_min = min(sums.driving_min, driving)
+    sums.driving_max = max(sums.driving_max, driving)
+    sums.back_max = max(sums.back_max, back)
+    sums.turned += turned
+    sums.rolled += rolled
+    sums.steps += 1.0
+    sums.residual = max(sums.residual, out[AT.residual])
+    if back > 0.0:
+        sums.second += dt
+    elif driving <= 0.0:
+        sums.open += dt
+    state.time = time
+    state.step = dt
+    state.wave = wave
+    state.wave_rate = mean
+    state.torque = torque
+    state.shaft_loss = shaft_loss
+    state.seat_force = seat_force
+    state.seat_loss = seat_loss
+    state.worm_torque = worm_torque
+    state.worm_force = worm_force
+    state.wheel_torque = wheel_torque
+    state.wheel_force = wheel_force
+    state.driving = driving
+    state.back = back
+    state.stored = stored
+    state.approach = out[AT.approach]
+
+
+@kernel
+def clear(sums):
+    """Begin a stretch."""
+    sums.time = 0.0
+    sums.torque = 0.0
+    sums.wheel_torque = 0.0
+    sums.driving = 0.0
+    sums.back = 0.0
+    sums.torque_min = math.inf
+    sums.torque_max = -math.inf
+    sums.driving_min = math.inf
+    sums.driving_max = 0.0
+    sums.back_max = 0.0
+    sums.drive = 0.0
+    sums.actuator = 0.0
+    sums.load = 0.0
+    sums.friction = 0.0
+    sums.contact_damping = 0.0
+    sums.shaft_damping = 0.0
+    sums.open = 0.0
+    sums.second = 0.0
+    sums.turned = 0.0
+    sums.rolled = 0.0
+    sums.steps = 0.0
+    sums.residual = 0.0

@@ -1,0 +1,93 @@
+"""What moves and what moves it, as the kernels take it, and what they carry and sum up."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from asperity.waveform import Wave
+
+
+class System(NamedTuple):
+    """Freedoms, their inertia, what holds and what shakes them, SI.
+
+    Attributes
+    ----------
+    worm_inertia, worm_mass, wheel_inertia : float
+        Of worm and shaft about and along their axis, of wheel and load.
+    torsion, torsion_damping : float
+        Of the shaft between the worm and the motor's end.
+    seat, seat_damping : float
+        Stiffness and damping that hold the worm along its axis.
+    motor_torque : float
+        That a motor without speed pushes with.
+    load : float
+        Torque that resists the wheel.
+    speed : float
+        Of the motor's end, rad/s.
+    turns, shifts, rolls : bool
+        Whether worm rotation, worm shift and wheel rotation are free; what is not, follows the
+        motor's end, stands where it is put, or stands.
+    shake_worm_turn, shake_worm_shift, shake_seat, shake_wheel, shake_motor : float
+        Amplitude of what is imposed where: rad, m, m, m, rad.
+    wave : Wave
+        Its waveform.
+    frequency : float
+        Hz.
+    longest : float
+        Of the steps, s.
+    landing : float
+        Way by which touching surfaces may approach in a step, m.
+    """
+
+    worm_inertia: float
+    worm_mass: float
+    wheel_inertia: float
+    torsion: float
+    torsion_damping: float
+    seat: float
+    seat_damping: float
+    motor_torque: float
+    load: float
+    speed: float
+    turns: bool
+    shifts: bool
+    rolls: bool
+    shake_worm_turn: float
+    shake_worm_shift: float
+    shake_seat: float
+    shake_wheel: float
+    shake_motor: float
+    wave: Wave
+    frequency: float
+    longest: float
+    landing: float
+
+
+STATE = np.dtype(
+    [
+        (name, np.float64)
+        for name in (
+            "time", "step", "wave", "wave_rate",
+            "turn", "turn_rate", "turn_push",
+            "shift", "shift_rate", "shift_push",
+            "roll", "roll_rate", "roll_push",
+            "torque", "shaft_loss", "seat_force", "seat_loss",
+            "worm_torque", "worm_force", "wheel_torque", "wheel_force",
+            "driving", "back", "stored", "approach",
+        )
+    ]
+)  # fmt: skip
+"""Motion and forces at the end of a step; pushes are accelerations, losses forces of dampers."""
+
+SUMS = np.dtype(
+    [
+        (name, np.float64)
+        for name in (
+            "time", "torque", "wheel_torque", "driving", "back",
+            "torque_min", "torque_max", "driving_min", "driving_max", "back_max",
+            "drive", "actuator", "load", "friction", "contact_damping", "shaft_damping", "stored",
+            "open", "second", "turned", "rolled", "steps", "residual",
+        )
+    ]
+)  # fmt: skip
+"""Integrals over time of a stretch (works in J), extremes, and what was stored at its end."""

@@ -1,0 +1,233 @@
+r"""The reduced mesh as the march advances it: two flanks, each touching at one point.
+
+Both flanks share the way along the sliding and the way across it, :math:`g`, of which the approach
+is :math:`\pm n_g g` and the slip across :math:`\mp n_r g` with the normal's parts. Friction keeps
+its stiffness while the load changes (`asperity.friction.loaded`). The teeth's compliance along the
+flank lies in series with the asperities: the slip at the asperities is what the teeth's bending
+leaves of the way. Both are solved for together, in closed form where the asperities are brittle
+(exponent 0: of two springs in series and one limit), else by Newton's method.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.compiled import kernel
+from asperity.drive.interface import AT
+from asperity.drive.reduced.law import force_and_energy
+from asperity.friction.dahl import VECTOR
+from asperity.friction.loaded import STIFFNESS, advance_loaded
+from asperity.friction.loaded_tangent import update_loaded
+
+_AHEAD = 4.0  # steps in which surfaces are about to touch
+_ITERATIONS = 30
+_CLOSE = 1e-12
+
+
+class Mesh(NamedTuple):
+    """Numbers of the reduced mesh, SI.
+
+    Attributes
+    ----------
+    lead, radius, length : float
+        Reduced lead :math:`p`, effective radius, way of the thread in a radian.
+    arm : float
+        The wheel's lever.
+    across, radial : float
+        Parts of the normal across the sliding and along the worm's radius.
+    backlash : float
+        Normal play between the flanks; infinite where only one can touch.
+    cell : float
+        Width of the law's cells.
+    rows : ndarray
+        The law, see `asperity.drive.reduced.law.NormalLaw.table`.
+    damping : float
+        :math:`c` of the contact, s/m.
+    reference : float
+        Normal force of the load without vibration.
+    limit : float
+        Deflection of the asperities at full friction under it.
+    exponent : float
+        Dahl's.
+    yielding : float
+        What the teeth bend along the flank over what the asperities do.
+    speed_cell : float
+        Width of the cells of `friction`, m/s.
+    friction : ndarray
+        Coefficient of friction over the sliding speed, the last beyond; one where it is constant.
+    reference_friction : float
+        That of the load without vibration.
+    """
+
+    lead: float
+    radius: float
+    length: float
+    arm: float
+    across: float
+    radial: float
+    backlash: float
+    cell: float
+    rows: FloatArray
+    damping: float
+    reference: float
+    limit: float
+    exponent: float
+    yielding: float
+    speed_cell: float
+    friction: FloatArray
+    reference_friction: float
+
+
+# Way along and across, then of each flank: deflection along and across over the limit, limit,
+# approach, damping force.
+_WAYS, _FLANK = 2, 5
+STATES = _WAYS + 2 * _FLANK
+
+
+@kernel
+def _friction_share(mesh, speed):
+    """Coefficient of friction at a sliding speed, over the reference's."""
+    table = mesh.friction
+    if table.size == 1:
+        return table[0] / mesh.reference_friction
+    place = speed / mesh.speed_cell
+    index = min(int(place), table.size - 2)
+    part = min(place - index, 1.0)
+    return (table[index] + part * (table[index + 1] - table[index])) / mesh.reference_friction
+
+
+@kernel
+def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
+    """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
+    more = mesh.yielding
+    if more == 0.0:
+        wx, wy, _, _ = advance_loaded(
+            sx, sy, dx, dy, 0.0, 0.0, limit_0, limit_1, mesh.exponent, VECTOR, STIFFNESS
+        )
+        return wx, wy, 0.0
+    one = 1.0 / (1.0 + more)
+    wx, wy, _, _ = advance_loaded(
+        sx, sy, one * dx, one * dy, 0.0, 0.0, limit_0, limit_1, 0.0, VECTOR, STIFFNESS
+    )
+    if mesh.exponent == 0.0 or limit_1 <= 0.0:
+        return wx, wy, 0.0
+    off = 0.0
+    for _ in range(_ITERATIONS):
+        (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
+            (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
+            limit_0, limit_1, mesh.exponent, VECTOR, STIFFNESS,
+        )  # fmt: skip
+        ex = ux - wx
+        ey = uy - wy
+        off = abs(ex) + abs(ey)
+        if off <= _CLOSE * (1.0 + limit_1):
+            break
+        a = 1.0 + more * xx
+        d = 1.0 + more * yy
+        b = more * xy
+        c = more * yx
+        over = 1.0 / (a * d - b * c)
+        wx += over * (d * ex - b * ey)
+        wy += over * (a * ey - c * ex)
+    return wx, wy, off
+
+
+@kernel
+def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
+    """One flank: normal force, friction along and across; energies are added to ``out``."""
+    sx = committed[at]
+    sy = committed[at + 1]
+    limit_0 = committed[at + 2]
+    elastic, energy = force_and_energy(mesh.cell, mesh.rows, d)
+    load = elastic * max(1.0 + mesh.damping * rate, 0.0)
+    if load == 0.0 and limit_0 == 0.0:
+        for place in range(_FLANK):
+            trial[at + place] = 0.0
+        trial[at + 3] = d
+        return 0.0, 0.0, 0.0
+    damped = load - elastic
+    scale = 1.0 / mesh.limit
+    speed = (along * along + across * across) ** 0.5 / dt
+    limit_1 = load / mesh.reference * _friction_share(mesh, speed)
+    dx = scale * along
+    dy = scale * across
+    wx, wy, off = _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1)
+    full = mesh.reference_friction * mesh.reference
+    unit = full * mesh.limit
+    stiff = 1.0 + mesh.yielding
+    lost = (sx + wx) * (dx - stiff * (wx - sx)) + (sy + wy) * (dy - stiff * (wy - sy))
+    trial[at] = wx
+    trial[at + 1] = wy
+    trial[at + 2] = limit_1
+    trial[at + 3] = d
+    trial[at + 4] = damped
+    # Work of the damping's force over the part of the step in which the flank touches.
+    way = max(d, 0.0) - max(committed[at + 3], 0.0)
+    out[AT.stored] += energy + 0.5 * stiff * unit * (wx * wx + wy * wy)
+    out[AT.friction] += 0.5 * unit * lost
+    out[AT.damping] += 0.5 * (committed[at + 4] + damped) * way
+    out[AT.residual] = max(out[AT.residual], off)
+    if d + _AHEAD * max(rate, 0.0) * dt > 0.0:
+        out[AT.approach] = max(out[AT.approach], abs(rate))
+    return load, full * wx, full * wy
+
+
+@kernel
+def advance(mesh, committed, trial, q, v, dt, out):
+    """Advance the mesh over a step, see `asperity.drive.interface`."""
+    r = mesh.radius / mesh.length
+    p = mesh.lead / mesh.length
+    turned = mesh.radius * q[0] - q[3]
+    shifted = q[1] - mesh.arm * q[2]
+    along = r * turned - p * shifted
+    across = p * turned + r * shifted
+    rate = mesh.across * (p * (mesh.radius * v[0] - v[3]) + r * (v[1] - mesh.arm * v[2]))
+    way = along - committed[0]
+    aside = mesh.radial * (across - committed[1])
+    trial[0] = along
+    trial[1] = across
+    out[AT.stored] = 0.0
+    out[AT.friction] = 0.0
+    out[AT.damping] = 0.0
+    out[AT.residual] = 0.0
+    out[AT.approach] = 0.0
+    d = mesh.across * across
+    driving, drag, side = _touch(mesh, committed, trial, _WAYS, d, rate, way, -aside, dt, out)
+    back, back_drag, back_side = _touch(
+        mesh, committed, trial, _WAYS + _FLANK, -d - mesh.backlash, -rate, way, aside, dt, out
+    )
+    pull = -drag - back_drag
+    push = mesh.across * (back - driving) + mesh.radial * (side - back_side)
+    turning = r * pull + p * push
+    thrust = r * push - p * pull
+    out[AT.worm_torque] = mesh.radius * turning
+    out[AT.worm_force] = thrust
+    out[AT.wheel_torque] = -mesh.arm * thrust
+    out[AT.wheel_force] = -turning
+    out[AT.driving] = driving
+    out[AT.back] = back
+
+
+@kernel
+def settle_in(mesh, state, q, share):
+    """Set a state as if the worm had slid at pose ``q`` to a share of full friction under the load.
+
+    The flank that drives carries the reference load, the other nothing.
+    """
+    r = mesh.radius / mesh.length
+    p = mesh.lead / mesh.length
+    turned = mesh.radius * q[0] - q[3]
+    shifted = q[1] - mesh.arm * q[2]
+    state[:] = 0.0
+    state[0] = r * turned - p * shifted
+    state[1] = p * turned + r * shifted
+    d = mesh.across * state[1]
+    elastic, _ = force_and_energy(mesh.cell, mesh.rows, d)
+    state[_WAYS] = share * elastic / mesh.reference
+    state[_WAYS + 2] = elastic / mesh.reference
+    state[_WAYS + 3] = d
+    state[_WAYS + _FLANK + 3] = -d - mesh.backlash
+
+
+NO_TABLE = np.zeros(1)
