@@ -9,10 +9,11 @@ A mesh is a named tuple of numbers and arrays with a compiled function
 ``q`` and ``v`` are the poses and rates at the end of a step of length ``dt``, with everything that
 is imposed: the worm's angle :math:`\beta`, its shift :math:`x` along its axis, the wheel's angle
 :math:`\varphi`, its shift :math:`y` along its own axis. Positive are: :math:`\beta` and
-:math:`\varphi` as the gearset runs forward; :math:`x` as the threads move forward, so that the flank
-that drives pushes on; :math:`y` as the surface of the turning worm moves at the mesh. A left-handed
-gearset has the same equations, since :math:`y` turns its sign with the hand. A worm that turns by
-:math:`\beta` and shifts by :math:`x = -p\beta`, the reduced lead :math:`p`, slides in itself.
+:math:`\varphi` as the gearset runs forward; :math:`x` as the threads move forward, so that the
+flank that drives pushes on; :math:`y` as the surface of the turning worm moves at the mesh. A
+left-handed gearset has the same equations, since :math:`y` turns its sign with the hand. A worm
+that turns by :math:`\beta` and shifts by :math:`x = -p\beta`, the reduced lead :math:`p`, slides in
+itself.
 
 ``committed`` holds what the mesh remembers (contacts, asperities) and is read, ``trial`` is
 written: an iteration never moves history. ``out`` is filled, its places are those of `AT`.

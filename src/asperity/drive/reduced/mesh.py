@@ -8,12 +8,12 @@ leaves of the way. Both are solved for together, in closed form where the asperi
 (exponent 0: of two springs in series and one limit), else by Newton's method.
 """
 
+import math
 from typing import NamedTuple
-
-import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
+from asperity.drive.friction_curve import FrictionCurve
 from asperity.drive.interface import AT
 from asperity.drive.reduced.law import force_and_energy
 from asperity.friction.dahl import VECTOR
@@ -52,11 +52,9 @@ class Mesh(NamedTuple):
         Dahl's.
     yielding : float
         What the teeth bend along the flank over what the asperities do.
-    speed_cell : float
-        Width of the cells of `friction`, m/s.
-    friction : ndarray
-        Coefficient of friction over the sliding speed, the last beyond; one where it is constant.
-    reference_friction : float
+    curve : FrictionCurve
+        Coefficient of friction over the sliding speed; of one value where it is constant.
+    friction : float
         That of the load without vibration.
     """
 
@@ -74,27 +72,14 @@ class Mesh(NamedTuple):
     limit: float
     exponent: float
     yielding: float
-    speed_cell: float
-    friction: FloatArray
-    reference_friction: float
+    curve: FrictionCurve
+    friction: float
 
 
 # Way along and across, then of each flank: deflection along and across over the limit, limit,
 # approach, damping force.
 _WAYS, _FLANK = 2, 5
 STATES = _WAYS + 2 * _FLANK
-
-
-@kernel
-def _friction_share(mesh, speed):
-    """Coefficient of friction at a sliding speed, over the reference's."""
-    table = mesh.friction
-    if table.size == 1:
-        return table[0] / mesh.reference_friction
-    place = speed / mesh.speed_cell
-    index = min(int(place), table.size - 2)
-    part = min(place - index, 1.0)
-    return (table[index] + part * (table[index + 1] - table[index])) / mesh.reference_friction
 
 
 @kernel
@@ -148,12 +133,14 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         return 0.0, 0.0, 0.0
     damped = load - elastic
     scale = 1.0 / mesh.limit
-    speed = (along * along + across * across) ** 0.5 / dt
-    limit_1 = load / mesh.reference * _friction_share(mesh, speed)
+    limit_1 = load / mesh.reference
+    if mesh.curve.values.size > 1:
+        speed = math.sqrt(along * along + across * across) / dt
+        limit_1 *= friction_at(mesh.curve, speed) / mesh.friction
     dx = scale * along
     dy = scale * across
     wx, wy, off = _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1)
-    full = mesh.reference_friction * mesh.reference
+    full = mesh.friction * mesh.reference
     unit = full * mesh.limit
     stiff = 1.0 + mesh.yielding
     lost = (sx + wx) * (dx - stiff * (wx - sx)) + (sy + wy) * (dy - stiff * (wy - sy))
@@ -228,6 +215,3 @@ def settle_in(mesh, state, q, share):
     state[_WAYS + 2] = elastic / mesh.reference
     state[_WAYS + 3] = d
     state[_WAYS + _FLANK + 3] = -d - mesh.backlash
-
-
-NO_TABLE = np.zeros(1)

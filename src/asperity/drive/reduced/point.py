@@ -2,8 +2,8 @@ r"""One point that stands for the mesh: the closed form of an involute worm at a
 
 With the reduced lead :math:`p`, the radius :math:`r_e` on the worm, :math:`L = \sqrt{r_e^2 + p^2}`
 and the base lead angle :math:`\gamma_b`, the normal's axial part is :math:`n_z = \cos\gamma_b` at
-every radius, its part along the worm's turning :math:`n_t = n_z p/r_e`, the rest is radial. The worm
-slides along :math:`(r_e, -p)/L`, so that with friction :math:`\mu N` and the wheel's torque
+every radius, its part along the worm's turning :math:`n_t = n_z p/r_e`, the rest is radial. The
+worm slides along :math:`(r_e, -p)/L`, so that with friction :math:`\mu N` and the wheel's torque
 :math:`T = i p N (n_z - \mu p/L)` the worm's is :math:`T_B = r_e N (n_t + \mu r_e/L)`.
 """
 
