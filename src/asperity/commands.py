@@ -261,5 +261,14 @@ COMMANDS = (
             Option("step", "Also write tooth and worm as STEP, with --out.", default=False),
         ),
     ),
+    Command(
+        "drive",
+        "Load a worm gearset, and shake it: torque, powers, contact lost, what it is worth.",
+        "With --out also drive.json, drive.nc and pictures.",
+        prepare="asperity.drive.solve:prepare",
+        solve="asperity.drive.solve:answer",
+        counts="cycles",
+        options=(Option("static", "Leave the vibration out.", default=False),),
+    ),
 )
 """In the order of the help."""

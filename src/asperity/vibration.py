@@ -6,7 +6,7 @@ import functools
 import io
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -174,8 +174,14 @@ class Vibration(Table):
             )
         return self
 
-    def of_gearset(self) -> Self:
-        """Return it as a gearset takes it; raises InputError for that of a sliding body."""
+    def of_gearset(self, places: Mapping[str, Sequence[str]] | None = None) -> Self:
+        """Return it as a gearset takes it; raises InputError for that of a sliding body.
+
+        Parameters
+        ----------
+        places : mapping of str to sequence of str, optional
+            Where each mode is applied to, the first if nothing is said; the worm if left out.
+        """
         for key in _OF_BODIES:
             if key in self.model_fields_set:
                 raise InputError(
@@ -187,7 +193,8 @@ class Vibration(Table):
                 f"vibration.mode is missing; a gearset is shaken one way of {choices(MODES)}"
             )
         if "applied_to" not in self.model_fields_set:
-            return self.model_copy(update={"applied_to": "worm"})
+            first = "worm" if places is None else places[self.mode][0]
+            return self.model_copy(update={"applied_to": first})
         if self.applied_to in ("base", "body"):
             raise InputError(
                 f"vibration.applied_to is '{self.applied_to}', of a sliding body; of a gearset it "

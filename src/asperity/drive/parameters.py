@@ -64,8 +64,8 @@ class Drive(Table):
         The coefficient of ``[friction]``, or that of ISO/TR 14521 at the local speed and
         temperature.
     window : int
-        Cycles of protocol ``window``, and of each of the three blocks that a periodic state is
-        judged by, 1 to 1000.
+        Cycles of protocol ``window``, and at least of each of the three blocks that a periodic
+        state is judged by, 1 to 1000.
     deflection : list of pairs, optional
         Torque of the wheel and the angle that it turns by against a held worm, such as
         ``[["23 N m", "47.6 urad"], ["366 N m", "365 urad"]]``: measured or calculated elsewhere, in

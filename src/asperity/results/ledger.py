@@ -11,7 +11,40 @@ REFUSED = 1e-2
 _ROUNDING = 1e-9
 
 
-class PowerLedger(Quantities):
+class Ledger(Quantities):
+    """Mean powers over a window: what is put in is lost, given away or stored.
+
+    A class derived from it says which of its quantities are put in and which are not.
+    """
+
+    measure: ClassVar[str] = "what is put in"  #: What the residual is a share of.
+
+    @property
+    def _inputs(self) -> tuple[float, ...]:
+        raise NotImplementedError
+
+    @property
+    def _outputs(self) -> tuple[float, ...]:
+        raise NotImplementedError
+
+    @property
+    def residual(self) -> float:
+        """What is missing from the balance, over the sum of what is put in."""
+        put_in = sum(power for power in self._inputs if power > 0.0)
+        return abs(self._missing) / (put_in or max(map(abs, self._outputs)) or 1.0)
+
+    @property
+    def _missing(self) -> float:
+        return sum((*self._inputs, *(-power for power in self._outputs)))
+
+    @property
+    def closes(self) -> bool:
+        """Whether what is missing is no more than rounding, however little is put in."""
+        powers = self._inputs + self._outputs
+        return abs(self._missing) <= _ROUNDING * max(map(abs, powers))
+
+
+class PowerLedger(Ledger):
     """Mean powers over the window, W: drive + vibration = friction + damping + stored.
 
     Attributes
@@ -38,7 +71,7 @@ class PowerLedger(Quantities):
     stored: float = quantity("P_s", "W", "rate of change of stored energy")
     untransferred: float = quantity("P_u", "W", "friction on the untransferred vibration")
 
-    measure: ClassVar[str] = "the drive's"  #: What the residual is a share of.
+    measure: ClassVar[str] = "the drive's"
 
     @property
     def _inputs(self) -> tuple[float, ...]:
@@ -56,16 +89,6 @@ class PowerLedger(Quantities):
         """
         scale = max(abs(self.drive), 1e-3 * abs(self.friction)) or 1.0
         return abs(self._missing) / scale
-
-    @property
-    def _missing(self) -> float:
-        return sum((*self._inputs, *(-power for power in self._outputs)))
-
-    @property
-    def closes(self) -> bool:
-        """Whether what is missing is no more than rounding, however little the drive does."""
-        powers = self._inputs + self._outputs
-        return abs(self._missing) <= _ROUNDING * max(map(abs, powers))
 
 
 class PressedLedger(PowerLedger):
@@ -95,12 +118,11 @@ class PressedLedger(PowerLedger):
     @property
     def residual(self) -> float:
         """What is missing from the balance, over the sum of what is put in."""
-        put_in = sum(power for power in self._inputs if power > 0.0)
-        return abs(self._missing) / (put_in or max(map(abs, self._outputs)) or 1.0)
+        return super(PowerLedger, self).residual
 
 
 def guard(
-    ledger: PowerLedger,
+    ledger: Ledger,
     advice: str,
     *,
     reached: Mapping[str, float] | None = None,
@@ -110,7 +132,7 @@ def guard(
 
     Parameters
     ----------
-    ledger : PowerLedger
+    ledger : Ledger
         The powers of the answer.
     advice : str
         What a user can do about it, such as ``give a smaller solve.step``.

@@ -3,7 +3,8 @@ r"""A step of the march over time: rigid freedoms by velocity Verlet, the mesh b
 A step ahead moves the poses with the accelerations of its start, the mesh answers at the new
 poses, and the accelerations of both ends make the new rates. Works are trapezoids of the forces of
 both ends over the way, which for this scheme is what the kinetic energy gains, to a term that
-telescopes. The loop itself stands with each mesh, since compiled code is kept under what it follows from.
+telescopes. The loop itself stands with each mesh, since compiled code is kept under what it follows
+from.
 """
 
 import math

@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
-from asperity.drive.reduced.point import MeshPoint
+from asperity.drive.point import MeshPoint
 
 _CELLS = 2048
 _REACH = 100.0  # of the force at the reference load, up to which the law is tabulated
@@ -59,7 +59,7 @@ class NormalLaw:
 
     def exact(self, approach: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Force and its slope at approaches in m, 0 where there is none."""
-        over = np.maximum(approach, np.finfo(float).tiny)
+        over = np.maximum(approach, np.finfo(np.float64).tiny)
         cell = np.clip(np.searchsorted(self.approach, over) - 1, 0, self._powers.size - 1)
         power = self._powers[cell]
         force = self.force[cell] * (over / self.approach[cell]) ** power
@@ -87,7 +87,7 @@ class NormalLaw:
         """
         end = self.approach_at(_REACH * reference)
         cell = end / _CELLS
-        place = cell * np.arange(_CELLS + 1)
+        place = np.asarray(cell * np.arange(_CELLS + 1), float)
         force, slope = self.exact(place)
         slope = slope * cell
         rise = np.diff(force)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
-from asperity.drive.friction_curve import FrictionCurve
+from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import AT
 from asperity.drive.reduced.law import force_and_energy
 from asperity.friction.dahl import VECTOR

@@ -1,0 +1,305 @@
+"""A worm gearset's drive made ready: the tables of a case, checked, and what follows from them."""
+
+import dataclasses
+import functools
+import math
+from pathlib import Path
+from typing import Self, TypeVar
+
+from asperity.casefile import Case, Table, told
+from asperity.drive.parameters import Actuator, Drive, Shaft
+from asperity.drive.point import MeshPoint
+from asperity.errors import InputError
+from asperity.flanks.parameters import Disc, Hob, Modification, Mount
+from asperity.friction import Friction
+from asperity.gearset import Gearset, Geometry
+from asperity.rating import Operation
+from asperity.slider.parameters import Solve
+from asperity.vibration import Vibration
+from asperity.waveform import Shape
+
+LARGEST_STEP = 0.5e-6
+STEPS_A_CYCLE = 100
+# What shakes which way can reach: an axial motion goes by the worm or by its seat, and so on.
+_PLACES = {
+    "axial": ("worm", "seat"),
+    "torsional": ("worm", "motor"),
+    "wheel-axial": ("wheel",),
+    "screw": ("worm", "seat"),
+}
+_ROUND = ("torsional", "screw")
+
+T = TypeVar("T", bound=Table)
+
+
+@dataclasses.dataclass(frozen=True)
+class DriveProblem:
+    """A gearset that is driven, loaded and perhaps shaken.
+
+    Attributes
+    ----------
+    gearset, operation, friction, drive, shaft, solve
+        The tables of the case.
+    vibration : Vibration or None
+        None: nothing is shaken.
+    shape : Shape or None
+        Its waveform.
+    actuator : Actuator or None
+        None: nothing is said of the electrical side.
+    hob, mount, modification, disc
+        How the flanks are made and mounted; None: as they should be.
+    case : Case or None
+        Where it comes from.
+    """
+
+    gearset: Gearset
+    operation: Operation
+    friction: Friction
+    drive: Drive
+    shaft: Shaft = dataclasses.field(default_factory=Shaft)
+    solve: Solve = dataclasses.field(default_factory=Solve)
+    vibration: Vibration | None = None
+    shape: Shape | None = None
+    actuator: Actuator | None = None
+    hob: Hob | None = None
+    mount: Mount | None = None
+    modification: Modification | None = None
+    disc: Disc | None = None
+    case: Case | None = None
+
+    def __post_init__(self) -> None:
+        _check_friction(self.friction)
+        if self.solve.method != "march" or self.solve.scheme != "exponential":
+            raise InputError(
+                f"solve.method is '{self.solve.method}' and solve.scheme '{self.solve.scheme}'; a "
+                "gearset is marched: leave both out"
+            )
+        if self.vibration is not None:
+            self._check_vibration(self.vibration)
+
+    @classmethod
+    def from_case(cls, case: Case, *, shaken: bool = True) -> Self:
+        """Gather the tables of a case; ``shaken`` says whether its vibration counts.
+
+        Raises
+        ------
+        InputError
+            They do not make a gearset's drive.
+        """
+
+        def table(model: type[T]) -> T | None:
+            return case.require(model) if model.table in case else None
+
+        operation = case.require(Operation)
+        with told(case):
+            vibration = shape = None
+            if shaken and Vibration.table in case:
+                vibration = case.require(Vibration).of_gearset(_PLACES)
+                turns = operation.worm_speed / (2.0 * math.pi)
+                shape = vibration.shape(case.folder, turns=turns)
+            return cls(
+                gearset=case.require(Gearset),
+                operation=operation,
+                friction=case.require(Friction),
+                drive=table(Drive) or Drive(),
+                shaft=table(Shaft) or Shaft(),
+                solve=table(Solve) or Solve(),
+                vibration=vibration,
+                shape=shape,
+                actuator=table(Actuator),
+                hob=table(Hob),
+                mount=table(Mount),
+                modification=table(Modification),
+                disc=table(Disc),
+                case=case,
+            )
+
+    @functools.cached_property
+    def geometry(self) -> Geometry:
+        """Of the gearset, mm."""
+        return self.gearset.require_consistent().geometry
+
+    @property
+    def folder(self) -> Path | None:
+        """Where relative file names start."""
+        return None if self.case is None else self.case.folder
+
+    @property
+    def worm_speed(self) -> float:
+        """Of the worm, rad/s."""
+        return self.operation.worm_speed
+
+    @property
+    def load(self) -> float:
+        """Torque of the wheel, N m."""
+        return self.operation.output_torque
+
+    @property
+    def reference_radius(self) -> float:
+        """Of the worm's reference circle, m."""
+        return 0.5e-3 * self.geometry.worm_pitch_diameter
+
+    @property
+    def sliding_speed(self) -> float:
+        """Of the flanks on the reference circle, v_g, m/s."""
+        return self.worm_speed * self.reference_radius / math.cos(self.geometry.lead_angle)
+
+    def point(self, radius: float | None) -> MeshPoint:
+        """Return where the reduced mesh touches; on the reference circle if no radius is known."""
+        return MeshPoint.of(self.geometry, self.reference_radius if radius is None else radius)
+
+    @functools.cached_property
+    def worm_inertia(self) -> float:
+        """Of worm and shaft, kg m2."""
+        return self._of_worm(self.drive.worm_inertia, self.shaft.inertia, "worm_inertia")
+
+    @functools.cached_property
+    def worm_mass(self) -> float:
+        """Of worm and shaft, kg."""
+        return self._of_worm(self.drive.worm_mass, self.shaft.mass, "worm_mass")
+
+    def _of_worm(self, given: float | None, cylinders: object, key: str) -> float:
+        if given is not None:
+            return given
+        assert callable(cylinders)
+        g = self.geometry
+        found: float | None = cylinders(1e-3 * g.worm_pitch_diameter, 1e-3 * g.worm_face_width)
+        if found is None:
+            raise InputError(
+                f"drive.{key} is missing; give it, or shaft.diameter and shaft.span, of which it "
+                "is estimated"
+            )
+        return found
+
+    @property
+    def vibrated(self) -> tuple[Vibration, Shape]:
+        """Vibration and waveform; raises InputError where nothing is shaken."""
+        if self.vibration is None or self.shape is None:
+            raise InputError(
+                "the table [vibration] is missing; add it (mode, frequency and an amplitude)"
+            )
+        return self.vibration, self.shape
+
+    @property
+    def mode(self) -> str:
+        """Which way it is shaken."""
+        return str(self.vibrated[0].mode)
+
+    @property
+    def reference_speed(self) -> float:
+        """Speed that the vibration's is a ratio of, m/s.
+
+        Of a turning motion that of the reference circle, which stands still at a ratio of 1; of
+        others the sliding speed there.
+        """
+        if self.mode in _ROUND:
+            return self.worm_speed * self.reference_radius
+        return self.sliding_speed
+
+    @property
+    def amplitude(self) -> float:
+        """Of the vibration's displacement, m; of a turning motion that of the reference circle."""
+        vibration, shape = self.vibrated
+        return vibration.displacement(shape, self.reference_speed)
+
+    @property
+    def velocity(self) -> float:
+        """Peak velocity of the vibration, m/s."""
+        vibration, shape = self.vibrated
+        return vibration.velocity(shape, self.reference_speed)
+
+    @property
+    def velocity_ratio(self) -> float:
+        """Of the vibration, k_w."""
+        return self.velocity / self.reference_speed
+
+    def _check_vibration(self, vibration: Vibration) -> None:
+        for key, what in (("load_inertia", "inertia of the load"), ("contact_damping", "damping")):
+            if getattr(self.drive, key) is None:
+                example = "3.2e-3 kg m**2" if key == "load_inertia" else "0.01 s/m"
+                raise InputError(
+                    f"drive.{key} is missing; under vibration every number depends on the {what}: "
+                    f"give one such as '{example}'"
+                )
+        places = _PLACES[str(vibration.mode)]
+        if vibration.applied_to not in places:
+            raise InputError(
+                f"vibration.applied_to is '{vibration.applied_to}'; vibration.mode "
+                f"'{vibration.mode}' is applied to {' or '.join(map(repr, places))}"
+            )
+        if vibration.applied_to == "motor" and self.shaft.torsion is None:
+            raise InputError(
+                "vibration.applied_to is 'motor', but the shaft is rigid, so that the worm itself "
+                "is shaken: give shaft.torsional_stiffness, or apply it to 'worm'"
+            )
+        _ = self.worm_inertia if self.shaft.torsion is not None else None
+        self._check_amplitude()
+        self._check_step()
+
+    def _check_amplitude(self) -> None:
+        g, amplitude = self.geometry, self.amplitude
+        if self.mode == "wheel-axial":
+            room, what = 0.5e-3 * g.wheel_face_width, "half the face width of the wheel"
+        else:
+            room, what = 0.25e-3 * g.axial_pitch, "a quarter of the axial pitch"
+        way = amplitude
+        if self.mode in _ROUND:
+            way *= 1e-3 * g.reduced_lead / self.reference_radius
+        if not way <= room:
+            raise InputError(
+                f"the vibration's amplitude of {1e3 * amplitude:.4g} mm shifts the threads by "
+                f"{1e3 * way:.4g} mm and lifts the worm out of mesh; at most {1e3 * room:.4g} mm "
+                f"are allowed, {what}: give a smaller amplitude or a higher frequency"
+            )
+
+    @property
+    def approach_speed(self) -> float:
+        """Largest speed along the normal that the vibration alone makes, m/s."""
+        point = self.point(self.drive.effective_radius)
+        share = {
+            "axial": point.normal_z,
+            "torsional": point.normal_z * point.lead / self.reference_radius,
+            "wheel-axial": point.normal_z * point.lead / point.radius,
+            "screw": 0.0,
+        }
+        return share[self.mode] * self.velocity
+
+    @property
+    def step(self) -> float:
+        """Longest step, s."""
+        _, shape = self.vibrated
+        cycle = 1.0 / shape.frequency
+        if self.solve.step is not None:
+            return self.solve.step
+        return min(LARGEST_STEP, cycle / max(STEPS_A_CYCLE, shape.least_steps))
+
+    def _check_step(self) -> None:
+        given, (_, shape) = self.solve.step, self.vibrated
+        if given is None:
+            return
+        longest = 1.0 / (max(STEPS_A_CYCLE, shape.least_steps) * shape.frequency)
+        if given > longest:
+            raise InputError(
+                f"solve.step is {given:g} s, too coarse for a vibration of {shape.frequency:g} Hz; "
+                f"it may be at most {longest:.3g} s"
+            )
+
+
+def _check_friction(friction: Friction) -> None:
+    """Refuse what a mesh's friction is not."""
+    if friction.model not in ("coulomb", "dahl"):
+        raise InputError(
+            f"friction.model is '{friction.model}'; between teeth it must be 'coulomb' or 'dahl'"
+        )
+    for key, only in (("law", "vector"), ("transfer", 1.0), ("load_exponent", 1.0)):
+        value = getattr(friction, key)
+        if value != only:
+            raise InputError(
+                f"friction.{key} is {value!r}, which is of a sliding body; between teeth it is "
+                f"{only!r}: leave it out"
+            )
+    if friction.model == "dahl" and friction.keeps != "stiffness":
+        raise InputError(
+            "friction.keeps is 'deflection', which makes energy where the force between teeth "
+            "swings; it must be 'stiffness': leave it out"
+        )

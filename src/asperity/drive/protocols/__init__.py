@@ -1,0 +1,1 @@
+"""What is asked of a drive under vibration: periodic states, windows, holding, creeping."""

@@ -1,0 +1,211 @@
+"""A march by whole cycles: begun, gone on with, kept on its way, and judged."""
+
+import dataclasses
+import math
+import time
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.drive.motion.system import SUMS, System
+from asperity.errors import ConvergenceError
+from asperity.runs import Run
+from asperity.runs.tree import Tree
+
+Records = npt.NDArray[np.void]
+
+# Means of three blocks within this of each other and a balanced wheel make a state periodic; a
+# march ends early only where they agree ten times better.
+PERIODIC, BALANCED = 5e-3, 5e-3
+_EARLY = 0.1
+_BLOCKS = 3
+_BLOCK_SECONDS = 2e-3
+# Whole periods of motions that repeat after 1, 2, 3, 4, 6 or 12 cycles.
+_BLOCK_CYCLES = 12
+_LONGEST_SECONDS, _FEWEST_CYCLES = 60e-3, 60
+_CALL_STEPS = 200_000
+
+
+class Marchable(Protocol):
+    """A mesh that can be marched."""
+
+    def march(
+        self,
+        system: System,
+        states: Records,
+        committed: FloatArray,
+        stretch: float,
+        rows: Records,
+        stop: npt.NDArray[np.int64],
+    ) -> int:
+        """March so many stretches as there are rows."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Judgement:
+    """Whether the end of a march is a periodic state.
+
+    Attributes
+    ----------
+    settled : bool
+        Three blocks agree, and the wheel is balanced.
+    surely : bool
+        They agree so well that nothing is gained by going on.
+    spread : float
+        Of the blocks' mean torques, over the torque without vibration.
+    balance : float
+        What the mesh gives the wheel beyond the load, over the load, in all three.
+    cycles : int
+        In the blocks together.
+    """
+
+    settled: bool
+    surely: bool
+    spread: float
+    balance: float
+    cycles: int
+
+
+class March:
+    """A drive on its way, cycle by cycle.
+
+    Parameters
+    ----------
+    mesh : Marchable
+        The mesh.
+    system : System
+        What moves, and what moves it.
+    states, committed : ndarray
+        Where it begins; they walk on.
+    run : Run
+        Who is told how far it is.
+    """
+
+    def __init__(
+        self, mesh: Marchable, system: System, states: Records, committed: FloatArray, run: Run
+    ) -> None:
+        self.mesh = mesh
+        self.system = system
+        self.states = states
+        self.committed = committed
+        self.rows = np.zeros(0, SUMS)
+        self.seconds = 0.0
+        self._run = run
+        self._stop = np.zeros(1, np.int64)
+
+    @property
+    def cycle(self) -> float:
+        """Length of a cycle, s."""
+        return 1.0 / self.system.frequency
+
+    @property
+    def steps(self) -> int:
+        """Steps taken."""
+        return int(self.rows["steps"].sum())
+
+    def go(self, cycles: int, *, of: int = 0) -> None:
+        """March so many cycles more, of so many in all."""
+        target = self.rows.size + cycles
+        at_once = max(1, int(_CALL_STEPS * self.system.longest / self.cycle))
+        while self.rows.size < target:
+            self.rows = np.concatenate(
+                [self.rows, self.stretches(min(at_once, target - self.rows.size), self.cycle)]
+            )
+            self._run.checkpoint(self.rows.size, max(of, target), self.tree, "cycles")
+
+    def stretches(self, count: int, length: float) -> Records:
+        """March so many stretches of a length in s, and return their sums.
+
+        Raises
+        ------
+        ConvergenceError
+            The motion left the finite numbers.
+        """
+        began = time.perf_counter()
+        rows = np.zeros(count, SUMS)
+        self.mesh.march(self.system, self.states, self.committed, length, rows, self._stop)
+        self.seconds += time.perf_counter() - began
+        at = float(self.states[0]["time"])
+        if not np.isfinite(self.states[0]["torque"]) or not np.isfinite(rows["stored"]).all():
+            raise ConvergenceError(
+                f"the march left the finite numbers before {at:g} s; give a smaller solve.step",
+                reached={"time_s": at},
+            )
+        return rows
+
+    def settle(self, *, window: int, torque: float, duration: float | None) -> Judgement:
+        """March until the state is periodic, or for as long as that is waited for.
+
+        Parameters
+        ----------
+        window : int
+            Least cycles in a block.
+        torque : float
+            Without vibration, N m.
+        duration : float, optional
+            How long is waited, s.
+        """
+        least = max(window, _BLOCK_SECONDS * self.system.frequency)
+        block = _BLOCK_CYCLES * math.ceil(least / _BLOCK_CYCLES)
+        if duration is None:
+            duration = max(_LONGEST_SECONDS, _FEWEST_CYCLES * self.cycle)
+        # Its ramp is no part of a periodic state.
+        ramp = math.ceil(self.system.wave.ramp)
+        most = ramp + block * max(_BLOCKS, math.ceil(duration * self.system.frequency / block))
+        if self.rows.size < ramp:
+            self.go(ramp - self.rows.size, of=most)
+        found = Judgement(False, False, math.inf, math.inf, 0)
+        while self.rows.size < most and not found.surely:
+            self.go(min(block, most - self.rows.size), of=most)
+            if self.rows.size >= ramp + _BLOCKS * block:
+                found = self.judged(block, torque)
+        return found
+
+    def judged(self, block: int, torque: float) -> Judgement:
+        """Judge the last three blocks of so many cycles."""
+        last = self.rows[-_BLOCKS * block :]
+        per_block = last.reshape(_BLOCKS, block)
+        means = per_block["torque"].sum(axis=1) / per_block["time"].sum(axis=1) / torque
+        spread = float(np.ptp(means))
+        wheel = float(last["wheel_torque"].sum() / last["time"].sum())
+        balance = wheel / self.system.load - 1.0
+        settled = spread <= PERIODIC and abs(balance) <= BALANCED
+        surely = spread <= _EARLY * PERIODIC and abs(balance) <= _EARLY * BALANCED
+        return Judgement(settled, settled and surely, spread, balance, last.size)
+
+    def tree(self) -> Tree:
+        """Return all that changes on the way."""
+        return {
+            "rows": self.rows,
+            "states": self.states,
+            "committed": self.committed,
+            "seconds": self.seconds,
+        }
+
+    def restore(self, tree: Tree) -> None:
+        """Go back to where a march of the same drive stood when it gave its tree."""
+        self.rows, self.states = tree["rows"], tree["states"]
+        self.committed, self.seconds = tree["committed"], tree["seconds"]
+
+
+def mean(rows: Records, name: str) -> float:
+    """Return the mean over time of what rows sum up."""
+    return float(rows[name].sum() / rows["time"].sum())
+
+
+def bands_of(rows: Records, began: float) -> dict[str, Any]:
+    """Return rows of short stretches as the arrays of `asperity.drive.result.Bands`."""
+    span = rows["time"]
+    return {
+        "time": began + np.cumsum(span) - 0.5 * span,
+        "torque": rows["torque"] / span,
+        "torque_min": rows["torque_min"],
+        "torque_max": rows["torque_max"],
+        "normal": rows["driving"] / span,
+        "normal_min": rows["driving_min"],
+        "normal_max": rows["driving_max"],
+        "back": rows["back"] / span,
+        "open": rows["open"] / span,
+    }

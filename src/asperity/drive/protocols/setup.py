@@ -1,0 +1,181 @@
+"""A protocol's freedoms and imposed motions, and the state that a march begins in."""
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.drive.motion.system import STATE, System
+from asperity.drive.problem import DriveProblem
+from asperity.drive.reduced.model import ReducedModel
+from asperity.errors import InputError
+from asperity.waveform import AT_REST
+
+_STABLE = 0.25  # of a step, times the highest natural frequency
+_STIFFER = 3.0  # that the normal contact may be than without vibration
+_LANDING = 1.0 / 20.0  # of the approach without vibration, in a step
+_NOTHING: Mapping[str, float] = MappingProxyType({})
+
+
+def shakes(problem: DriveProblem, model: ReducedModel) -> dict[str, float]:
+    """Return the amplitude of what is imposed where, by the names of `System`; rad and m.
+
+    A screw turns and shifts so that it slides in itself. The part along the flank alone, protocol
+    ``tangential``, is that of a screw.
+    """
+    vibration, _ = problem.vibrated
+    amplitude, radius = problem.amplitude, problem.reference_radius
+    point, seat = model.point, vibration.applied_to == "seat"
+    if problem.drive.protocol == "tangential":
+        turn = {
+            "axial": -point.lead * amplitude / point.length**2,
+            "torsional": point.radius**2 * amplitude / (radius * point.length**2),
+            "wheel-axial": -point.radius * amplitude / point.length**2,
+            "screw": amplitude / radius,
+        }[problem.mode]
+        return {"shake_worm_turn": turn, "shake_worm_shift": -point.lead * turn}
+    if problem.mode == "axial":
+        return {"shake_seat" if seat else "shake_worm_shift": amplitude}
+    if problem.mode == "wheel-axial":
+        return {"shake_wheel": amplitude}
+    turn = amplitude / radius
+    if problem.mode == "torsional":
+        motor = vibration.applied_to == "motor"
+        return {"shake_motor" if motor else "shake_worm_turn": turn}
+    shift = "shake_seat" if seat else "shake_worm_shift"
+    return {"shake_worm_turn": turn, shift: -point.lead * turn}
+
+
+def system(
+    problem: DriveProblem, model: ReducedModel, *, shaken: bool = True, motor: bool = True
+) -> System:
+    """Return freedoms and imposed motions of a problem's protocol.
+
+    Parameters
+    ----------
+    shaken : bool
+        Whether it vibrates.
+    motor : bool
+        Whether the motor turns the shaft; else the worm is free of it.
+
+    Raises
+    ------
+    InputError
+        The step that was asked for is too coarse for how fast the surfaces approach.
+    """
+    shaft, drive = problem.shaft, problem.drive
+    held = drive.protocol == "held-wheel"
+    driven = motor and not held
+    turns = shaft.torsion is not None or not driven
+    torsion = shaft.torsion if driven and shaft.torsion is not None else 0.0
+    inertia = problem.worm_inertia if turns else 1.0
+    seat = shaft.bearing_axial
+    mass = problem.worm_mass if seat is not None else 1.0
+    ratio = shaft.damping_ratio
+    _, shape = problem.vibrated
+    found = System(
+        worm_inertia=inertia,
+        worm_mass=mass,
+        wheel_inertia=drive.load_inertia or 0.0,
+        torsion=torsion,
+        torsion_damping=2.0 * ratio * math.sqrt(torsion * inertia),
+        seat=seat or 0.0,
+        seat_damping=2.0 * ratio * math.sqrt((seat or 0.0) * mass),
+        motor_torque=model.worm_torque if held else 0.0,
+        load=problem.load,
+        speed=problem.worm_speed if driven else 0.0,
+        turns=turns,
+        shifts=seat is not None,
+        rolls=not held,
+        **(dict.fromkeys(_SHAKES, 0.0) | (shakes(problem, model) if shaken else {})),
+        wave=shape.wave() if shaken else AT_REST,
+        frequency=shape.frequency,
+        longest=problem.step,
+        landing=_LANDING * model.approach,
+    )
+    return found._replace(longest=_longest(problem, model, found))
+
+
+_SHAKES = ("shake_worm_turn", "shake_worm_shift", "shake_seat", "shake_wheel", "shake_motor")
+
+
+def _longest(problem: DriveProblem, model: ReducedModel, found: System) -> float:
+    """Return the longest step that is stable and lands well, or refuse the one asked for."""
+    normal, along = model.stiffness
+    normal *= _STIFFER
+    point = model.point
+    n_z, tilt = point.normal_z, point.lead / point.length
+    squares = [0.0]
+    if found.turns:
+        turning = (n_z * point.lead) ** 2 * normal + (point.radius**2 / point.length) ** 2 * along
+        squares.append((found.torsion + turning) / found.worm_inertia)
+    if found.shifts:
+        squares.append((found.seat + n_z**2 * normal + tilt**2 * along) / found.worm_mass)
+    if found.rolls:
+        wheel = point.arm**2 * (n_z**2 * normal + tilt**2 * along)
+        squares.append(wheel / found.wheel_inertia)
+    fastest = math.sqrt(sum(squares))
+    stable = _STABLE / fastest if fastest > 0.0 else math.inf
+    given = problem.solve.step
+    if given is None:
+        return min(problem.step, stable)
+    if given > 4.0 * stable:
+        raise InputError(
+            f"solve.step is {given:g} s, too coarse for the mesh's own vibration of "
+            f"{fastest / (2.0 * math.pi):.3g} Hz; it may be at most {4.0 * stable:.3g} s"
+        )
+    if given * problem.approach_speed > found.landing:
+        raise InputError(
+            f"solve.step is {given:g} s, too coarse for flanks that approach at "
+            f"{problem.approach_speed:.3g} m/s; it may be at most "
+            f"{found.landing / problem.approach_speed:.3g} s, a twentieth of their approach under "
+            "the load"
+        )
+    return given
+
+
+def begin(
+    problem: DriveProblem, model: ReducedModel, moving: System
+) -> tuple[npt.NDArray[np.void], FloatArray]:
+    """Return the state without vibration: loaded, sliding steadily where a motor turns the worm.
+
+    Returns
+    -------
+    states : record array of one `STATE`
+        Motion and forces.
+    committed : ndarray
+        What the mesh remembers.
+    """
+    point = model.point
+    locked = not moving.speed and not moving.motor_torque
+    share = 1.0
+    force, torque = model.normal_force, model.worm_torque
+    if locked:
+        # The worm holds without a torque, by as much friction as that takes.
+        share = -min(point.holding_share(model.friction), 1.0)
+        force = point.normal_force(problem.load, share * model.friction)
+        torque = point.worm_torque(problem.load, share * model.friction)
+    thrust = -problem.load / point.arm
+    states = np.zeros(1, STATE)
+    state = states[0]
+    state["step"] = moving.longest
+    state["turn_rate"] = moving.speed
+    state["roll_rate"] = moving.speed / point.ratio
+    if moving.torsion:
+        state["turn"] = -torque / moving.torsion
+    if moving.shifts:
+        state["shift"] = thrust / moving.seat
+        state["seat_force"] = -thrust
+    approach = model.law.approach_at(force)
+    state["roll"] = (
+        point.lead * state["turn"] + state["shift"] - approach / point.normal_z
+    ) / point.arm
+    state["driving"] = force
+    state["torque"] = 0.0 if locked else torque
+    state["worm_torque"], state["worm_force"] = -torque, thrust
+    state["wheel_torque"] = problem.load
+    pose = np.array([state["turn"], state["shift"], state["roll"], 0.0])
+    return states, model.settled_in(pose, share)

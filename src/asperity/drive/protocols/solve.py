@@ -1,0 +1,227 @@
+"""A shaken drive solved by its protocol."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+
+from asperity.drive.actuator import Demand, demand, elastic_energy, system_efficiency
+from asperity.drive.motion.system import System
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.march import Judgement, March, Records, bands_of, mean
+from asperity.drive.protocols.setup import begin, system
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.result import Bands, Course, DriveLedger, DriveResult
+from asperity.errors import ConvergenceError
+from asperity.results.ledger import guard
+from asperity.runs import Run
+from asperity.runs.key import code_key, key
+
+_SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
+_AFTER_SECONDS = 20e-3
+_AT_REST = 1e-3  # of the wheel's speed
+_ADVICE = "give a smaller solve.step"
+
+
+def solve_shaken(problem: DriveProblem, model: ReducedModel, run: Run) -> DriveResult:
+    """Return the answer of a problem's protocol.
+
+    Raises
+    ------
+    ConvergenceError
+        The powers do not balance, or the motion left the finite numbers.
+    """
+    locked = problem.drive.protocol == "back-drive"
+    moving = system(problem, model, motor=not locked)
+    march = March(model, moving, *begin(problem, model, moving), run)
+    if kept := run.resume(_key(problem)):
+        march.restore(kept)
+    window = problem.drive.window
+    with run.going_on():
+        shown: Records | None = None
+        if problem.drive.protocol == "window":
+            judged = _first_cycles(march, window, model.worm_torque)
+        else:
+            judged = march.settle(
+                window=window, torque=model.worm_torque, duration=problem.solve.duration
+            )
+        creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
+        held = _held_after(problem, model, march, run)
+        began = float(march.states[0]["time"])
+        if run.detailed and held is None:
+            shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
+    answer = _summarise(problem, model, march, judged)
+    return dataclasses.replace(
+        answer,
+        creep=creep,
+        held_after=held,
+        bands=None if shown is None else Bands(**bands_of(shown, began)),
+    )
+
+
+def _key(problem: DriveProblem) -> str:
+    asked = problem.case.canonical() if problem.case is not None else repr(problem)
+    return key(code_key(__name__), asked)
+
+
+def _first_cycles(march: March, window: int, torque: float) -> Judgement:
+    """March the first cycles alone; they are not a periodic state, whatever they look like."""
+    march.go(window - march.rows.size)
+    rows = march.rows
+    spread = float(np.ptp(rows["torque"] / rows["time"])) / torque
+    balance = mean(rows, "wheel_torque") / march.system.load - 1.0
+    return Judgement(False, False, spread, balance, window)
+
+
+def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: Run) -> bool | None:
+    """Whether the gearset holds once vibration and motor are off; None where it is not asked."""
+    if problem.drive.protocol != "on-demand":
+        return None
+    still = system(problem, model, shaken=False, motor=False)
+    left = march.states.copy()
+    # What was imposed is the worm's own from here on, at the pose and speed that it has.
+    for name in ("wave", "wave_rate"):
+        left[name] = 0.0
+    after = March(model, still, left, march.committed.copy(), run)
+    after.go(math.ceil(_AFTER_SECONDS * still.frequency))
+    end = after.rows[-max(1, after.rows.size // 4) :]
+    return abs(mean(end, "rolled")) < _AT_REST * problem.worm_speed / model.point.ratio
+
+
+def _summarise(
+    problem: DriveProblem, model: ReducedModel, march: March, judged: Judgement
+) -> DriveResult:
+    rows, moving = march.rows, march.system
+    last = rows[-judged.cycles :]
+    time = float(last["time"].sum())
+    before = rows[-judged.cycles - 1]["stored"] if rows.size > judged.cycles else None
+    if before is None:
+        last, time = last[1:], float(last["time"][1:].sum())
+        before = rows[-judged.cycles]["stored"]
+    ledger = DriveLedger(
+        drive=mean(last, "drive"),
+        actuator=mean(last, "actuator"),
+        load=mean(last, "load"),
+        friction=mean(last, "friction"),
+        damping=mean(last, "contact_damping") + mean(last, "shaft_damping"),
+        stored=float(last["stored"][-1] - before) / time,
+    )
+    guarded = guard(ledger, _ADVICE, reached={"torque_balance": judged.balance})
+    torque = model.worm_torque
+    driven = bool(moving.speed)
+    first = rows[: problem.drive.window]
+    power = torque * problem.worm_speed
+    put_in = ledger.drive + ledger.actuator
+    taken = _demand(problem, moving, ledger)
+    measured = mean(last, "torque") if driven else None
+    ratio = None if measured is None else measured / torque
+    if problem.drive.protocol == "held-wheel":
+        # The motor pushes as it does without vibration, and the wheel's torque is what changes.
+        measured, ratio = torque, problem.load / mean(last, "wheel_torque")
+    saved = power - ledger.drive
+    efficiency = None
+    if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
+        efficiency = system_efficiency(ledger.load, ledger.drive, taken.electrical_power)
+    return DriveResult(
+        problem=problem,
+        k_w=problem.velocity_ratio,
+        torque_static=torque,
+        torque=measured,
+        torque_ratio=ratio,
+        torque_balance=judged.balance,
+        settled=judged.settled,
+        spread=judged.spread if math.isfinite(judged.spread) else None,
+        torque_ratio_window=mean(first, "torque") / torque if driven else None,
+        window_balance=mean(first, "wheel_torque") / problem.load - 1.0,
+        floor_reversed=model.reversed_torque / torque,
+        open_share=mean(last, "open"),
+        second_flank_share=mean(last, "second"),
+        force_max=float(max(last["driving_max"].max(), last["back_max"].max())),
+        force_static=model.normal_force,
+        ledger=ledger,
+        energy_ratio=put_in / power if driven else None,
+        saved_per_actuator=saved / ledger.actuator if driven and ledger.actuator > 0.0 else None,
+        actuator_electrical=None if taken is None else taken.electrical_power,
+        actuator_apparent=None if taken is None else taken.apparent_power,
+        system_efficiency=efficiency,
+        efficiency_static=problem.load / (model.point.ratio * torque),
+        **_resonances(model, moving),
+        course=Course(
+            cycle_end=np.cumsum(rows["time"]),
+            cycle_torque=rows["torque"] / rows["time"],
+            cycle_wheel=rows["wheel_torque"] / rows["time"],
+        ),
+        notes=(*_notes(problem, model, judged), *guarded),
+        steps=march.steps,
+        seconds=march.seconds,
+    )
+
+
+def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Demand | None:
+    """What the actuator takes, tuned to its resonance with what it moves; None without a table."""
+    if problem.actuator is None:
+        return None
+    unit = problem.velocity / problem.amplitude if problem.amplitude else 0.0
+    energy = 0.0
+    turn = moving.shake_worm_turn or moving.shake_motor
+    shift = moving.shake_worm_shift or moving.shake_seat
+    if turn:
+        energy += elastic_energy(problem.worm_inertia, unit * turn, 1.0)
+    if shift or moving.shake_wheel:
+        energy += elastic_energy(problem.worm_mass, unit * (shift or moving.shake_wheel), 1.0)
+    return demand(
+        ledger.actuator,
+        energy,
+        moving.frequency,
+        coupling=problem.actuator.coupling,
+        quality_factor=problem.actuator.quality_factor,
+        efficiency=problem.actuator.efficiency,
+    )
+
+
+def _resonances(model: ReducedModel, moving: System) -> dict[str, Any]:
+    normal, _ = model.stiffness
+    wheel = (model.point.normal_z * model.point.arm) ** 2 * normal
+    turn = 0.5 / math.pi
+    return {
+        "resonance_worm": turn * math.sqrt(moving.torsion / moving.worm_inertia)
+        if moving.torsion
+        else None,
+        "resonance_wheel": turn * math.sqrt(wheel / moving.wheel_inertia) if moving.rolls else None,
+    }
+
+
+def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tuple[str, ...]:
+    notes = list(model.reduction.notes)
+    if problem.drive.protocol == "window":
+        notes.append(
+            f"means over the first {judged.cycles} cycles, whose wheel is out of balance by "
+            f"{100.0 * judged.balance:.2g} %: no state that lasts"
+        )
+    elif not judged.settled:
+        notes.append(
+            f"aperiodic: the torque ratio of three blocks of cycles spreads by "
+            f"{judged.spread:.2g}, and the wheel is out of balance by {100 * judged.balance:.2g} %"
+        )
+    hidden = []
+    if problem.shaft.torsion is None:
+        hidden.append("torsion (a soft shaft lets the worm give way as it turns)")
+    if problem.shaft.bearing_axial is None:
+        hidden.append("axial bearing (a soft seat takes an axial vibration over)")
+    if "bending" not in model.give:
+        hidden.append("bending of the worm's shaft (often more than the teeth give)")
+    if hidden:
+        notes.append(f"rigid: {'; '.join(hidden)}")
+    if model.give:
+        parts = " and ".join(name.replace("_", " ") for name in model.give)
+        notes.append(f"{parts} of the shaft give without inertia")
+    return tuple(notes)
+
+
+def check(problem: DriveProblem, model: ReducedModel) -> None:
+    """Refuse what a march would stumble over, before it begins."""
+    moving = system(problem, model, motor=problem.drive.protocol != "back-drive")
+    _ = model.mesh
+    if not math.isfinite(moving.longest) or moving.longest <= 0.0:
+        raise ConvergenceError("there is no step that the march is stable with", reached={})

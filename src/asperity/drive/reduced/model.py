@@ -1,0 +1,183 @@
+"""A drive's mesh reduced: its closed form without vibration, and the mesh as kernels take it."""
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.drive.friction import friction_curve, rating_inputs
+from asperity.drive.friction_curve import FrictionCurve, friction_at
+from asperity.drive.motion.system import System
+from asperity.drive.point import MeshPoint
+from asperity.drive.problem import DriveProblem
+from asperity.drive.reduced.law import NormalLaw
+from asperity.drive.reduced.march import march
+from asperity.drive.reduced.mesh import STATES, Mesh, settle_in
+from asperity.drive.reduced.reduction import Reduction
+from asperity.drive.shafts import MeshAction, compliances_of, wheel_compliances
+from asperity.errors import InputError
+
+_FASTER = 3.0  # than sliding and vibration together, up to where friction is tabulated
+_QUASI_STATIC = ("bending", "bearing_radial")
+# Coulomb's friction on rigid teeth gives by so much of the normal approach at full friction.
+_GIVE = 2e-3
+
+
+@dataclasses.dataclass(frozen=True)
+class ReducedModel:
+    """The reduced mesh of a problem.
+
+    Attributes
+    ----------
+    problem : DriveProblem
+        What it is a model of.
+    reduction : Reduction
+        What the teeth are reduced to.
+    """
+
+    problem: DriveProblem
+    reduction: Reduction
+
+    @functools.cached_property
+    def point(self) -> MeshPoint:
+        """Where it touches."""
+        return self.problem.point(self.reduction.radius)
+
+    @functools.cached_property
+    def curve(self) -> FrictionCurve:
+        """Coefficient of friction over the sliding speed."""
+        problem = self.problem
+        if problem.drive.friction == "constant":
+            return FrictionCurve(1.0, np.array([problem.friction.mu]))
+        if problem.case is None:
+            raise InputError("drive.friction is 'iso14521', which needs a case with [operation]")
+        fastest = self.sliding_speed
+        if problem.vibration is not None:
+            fastest += problem.velocity
+        return friction_curve(rating_inputs(problem.case), _FASTER * fastest)
+
+    @functools.cached_property
+    def friction(self) -> float:
+        """Coefficient of friction without vibration."""
+        return float(friction_at(self.curve, self.sliding_speed))
+
+    @property
+    def sliding_speed(self) -> float:
+        """Of the worm where it touches, m/s."""
+        return self.point.sliding_speed(self.problem.worm_speed)
+
+    @functools.cached_property
+    def normal_force(self) -> float:
+        """Without vibration, N."""
+        return self.point.normal_force(self.problem.load, self.friction)
+
+    @property
+    def worm_torque(self) -> float:
+        """Without vibration, N m."""
+        return self.point.worm_torque(self.problem.load, self.friction)
+
+    @property
+    def reversed_torque(self) -> float:
+        """Of the worm if all friction were turned round, N m."""
+        return self.point.worm_torque(self.problem.load, -self.friction)
+
+    @functools.cached_property
+    def give(self) -> tuple[str, ...]:
+        """Parts of the shaft that give without inertia, in series with the teeth."""
+        return tuple(name for name in self._parts if name in _QUASI_STATIC)
+
+    @functools.cached_property
+    def _parts(self) -> dict[str, float]:
+        action = MeshAction.at_pitch_point(self.problem.geometry, self.friction, self.point.radius)
+        found = compliances_of(self.problem.shaft, self.point.radius)
+        return dict(wheel_compliances(action, found))
+
+    @functools.cached_property
+    def law(self) -> NormalLaw:
+        """Normal force against approach, the quasi-static parts of the shaft in it."""
+        more = sum(self._parts[name] for name in self.give)
+        given = [(torque, angle + more * torque) for torque, angle in self.reduction.deflection]
+        return NormalLaw.of(self.point, given, self.friction)
+
+    @functools.cached_property
+    def approach(self) -> float:
+        """Of the flanks without vibration, m."""
+        return self.law.approach_at(self.normal_force)
+
+    @functools.cached_property
+    def elastic_slip(self) -> float:
+        """Way along the flank from none to full friction without vibration, m."""
+        full = self.friction * self.normal_force
+        bending = self.reduction.compliance * full
+        if self.problem.friction.model == "coulomb":
+            return bending or _GIVE * self.approach
+        return bending + self.problem.friction.deflection_limit(self.normal_force)
+
+    @functools.cached_property
+    def mesh(self) -> Mesh:
+        """Numbers for the kernels."""
+        problem, point = self.problem, self.point
+        cell, rows = self.law.table(self.normal_force)
+        limit, exponent, yielding = self.elastic_slip, 0.0, 0.0
+        if problem.friction.model == "dahl":
+            limit = problem.friction.deflection_limit(self.normal_force)
+            exponent = problem.friction.exponent
+            yielding = self.elastic_slip / limit - 1.0
+        return Mesh(
+            lead=point.lead,
+            radius=point.radius,
+            length=point.length,
+            arm=point.arm,
+            across=point.normal_across,
+            radial=point.normal_radial,
+            backlash=self._backlash,
+            cell=cell,
+            rows=rows,
+            damping=problem.drive.contact_damping or 0.0,
+            reference=self.normal_force,
+            limit=limit,
+            exponent=exponent,
+            yielding=yielding,
+            curve=self.curve,
+            friction=self.friction,
+        )
+
+    def march(
+        self,
+        system: System,
+        states: npt.NDArray[np.void],
+        committed: FloatArray,
+        stretch: float,
+        rows: npt.NDArray[np.void],
+        stop: npt.NDArray[np.int64],
+    ) -> int:
+        """March so many stretches as there are rows, see `asperity.drive.reduced.march.march`."""
+        done: int = march(self.mesh, system, states, committed, stretch, rows, stop)
+        return done
+
+    def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
+        """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
+        committed = np.zeros(STATES)
+        settle_in(self.mesh, committed, pose, share)
+        return committed
+
+    @property
+    def _backlash(self) -> float:
+        if self.problem.drive.flanks == "driving":
+            return math.inf
+        mount = self.problem.mount
+        if mount is None or mount.backlash is None:
+            raise InputError(
+                "mount.backlash is missing; both flanks may touch, and how far they are apart is "
+                "not known: give it, or drive.flanks = 'driving'"
+            )
+        return mount.backlash
+
+    @property
+    def stiffness(self) -> tuple[float, float]:
+        """Of the mesh without vibration along the normal and along the flank, N/m."""
+        slope = float(self.law.exact(np.array([self.approach]))[1][0])
+        return slope, self.friction * self.normal_force / self.elastic_slip

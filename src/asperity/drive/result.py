@@ -1,0 +1,175 @@
+"""What a shaken drive is: torques, their balance, contact lost, powers, what it costs."""
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from asperity.arrays import FloatArray
+from asperity.drive.problem import DriveProblem
+from asperity.results import Quantities, Result, labelled, part, quantity
+from asperity.results.ledger import Ledger
+from asperity.slider.result import table_inputs
+
+_OVER_TIME, _CYCLES = ("time",), ("cycle",)
+
+
+class DriveLedger(Ledger):
+    """Mean powers over the window, W: drive + actuator = load + friction + damping + stored.
+
+    Attributes
+    ----------
+    drive : float
+        The motor's: torque on the shaft's end times its steady speed.
+    actuator : float
+        What the vibration puts in, wherever it is applied; below 0 where it is driven.
+    load : float
+        What the wheel gives to the load.
+    friction : float
+        Lost between the flanks.
+    damping : float
+        Lost in the contact's damping, the shaft's and the seat's.
+    stored : float
+        Rate of change of kinetic and elastic energy.
+    """
+
+    drive: float = quantity("P_d", "W", "power of the motor")
+    actuator: float = quantity("P_a", "W", "mechanical power of the vibration's actuator")
+    load: float = quantity("P_R", "W", "power given to the load")
+    friction: float = quantity("P_f", "W", "power lost to friction between the flanks")
+    damping: float = quantity("P_h", "W", "power lost to damping of contact, shaft and seat")
+    stored: float = quantity("P_s", "W", "rate of change of stored energy")
+
+    @property
+    def _inputs(self) -> tuple[float, ...]:
+        # A load that drives the worm puts in what it gives.
+        return self.drive, self.actuator, max(-self.load, 0.0), max(-self.stored, 0.0)
+
+    @property
+    def _outputs(self) -> tuple[float, ...]:
+        return max(self.load, 0.0), self.friction, self.damping, max(self.stored, 0.0)
+
+
+class Bands(Quantities):
+    """Motion over time in stretches: mean, least and greatest of each."""
+
+    time: FloatArray = quantity("t", "s", "time", dims=_OVER_TIME, coordinate=True)
+    torque: FloatArray = quantity("T_B", "N m", "torque of the worm's shaft", dims=_OVER_TIME)
+    torque_min: FloatArray = quantity("T_B", "N m", "least torque of a stretch", dims=_OVER_TIME)
+    torque_max: FloatArray = quantity("T_B", "N m", "greatest torque of a stretch", dims=_OVER_TIME)
+    normal: FloatArray = quantity("N", "N", "normal force, driving flank", dims=_OVER_TIME)
+    normal_min: FloatArray = quantity("N", "N", "least normal force of a stretch", dims=_OVER_TIME)
+    normal_max: FloatArray = quantity(
+        "N", "N", "greatest normal force of a stretch", dims=_OVER_TIME
+    )
+    back: FloatArray = quantity("N_b", "N", "normal force, other flank", dims=_OVER_TIME)
+    open: FloatArray = quantity("", "", "share of a stretch without contact", dims=_OVER_TIME)
+
+
+class Course(Quantities):
+    """Means of whole cycles, from the start of the vibration on."""
+
+    cycle_end: FloatArray = quantity("t", "s", "end of the cycle", dims=_CYCLES, coordinate=True)
+    cycle_torque: FloatArray = quantity("T_B", "N m", "torque, mean of a cycle", dims=_CYCLES)
+    cycle_wheel: FloatArray = quantity(
+        "T_R", "N m", "torque of the mesh on the wheel, mean of a cycle", dims=_CYCLES
+    )
+
+
+class DriveResult(Result):
+    """The answer for a gearset under vibration.
+
+    A torque ratio means nothing without ``torque_balance`` and ``settled``: while the wheel coasts
+    or speeds up, the worm may carry any torque.
+    """
+
+    title: ClassVar[str] = "Worm gearset under vibration"
+    stem: ClassVar[str] = "drive"
+    drawings: ClassVar[Mapping[str, str]] = {
+        "drive": "asperity.drive.plots:plot_torque",
+        "drive_powers": "asperity.drive.plots:plot_powers",
+    }
+
+    problem: DriveProblem
+    k_w: float = quantity("k_w", "", "peak velocity of the vibration over the sliding", key="k_w")
+    torque_static: float = quantity("T_Bs", "N m", "torque without vibration")
+    torque: float | None = quantity("T_Bv", "N m", "mean torque under vibration")
+    torque_ratio: float | None = quantity("T_Bv/T_Bs", "", "mean torque over that without")
+    torque_balance: float = quantity(
+        "T_m/T_R - 1", "", "what the mesh gives the wheel beyond its load, over it"
+    )
+    settled: bool = quantity("", "", "periodic and balanced")
+    spread: float | None = quantity("", "", "of the ratio between the last three blocks")
+    torque_ratio_window: float | None = quantity(
+        "T_Bw/T_Bs", "", "the same over the first cycles, whatever the balance"
+    )
+    window_balance: float | None = quantity("T_w/T_R - 1", "", "balance over the first cycles")
+    floor_reversed: float = quantity(
+        "T_Br/T_Bs", "", "ratio with all friction reversed, the least in contact"
+    )
+    open_share: float = quantity("", "", "share of time without contact")
+    second_flank_share: float = quantity("", "", "share of time on the other flank")
+    force_max: float = quantity("N_max", "N", "greatest normal force")
+    force_static: float = quantity("N_s", "N", "normal force without vibration")
+    ledger: DriveLedger = part(DriveLedger, "power_")
+    energy_ratio: float | None = quantity(
+        "(P_d + P_a)/P_0", "", "mechanical power put in over that without vibration"
+    )
+    saved_per_actuator: float | None = quantity(
+        "(P_0 - P_d)/P_a", "", "drive power saved per actuator power",
+        key="saved_per_actuator_W_W",
+    )  # fmt: skip
+    actuator_electrical: float | None = quantity("P_e", "W", "real power the actuator takes")
+    actuator_apparent: float | None = quantity(
+        "S", "VA", "apparent power of the actuator's amplifier"
+    )
+    system_efficiency: float | None = quantity(
+        "eta_sys", "", "load's power over drive's and actuator's electrical power"
+    )
+    efficiency_static: float = quantity("eta_s", "", "efficiency without vibration")
+    resonance_worm: float | None = quantity(
+        "f_1", "Hz", "natural frequency of the worm on its shaft, the mesh open"
+    )
+    resonance_wheel: float | None = quantity(
+        "f_2", "Hz", "natural frequency of the wheel on the teeth, the worm held"
+    )
+    creep: float | None = quantity(
+        "",
+        "rad/s",
+        "mean speed of the wheel with the motor off",
+        key="creep_rad_s",
+        optional=True,
+        default=None,
+    )
+    held_after: bool | None = quantity(
+        "",
+        "",
+        "whether the gearset holds once vibration and motor are off",
+        optional=True,
+        default=None,
+    )
+    course: Course | None = part(Course, default=None)
+    bands: Bands | None = part(Bands, default=None)
+    steps: int = quantity("", "", "time steps", shown=False, default=0)
+    seconds: float = quantity("", "s", "time it took", key="seconds", shown=False, default=0.0)
+
+    @property
+    @labelled("", "", "of the powers, what is missing over what is put in", swept=True)
+    def closure(self) -> float:
+        """Residual of the power ledger."""
+        return self.ledger.residual
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What was asked: values in SI and texts by ``table.key``."""
+        p = self.problem
+        found = table_inputs(
+            p.gearset, p.operation, p.friction, p.drive, p.shaft, p.vibration, p.actuator, p.mount
+        )
+        return {
+            key: value if isinstance(value, str | int | float) else str(value)
+            for key, value in found.items()
+        }
+
+    def heading(self) -> str:
+        """Return what was asked, and whether the answer is a periodic state."""
+        state = "settled" if self.settled else "not settled"
+        return f"{self.problem.drive.protocol}, {self.problem.mode}: {state}"

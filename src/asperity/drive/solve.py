@@ -1,0 +1,31 @@
+"""The command `drive`: a gearset under load, and under vibration where there is one."""
+
+from asperity.casefile import Case
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.solve import check, solve_shaken
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
+from asperity.errors import InputError
+from asperity.results import Result
+from asperity.runs import Run
+
+
+def prepare(case: Case, *, static: bool = False) -> DriveProblem:
+    """Return the problem of a case; InputError where it cannot be solved.
+
+    Parameters
+    ----------
+    static : bool
+        Whether its vibration is left out.
+    """
+    problem = DriveProblem.from_case(case, shaken=not static)
+    if problem.vibration is not None and problem.drive.deflection is not None:
+        check(problem, ReducedModel(problem, reduction(problem, Run())))
+    return problem
+
+
+def answer(problem: DriveProblem, run: Run) -> Result:
+    """Solve a drive: its loaded teeth without vibration, its protocol with one."""
+    if problem.vibration is None:
+        raise InputError("the table [vibration] is missing; add it")
+    return solve_shaken(problem, ReducedModel(problem, reduction(problem, run)), run)
