@@ -2,9 +2,18 @@
 
 import math
 
+import numpy as np
 import pytest
 
+from asperity.thesis.contact.derivatives import Before, scheme
 from asperity.thesis.drive import claims
+from asperity.thesis.drive.appendix_e import (
+    Subroutine,
+    advance,
+    coulomb_of_path,
+    friction_of_path,
+    hammered,
+)
 from asperity.thesis.drive.sets import AMPLITUDE, RATIOS, SPEED, conditions
 
 
@@ -54,3 +63,57 @@ def test_a_motor_that_saves_what_the_thesis_says_keeps_its_share_of_the_torque()
         left = (diameter - 0.05) ** 2 * (length - 0.03)
         assert left == pytest.approx(ratio * diameter**2 * length)
         assert density * math.pi / 4.0 * diameter**2 * length == pytest.approx(mass)
+
+
+SUBROUTINE = Subroutine(0.1344, 7e-8, 1.0)
+SHARES = (0.424, 0.317)
+
+
+def test_elastic_increments_of_the_subroutine_are_the_scheme_of_7_3():
+    rng = np.random.default_rng(3)
+    state = np.zeros(5)
+    for _ in range(200):
+        # Lengths over s_max, increments well below it.
+        before = Before(state[2], state[3], state[1], state[4], 0.0, 1.0)
+        d_1, d_2 = rng.uniform(-0.2, 0.2, 2)
+        at = scheme(before, state[0] + d_1, state[1] + d_2, 1.0)
+        share = at["s_1"].real
+        found = advance(Subroutine(1.0, 1.0, 1.0), state, d_1, d_2, 1.0)
+        assert abs(share) < 1.0
+        assert found == pytest.approx((share * at["cos_b"].real, share * at["sin_b"].real))
+
+
+def test_the_plastic_branch_keeps_its_root_and_gains_work_from_a_slip_that_turns():
+    # Out by 100 increments of 20 s_max, back by 50: friction should turn with the slip.
+    steps = 20.0 * SUBROUTINE.max_deflection * np.array([1.0] * 100 + [-1.0] * 50)
+    slips = np.stack([steps, np.zeros(150)], axis=-1)
+    found = friction_of_path(SUBROUTINE, slips, np.ones(150))
+    assert found[:, 0] == pytest.approx(np.full(150, SUBROUTINE.mu))
+    work_back = (found * slips)[100:].sum()
+    assert work_back == pytest.approx(-SUBROUTINE.mu * 50 * 20.0 * SUBROUTINE.max_deflection)
+    sound = (coulomb_of_path(SUBROUTINE.mu, slips, np.ones(150)) * slips).sum(axis=1)
+    assert np.all(sound > 0.0)
+
+
+def test_both_laws_agree_where_slip_does_not_turn_and_part_where_it_does():
+    gentle = hammered(SUBROUTINE, 0.5, SHARES, 0.16e-3, 1000)
+    assert gentle.subroutine == pytest.approx(gentle.coulomb, abs=0.02)
+    for k in (3.0, 5.0, 10.0):
+        found = hammered(SUBROUTINE, k, SHARES, 0.16e-3, 1000)
+        assert found.subroutine < found.coulomb - 0.1
+
+
+def test_a_sound_asperity_hammers_as_coulomb_does_whatever_the_increments():
+    for increments in (1000, 20000):
+        for k in (0.5, 3.0, 20.0):
+            found = hammered(SUBROUTINE, k, SHARES, 0.16e-3, increments)
+            assert found.dahl == pytest.approx(found.coulomb, abs=0.01)
+
+
+def test_coulomb_friction_of_the_hammering_worm_is_its_integral():
+    # With all of the motion along the sliding, friction is the sign of 1 - k cos.
+    phase = np.pi * (np.arange(20000) + 0.5) / 20000
+    for k in (0.5, 2.0, 6.0):
+        found = hammered(SUBROUTINE, k, (1.0, 0.0), 0.16e-3, 8000).coulomb
+        expected = (np.sin(phase) * np.sign(1.0 - k * np.cos(phase))).mean() * np.pi / 2.0
+        assert found == pytest.approx(expected, abs=1e-3)

@@ -60,8 +60,13 @@ _MADE_IN = {
         "flanks.figures": "2.9 2.10 2.11 2.12 2.13",
         "flanks.solids": "7.1 7.2 7.3 7.4 7.11",
         "contact.figures": "5.2 5.3 5.5 5.6 5.7 5.8 5.9 5.10 5.11 7.8 7.9",
+        "drive.models": "7.5 7.6 7.7",
     },
-    TABLE: {"sliding.tables": "4.1 4.3 4.4", "rating.tables": "3.2 3.3 3.4 3.5 3.6 3.7"},
+    TABLE: {
+        "sliding.tables": "4.1 4.3 4.4",
+        "rating.tables": "3.2 3.3 3.4 3.5 3.6 3.7",
+        "drive.tables": "7.1 7.2 7.3 7.4",
+    },
     CLAIM: {
         "sliding.claims": "4.1 4.2 4.3 4.4 4.5 4.6 4.7 4.8",
         "sliding.readings": "2.4 2.5 4.9 4.10 4.11 4.12 5.2",
@@ -71,6 +76,7 @@ _MADE_IN = {
         "contact.claims": "5.1 5.3 7.8",
         "contact.derivatives": "7.14",
         "drive.claims": "7.4 7.11 7.12 7.13 7.16 7.18",
+        "drive.laws": "7.6",
     },
 }
 

@@ -1,0 +1,88 @@
+"""Pictures of the simulation's model, drawn from their datasets alone."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asperity.results.figures import BLACK, COLOURS, panels
+from asperity.thesis.flanks.drawings_solids import BRONZE, STEEL, View, paint
+from asperity.thesis.flanks.shapes import Shape
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_BORE = View((0.5, 0.35, 1.0))
+_WHOLE = View((-0.5, 0.45, 1.0))
+_GREEN = "#58A06B"
+
+
+def _projected(view: View, points: Any) -> Any:
+    return np.asarray(points) @ view.axes[:2].T
+
+
+def bore(dataset: "xr.Dataset") -> "Figure":
+    """Draw the ring of teeth with its inside in green, on the centre point."""
+    figure, (axes,) = panels(1, 1, width=7.0, height=5.6)
+    paint(axes, Shape.read(dataset, "ring"), {0: BRONZE, 1: _GREEN}, _BORE, edges=0.1)
+    centre = _projected(_BORE, dataset["centre"].values)
+    for node in _projected(_BORE, dataset["linked"].values):
+        axes.plot(*zip(centre, node, strict=True), color=BLACK, linewidth=0.6, zorder=3)
+    axes.plot(*centre, "o", color=BLACK, markersize=5, zorder=4)
+    axes.annotate("centre point", centre, (12, -16), textcoords="offset points")
+    return figure
+
+
+def model(dataset: "xr.Dataset") -> "Figure":
+    """Draw the meshed wheel and the worm on its torsional spring."""
+    figure, (axes,) = panels(1, 1, width=8.0, height=6.0)
+    paint(axes, Shape.read(dataset, "gearset"), {0: BRONZE, 1: STEEL}, _WHOLE, edges=0.08)
+    axes.plot(*_projected(_WHOLE, dataset["spring"].values).T, color=COLOURS[0], linewidth=1.6)
+    ends = _projected(_WHOLE, dataset["ends"].values)
+    for name, end in zip("AB", ends, strict=True):
+        axes.plot(*end, "o", color=BLACK, markersize=5)
+        axes.annotate(name, end, (4, 8), textcoords="offset points", weight="bold")
+    axes.annotate(
+        "4394 N m/rad", ends.mean(axis=0), (0, 20), textcoords="offset points", ha="center"
+    )
+    tip = ends[1] + _projected(_WHOLE, 26.0 * dataset["axis"].values)
+    axes.annotate("", tip, ends[1], arrowprops={"arrowstyle": "->", "color": BLACK})
+    axes.annotate("X", tip, (4, -2), textcoords="offset points")
+    axes.update_datalim([tip])
+    axes.autoscale_view()
+    return figure
+
+
+def increment(dataset: "xr.Dataset") -> "Figure":
+    """Draw body and root of an asperity through the two phases of an increment."""
+    figure, (axes,) = panels(1, 1, width=7.2, height=4.6)
+    body, root = dataset["body"].values, dataset["root"].values
+    # M'2 is carried by dy, and the second phase begins there.
+    stretched = ((root[0], body[0]), (root[1], body[1]), (root[3], body[2]))
+    for n, (one, other) in enumerate(stretched):
+        axes.plot(*zip(one, other, strict=True), color=COLOURS[n], linewidth=2.0)
+    axes.plot(*body.T, "o-", color=BLACK, linewidth=0.9, markersize=4)
+    axes.plot(*root.T, "s:", color=BLACK, linewidth=0.9, markersize=4)
+    for place, names, above in ((body, ("N'", "N''", "N'₁"), 9), (root, _ROOTS, -16)):
+        for at, name in zip(place, names, strict=True):
+            axes.annotate(name, at, (-4, above), textcoords="offset points")
+    sizes = dataset["deflection"].values
+    shifts = ((-62, 4), (8, -12), (8, -12))
+    for (one, other), name, size, shift in zip(stretched, _SIZES, sizes, shifts, strict=True):
+        axes.annotate(
+            f"{name} = {size:.2f}", 0.5 * (one + other), shift, textcoords="offset points"
+        )
+    _equal(axes, "along x, over $s_{max}$", "along y, over $s_{max}$")
+    return figure
+
+
+_SIZES = ("s", "s'", "s₁")
+_ROOTS = ("M", "M'¹", "M'²", "M₁")
+
+
+def _equal(axes: "Axes", x: str, y: str) -> None:
+    axes.set_aspect("equal")
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.margins(0.12)

@@ -1,0 +1,120 @@
+"""Tables 7.1 to 7.4, as far as the text has what they held."""
+
+import math
+
+from asperity.flanks.mesh.tooth import DENSITIES, element_size
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.thesis.drive.claims import GEAR
+from asperity.thesis.drive.sets import conditions
+from asperity.thesis.exhibits import table
+from asperity.thesis.flanks.meshing import pair_of
+from asperity.thesis.products import Grid
+
+_RPM = 30.0 / math.pi
+
+_STEPS = (
+    ("1 to 3", "contact, load and rotation are brought on; their order is lost",
+     "the worm turns from the start; the load is in balance with it"),
+    ("4", "vibration of the worm along X is switched on (7.4.1)",
+     "vibration.start, its amplitude grown over vibration.ramp"),
+    ("all", "bore of the wheel on its centre point, free about its axis, with a constant torque "
+     "(7.2.2, 7.2.4)", "the wheel with drive.load_inertia, which the thesis does not state"),
+    ("all", "the shaft's far end B turns steadily; a torsional spring to A (7.2.2)",
+     "operation.worm_speed behind shaft.torsional_stiffness"),
+    ("all", "the worm held across its axis (7.2.4)", "rigid where [shaft] has no bearings"),
+)  # fmt: skip
+
+
+@table(
+    "7.1", "Steps and boundary conditions",
+    "The table is lost; these are what the text says of it, and what stands for each here.",
+)  # fmt: skip
+def _steps() -> Grid:
+    return Grid.of(
+        _STEPS,
+        {
+            "step": lambda row: row[0],
+            "thesis": lambda row: row[1],
+            "here": lambda row: row[2],
+        },
+        "asperity drive gearset-3b",
+    )
+
+
+@table(
+    "7.2", "Conditions of the 33 simulations",
+    "The table is lost. Peak velocity, frequency and load of sets 1 and 2, amplitude, speed and "
+    "load of set 3, the ends of the range of k_w and the number of rows survive in the text; the "
+    "ratios between the ends are chosen here. The worm's speed is 1440 rpm in proportion to the "
+    "sliding speed.",
+)  # fmt: skip
+def _conditions() -> Grid:
+    rows = [condition for number in (1, 2, 3) for condition in conditions(number)]
+    return Grid.of(
+        list(enumerate(rows, 1)),
+        {
+            "simulation": lambda row: row[0],
+            "set": lambda row: row[1].number,
+            "k_w": lambda row: row[1].ratio,
+            "f, Hz": lambda row: row[1].frequency,
+            "v_a, mm/s": lambda row: 1e3 * row[1].velocity,
+            "u_a, um": lambda row: 1e6 * row[1].amplitude,
+            "v_g, mm/s": lambda row: 1e3 * row[1].sliding_speed,
+            "n_1, rpm": lambda row: _RPM * row[1].worm_speed,
+            "T_R, N m": lambda row: row[1].torque,
+        },
+        "asperity.thesis.drive.sets.conditions(number)",
+    )
+
+
+_VARIABLES = (
+    ("x", "(77)", "STATEV(1)", "way slid along the first axis"),
+    ("y", "(78)", "STATEV(2)", "way slid along the second axis"),
+    ("M_1x", "(34)", "STATEV(3)", "root of the asperity, first axis"),
+    ("M_1y", "(91)", "STATEV(4)", "root of the asperity, second axis"),
+    ("s_1", "(86)", "STATEV(5)", "deflection"),
+)
+
+
+@table(
+    "7.3", "State of the thesis's friction, and of what stands for it",
+    "The thesis's table survives. Here the deflection alone is kept, as a vector: the root is "
+    "where the body is less that, and where the body was is not needed.",
+)  # fmt: skip
+def _state() -> Grid:
+    return Grid.of(
+        _VARIABLES,
+        {
+            "variable": lambda row: row[0],
+            "by": lambda row: row[1],
+            "Appendix E": lambda row: row[2],
+            "what it is": lambda row: row[3],
+            "here": lambda row: (
+                "its vector: both parts of the deflection" if row[0] == "s_1" else "follows"
+            ),
+        },
+        "asperity.thesis.drive.appendix_e.advance",
+        "asperity.friction.loaded.advance_loaded",
+    )
+
+
+@table(
+    "7.4", "Element sizes of the three meshes",
+    "The sizes are lost but for their ratios, 100, 75 and 50 % (7.4.2). Here the coarse one is a "
+    "fifth of the axial module; the worm needs no mesh.",
+)  # fmt: skip
+def _sizes() -> Grid:
+    wheel = Wheel.cut(pair_of(GEAR))
+    coarse = element_size(wheel, "coarse")
+    return Grid.of(
+        list(DENSITIES),
+        {
+            "mesh": str,
+            "thesis, % of the coarse one": lambda name: {"coarse": 100, "intermediate": 75}.get(
+                name, 50
+            ),
+            "here, % of the coarse one": lambda name: 100.0 * element_size(wheel, name) / coarse,
+            "wheel, mm": lambda name: element_size(wheel, name),
+        },
+        *(f"{GEAR.command()} --density {name}" for name in DENSITIES),
+    )
