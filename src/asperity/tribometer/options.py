@@ -8,6 +8,7 @@ from asperity.casefile import Table
 from asperity.errors import InputError
 from asperity.tribometer.quantities import (
     Count,
+    Current,
     Duration,
     Frequency,
     Share,
@@ -95,6 +96,19 @@ class Twin(Table):
         Amplitude of the torque over a turn of each disc, as a share of it.
     drift : float
         Change of the torque over an hour, as a share of it.
+    max_deflection : float or str
+        Of the asperities at full friction, m.
+    motor_inertia : float or str
+        Of each motor with its gear, kg m2.
+    rotor_inertia, rotor_frequency, rotor_damping : float or str, optional
+        The steel disc on its shaft: J in kg m2, its torsional frequency in Hz and its share of
+        critical damping; left out, the disc does not answer to vibration along the sliding.
+    encoder_gate, encoder_lag : float or str
+        Time pulses are counted over, and time constant of the filter behind, s.
+    current_noise : float or str
+        Standard deviation of the current clamps, A.
+    seed : int
+        Of the noise.
     """
 
     table: ClassVar[str] = "twin"
@@ -114,6 +128,26 @@ class Twin(Table):
     runout_steel: Share = 0.0
     runout_bronze: Share = 0.0
     drift: Annotated[float, Quantity("", "a share", "0.05", ge=-1, le=1)] = 0.0
+    max_deflection: Annotated[float, Quantity("m", "a deflection", "70 nm", gt=0)] = 70e-9
+    motor_inertia: Annotated[float, Quantity("kg m**2", "an inertia", "5e-5 kg m2", gt=0)] = 5e-5
+    rotor_inertia: (
+        Annotated[float, Quantity("kg m**2", "an inertia", "1e-4 kg m2", gt=0)] | None
+    ) = None
+    rotor_frequency: Frequency | None = None
+    rotor_damping: Share = 0.02
+    encoder_gate: Span = 1.0
+    encoder_lag: Span = 0.2
+    current_noise: Current = 0.02
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _rotor(self) -> "Twin":
+        if (self.rotor_inertia is None) != (self.rotor_frequency is None):
+            raise InputError(
+                "twin.rotor_inertia and twin.rotor_frequency describe the steel disc on its shaft "
+                "together; give both or none"
+            )
+        return self
 
 
 class Reduction(Table):

@@ -1,0 +1,150 @@
+"""The command ``asperity rig plan``: lay out a series of tests."""
+
+import dataclasses
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.runs import Run
+from asperity.tribometer.options import Plan, Twin
+from asperity.tribometer.parameters import Limits
+from asperity.tribometer.plan.matrix import PlannedFile, planned_files
+from asperity.tribometer.plan.result import PlanResult
+from asperity.tribometer.twin.plant import Plant
+
+# Velocity ratios from which a friction law is identified best.
+_TELLING = 1.5, 4.0
+_ENOUGH_TURNS = 2.0
+
+
+@dataclasses.dataclass(frozen=True)
+class PlanProblem:
+    """A plan that may be run.
+
+    Attributes
+    ----------
+    plan : Plan
+        The table.
+    files : tuple of PlannedFile
+        In their order.
+    plant : Plant or None
+        The simulated rig, where the configuration has one.
+    """
+
+    plan: Plan
+    files: tuple[PlannedFile, ...]
+    plant: Plant | None
+
+
+def prepare(case: Case) -> PlanProblem:
+    """Lay out a plan; refuses one beyond its limits."""
+    limits = case.require(Limits) if Limits.table in case else Limits()
+    plan = case.require(Plan)
+    plant = Plant.from_case(case) if Twin.table in case else None
+    return PlanProblem(plan, planned_files(plan, limits), plant)
+
+
+def answer(problem: PlanProblem, run: Run) -> PlanResult:
+    """Return the plan and what it will not resolve."""
+    plan, files = problem.plan, problem.files
+    pairs = [(one, cell) for one in files for cell in one.cells]
+    expected = _expected(problem)
+    ratio, steel, bronze = expected if expected is not None else (None, None, None)
+    if ratio is not None and not np.all(np.isfinite(ratio)):
+        ratio = None  # of some frequencies no velocity is known
+    a_cell = plan.before + plan.shaken + plan.idle
+    return PlanResult(
+        planned=files,
+        order=plan.order,
+        file_count=len(files),
+        cell_count=len(pairs),
+        distinct_cells=len(pairs) // plan.repeats,
+        settings=len({one.setting for one in files}),
+        recording_time=len(pairs) * a_cell,
+        frequency=np.array([cell.frequency for _, cell in pairs]),
+        steel_supply=np.array([one.steel_supply for one, _ in pairs]),
+        file_number=np.array([one.number for one, _ in pairs]),
+        mode=np.array([one.mode for one, _ in pairs]),
+        lubricant=np.array([one.lubricant for one, _ in pairs]),
+        waveform=np.array([one.waveform for one, _ in pairs]),
+        repeat=np.array([one.repeat for one, _ in pairs]),
+        velocity_ratio=ratio,
+        steel_turns=steel,
+        bronze_turns=bronze,
+        notes=tuple(_notes(problem, expected)),
+    )
+
+
+Expected = tuple[FloatArray, FloatArray, FloatArray]
+
+
+def _expected(problem: PlanProblem) -> Expected | None:
+    """Velocity ratio and turns of both discs before the vibration, of each cell."""
+    plant, plan = problem.plant, problem.plan
+    if plant is None:
+        return None
+    rows = []
+    states = {
+        volts: plant.steady(volts, plan.bronze_supply, plant.friction())
+        for volts in plan.steel_supplies
+    }
+    for one in problem.files:
+        state = states[one.steel_supply]
+        turns = plan.before / (2.0 * np.pi)
+        for cell in one.cells:
+            shaken = plant.sonotrode.velocity(one.mode, cell.frequency)
+            rows.append(
+                (
+                    np.nan if shaken is None or not state.sliding else shaken / state.sliding,
+                    turns * state.steel / plant.steel.ratio,
+                    turns * state.bronze / plant.bronze.ratio,
+                )
+            )
+    ratio, steel, bronze = np.array(rows).T
+    return np.abs(ratio), steel, bronze
+
+
+def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
+    plan = problem.plan
+    notes = []
+    if expected is not None:
+        ratio, steel, bronze = expected
+        for volts in plan.steel_supplies:
+            here = [one.steel_supply == volts for one in problem.files for _ in one.cells]
+            turns = float(steel[here][0]), float(bronze[here][0])
+            if min(turns) < _ENOUGH_TURNS:
+                notes.append(
+                    f"at {volts:g} V a window of {plan.before:g} s sees {turns[0]:.2g} turns of "
+                    f"the steel disc and {turns[1]:.2g} of the bronze one: run-out is a bias "
+                    "there, not noise"
+                )
+        known = ratio[np.isfinite(ratio)]
+        telling = int(np.count_nonzero((known >= _TELLING[0]) & (known <= _TELLING[1])))
+        if telling < 0.1 * known.size or not telling:
+            notes.append(
+                f"{telling} of {known.size} cells have k between {_TELLING[0]:g} and "
+                f"{_TELLING[1]:g}, where the law's parameters are told apart best: they lie at "
+                + ", ".join(f"{value:.2g}" for value in _some(known))
+            )
+        notes.append(
+            "turns and k are those of the simulated rig, whose motors and friction are fitted to a "
+            "few published figures and whose other parameters are placeholders"
+        )
+    notes.append(
+        "no run with the discs apart is planned: the bearings' torque stays in every torque"
+    )
+    notes.append("no temperature is recorded: drift of the oil's film stays in the changes")
+    if plan.order == "thesis" and len(plan.frequencies) > 1:
+        notes.append(
+            "in every file the frequencies come in the same order, so that drift and frequency are "
+            "confounded; plan.order = 'randomised' tells them apart"
+        )
+    if plan.repeats < 2:
+        notes.append("each cell is run once: what repeats differ by cannot be told")
+    return notes
+
+
+def _some(values: FloatArray) -> FloatArray:
+    found: FloatArray = np.unique(np.round(values, 2))
+    return found if found.size <= 8 else np.quantile(found, np.linspace(0.0, 1.0, 8))

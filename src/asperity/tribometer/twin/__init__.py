@@ -1,0 +1,1 @@
+"""The simulated rig: motors, gears, contact, vibration and sensors."""
