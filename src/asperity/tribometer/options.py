@@ -44,6 +44,8 @@ class Plan(Table):
         Recordings of each file's cells.
     before, shaken, idle : float or str
         Sliding without vibration, with it, and at rest, s.
+    sample_rate : float or str
+        Of recordings, Hz; the thesis states none.
     order : {'thesis', 'randomised'}
         Of the cells.
     seed : int
@@ -63,6 +65,9 @@ class Plan(Table):
     before: Duration = 10.0
     shaken: Duration = 10.0
     idle: Duration = 10.0
+    sample_rate: Annotated[float, Quantity("Hz", "a frequency", "20 kHz", ge=100.0, le=500e3)] = (
+        20e3
+    )
     order: Literal["thesis", "randomised"] = "thesis"
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
 

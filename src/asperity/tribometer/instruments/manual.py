@@ -37,6 +37,10 @@ class Operator:
         """Ask for something to be done; returns when Enter is pressed."""
         self._ask(f"{text} [Enter when done] ")
 
+    def arrange(self, text: str, mode: str) -> None:
+        """Ask for the rig to be built for a direction of vibration."""
+        self.do(text)
+
     def read(self, text: str, unit: str) -> float:
         """Ask for a number in a unit, as ``750 rpm`` or, in the unit named, ``78.5``."""
         why = ""

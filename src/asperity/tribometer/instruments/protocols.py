@@ -8,7 +8,7 @@ off, then motors off.
 import dataclasses
 import time
 from collections.abc import Mapping
-from typing import ClassVar, Literal, Protocol, runtime_checkable
+from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -195,8 +195,21 @@ class Person(Protocol):
     def do(self, text: str) -> None:
         """Ask for something to be done; returns when it is."""
 
+    def arrange(self, text: str, mode: str) -> None:
+        """Ask for the rig to be built for a direction of vibration."""
+
     def read(self, text: str, unit: str) -> float:
         """Ask for a number in a unit."""
+
+
+class Memory(Protocol):
+    """What a simulated rig can do and no real one: stand again where it stood."""
+
+    def state(self) -> dict[str, Any]:
+        """Return where it stands, for JSON."""
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Stand there again."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -217,6 +230,8 @@ class Bench:
         What feeds the vibration's amplifier: a second way to stop it.
     accelerometer : Accelerometer, optional
         For runs that measure the vibration's velocity.
+    memory : Memory, optional
+        Of a simulated rig.
     """
 
     scope: Scope
@@ -227,6 +242,7 @@ class Bench:
     clock: Clock = dataclasses.field(default_factory=WallClock)
     amplifier: Supply | None = None
     accelerometer: Accelerometer | None = None
+    memory: Memory | None = None
 
     @property
     def instruments(self) -> tuple[Instrument, ...]:

@@ -49,7 +49,8 @@ def slope_limited(wave: FloatArray, most: float) -> FloatArray:
         for place, wanted in enumerate(wave):
             at += min(max(wanted - at, -step), step)
             followed[place] = at
-    return followed - followed.mean()
+    followed -= followed.mean()
+    return followed
 
 
 def transmitted(sonotrode: Sonotrode, mode: str, frequency: float) -> float:

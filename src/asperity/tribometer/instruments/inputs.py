@@ -1,0 +1,55 @@
+"""The inputs of the oscilloscope that a configuration asks for."""
+
+from asperity.errors import InputError
+from asperity.tribometer.calibration import Line
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.instruments.picoscope import smallest_range
+from asperity.tribometer.instruments.protocols import FULL_SCALE, Input
+from asperity.tribometer.parameters import Sonotrode
+from asperity.tribometer.signals import SIGNALS
+
+# A load cell rides on its preload, and a drive signal on its middle.
+_MARGIN = 2.0
+
+
+def inputs_of(channels: Channels, sonotrode: Sonotrode) -> tuple[Input, ...]:
+    """Return inputs in the order of recordings, each with the smallest range that holds its signal.
+
+    Raises
+    ------
+    InputError
+        A signal is not mapped or has no calibration, without which its range is not known.
+    """
+    found = []
+    for name, channel in channels.mapped().items():
+        if channel.points:
+            volts = max(abs(put) for put, _ in channel.points)
+        elif name == "drive_voltage":
+            ends = sonotrode.lowest_voltage, sonotrode.highest_voltage
+            volts = max(map(abs, ends)) / sonotrode.amplifier_gain
+        elif name == "load_cell":
+            volts = _MARGIN * abs(sonotrode.preload_voltage) or 0.01
+        else:
+            raise InputError(
+                f"channels.{name}.points is missing; a signal that is recorded live needs its "
+                f'calibration, such as [["0 V", "0"], ["1 V", "{SIGNALS[name].example}"]]'
+            )
+        found.append(Input(channel.channel.strip().upper(), name, smallest_range(volts)))
+    missing = [name for name in SIGNALS if name not in {one.signal for one in found}]
+    needed = [name for name in missing if name != "acceleration"]
+    if needed:
+        raise InputError(
+            f"channels.{needed[0]} is missing; a procedure watches the eight signals of the rig"
+        )
+    return tuple(found)
+
+
+def lines_of(channels: Channels, inputs: tuple[Input, ...]) -> tuple[Line, ...]:
+    """Return what the volts of each input mean."""
+    mapped = channels.mapped()
+    return tuple(mapped[one.signal].line() for one in inputs)
+
+
+def volts_a_count(given: Input) -> float:
+    """Return what a count of an input is worth, V."""
+    return given.range / FULL_SCALE
