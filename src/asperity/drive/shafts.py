@@ -14,8 +14,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.drive.parameters import STEEL_MODULUS, Shaft
+from asperity.drive.point import MeshPoint
 from asperity.errors import InputError
-from asperity.gearset.geometry import Geometry
 
 COORDINATES = ("turn", "axial", "tangential", "radial")
 """Of the worm, as the rows and columns of a compliance stand: rad, m, m, m."""
@@ -45,48 +45,26 @@ class MeshAction:
     wheel_radius: float
 
     @classmethod
-    def at_pitch_point(
-        cls, geometry: Geometry, friction: float, radius: float | None = None
-    ) -> "MeshAction":
-        """Return the action at a point of an involute worm straight below its axis.
-
-        The part of the normal along the axis, the cosine of the base lead angle, is the same at
-        every radius; for other flanks the pitch radius alone is exact.
+    def of(cls, point: MeshPoint, friction: float) -> "MeshAction":
+        """Return the action at a point of the worm.
 
         Parameters
         ----------
-        geometry : Geometry
-            Of the gearset.
+        point : MeshPoint
+            Where they touch.
         friction : float
             Coefficient of friction, worm driving; negative for the wheel driving, 0 for none.
-        radius : float, optional
-            Distance from the worm's axis, m; the pitch radius if left out.
 
         Raises
         ------
         InputError
-            The radius lies within the base cylinder, or friction keeps the worm from driving.
+            Friction keeps the worm from driving.
         """
-        r = 0.5e-3 * geometry.worm_pitch_diameter if radius is None else radius
-        lead = 1e-3 * geometry.reduced_lead
-        axial = math.cos(geometry.pressure_angle) * math.cos(geometry.lead_angle)
-        tangential = axial * lead / r
-        rest = 1.0 - axial**2 - tangential**2
-        if rest < 0.0:
-            raise InputError(
-                f"radius is {_MILLIMETRES * r:g} mm; it must lie outside the worm's base cylinder"
-            )
-        slope = math.hypot(r, lead)
-        normal = np.array([axial, tangential, math.sqrt(rest)])
-        sliding = np.array([-lead, r, 0.0]) / slope
-        force = normal + friction * sliding
-        if force[0] <= 0.0:
-            raise InputError(
-                f"friction is {friction:g}; at this lead angle it must stay below "
-                f"{axial * slope / lead:.4g}, where the worm cannot drive"
-            )
-        arm = lead * geometry.gear_ratio
-        return cls(normal, force / (force[0] * arm), r, arm)
+        sliding = np.array([-point.lead, point.radius, 0.0]) / point.length
+        tangential = point.normal_z * point.lead / point.radius
+        normal = np.array([point.normal_z, tangential, point.normal_radial])
+        force = point.normal_force(1.0, friction) * (normal + friction * sliding)
+        return cls(normal, force, point.radius, point.arm)
 
     @property
     def worm_torque(self) -> float:

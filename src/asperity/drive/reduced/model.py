@@ -91,7 +91,7 @@ class ReducedModel:
 
     @functools.cached_property
     def _parts(self) -> dict[str, float]:
-        action = MeshAction.at_pitch_point(self.problem.geometry, self.friction, self.point.radius)
+        action = MeshAction.of(self.point, self.friction)
         found = compliances_of(self.problem.shaft, self.point.radius)
         return dict(wheel_compliances(action, found))
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from asperity.drive.motor import PRICE_PER_MASS, Motor, Service, lightest, scaled
-from asperity.drive.shafts import MeshAction
+from asperity.drive.point import MeshPoint
 from asperity.gearset.geometry import Geometry
 from asperity.thesis.drive.sets import AMPLITUDE, FREQUENCY, LOAD, SHAKEN, SPEED, UNSHAKEN
 from asperity.thesis.exhibits import claim
@@ -14,7 +14,7 @@ from asperity.thesis.products import Finding
 
 GEAR = Gear("gearset-3b")
 FRICTION = 0.1344
-_ACTION = "asperity.drive.shafts.MeshAction.at_pitch_point"
+_TORQUE = "asperity.drive.point.MeshPoint.worm_torque"
 _SAVED_MASS, _SAVED_DIAMETER, _SAVED_LENGTH, _SAVED_COST = 6.0, 0.05, 0.03, 23.0
 # A motor of cast iron or aluminium, copper and steel; kg/m3.
 _DENSITIES = (3500.0, 7500.0)
@@ -34,10 +34,9 @@ def band() -> tuple[float, float, float]:
 
     At the pitch radius; a contact further out gives a little more.
     """
-    low, none, high = (
-        LOAD * MeshAction.at_pitch_point(geometry(), mu).worm_torque
-        for mu in (-FRICTION, 0.0, FRICTION)
-    )
+    g = geometry()
+    point = MeshPoint.of(g, 0.5e-3 * g.worm_pitch_diameter)
+    low, none, high = (point.worm_torque(LOAD, mu) for mu in (-FRICTION, 0.0, FRICTION))
     return low, none, high
 
 
@@ -72,7 +71,7 @@ def _advantage() -> Finding:
             "torque_without_friction_Nm": none,
             "torque_static_Nm": high,
         },
-        [f"{_ACTION}(geometry, friction) of gearset-3b, friction -0.1344, 0, 0.1344"],
+        [f"{_TORQUE}(366.0, friction) of gearset-3b, friction -0.1344, 0, 0.1344"],
     )
 
 
@@ -101,7 +100,7 @@ def _savings() -> Finding:
             "saved_at_most": most,
             "gain_at_most": high / low,
         },
-        [f"{_ACTION}(geometry, friction) of gearset-3b"],
+        [f"{_TORQUE}(366.0, friction) of gearset-3b"],
     )
 
 
