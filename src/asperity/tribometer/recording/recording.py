@@ -1,0 +1,259 @@
+"""Reading a recording: what it holds, what it lacks, and what its counts mean."""
+
+import contextlib
+import dataclasses
+import datetime
+import functools
+import json
+import math
+import zlib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.errors import InputError, StorageError, plain, shown
+from asperity.tribometer.recording import layout
+from asperity.tribometer.recording.recorder import Counts, Source
+from asperity.tribometer.signals import SIGNALS
+
+_MOST_SAMPLES_A_BYTE = 1100  # what zeros are compressed to
+_STRETCH = 1 << 16
+_LATE = 0.5  # of a block, by which the clock may lead the count before samples are lost
+
+
+@dataclasses.dataclass(frozen=True)
+class Event:
+    """Something that happened, at a time in s since the start."""
+
+    time: float
+    kind: str
+    text: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Gap:
+    """Where samples are missing or cannot be believed.
+
+    Attributes
+    ----------
+    time, duration : float
+        s.
+    reason : str
+        Why.
+    """
+
+    time: float
+    duration: float
+    reason: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Recording:
+    """A recording that has been read, its counts still in the file.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    sources : tuple of Source
+        The channels.
+    samples : int
+        Of each channel, as far as blocks tell of them.
+    sample_interval : float
+        s.
+    start : datetime
+        Of the first sample, UTC.
+    configuration : mapping
+        Tables of the rig as a case file has them.
+    events : tuple of Event
+        What happened, by time.
+    gaps : tuple of Gap
+        What is missing.
+    simulated : bool
+        Whether it comes from no rig.
+    """
+
+    path: Path
+    sources: tuple[Source, ...]
+    samples: int
+    sample_interval: float
+    start: datetime.datetime
+    configuration: Mapping[str, Any]
+    events: tuple[Event, ...]
+    gaps: tuple[Gap, ...]
+    simulated: bool
+
+    @classmethod
+    def open(cls, path: Path) -> Self:
+        """Read what a file holds beside its counts, and check these.
+
+        Raises
+        ------
+        StorageError
+            There is no such file, or it is no recording or damaged.
+        """
+        name = plain(str(path))
+        try:
+            with _opened(path) as file:
+                return cls(path, **_read(file, path.stat().st_size, name))
+        except StorageError:
+            raise
+        except FileNotFoundError:
+            raise StorageError(f"{name} cannot be read: no such file") from None
+        except IsADirectoryError:
+            raise StorageError(f"{name} cannot be read: it is a folder; give a file") from None
+        except Exception as error:
+            # A damaged file surfaces as whatever the layer that trips over it raises.
+            raise StorageError(f"{name} cannot be read: not a recording, or damaged") from error
+
+    @property
+    def duration(self) -> float:
+        """S."""
+        return self.samples * self.sample_interval
+
+    def case(self, known: Mapping[str, Any]) -> Case:
+        """Return the configuration it was made with."""
+        raw = {str(name): dict(entries) for name, entries in self.configuration.items()}
+        case = Case(plain(str(self.path)), self.path.parent.absolute(), {}, raw, known)
+        return case.replace(())
+
+    def place(self, signal: str) -> int | None:
+        """Return the place of a signal among the channels; None where it was not recorded."""
+        return next((n for n, one in enumerate(self.sources) if one.signal == signal), None)
+
+    def stretches(self, length: int = _STRETCH) -> Iterator[tuple[int, Counts]]:
+        """Yield the counts of all channels in stretches, each with its first sample."""
+        with self._counts() as raw:
+            for first in range(0, self.samples, length):
+                yield first, raw[first : min(first + length, self.samples)]
+
+    def values(self, signal: str, first: int = 0, last: int | None = None) -> FloatArray:
+        """Return what a channel saw, in its unit; NaN where a sample is missing or past the range.
+
+        For use inside the reduction, which refuses a window that holds any.
+        """
+        place = self.place(signal)
+        if place is None:
+            raise InputError(f"{plain(str(self.path))}: {signal} is not recorded")
+        with self._counts() as raw:
+            counts = raw[first : self.samples if last is None else last, place]
+        return worth(counts, self.sources[place])
+
+    @contextlib.contextmanager
+    def _counts(self) -> Iterator[Any]:
+        try:
+            with _opened(self.path) as file:
+                yield file[layout.RAW]
+        except OSError as error:
+            raise StorageError(f"{plain(str(self.path))} cannot be read: damaged") from error
+
+    @functools.cached_property
+    def name(self) -> str:
+        """The file's name, as it may be shown."""
+        return plain(self.path.name)
+
+
+def worth(counts: Counts, source: Source) -> FloatArray:
+    """Return counts in the channel's unit, NaN for those that are no values."""
+    values: FloatArray = source.offset + source.scale * counts.astype(float)
+    values[np.abs(counts.astype(np.int32)) >= layout.BEYOND] = math.nan
+    return values
+
+
+def _opened(path: Path) -> Any:
+    import h5py
+
+    return h5py.File(path, "r")
+
+
+def _read(file: Any, size: int, name: str) -> dict[str, Any]:
+    """Return what a recording is made from; anything that is not as it must be raises."""
+    attributes = {key: np.asarray(value).ravel()[0] for key, value in file.attrs.items()}
+    if _text(attributes.get("format", "")) != layout.FORMAT:
+        raise StorageError(f"{name} is not a recording; import it: asperity rig import")
+    raw = file[layout.RAW]
+    if raw.dtype != np.int16 or raw.ndim != 2:
+        raise StorageError(f"{name}: its counts are no recording's")
+    if raw.size > _MOST_SAMPLES_A_BYTE * size:
+        raise StorageError(f"{name}: it says that it holds more samples than it can")
+    interval = float(attributes["sample_interval"])
+    if not (math.isfinite(interval) and interval > 0.0):
+        raise StorageError(f"{name}: its sample interval is {interval:g} s")
+    blocks = {key: file[key][...] for key in layout.BLOCKS}
+    samples, gaps = _checked(raw, blocks, interval)
+    return {
+        "sources": _sources(file, raw.shape[1], name),
+        "samples": samples,
+        "sample_interval": interval,
+        "start": datetime.datetime.fromisoformat(_text(attributes["start"])),
+        "configuration": json.loads(attributes["configuration"]),
+        "events": _events(file, name),
+        "gaps": gaps,
+        "simulated": bool(attributes.get("simulated", 0)),
+    }
+
+
+def _text(value: Any) -> str:
+    return plain(value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value))
+
+
+def _sources(file: Any, count: int, name: str) -> tuple[Source, ...]:
+    signals, units = ([_text(one) for one in file[key][...]] for key in ("signal", "units"))
+    scales, offsets = (file[key][...].astype(float).tolist() for key in ("scale", "offset"))
+    if not len(signals) == len(units) == len(scales) == len(offsets) == count:
+        raise StorageError(f"{name}: its channels are not told one by one")
+    for place, signal in enumerate(signals):
+        if signal not in SIGNALS:
+            raise StorageError(f"{name}: channel {place + 1} holds {shown(signal)}, no signal")
+        if signal in signals[:place]:
+            raise StorageError(f"{name}: {signal} stands on two channels")
+        if not (math.isfinite(scales[place]) and math.isfinite(offsets[place])):
+            raise StorageError(f"{name}: {signal} has a scale that is no number")
+    return tuple(map(Source, signals, units, scales, offsets))
+
+
+def _events(file: Any, name: str) -> tuple[Event, ...]:
+    columns = [file[key][...] for key in layout.EVENTS]
+    count = min(map(len, columns))
+    events = [
+        Event(float(time), _text(kind), _text(text))
+        for time, kind, text in zip(*(column[:count] for column in columns), strict=True)
+    ]
+    if any(not math.isfinite(event.time) for event in events):
+        raise StorageError(f"{name}: an event has no time")
+    return tuple(sorted(events, key=lambda event: event.time))
+
+
+def _checked(raw: Any, blocks: Mapping[str, Any], interval: float) -> tuple[int, tuple[Gap, ...]]:
+    """Return how many samples there are, and the gaps: lost, damaged or late."""
+    rows = min(map(len, blocks.values()))
+    first, count, clock, check = (blocks[key][:rows] for key in layout.BLOCKS)
+    gaps: list[Gap] = []
+    done = 0
+    expected = int(first[0]) if rows else 0
+    begun = float(clock[0]) - int(count[0]) * interval if rows else 0.0
+    for row in range(rows):
+        size = int(count[row])
+        if size <= 0 or done + size > len(raw):
+            gaps.append(Gap(done * interval, 0.0, "cut off in a block"))
+            break
+        counts = np.ascontiguousarray(raw[done : done + size])
+        if zlib.crc32(counts.data) != int(check[row]):
+            gaps.append(Gap(done * interval, size * interval, "damaged: check sum is wrong"))
+        lost = int(first[row]) - expected
+        if lost:
+            reason = f"{lost} samples lost" if lost > 0 else "a count that runs backwards"
+            gaps.append(Gap(done * interval, max(lost, 0) * interval, reason))
+        elif row and float(clock[row]) < float(clock[row - 1]):
+            gaps.append(Gap(done * interval, 0.0, "a clock that runs backwards"))
+        late = float(clock[row]) - begun - (int(first[row]) - int(first[0]) + size) * interval
+        if late > _LATE * size * interval + 1.0:
+            gaps.append(Gap(done * interval, late, f"{late:.3g} s late: samples lost"))
+            begun += late
+        expected = int(first[row]) + size
+        done += size
+    return done, tuple(gaps)

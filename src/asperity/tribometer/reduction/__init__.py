@@ -1,0 +1,1 @@
+"""From recordings to numbers: segments, levels of torque, ratios with honest intervals."""

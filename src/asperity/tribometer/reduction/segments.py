@@ -1,0 +1,165 @@
+"""The segments of a recording: vibration with the sliding before it, by its drive signal."""
+
+import dataclasses
+import math
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from asperity.tribometer.options import Plan, Reduction
+from asperity.tribometer.recording import Event, Recording
+from asperity.tribometer.reduction import drive_signal
+from asperity.tribometer.reduction.blocks import Blocks
+from asperity.tribometer.reduction.drive_signal import Stretch, Tone
+from asperity.units import split_unit, to_si
+
+_NEEDED = ("torque_steel", "speed_steel", "speed_bronze")
+_COMMAND = re.compile(r"\s*([0-9.]+\s*\w+)\s*(sine|triangle)?\s*", re.ASCII)
+
+
+@dataclasses.dataclass(frozen=True)
+class Segment:
+    """Vibration, and the sliding without it that comes just before.
+
+    Attributes
+    ----------
+    before, shaken : Stretch
+        Blocks to take means over.
+    tone : Tone or None
+        Of the drive signal.
+    commanded : float or None
+        The frequency asked for, Hz.
+    waveform : str
+        As asked for, else as measured.
+    start : float
+        Of the vibration, s.
+    refused : str
+        Why it cannot be reduced; empty where it can.
+    flags : tuple of str
+        What a reader of its numbers should know.
+    """
+
+    before: Stretch
+    shaken: Stretch
+    tone: Tone | None
+    commanded: float | None
+    waveform: str
+    start: float
+    refused: str = ""
+    flags: tuple[str, ...] = ()
+
+
+def segments_of(
+    recording: Recording, blocks: Blocks, plan: Plan, given: Reduction
+) -> list[Segment]:
+    """Find the segments of a recording, in time's order."""
+    deviation = np.where(blocks.lost["drive_voltage"], np.nan, blocks.drive_deviation)
+    shaking = drive_signal.vibrating(deviation, given.threshold, given.least_drive)
+    speed = np.where(blocks.lost["speed_steel"], 0.0, np.abs(blocks.means["speed_steel"]))
+    running = drive_signal.switched(speed, given.running_speed, 0.5 * given.running_speed)
+    return [
+        _segment(recording, blocks, plan, given, shaking[:place], one, running)
+        for place, one in enumerate(shaking)
+    ]
+
+
+def _segment(
+    recording: Recording,
+    blocks: Blocks,
+    plan: Plan,
+    given: Reduction,
+    earlier: Sequence[Stretch],
+    shaking: Stretch,
+    running: Sequence[Stretch],
+) -> Segment:
+    settling = math.ceil(given.settling / blocks.length)
+    least = math.ceil(given.least_window / blocks.length)
+    on = next((one for one in running if one.first <= shaking.first < one.last), None)
+    if on is None:
+        on = next((one for one in running if shaking.first < one.first < shaking.last), None)
+    begun = max([one.last for one in earlier] + [on.first if on else shaking.first])
+    before = Stretch(begun + settling, shaking.first - 1)
+    end = min(shaking.last, on.last) if on else shaking.first
+    shaken = Stretch(max(shaking.first, on.first if on else 0) + settling, end - 1)
+    tone = _tone(recording, blocks, shaking)
+    frequency, waveform, flags = _asked(recording.events, blocks, shaking, tone, plan, given)
+    refused = ""
+    if on is None:
+        refused = "the motor stands still"
+    elif shaken.count < least:
+        refused = f"{_seconds(shaken, blocks)} with vibration, too short"
+    elif before.count < least:
+        refused = f"no sliding before it ({_seconds(before, blocks)})"
+    elif tone is None:
+        refused = "its drive signal has no tone"
+    elif frequency is None:
+        refused = (
+            f"{tone.frequency:.4g} Hz is none of plan.frequencies, "
+            f"{', '.join(f'{one:g}' for one in plan.frequencies)} Hz"
+        )
+    else:
+        refused = _lost(blocks, before, shaken)
+    start = shaking.first * blocks.length
+    return Segment(before, shaken, tone, frequency, waveform, start, refused, tuple(flags))
+
+
+def _seconds(stretch: Stretch, blocks: Blocks) -> str:
+    return f"{stretch.count * blocks.length:.3g} s"
+
+
+def _tone(recording: Recording, blocks: Blocks, shaking: Stretch) -> Tone | None:
+    first = (shaking.first + 1) * blocks.samples
+    signal = recording.values("drive_voltage", first, (shaking.last - 1) * blocks.samples)
+    return drive_signal.tone(signal, recording.sample_interval)
+
+
+def _lost(blocks: Blocks, before: Stretch, shaken: Stretch) -> str:
+    for window in (before, shaken):
+        for signal in _NEEDED:
+            part = slice(window.first, window.last)
+            if np.any(blocks.lost[signal][part]):
+                return f"{signal} has samples missing or past its range"
+    return ""
+
+
+def _asked(
+    events: Sequence[Event],
+    blocks: Blocks,
+    shaking: Stretch,
+    tone: Tone | None,
+    plan: Plan,
+    given: Reduction,
+) -> tuple[float | None, str, list[str]]:
+    """Return the commanded frequency and waveform, and what is odd about them."""
+    flags: list[str] = []
+    measured = tone.frequency if tone else math.nan
+    shape = tone.waveform if tone else "unknown"
+    near = [
+        one for one in plan.frequencies if abs(measured - one) <= given.frequency_tolerance * one
+    ]
+    frequency = near[0] if near else None if plan.frequencies else measured
+    told = _command(events, 0.5 * (shaking.first + shaking.last) * blocks.length)
+    if told is not None:
+        commanded, wave = told
+        if abs(measured - commanded) > given.frequency_tolerance * commanded:
+            flags.append(f"commanded {commanded:g} Hz, measured {measured:.5g} Hz")
+        frequency = commanded if plan.frequencies == () or commanded in plan.frequencies else None
+        if wave and shape not in (wave, "unknown"):
+            flags.append(f"commanded a {wave}, measured a {shape}")
+        shape = wave or shape
+    elif shape == "unknown":
+        flags.append("the waveform is not told by the drive signal")
+    return frequency, shape, flags
+
+
+def _command(events: Sequence[Event], time: float) -> tuple[float, str] | None:
+    """Return the frequency and waveform of the last command before a time."""
+    told = [event for event in events if event.kind == "vibration" and event.time <= time]
+    match = _COMMAND.fullmatch(told[-1].text) if told else None
+    if match is None or split_unit(match[1]) is None:
+        return None
+    try:
+        return to_si(match[1], "Hz"), match[2] or ""
+    except ValueError:
+        return None

@@ -1,0 +1,232 @@
+"""What the sensors of a rig would see, sample by sample, where torques and speeds are known.
+
+On the torques lie run-out of both discs by their angles, a slow drift, coloured noise and noise
+from sample to sample; speeds jump with the pulses that encoders count; every channel is rounded
+to counts, and ends at its range. All of it follows from a seed.
+"""
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.tribometer.recording.layout import BEYOND, LARGEST
+from asperity.tribometer.recording.recorder import Counts
+
+_HOUR = 3600.0
+_MOST = 1 << 17  # samples at a time
+
+
+@dataclasses.dataclass(frozen=True)
+class Phase:
+    """A part of a run in which nothing is changed.
+
+    Attributes
+    ----------
+    duration : float
+        s.
+    torque_steel, torque_bronze : float
+        N m, before run-out, drift and noise.
+    speed_steel, speed_bronze : float
+        Of the motors, rad/s.
+    current_steel, current_bronze : float
+        A.
+    frequency : float
+        Of the vibration, Hz; 0: none.
+    waveform : {'sine', 'triangle'}
+        Of the drive signal.
+    """
+
+    duration: float
+    torque_steel: float = 0.0
+    torque_bronze: float = 0.0
+    speed_steel: float = 0.0
+    speed_bronze: float = 0.0
+    current_steel: float = 0.0
+    current_bronze: float = 0.0
+    frequency: float = 0.0
+    waveform: str = "sine"
+
+
+@dataclasses.dataclass(frozen=True)
+class Imperfections:
+    """What a rig and its sensors add.
+
+    Attributes
+    ----------
+    white, coloured : float
+        Standard deviations of the torques' noise from sample to sample and of that which lasts
+        `noise_time`, N m.
+    noise_time : float
+        s.
+    runout_steel, runout_bronze : float
+        Amplitudes over a turn of each disc, as shares of the torque.
+    drift : float
+        Change of the torques over an hour, as a share.
+    warming, warming_time : float
+        What they lose as the rig warms, as a share, and in what time, s.
+    gear_ratio, bronze_gear_ratio : float
+        Of the drives.
+    speed_noise, current_noise, drive_noise : float
+        Standard deviations from sample to sample, rad/s, A and V.
+    middle, swing : float
+        Of the drive signal, V.
+    """
+
+    white: float = 0.0
+    coloured: float = 0.0
+    noise_time: float = 0.2
+    runout_steel: float = 0.0
+    runout_bronze: float = 0.0
+    drift: float = 0.0
+    warming: float = 0.0
+    warming_time: float = 120.0
+    gear_ratio: float = 30.0
+    bronze_gear_ratio: float = 60.0
+    speed_noise: float = 0.0
+    current_noise: float = 0.0
+    drive_noise: float = 0.0
+    middle: float = 5.0
+    swing: float = 7.0
+
+
+@dataclasses.dataclass
+class _State:
+    """Where a simulated run stands between two stretches."""
+
+    time: float = 0.0
+    angles: tuple[float, float] = (0.0, 0.0)
+    noise: tuple[float, float] = (0.0, 0.0)
+
+
+def stream(
+    phases: Sequence[Phase],
+    rig: Imperfections,
+    interval: float,
+    rng: np.random.Generator,
+    most: int = _MOST,
+) -> Iterator[dict[str, FloatArray]]:
+    """Yield the signals in stretches, each a part of one phase, in SI by their names.
+
+    Parameters
+    ----------
+    phases : sequence of Phase
+        The run.
+    rig : Imperfections
+        What is added.
+    interval : float
+        Between samples, s.
+    rng : Generator
+        Where chance comes from.
+    most : int
+        Samples of a stretch.
+    """
+    starts = rng.uniform(0.0, 2.0 * math.pi, 2)
+    coloured = (rig.coloured * rng.standard_normal(2)).tolist()
+    state = _State(noise=(coloured[0], coloured[1]))
+    for phase in phases:
+        left = round(phase.duration / interval)
+        while left:
+            count = min(left, most)
+            yield _stretch(phase, rig, interval, count, rng, starts, state)
+            left -= count
+
+
+def _stretch(
+    phase: Phase,
+    rig: Imperfections,
+    interval: float,
+    count: int,
+    rng: np.random.Generator,
+    starts: FloatArray,
+    state: _State,
+) -> dict[str, FloatArray]:
+    steps = interval * np.arange(count)
+    time: FloatArray = state.time + steps
+    speeds = (
+        phase.speed_steel / rig.gear_ratio,
+        phase.speed_bronze / rig.bronze_gear_ratio,
+    )
+    share = 1.0 + rig.drift * time / _HOUR
+    share += -rig.warming * -np.expm1(-time / rig.warming_time)
+    runouts = zip((rig.runout_steel, rig.runout_bronze), speeds, starts, state.angles, strict=True)
+    for runout, speed, start, angle in runouts:
+        if runout:
+            share += runout * np.cos(start + angle + speed * steps)
+    noise = [_coloured(rig, interval, count, rng, last) for last in state.noise]
+    state.angles = (
+        state.angles[0] + speeds[0] * count * interval,
+        state.angles[1] + speeds[1] * count * interval,
+    )
+    state.noise = (float(noise[0][-1]), float(noise[1][-1]))
+    state.time += count * interval
+
+    def with_noise(value: float, deviation: float) -> FloatArray:
+        if not deviation:
+            return np.full(count, value)
+        return value + deviation * rng.standard_normal(count)
+
+    return {
+        "torque_steel": phase.torque_steel * share + noise[0] + with_noise(0.0, rig.white),
+        "torque_bronze": phase.torque_bronze * share + noise[1] + with_noise(0.0, rig.white),
+        "speed_steel": with_noise(phase.speed_steel, rig.speed_noise),
+        "speed_bronze": with_noise(phase.speed_bronze, rig.speed_noise),
+        "drive_voltage": _drive(phase, rig, time) + with_noise(0.0, rig.drive_noise),
+        "load_cell": with_noise(0.014, 0.0),
+        "current_steel": with_noise(phase.current_steel, rig.current_noise),
+        "current_bronze": with_noise(phase.current_bronze, rig.current_noise),
+    }
+
+
+def _coloured(
+    rig: Imperfections, interval: float, count: int, rng: np.random.Generator, last: float
+) -> FloatArray:
+    """Return noise whose correlation falls exponentially, going on from its last value."""
+    if not rig.coloured:
+        return np.zeros(count)
+    from scipy.signal import lfilter
+
+    keep = math.exp(-interval / rig.noise_time)
+    kicks = rig.coloured * math.sqrt(1.0 - keep * keep) * rng.standard_normal(count)
+    made: FloatArray = lfilter([1.0], [1.0, -keep], kicks, zi=[keep * last])[0]
+    return made
+
+
+def _drive(phase: Phase, rig: Imperfections, time: FloatArray) -> FloatArray:
+    if not phase.frequency:
+        return np.full(time.size, rig.middle)
+    turns = phase.frequency * time
+    if phase.waveform == "triangle":
+        wave = 4.0 * np.abs((turns - 0.25) % 1.0 - 0.5) - 1.0
+    else:
+        wave = np.sin(2.0 * math.pi * turns)
+    made: FloatArray = rig.middle + rig.swing * wave
+    return made
+
+
+def counted(signals: Mapping[str, FloatArray], scales: Mapping[str, float]) -> Counts:
+    """Return signals as counts, a column a signal of `scales`; past the range it is said so."""
+    columns = []
+    for name, scale in scales.items():
+        counts = np.round(signals[name] / scale)
+        columns.append(np.where(np.abs(counts) > LARGEST, np.sign(counts) * BEYOND, counts))
+    return np.column_stack(columns).astype(np.int16)
+
+
+def runs(levels: Sequence[tuple[float, float, Phase]], *, idle: float = 10.0) -> list[Phase]:
+    """Return the phases of a file: before, shaken, at rest, for each of some levels.
+
+    Parameters
+    ----------
+    levels : sequence of (float, float, Phase)
+        Torque and motor speed without vibration, and the phase with it.
+    idle : float
+        s at rest behind each.
+    """
+    made: list[Phase] = []
+    for torque, speed, shaken in levels:
+        quiet = dataclasses.replace(shaken, torque_steel=torque, speed_steel=speed, frequency=0.0)
+        made += [quiet, shaken, Phase(idle)]
+    return made
