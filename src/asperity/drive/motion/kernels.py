@@ -29,7 +29,7 @@ def next_step(system, state, end):
     return 0.5 * left if left < _WHOLE * dt else dt
 
 
-@kernel
+@kernel(inline="always")
 def move(system, state, dt, q, v):
     """Fill in poses and rates at the end of a step; what is imposed is added to what is free."""
     time = state.time + dt
@@ -37,6 +37,8 @@ def move(system, state, dt, q, v):
     mean = (wave - state.wave) / dt
     # At the end of the step, from the means of this one and the last.
     rate = mean + (mean - state.wave_rate) * dt / (dt + state.step)
+    state.wave_ahead = wave
+    state.rate_ahead = rate
     if system.turns:
         half = state.turn_rate + 0.5 * dt * state.turn_push
         q[0] = state.turn + dt * half
@@ -66,13 +68,12 @@ def move(system, state, dt, q, v):
     v[3] = system.shake_wheel * rate
 
 
-@kernel
+@kernel(inline="always")
 def arrive(system, state, dt, q, v, out, sums):
     """Take over a step whose mesh has answered: rates, forces, and what is summed up."""
     time = state.time + dt
-    wave = displacement_at(system.wave, time * system.frequency)
-    mean = (wave - state.wave) / dt
-    rate = mean + (mean - state.wave_rate) * dt / (dt + state.step)
+    wave = state.wave_ahead
+    rate = state.rate_ahead
     way = wave - state.wave
     worm_way = system.shake_worm_turn * way
     shift_way = system.shake_worm_shift * way
@@ -174,7 +175,7 @@ def arrive(system, state, dt, q, v, out, sums):
     state.time = time
     state.step = dt
     state.wave = wave
-    state.wave_rate = mean
+    state.wave_rate = way / dt
     state.torque = torque
     state.shaft_loss = shaft_loss
     state.seat_force = seat_force
@@ -189,7 +190,7 @@ def arrive(system, state, dt, q, v, out, sums):
     state.approach = out[AT.approach]
 
 
-@kernel
+@kernel(inline="always")
 def clear(sums):
     """Begin a stretch."""
     sums.time = 0.0

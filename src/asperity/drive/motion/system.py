@@ -67,7 +67,7 @@ STATE = np.dtype(
     [
         (name, np.float64)
         for name in (
-            "time", "step", "wave", "wave_rate",
+            "time", "step", "wave", "wave_rate", "wave_ahead", "rate_ahead",
             "turn", "turn_rate", "turn_push",
             "shift", "shift_rate", "shift_push",
             "roll", "roll_rate", "roll_push",

@@ -16,8 +16,8 @@ from asperity.compiled import kernel
 from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import AT
 from asperity.drive.reduced.law import force_and_energy
-from asperity.friction.dahl import VECTOR
-from asperity.friction.loaded import STIFFNESS, advance_loaded
+from asperity.friction.dahl import TINY, VECTOR, relaxation
+from asperity.friction.loaded import STIFFNESS, relaxed_to_limit
 from asperity.friction.loaded_tangent import update_loaded
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
@@ -82,36 +82,57 @@ _WAYS, _FLANK = 2, 5
 STATES = _WAYS + 2 * _FLANK
 
 
+@kernel(inline="always")
+def _brittle(sx, sy, dx, dy, limit):
+    """Deflection of asperities that stick until they slip (`friction.return_mapping`)."""
+    wx = sx + dx
+    wy = sy + dy
+    size = math.sqrt(wx * wx + wy * wy)
+    back = limit / size if size > limit else 1.0
+    return back * wx, back * wy
+
+
 @kernel
-def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
-    """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
-    more = mesh.yielding
-    if more == 0.0:
-        wx, wy, _, _ = advance_loaded(
-            sx, sy, dx, dy, 0.0, 0.0, limit_0, limit_1, mesh.exponent, VECTOR, STIFFNESS
-        )
-        return wx, wy, 0.0
+def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
+    """Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
+
+    The tangent is that of the closed form, :math:`G(1 - ee^T) + E(e - s/m)e^T`, held back where the
+    limit falls: cheaper by far than that of any exponent.
+    """
     one = 1.0 / (1.0 + more)
-    wx, wy, _, _ = advance_loaded(
-        sx, sy, one * dx, one * dy, 0.0, 0.0, limit_0, limit_1, 0.0, VECTOR, STIFFNESS
-    )
-    if mesh.exponent == 0.0 or limit_1 <= 0.0:
-        return wx, wy, 0.0
+    wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    limit = 0.5 * (limit_0 + limit_1)
     off = 0.0
     for _ in range(_ITERATIONS):
-        (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
-            (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
-            limit_0, limit_1, mesh.exponent, VECTOR, STIFFNESS,
-        )  # fmt: skip
+        tx = dx - more * (wx - sx)
+        ty = dy - more * (wy - sy)
+        ux, uy = relaxed_to_limit(sx, sy, tx, ty, limit_0, limit_1)
         ex = ux - wx
         ey = uy - wy
         off = abs(ex) + abs(ey)
         if off <= _CLOSE * (1.0 + limit_1):
             break
+        way = math.sqrt(tx * tx + ty * ty) + 1e-280
+        decay, gain = relaxation(way / limit)
+        cx = tx / way
+        cy = ty / way
+        bx = decay * (cx - sx / limit) - gain * cx
+        by = decay * (cy - sy / limit) - gain * cy
+        xx = gain + bx * cx
+        xy = bx * cy
+        yx = by * cx
+        yy = gain + by * cy
+        if limit_1 < limit_0 and ux * ux + uy * uy >= limit_1 * limit_1 * (1.0 - _CLOSE):
+            # Back on the limit, only what lies across the deflection still counts.
+            nx = -uy / limit_1
+            ny = ux / limit_1
+            px = nx * xx + ny * yx
+            py = nx * xy + ny * yy
+            xx, xy, yx, yy = nx * px, nx * py, ny * px, ny * py
         a = 1.0 + more * xx
-        d = 1.0 + more * yy
         b = more * xy
         c = more * yx
+        d = 1.0 + more * yy
         over = 1.0 / (a * d - b * c)
         wx += over * (d * ex - b * ey)
         wy += over * (a * ey - c * ex)
@@ -119,6 +140,51 @@ def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
 
 
 @kernel
+def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
+    """Asperities of any exponent on teeth that bend by ``more`` of their deflection."""
+    one = 1.0 / (1.0 + more)
+    wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    off = 0.0
+    for _ in range(_ITERATIONS):
+        (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
+            (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
+            limit_0, limit_1, exponent, VECTOR, STIFFNESS,
+        )  # fmt: skip
+        ex = ux - wx
+        ey = uy - wy
+        off = abs(ex) + abs(ey)
+        if off <= _CLOSE * (1.0 + limit_1):
+            break
+        a = 1.0 + more * xx
+        b = more * xy
+        c = more * yx
+        d = 1.0 + more * yy
+        over = 1.0 / (a * d - b * c)
+        wx += over * (d * ex - b * ey)
+        wy += over * (a * ey - c * ex)
+    return wx, wy, off
+
+
+@kernel(inline="always")
+def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
+    """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
+    more = mesh.yielding
+    off = 0.0
+    if limit_1 <= TINY:
+        wx, wy = 0.0, 0.0
+    elif mesh.exponent == 0.0:
+        one = 1.0 / (1.0 + more)
+        wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    elif mesh.exponent == 1.0 and more == 0.0:
+        wx, wy = relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1)
+    elif mesh.exponent == 1.0:
+        wx, wy, off = _ductile(sx, sy, dx, dy, limit_0, limit_1, more)
+    else:
+        wx, wy, off = _dahl(sx, sy, dx, dy, limit_0, limit_1, mesh.exponent, more)
+    return wx, wy, off
+
+
+@kernel(inline="always")
 def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     """One flank: normal force, friction along and across; energies are added to ``out``."""
     sx = committed[at]
@@ -160,7 +226,7 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     return load, full * wx, full * wy
 
 
-@kernel
+@kernel(inline="always")
 def advance(mesh, committed, trial, q, v, dt, out):
     """Advance the mesh over a step, see `asperity.drive.interface`."""
     r = mesh.radius / mesh.length
@@ -196,7 +262,7 @@ def advance(mesh, committed, trial, q, v, dt, out):
     out[AT.back] = back
 
 
-@kernel
+@kernel(inline="always")
 def settle_in(mesh, state, q, share):
     """Set a state as if the worm had slid at pose ``q`` to a share of full friction under the load.
 
