@@ -68,6 +68,10 @@ class Judgement:
     cycles: int
 
 
+class Stopped(Exception):  # noqa: N818 - an answer to a wish, not an error
+    """A march was told to stop from another thread."""
+
+
 class March:
     """A drive on its way, cycle by cycle.
 
@@ -81,10 +85,18 @@ class March:
         Where it begins; they walk on.
     run : Run
         Who is told how far it is.
+    stop : ndarray of int64, shape (1,), optional
+        Set it to 1 from another thread to have the march raise `Stopped` soon.
     """
 
     def __init__(
-        self, mesh: Marchable, system: System, states: Records, committed: FloatArray, run: Run
+        self,
+        mesh: Marchable,
+        system: System,
+        states: Records,
+        committed: FloatArray,
+        run: Run,
+        stop: npt.NDArray[np.int64] | None = None,
     ) -> None:
         self.mesh = mesh
         self.system = system
@@ -93,7 +105,7 @@ class March:
         self.rows = np.zeros(0, SUMS)
         self.seconds = 0.0
         self._run = run
-        self._stop = np.zeros(1, np.int64)
+        self._stop = np.zeros(1, np.int64) if stop is None else stop
 
     @property
     def cycle(self) -> float:
@@ -127,6 +139,8 @@ class March:
         rows = np.zeros(count, SUMS)
         self.mesh.march(self.system, self.states, self.committed, length, rows, self._stop)
         self.seconds += time.perf_counter() - began
+        if self._stop[0]:
+            raise Stopped
         at = float(self.states[0]["time"])
         if not np.isfinite(self.states[0]["torque"]) or not np.isfinite(rows["stored"]).all():
             raise ConvergenceError(
@@ -135,15 +149,19 @@ class March:
             )
         return rows
 
-    def settle(self, *, window: int, torque: float, duration: float | None) -> Judgement:
+    def settle(
+        self, *, window: int, scale: float, duration: float | None, measure: str = "torque"
+    ) -> Judgement:
         """March until the state is periodic, or for as long as that is waited for.
 
         Parameters
         ----------
         window : int
             Least cycles in a block.
-        torque : float
-            Without vibration, N m.
+        scale : float
+            Of what is to stay: the torque without vibration, N m.
+        measure : str
+            What is to stay, by the name of its sum.
         duration : float, optional
             How long is waited, s.
         """
@@ -160,14 +178,14 @@ class March:
         while self.rows.size < most and not found.surely:
             self.go(min(block, most - self.rows.size), of=most)
             if self.rows.size >= ramp + _BLOCKS * block:
-                found = self.judged(block, torque)
+                found = self.judged(block, measure, scale)
         return found
 
-    def judged(self, block: int, torque: float) -> Judgement:
-        """Judge the last three blocks of so many cycles."""
+    def judged(self, block: int, measure: str, scale: float) -> Judgement:
+        """Judge the last three blocks of so many cycles; parameters as in `settle`."""
         last = self.rows[-_BLOCKS * block :]
         per_block = last.reshape(_BLOCKS, block)
-        means = per_block["torque"].sum(axis=1) / per_block["time"].sum(axis=1) / torque
+        means = per_block[measure].sum(axis=1) / per_block["time"].sum(axis=1) / scale
         spread = float(np.ptp(means))
         wheel = float(last["wheel_torque"].sum() / last["time"].sum())
         balance = wheel / self.system.load - 1.0

@@ -5,6 +5,7 @@ import math
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.drive.actuator import Demand, demand, elastic_energy, system_efficiency
 from asperity.drive.motion.system import System
@@ -24,8 +25,22 @@ _AT_REST = 1e-3  # of the wheel's speed
 _ADVICE = "give a smaller solve.step"
 
 
-def solve_shaken(problem: DriveProblem, model: ReducedModel, run: Run) -> DriveResult:
+def solve_shaken(
+    problem: DriveProblem,
+    model: ReducedModel,
+    run: Run,
+    stop: npt.NDArray[np.int64] | None = None,
+) -> DriveResult:
     """Return the answer of a problem's protocol.
+
+    Parameters
+    ----------
+    problem, model : DriveProblem, ReducedModel
+        The drive and its mesh.
+    run : Run
+        Who is told how far it is, and where it is kept.
+    stop : ndarray of int64, shape (1,), optional
+        Set it to 1 from another thread to have it raise `asperity.drive.protocols.march.Stopped`.
 
     Raises
     ------
@@ -34,7 +49,7 @@ def solve_shaken(problem: DriveProblem, model: ReducedModel, run: Run) -> DriveR
     """
     locked = problem.drive.protocol == "back-drive"
     moving = system(problem, model, motor=not locked)
-    march = March(model, moving, *begin(problem, model, moving), run)
+    march = March(model, moving, *begin(problem, model, moving), run, stop)
     if kept := run.resume(_key(problem)):
         march.restore(kept)
     window = problem.drive.window
@@ -43,8 +58,14 @@ def solve_shaken(problem: DriveProblem, model: ReducedModel, run: Run) -> DriveR
         if problem.drive.protocol == "window":
             judged = _first_cycles(march, window, model.worm_torque)
         else:
+            slide = problem.velocity / (model.point.length * model.point.ratio)
             judged = march.settle(
-                window=window, torque=model.worm_torque, duration=problem.solve.duration
+                window=window,
+                measure="rolled" if locked else "torque",
+                scale=(slide or problem.worm_speed / model.point.ratio)
+                if locked
+                else model.worm_torque,
+                duration=problem.solve.duration,
             )
         creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
         held = _held_after(problem, model, march, run)

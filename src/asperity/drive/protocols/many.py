@@ -1,0 +1,58 @@
+"""Many shaken drives at once, on all cores: the kernels leave the interpreter to each other."""
+
+import concurrent.futures as cf
+from collections.abc import Sequence
+
+import numpy as np
+
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.solve import solve_shaken
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import Reduction
+from asperity.drive.result import DriveResult
+from asperity.errors import AsperityError
+from asperity.runs import Run
+from asperity.runs.workers import cores
+
+_LOOK_SECONDS = 0.1
+
+
+def solve_many(
+    problems: Sequence[tuple[DriveProblem, Reduction]], run: Run, *, what: str = "drives"
+) -> list[DriveResult | AsperityError]:
+    """Solve many drives, without histories.
+
+    Parameters
+    ----------
+    problems : sequence of pairs
+        Drives and what their teeth are reduced to.
+    run : Run
+        Who is told how many are done, and who may interrupt.
+    what : str
+        What they are called.
+
+    Returns
+    -------
+    list of DriveResult or AsperityError
+        One for each; the exception of one that could not be solved stands in its place.
+    """
+    stop = np.zeros(1, np.int64)
+
+    def one(problem: DriveProblem, reduced: Reduction) -> DriveResult | AsperityError:
+        try:
+            return solve_shaken(problem, ReducedModel(problem, reduced), Run(), stop)
+        except AsperityError as error:
+            return error
+
+    pool = cf.ThreadPoolExecutor(cores())
+    try:
+        with run.going_on():
+            waiting = [pool.submit(one, *each) for each in problems]
+            left = set(waiting)
+            while left:
+                _, left = cf.wait(left, timeout=_LOOK_SECONDS, return_when=cf.FIRST_COMPLETED)
+                run.checkpoint(len(waiting) - len(left), len(waiting), what=what)
+            return [future.result() for future in waiting]
+    finally:
+        stop[0] = 1
+        pool.shutdown(cancel_futures=True)
