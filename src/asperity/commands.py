@@ -270,5 +270,21 @@ COMMANDS = (
         counts="cycles",
         options=(Option("static", "Leave the vibration out.", default=False),),
     ),
+    Command(
+        "directions",
+        "Shake a worm gearset each way: what a micrometre and a watt save, and what forces.",
+        "With --out also directions.json, directions.nc and directions.png.",
+        prepare="asperity.drive.directions:prepare",
+        solve="asperity.drive.directions:answer",
+        counts="ways",
+    ),
+    Command(
+        "locking",
+        "Take a worm gearset's motor off: whether it holds, and how much shaking sets it free.",
+        "With --out also locking.json, locking.nc and locking.png.",
+        prepare="asperity.drive.locking:prepare",
+        solve="asperity.drive.locking:answer",
+        counts="amplitudes",
+    ),
 )
 """In the order of the help."""

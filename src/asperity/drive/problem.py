@@ -20,13 +20,14 @@ from asperity.waveform import Shape
 
 LARGEST_STEP = 0.5e-6
 STEPS_A_CYCLE = 100
-# What shakes which way can reach: an axial motion goes by the worm or by its seat, and so on.
-_PLACES = {
+PLACES = {
     "axial": ("worm", "seat"),
     "torsional": ("worm", "motor"),
     "wheel-axial": ("wheel",),
     "screw": ("worm", "seat"),
 }
+"""What each way of shaking can be applied to, the first where nothing is said."""
+
 _ROUND = ("torsional", "screw")
 
 T = TypeVar("T", bound=Table)
@@ -94,7 +95,7 @@ class DriveProblem:
         with told(case):
             vibration = shape = None
             if shaken and Vibration.table in case:
-                vibration = case.require(Vibration).of_gearset(_PLACES)
+                vibration = case.require(Vibration).of_gearset(PLACES)
                 turns = operation.worm_speed / (2.0 * math.pi)
                 shape = vibration.shape(case.folder, turns=turns)
             return cls(
@@ -143,6 +144,20 @@ class DriveProblem:
     def sliding_speed(self) -> float:
         """Of the flanks on the reference circle, v_g, m/s."""
         return self.worm_speed * self.reference_radius / math.cos(self.geometry.lead_angle)
+
+    def shaken(self, mode: str, amplitude: float) -> Self:
+        """Return it shaken another way, with an amplitude of the displacement in m."""
+        vibration, _ = self.vibrated
+        changed = vibration.model_copy(
+            update={
+                "mode": mode,
+                "applied_to": vibration.applied_to if mode == self.mode else PLACES[mode][0],
+                "velocity_ratio": None,
+                "velocity_amplitude": None,
+                "displacement_amplitude": amplitude,
+            }
+        )
+        return dataclasses.replace(self, vibration=changed)
 
     def point(self, radius: float | None) -> MeshPoint:
         """Return where the reduced mesh touches; on the reference circle if no radius is known."""
@@ -221,7 +236,7 @@ class DriveProblem:
                     f"drive.{key} is missing; under vibration every number depends on the {what}: "
                     f"give one such as '{example}'"
                 )
-        places = _PLACES[str(vibration.mode)]
+        places = PLACES[str(vibration.mode)]
         if vibration.applied_to not in places:
             raise InputError(
                 f"vibration.applied_to is '{vibration.applied_to}'; vibration.mode "

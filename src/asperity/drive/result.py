@@ -160,16 +160,22 @@ class DriveResult(Result):
     @property
     def inputs(self) -> Mapping[str, Any]:
         """What was asked: values in SI and texts by ``table.key``."""
-        p = self.problem
-        found = table_inputs(
-            p.gearset, p.operation, p.friction, p.drive, p.shaft, p.vibration, p.actuator, p.mount
-        )
-        return {
-            key: value if isinstance(value, str | int | float) else str(value)
-            for key, value in found.items()
-        }
+        return inputs(self.problem)
 
     def heading(self) -> str:
         """Return what was asked, and whether the answer is a periodic state."""
         state = "settled" if self.settled else "not settled"
         return f"{self.problem.drive.protocol}, {self.problem.mode}: {state}"
+
+
+def inputs(problem: DriveProblem) -> dict[str, Any]:
+    """Return the values of a problem's tables as numbers in SI and texts, by ``table.key``."""
+    tables = (
+        problem.gearset, problem.operation, problem.friction, problem.drive, problem.shaft,
+        problem.vibration, problem.actuator, problem.mount,
+    )  # fmt: skip
+    return {
+        # netCDF has no truths and no lists.
+        key: value if isinstance(value, str | float) else str(value)
+        for key, value in table_inputs(*tables).items()
+    }

@@ -1,6 +1,6 @@
 """How every long work runs: under a key of all it follows from, kept, interrupted, resumed."""
 
-from asperity.runs.interrupt import Interrupted
+from asperity.runs.interrupt import Interrupted, Stopped
 from asperity.runs.run import Run
 
-__all__ = ["Interrupted", "Run"]
+__all__ = ["Interrupted", "Run", "Stopped"]

@@ -11,9 +11,9 @@
 """
 
 from asperity.results.ledger import PowerLedger
+from asperity.runs import Stopped
 from asperity.slider.batch import solve_many
 from asperity.slider.homogenised import HomogenisedLaw, homogenise
-from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.parameters import Slider, Solve

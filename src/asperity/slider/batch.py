@@ -12,10 +12,10 @@ from asperity.errors import AsperityError, ConvergenceError
 from asperity.friction.dahl import VECTOR
 from asperity.friction.loaded import STIFFNESS
 from asperity.normal import HERTZ, LINEAR, elastic_force
+from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
-from asperity.slider.march import Stopped
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
-from asperity.runs import Run
+from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider.integrators import integrator
@@ -21,10 +21,6 @@ from asperity.waveform import AT_REST
 _RECORDS = 4000
 _BLOCK = 1024
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
-
-
-class Stopped(Exception):  # noqa: N818 - being told to stop is no error
-    """A march was told to stop before it was done."""
 
 
 class March:

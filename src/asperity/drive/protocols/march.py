@@ -11,7 +11,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.motion.system import SUMS, System
 from asperity.errors import ConvergenceError
-from asperity.runs import Run
+from asperity.runs import Run, Stopped
 from asperity.runs.tree import Tree
 
 Records = npt.NDArray[np.void]
@@ -66,10 +66,6 @@ class Judgement:
     spread: float
     balance: float
     cycles: int
-
-
-class Stopped(Exception):  # noqa: N818 - an answer to a wish, not an error
-    """A march was told to stop from another thread."""
 
 
 class March:

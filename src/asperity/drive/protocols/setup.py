@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.drive.friction_curve import friction_at
 from asperity.drive.motion.system import STATE, System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
@@ -155,9 +156,12 @@ def begin(
     force, torque = model.normal_force, model.worm_torque
     if locked:
         # The worm holds without a torque, by as much friction as that takes.
-        share = -min(point.holding_share(model.friction), 1.0)
-        force = point.normal_force(problem.load, share * model.friction)
-        torque = point.worm_torque(problem.load, share * model.friction)
+        friction = float(friction_at(model.curve, 0.0))
+        share = -min(point.holding_share(friction), 1.0)
+        force = point.normal_force(problem.load, share * friction)
+        torque = point.worm_torque(problem.load, share * friction)
+        # The mesh counts friction by that of the sliding worm.
+        share *= friction / model.friction
     thrust = -problem.load / point.arm
     states = np.zeros(1, STATE)
     state = states[0]

@@ -40,7 +40,7 @@ def solve_shaken(
     run : Run
         Who is told how far it is, and where it is kept.
     stop : ndarray of int64, shape (1,), optional
-        Set it to 1 from another thread to have it raise `asperity.drive.protocols.march.Stopped`.
+        Set it to 1 from another thread to have it raise `asperity.runs.Stopped`.
 
     Raises
     ------

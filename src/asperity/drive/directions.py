@@ -1,0 +1,164 @@
+"""The command `directions`: which way of shaking a gearset gives most, and for what."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.drive.problem import PLACES, DriveProblem
+from asperity.drive.protocols.many import solve_many
+from asperity.drive.reduced.reduction import reduction
+from asperity.drive.result import DriveResult, inputs
+from asperity.drive.solve import prepare as prepare_drive
+from asperity.errors import AsperityError
+from asperity.results import Result, quantity
+from asperity.results.dataset import Labels
+from asperity.results.table import Table
+from asperity.runs import Run
+
+_MODES = ("mode",)
+_MICROMETRES = 1e6
+
+
+class Directions(Result):
+    """What each way of shaking does at the same frequency and amplitude.
+
+    Everything is over the modes, in the order of `MODES`; what did not settle is shown as such, and
+    what is not defined is NaN.
+    """
+
+    title: ClassVar[str] = "Ways of shaking a worm gearset"
+    stem: ClassVar[str] = "directions"
+    drawings: ClassVar[Mapping[str, str]] = {"directions": "asperity.drive.plots:plot_directions"}
+    labels: ClassVar[Labels] = {"mode": (tuple(PLACES), "which way it is shaken")}
+
+    problem: DriveProblem
+    amplitude: float = quantity("u_a", "m", "amplitude of the displacement")
+    torque_ratio: FloatArray = quantity(
+        "T_Bv/T_Bs", "", "mean torque over that without", dims=_MODES
+    )
+    torque_balance: FloatArray = quantity("T_m/T_R - 1", "", "balance of the wheel", dims=_MODES)
+    settled: npt.NDArray[np.int8] = quantity("", "", "1 periodic and balanced", dims=_MODES)
+    saved: FloatArray = quantity("P_0 - P_d", "W", "drive power saved", dims=_MODES)
+    actuator: FloatArray = quantity("P_a", "W", "mechanical power of the actuator", dims=_MODES)
+    energy_ratio: FloatArray = quantity("", "", "power put in over that without", dims=_MODES)
+    force_ratio: FloatArray = quantity(
+        "N_max/N_s", "", "greatest normal force over that without", dims=_MODES
+    )
+    open_share: FloatArray = quantity("", "", "share of time without contact", dims=_MODES)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What was asked, by ``table.key``."""
+        return inputs(self.problem)
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """One mapping a mode: what it does per micrometre, per watt and to the force."""
+        micrometres = self.amplitude * _MICROMETRES
+        return [
+            {
+                "mode": mode,
+                "torque_ratio": float(self.torque_ratio[n]),
+                "torque_balance": float(self.torque_balance[n]),
+                "settled": bool(self.settled[n]),
+                "saved_W": float(self.saved[n]),
+                "saved_per_micrometre_W": float(self.saved[n]) / micrometres,
+                "actuator_W": float(self.actuator[n]),
+                "saved_per_actuator_W_W": float(self.saved[n] / self.actuator[n])
+                if self.actuator[n] > 0.0
+                else None,
+                "energy_ratio": float(self.energy_ratio[n]),
+                "force_ratio": float(self.force_ratio[n]),
+                "open_share": float(self.open_share[n]),
+            }
+            for n, mode in enumerate(PLACES)
+        ]
+
+    @property
+    def rankings(self) -> dict[str, list[str]]:
+        """The modes, best first, by each measure; only those that settled are ranked."""
+        solid = [row for row in self.rows if row["settled"]]
+        per_watt = [row for row in solid if row["saved_per_actuator_W_W"] is not None]
+
+        def ranked(rows: list[dict[str, Any]], by: str, sign: float) -> list[str]:
+            return [row["mode"] for row in sorted(rows, key=lambda row: sign * row[by])]
+
+        return {
+            "per_micrometre": ranked(solid, "saved_per_micrometre_W", -1.0),
+            "per_watt": ranked(per_watt, "saved_per_actuator_W_W", -1.0),
+            "by_force": ranked(solid, "force_ratio", 1.0),
+        }
+
+    def to_json(self) -> dict[str, Any]:
+        """Return each mode with its numbers, and the rankings."""
+        listed = [
+            {
+                key: None if isinstance(value, float) and not np.isfinite(value) else value
+                for key, value in row.items()
+            }
+            for row in self.rows
+        ]
+        return super().to_json() | {"directions": listed, "rankings": self.rankings}
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return a row a mode."""
+        headings = (
+            "mode", "ratio", "balance", "settled", "saved (W)", "per um (W)", "actuator (W)",
+            "per W", "energy", "force", "open",
+        )  # fmt: skip
+        rows = [list(row.values()) for row in self.rows]
+        best = (
+            f"best {name.replace('_', ' ')}: {', '.join(order) or 'none settled'}"
+            for name, order in self.rankings.items()
+        )
+        return (Table.of(headings, rows, remarks=(*best, *self.notes)),)
+
+
+def prepare(case: Case) -> DriveProblem:
+    """Return the problem of a case, with a vibration; InputError where it cannot be solved."""
+    problem = prepare_drive(case)
+    _ = problem.vibrated
+    plain = problem.drive.model_copy(update={"protocol": "steady"})
+    problem = dataclasses.replace(problem, drive=plain)
+    for mode in PLACES:
+        problem.shaken(mode, problem.amplitude)
+    return problem
+
+
+def answer(problem: DriveProblem, run: Run) -> Directions:
+    """Shake a drive each way; raises the error of a way that could not be solved."""
+    reduced = reduction(problem, run)
+    asked = [(problem.shaken(mode, problem.amplitude), reduced) for mode in PLACES]
+    found = solve_many(asked, run, what="ways")
+    for each in found:
+        if isinstance(each, AsperityError):
+            raise each
+    solved = [each for each in found if isinstance(each, DriveResult)]
+
+    def column(value: Any) -> FloatArray:
+        return np.array([np.nan if value(each) is None else value(each) for each in solved], float)
+
+    static = solved[0].torque_static * problem.worm_speed
+    notes = dict.fromkeys(
+        f"{mode}: {note}" if note.startswith("aperiodic") else note
+        for mode, each in zip(PLACES, solved, strict=True)
+        for note in each.notes
+    )
+    return Directions(
+        problem=problem,
+        amplitude=problem.amplitude,
+        torque_ratio=column(lambda each: each.torque_ratio),
+        torque_balance=column(lambda each: each.torque_balance),
+        settled=np.array([each.settled for each in solved], np.int8),
+        saved=column(lambda each: static - each.ledger.drive),
+        actuator=column(lambda each: each.ledger.actuator),
+        energy_ratio=column(lambda each: each.energy_ratio),
+        force_ratio=column(lambda each: each.force_max / each.force_static),
+        open_share=column(lambda each: each.open_share),
+        notes=tuple(notes),
+    )

@@ -1,0 +1,194 @@
+r"""The command `locking`: whether a gearset holds its load, and how much shaking it takes to not.
+
+The motor is off, the wheel pushes. At rest the worm holds where a share :math:`\phi < 1` of full
+friction is enough. A vibration along the flank of amplitude :math:`u` lets it creep as soon as it
+bends asperities and teeth from there to full friction, :math:`u > s_{eff}(1 - \phi)`; far beyond,
+:math:`u \gg s_{eff}`, friction sides with the load for as much of the cycle as balances it, and the
+flanks creep at :math:`v_a\sin(\pi\phi/2)`. Only asperities that stick until they slip hold at all
+under the smallest vibration (Coulomb, Dahl's exponent 0); those of exponent 1 creep at any.
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.drive.friction_curve import friction_at
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.many import solve_many
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import Reduction, reduction
+from asperity.drive.result import DriveResult, inputs
+from asperity.drive.solve import prepare as prepare_drive
+from asperity.errors import AsperityError, ConvergenceError
+from asperity.results import Result, quantity
+from asperity.runs import Run
+
+_AMPLITUDES = ("amplitude",)
+# Of the way from rest to full friction, what the chart shows.
+_CHART = np.geomspace(0.05, 20.0, 14)
+_ROUNDS, _AT_ONCE = 2, 4
+# Creep below so much of the vibration's own speed is the rest of settling down.
+_CREEPS = 2e-4
+
+
+class Locking(Result):
+    """Whether a gearset holds, and from which vibration on it creeps."""
+
+    title: ClassVar[str] = "Self-locking of a worm gearset under vibration"
+    stem: ClassVar[str] = "locking"
+    drawings: ClassVar[Mapping[str, str]] = {"locking": "asperity.drive.plots:plot_locking"}
+
+    problem: DriveProblem
+    locked: bool = quantity("", "", "holds its load without vibration")
+    holding_share: float = quantity("phi", "", "share of full friction that holds it")
+    elastic_slip: float = quantity(
+        "s_eff", "m", "way along the flank from none to full friction, asperities and teeth"
+    )
+    threshold: float | None = quantity(
+        "u_0", "m", "least amplitude of the vibration under which it creeps"
+    )
+    threshold_closed_form: float | None = quantity(
+        "s_eff (1 - phi)", "m", "the same by its closed form, along the flank alone"
+    )
+    creep: float | None = quantity(
+        "", "rad/s", "mean speed of the wheel under the case's vibration", key="creep_rad_s"
+    )
+    creep_closed_form: float | None = quantity(
+        "v_a sin(pi phi/2)", "rad/s", "the same far beyond the threshold",
+        key="creep_closed_form_rad_s",
+    )  # fmt: skip
+    amplitude: FloatArray = quantity(
+        "u_a", "m", "amplitude of the vibration", dims=_AMPLITUDES, coordinate=True
+    )
+    creep_over: FloatArray = quantity(
+        "", "rad/s", "mean speed of the wheel at an amplitude", dims=_AMPLITUDES
+    )
+    creep_limit: FloatArray = quantity(
+        "", "rad/s", "far beyond the threshold, by its closed form", dims=_AMPLITUDES
+    )
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What was asked, by ``table.key``."""
+        return inputs(self.problem)
+
+
+def prepare(case: Case) -> DriveProblem:
+    """Return the problem of a case, its motor off; InputError where it cannot be solved."""
+    problem = prepare_drive(case)
+    _ = problem.vibrated
+    plain = problem.drive.model_copy(update={"protocol": "back-drive"})
+    return dataclasses.replace(problem, drive=plain)
+
+
+def answer(problem: DriveProblem, run: Run) -> Locking:
+    """Find what a gearset holds.
+
+    Raises
+    ------
+    ConvergenceError
+        A march's powers do not balance.
+    """
+    reduced = reduction(problem, run)
+    model = ReducedModel(problem, reduced)
+    point = model.point
+    at_rest = float(friction_at(model.curve, 0.0))
+    share = point.holding_share(at_rest)
+    locked = share < 1.0
+    force = point.normal_force(problem.load, -min(share, 1.0) * at_rest)
+    slip = model.elastic_slip * force / model.normal_force
+    # Way along the flank for a displacement of the vibration, and the wheel's turn for a way.
+    along = _along(problem, model)
+    turn = 1.0 / (point.length * point.ratio)
+    frequency = 2.0 * math.pi * problem.vibrated[1].frequency
+    closed = slip * (1.0 - share) / along if locked else None
+    search = _Search(problem, reduced, turn * along * frequency, run)
+    amplitudes = _CHART * slip / along
+    creeps = search.creeps([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
+    notes = list(reduced.notes)
+    threshold = None
+    if locked:
+        threshold = search.threshold(amplitudes, creeps[:-1])
+        if threshold is None:
+            notes.append("no amplitude up to 20 times its elastic slip sets it free")
+        if problem.friction.model == "dahl" and problem.friction.exponent >= 1.0:
+            notes.append(
+                f"friction.exponent is {problem.friction.exponent:g}: such asperities creep at any "
+                "amplitude; exponent 0 holds"
+            )
+    else:
+        notes.append("it does not hold its load without vibration: the wheel drives the worm")
+    limit = math.sin(0.5 * math.pi * min(share, 1.0)) * turn * along * frequency
+    chart = amplitudes if locked else np.array([problem.amplitude])
+    return Locking(
+        problem=problem,
+        locked=locked,
+        holding_share=share,
+        elastic_slip=slip,
+        threshold=threshold,
+        threshold_closed_form=closed,
+        creep=float(creeps[-1]),
+        creep_closed_form=limit * problem.amplitude if locked else None,
+        amplitude=chart,
+        creep_over=creeps[:-1] if locked else creeps,
+        creep_limit=limit * chart,
+        notes=tuple(notes),
+    )
+
+
+def _along(problem: DriveProblem, model: ReducedModel) -> float:
+    """Way along the flank per displacement of the vibration."""
+    point, radius = model.point, problem.reference_radius
+    return {
+        "axial": point.lead / point.length,
+        "torsional": point.radius**2 / (point.length * radius),
+        "wheel-axial": point.radius / point.length,
+        "screw": point.length / radius,
+    }[problem.mode]
+
+
+class _Search:
+    """Marches at many amplitudes; ``unit`` is the wheel's speed per amplitude."""
+
+    def __init__(self, problem: DriveProblem, reduced: Reduction, unit: float, run: Run) -> None:
+        self._problem = problem
+        self._reduced = reduced
+        self._unit = unit
+        self._run = run
+
+    def creeps(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
+        """Return the wheel's mean speed in the load's direction at each amplitude, rad/s."""
+        shaken = [
+            (self._problem.shaken(self._problem.mode, float(amplitude)), self._reduced)
+            for amplitude in amplitudes
+        ]
+        found = solve_many(shaken, self._run, what="amplitudes")
+        for each in found:
+            if isinstance(each, AsperityError):
+                raise each
+        speeds = [each.creep for each in found if isinstance(each, DriveResult)]
+        if None in speeds:
+            raise ConvergenceError("a march without a motor told no creep", reached={})
+        return -np.array(speeds, float) + 0.0
+
+    def threshold(self, amplitudes: FloatArray, creeps: FloatArray) -> float | None:
+        """Return the least amplitude that creeps; None where none does."""
+        moving = creeps > _CREEPS * self._unit * amplitudes
+        if not moving.any():
+            return None
+        first = int(np.argmax(moving))
+        low = float(amplitudes[first - 1]) if first else 0.0
+        high = float(amplitudes[first])
+        for _ in range(_ROUNDS):
+            if low == 0.0:
+                return 0.0
+            inside = np.geomspace(low, high, _AT_ONCE + 2)
+            creeping = self.creeps(inside[1:-1]) > _CREEPS * self._unit * inside[1:-1]
+            place = int(np.argmax(creeping)) if creeping.any() else _AT_ONCE
+            low, high = float(inside[place]), float(inside[place + 1])
+        return math.sqrt(low * high)

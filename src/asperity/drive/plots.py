@@ -1,0 +1,177 @@
+"""Pictures of drives; each takes the dataset of an answer.
+
+A torque ratio is never drawn without its balance and whether it settled.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity.results.figures import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    draw,
+    legend,
+    panels,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_LOST = "#BBBBBB"
+_POWERS = (
+    ("power_drive", "motor", BLUE),
+    ("power_actuator", "actuator", ORANGE),
+    ("power_load", "load", GREEN),
+    ("power_friction", "friction", VERMILION),
+    ("power_damping", "damping", PURPLE),
+    ("power_stored", "stored", SKY),
+)
+
+
+def _state(dataset: "xr.Dataset") -> str:
+    """Return what a ratio is to be read with."""
+    settled = "settled" if dataset.attrs["settled"] else "not settled"
+    return f"{settled}, wheel out of balance by {100.0 * float(dataset['torque_balance']):.2g} %"
+
+
+def plot_torque(dataset: "xr.Dataset") -> "Figure":
+    """Draw the worm's torque over the last cycles, contact lost shaded, and over all cycles."""
+    if "cycle_end" not in dataset.coords:
+        return draw(dataset)
+    banded = "time" in dataset.coords
+    figure, axes = panels(2 if banded else 1, height=6.4 if banded else 3.6)
+    if banded:
+        _last_cycles(axes[0], dataset)
+    course = axes[-1]
+    ends = 1e3 * dataset["cycle_end"].values
+    static = float(dataset["torque_static"])
+    course.plot(ends, dataset["cycle_torque"] / static, color=BLUE, label="worm, over static")
+    load = dataset.attrs["operation.output_torque"]
+    course.plot(
+        ends, dataset["cycle_wheel"] / load, color=GREEN, dashes=(5, 2), label="wheel, over load"
+    )
+    floor = float(dataset["floor_reversed"])
+    course.axhline(floor, color=BLACK, dashes=(2, 2), linewidth=1.0, label="friction reversed")
+    course.set_xlabel("time (ms)")
+    course.set_ylabel("torque, mean of a cycle")
+    course.set_title("From the start of the vibration on", loc="left")
+    course.margins(x=0.0)
+    legend(course)
+    return figure
+
+
+def _last_cycles(axes: "Axes", dataset: "xr.Dataset") -> None:
+    time = 1e3 * (dataset["time"].values - dataset["time"].values[0])
+    axes.fill_between(
+        time, dataset["torque_min"], dataset["torque_max"], color=BLUE, alpha=0.25, linewidth=0.0
+    )
+    axes.plot(time, dataset["torque"], color=BLUE, label="torque of the worm's shaft")
+    axes.axhline(
+        float(dataset["torque_static"]), color=BLACK, dashes=(4, 3), linewidth=1.0,
+        label="without vibration",
+    )  # fmt: skip
+    lost = dataset["open"].values
+    if lost.any():
+        axes.fill_between(
+            time, 0.0, 1.0, where=lost > 0.5, transform=axes.get_xaxis_transform(), color=_LOST,
+            alpha=0.6, linewidth=0.0, step="mid", label="contact lost",
+        )  # fmt: skip
+    if "torque_ratio" in dataset:
+        ratio = float(dataset["torque_ratio"])
+        axes.set_title(f"Ratio {ratio:.3f}: {_state(dataset)}", loc="left")
+    axes.set_xlabel("time in the last cycles (ms)")
+    axes.set_ylabel("torque (N m)")
+    axes.margins(x=0.0)
+    legend(axes)
+
+
+def plot_powers(dataset: "xr.Dataset") -> "Figure":
+    """Draw the power ledger: what is put in to the right of zero, and where it goes."""
+    figure, (axes,) = panels(height=3.4)
+    values = [float(dataset[name]) for name, _, _ in _POWERS]
+    bars = axes.barh(
+        [name for _, name, _ in _POWERS], values, color=[colour for *_, colour in _POWERS],
+        height=0.6,
+    )  # fmt: skip
+    axes.bar_label(bars, [f"{value:.4g} W" for value in values], padding=3)
+    axes.axhline(1.5, color=BLACK, linewidth=0.8)
+    axes.invert_yaxis()
+    axes.margins(x=0.15)
+    axes.axvline(0.0, color=BLACK, linewidth=0.8)
+    axes.set_xlabel("mean power (W); above the line put in, below it where it goes")
+    axes.set_title(
+        f"Closes to {float(dataset['closure']):.1g} of what is put in; {_state(dataset)}",
+        loc="left",
+    )
+    return figure
+
+
+def plot_directions(dataset: "xr.Dataset") -> "Figure":
+    """Draw each way of shaking: ratio, what it saves per watt, the greatest force."""
+    figure, axes = panels(1, 3, width=9.0, height=3.4)
+    modes = [str(mode) for mode in dataset["mode"].values]
+    settled = dataset["settled"].values.astype(bool)
+    balance = dataset["torque_balance"].values
+    actuator = dataset["actuator"].values
+    per_watt = np.where(actuator > 0.0, dataset["saved"] / np.where(actuator, actuator, 1.0), 0.0)
+    columns = (
+        (dataset["torque_ratio"].values, "torque over static"),
+        (per_watt, "drive power saved per actuator power"),
+        (dataset["force_ratio"].values, "greatest normal force over static"),
+    )
+    labels = [
+        f"{mode}\n{'settled' if sure else 'not settled'}, {100.0 * off:.2g} %"
+        for mode, sure, off in zip(modes, settled, balance, strict=True)
+    ]
+    colours = [BLUE if sure else _LOST for sure in settled]
+    for place, (panel, (values, label)) in enumerate(zip(axes, columns, strict=True)):
+        panel.barh(range(len(modes)), values, color=colours, height=0.6)
+        panel.set_yticks(range(len(modes)), labels if not place else [""] * len(modes))
+        panel.invert_yaxis()
+        panel.set_xlabel(label)
+    axes[2].set_xscale("log")
+    axes[2].set_xlim(left=0.9)
+    return figure
+
+
+def plot_locking(dataset: "xr.Dataset") -> "Figure":
+    """Draw the creep over the amplitude, the threshold, and what both are by closed forms."""
+    figure, (axes,) = panels(height=4.0)
+    amplitude = 1e6 * dataset["amplitude"].values
+    axes.plot(
+        amplitude, dataset["creep_over"], color=BLUE, marker="o", markersize=4, label="marched"
+    )
+    axes.plot(
+        amplitude, dataset["creep_limit"], color=BLACK, dashes=(4, 3), linewidth=1.0,
+        label=r"$v_a\,\sin(\pi\varphi/2)$, far beyond the threshold",
+    )  # fmt: skip
+    for name, colour, words in (
+        ("threshold", BLUE, "threshold, marched"),
+        ("threshold_closed_form", BLACK, r"threshold, $s_{eff}(1 - \varphi)$"),
+    ):
+        if name in dataset and float(dataset[name]) > 0.0:
+            axes.axvline(
+                1e6 * float(dataset[name]), color=colour, dashes=(2, 2), linewidth=1.2, label=words
+            )
+    axes.set_xscale("log")
+    axes.set_yscale(
+        "symlog", linthresh=max(1e-3 * float(np.abs(dataset["creep_over"]).max()), 1e-9)
+    )
+    axes.set_xlabel("amplitude of the vibration (um)")
+    axes.set_ylabel("creep of the wheel (rad/s)")
+    word = "holds" if dataset.attrs["locked"] else "does not hold"
+    share = float(dataset["holding_share"])
+    axes.set_title(
+        rf"Without vibration it {word} its load, by $\varphi$ = {share:.3g} of full friction",
+        loc="left",
+    )
+    legend(axes)
+    return figure
