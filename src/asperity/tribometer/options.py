@@ -105,6 +105,8 @@ class Twin(Table):
         Of the asperities at full friction, m.
     motor_inertia : float or str
         Of each motor with its gear, kg m2.
+    supply_current : float or str
+        What a supply gives at most, A.
     rotor_inertia, rotor_frequency, rotor_damping : float or str, optional
         The steel disc on its shaft: J in kg m2, its torsional frequency in Hz and its share of
         critical damping; left out, the disc does not answer to vibration along the sliding.
@@ -135,6 +137,7 @@ class Twin(Table):
     drift: Annotated[float, Quantity("", "a share", "0.05", ge=-1, le=1)] = 0.0
     max_deflection: Annotated[float, Quantity("m", "a deflection", "70 nm", gt=0)] = 70e-9
     motor_inertia: Annotated[float, Quantity("kg m**2", "an inertia", "5e-5 kg m2", gt=0)] = 5e-5
+    supply_current: Annotated[float, Quantity("A", "a current", "5 A", gt=0)] = 5.0
     rotor_inertia: (
         Annotated[float, Quantity("kg m**2", "an inertia", "1e-4 kg m2", gt=0)] | None
     ) = None

@@ -150,11 +150,20 @@ class SimulatedRig:
         """Return where it stands, for JSON; it must be at rest."""
         self.change()
         held = {name: float(self._state[name][0]) for name in kernels.STATE.names or ()}
-        return {"now": self.now, "held": held, "rng": self._rng.bit_generator.state}
+        return {
+            "now": self.now,
+            "mode": self.mode,
+            "waveform": self.waveform,
+            "frequency": self.frequency,
+            "held": held,
+            "rng": self._rng.bit_generator.state,
+        }
 
     def restore(self, state: dict[str, Any]) -> None:
         """Stand where it stood."""
         self.now = self._reached = float(state["now"])
+        self.mode, self.waveform = state["mode"], state["waveform"]
+        self.frequency = float(state["frequency"])
         for name, value in state["held"].items():
             self._state[name] = value
         self._rng.bit_generator.state = state["rng"]
@@ -331,8 +340,9 @@ class SimulatedPerson:
         self._rig.mode = "longitudinal" if mode == "longitudinal" else "transverse"
 
     def read(self, text: str, unit: str) -> float:
-        """Read nothing: a simulated disc has the weight it should."""
-        return 0.0
+        """Weigh discs of steel: nothing else is read at a simulated rig."""
+        disc = self._rig.plant.pair.steel if "steel" in text else self._rig.plant.pair.bronze
+        return math.pi * disc.radius**2 * disc.thickness * (disc.density or 7850.0)
 
 
 def simulated_bench(

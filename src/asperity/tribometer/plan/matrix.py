@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 
 from asperity.errors import InputError, nearest
-from asperity.tribometer.options import Plan
+from asperity.tribometer.options import Plan, Waveform
 from asperity.tribometer.parameters import Limits
 
 _MOST = 20_000
@@ -49,7 +49,7 @@ class PlannedFile:
     number: int
     mode: str
     lubricant: str
-    waveform: str
+    waveform: Waveform
     steel_supply: float
     repeat: int
     cells: tuple[Cell, ...]

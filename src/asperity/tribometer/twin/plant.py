@@ -86,7 +86,7 @@ class Plant:
         twin = self.twin
         return Motor(
             twin.motor_constant, twin.motor_resistance, drag, twin.motor_inertia, ratio,
-            efficiency, radius, bearing,
+            efficiency, radius, bearing, twin.supply_current,
         )  # fmt: skip
 
     def sensing(self, interval: float) -> Sensing:

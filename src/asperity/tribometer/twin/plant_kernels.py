@@ -38,6 +38,8 @@ class Motor(NamedTuple):
         Of the disc, m.
     bearing : float
         Torque of the disc's bearings, N m.
+    most : float
+        Current its supply gives at most, A.
     """
 
     constant: float
@@ -48,6 +50,7 @@ class Motor(NamedTuple):
     efficiency: float
     radius: float
     bearing: float
+    most: float
 
 
 class Sensing(NamedTuple):
@@ -143,7 +146,9 @@ def turned(motor, speed, volts, load, slope, step):
     back = 0.0
     if volts >= 0.0:
         current = (volts - motor.constant * speed) / motor.resistance
-        if current > 0.0:
+        if current > motor.most:
+            current = motor.most
+        elif current > 0.0:
             back = motor.constant * motor.constant / motor.resistance
         else:
             current = 0.0

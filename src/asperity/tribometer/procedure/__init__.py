@@ -1,0 +1,1 @@
+"""The test procedure: steps, checks, interlocks and the journal that a run goes on from."""

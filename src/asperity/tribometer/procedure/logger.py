@@ -1,0 +1,175 @@
+"""A recording that is made while it is watched: stream, interlocks and file in one."""
+
+import contextlib
+import datetime
+import zlib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.tribometer.instruments.protocols import Bench, Counts
+from asperity.tribometer.instruments.stream import Stream
+from asperity.tribometer.procedure.interlock import Expected, Interlock
+from asperity.tribometer.recording import Recorder, Source
+
+BLOCK = 0.1  #: s; vibration and motors are off so long after something trips at the latest.
+_POLLS_A_BLOCK = 2
+_SETTLING = 0.3  # s, until a change that was told must be seen.
+_SUPPLIES_EVERY = 1.0  # s
+
+
+class Window:
+    """Sums over a stretch of samples.
+
+    Attributes
+    ----------
+    first, samples : int
+        Number of its first sample in the recording, and how many it has.
+    crc32 : int
+        Check sum of its counts, after those of the windows before.
+    """
+
+    def __init__(self, columns: int, first: int, skip: int, crc32: int = 0) -> None:
+        self.first = first
+        self.samples = 0
+        self.crc32 = crc32
+        self._skip = skip
+        self._sum = np.zeros(columns, np.int64)
+        self._summed = 0
+
+    def add(self, counts: Counts) -> None:
+        """Take samples."""
+        self.crc32 = zlib.crc32(counts.data, self.crc32)
+        used = counts[max(0, self._skip - self.samples) :]
+        self.samples += len(counts)
+        self._sum += used.sum(axis=0, dtype=np.int64)
+        self._summed += len(used)
+
+    def means(self) -> FloatArray:
+        """Return mean counts behind what was skipped."""
+        return self._sum / max(1, self._summed)
+
+
+class Logger:
+    """Streams, watches and records.
+
+    Parameters
+    ----------
+    bench : Bench
+        The instruments.
+    interlock : Interlock
+        What must not be passed.
+    interval : float
+        Of samples, s, as asked for.
+    path : Path, optional
+        Where it is recorded; None: it is only watched.
+    configuration : str
+        Of the rig as it stands, as JSON.
+    beat : callable
+        Called with every poll; may end the work by raising.
+    """
+
+    def __init__(
+        self,
+        bench: Bench,
+        interlock: Interlock,
+        interval: float,
+        path: Path | None,
+        configuration: str,
+        beat: Callable[[], None],
+    ) -> None:
+        self.path = path
+        self.expected = Expected()
+        self._bench = bench
+        self._interlock = interlock
+        self._beat = beat
+        self._begun = bench.clock.now()
+        self._told = self._begun
+        self._looked = self._begun
+        simulated = bench.memory is not None
+        start = datetime.datetime.now(datetime.UTC)
+        self._stream = Stream(bench.scope, interval, BLOCK, self._begun)
+        self.interval = self._stream.interval
+        self._recorder: Recorder | None = None
+        if path is not None:
+            sources = [Source(one.signal, "V", one.range / 32767.0) for one in bench.scope.inputs]
+            self._recorder = Recorder(
+                path, sources, self.interval, configuration=configuration, start=start,
+                block=max(1, round(BLOCK / self.interval)), simulated=simulated,
+            )  # fmt: skip
+
+    @property
+    def samples(self) -> int:
+        """Recorded so far."""
+        return self._stream.samples
+
+    def expect(self, expected: Expected) -> None:
+        """Say what the rig has just been told."""
+        self.expected = expected
+        self._told = self._bench.clock.now()
+
+    def event(self, kind: str, text: str) -> None:
+        """Write down what was done."""
+        if self._recorder is not None:
+            self._recorder.event(self.samples * self.interval, kind, text)
+
+    def watch(self, seconds: float, *, skip: float = 0.0, crc32: int = 0) -> Window:
+        """Record for a time, and look at all of it.
+
+        Parameters
+        ----------
+        seconds : float
+            How long, by samples.
+        skip : float
+            Left out of the means at the start, s.
+        crc32 : int
+            Check sum that the window's follows.
+
+        Raises
+        ------
+        InstrumentError
+            Something tripped.
+        StorageError
+            The recording cannot be written.
+        """
+        bench, stream = self._bench, self._stream
+        wanted = max(1, round(seconds / self.interval))
+        window = Window(len(bench.scope.inputs), self.samples, round(skip / self.interval), crc32)
+        poll = BLOCK / _POLLS_A_BLOCK
+        while window.samples < wanted:
+            left = (wanted - window.samples) * self.interval
+            bench.clock.sleep(min(poll, left))
+            self._beat()
+            bench.vibration.keep_alive()
+            now = bench.clock.now()
+            counts = stream.take()
+            settled = now - self._told > _SETTLING
+            self._interlock.look(counts, self.interval, self.expected, settled=settled)
+            if now - self._looked >= _SUPPLIES_EVERY:
+                self._looked = now
+                self._interlock.supplies(bench.motors, self.expected)
+            if self._recorder is not None:
+                self._recorder.append(counts, now - self._begun)
+            window.add(counts)
+        return window
+
+    def levels(self, window: Window) -> Mapping[str, float]:
+        """Return mean signals of a window in SI."""
+        means = self._interlock.offsets + self._interlock.gains * window.means()
+        names = (one.signal for one in self._bench.scope.inputs)
+        return dict(zip(names, map(float, means), strict=True))
+
+    def close(self, *, compress: bool) -> None:
+        """End stream and recording."""
+        self._stream.stop()
+        if self._recorder is not None:
+            self._recorder.close(compress=compress)
+
+    def abandon(self) -> None:
+        """Leave the recording as it stands on the disk; nothing that goes wrong is raised."""
+        if self._recorder is not None:
+            with contextlib.suppress(Exception):
+                # Closed as after an error: what has not been written is not worth another attempt.
+                self._recorder.__exit__(InterruptedError, None, None)

@@ -1,0 +1,362 @@
+"""The procedure as a state machine: its state is the journal, its transitions are actions.
+
+An action is begun and done, each with a line on the disk. What is not done when the machine starts
+is what is left, so that a run goes on where it was killed. Whatever ends it, vibration and motors
+are switched off before anything else is tried.
+"""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity.casefile import Case
+from asperity.errors import AsperityError, StorageError
+from asperity.runs import Run
+from asperity.runs.interrupt import Interrupted
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
+from asperity.tribometer.instruments.protocols import Bench, InstrumentError
+from asperity.tribometer.options import Plan, Reduction
+from asperity.tribometer.pair import Pair
+from asperity.tribometer.parameters import Limits, Sonotrode
+from asperity.tribometer.plan.matrix import PlannedFile
+from asperity.tribometer.procedure import checks
+from asperity.tribometer.procedure.interlock import Expected, Interlock
+from asperity.tribometer.procedure.journal import Journal
+from asperity.tribometer.procedure.logger import Logger
+from asperity.tribometer.procedure.steps import Action
+
+_TRIES = 3
+_REST = 1.0
+_TRIAL = 5.0  # An encoder's gate and filter, twice.
+_TRIAL_MEAN = 1.0
+_PRELOAD_TIME = 0.5
+
+
+class Machine:
+    """A run of a plan on a bench.
+
+    Parameters
+    ----------
+    case : Case
+        The configuration.
+    actions : sequence of Action
+        All of the plan.
+    bench : Bench
+        Its instruments.
+    journal : Journal
+        What is done already, and where more is written.
+    folder : Path
+        For recordings.
+    run : Run
+        Progress and Ctrl-C.
+    """
+
+    def __init__(
+        self,
+        case: Case,
+        actions: Sequence[Action],
+        bench: Bench,
+        journal: Journal,
+        folder: Path,
+        run: Run,
+    ) -> None:
+        self._case = case
+        self._actions = actions
+        self._bench = bench
+        self._journal = journal
+        self._folder = folder
+        self._run = run
+        self._plan = case.require(Plan)
+        self._pair = Pair.from_case(case)
+        self._sonotrode = case.require(Sonotrode)
+        self._settling = (
+            case.require(Reduction) if Reduction.table in case else Reduction()
+        ).settling
+        self._interlock = self._made_interlock()
+        self._interval = 1.0 / self._plan.sample_rate
+        self._logger: Logger | None = None
+        self._file: PlannedFile | None = None
+        self._cells = sum(action.act == "cell" for action in actions)
+        self._done_cells = 0
+
+    def _made_interlock(self) -> Interlock:
+        case, inputs = self._case, self._bench.scope.inputs
+        lines = lines_of(case.require(Channels), inputs)
+        limits = case.require(Limits) if Limits.table in case else Limits()
+        swing = self._sonotrode.highest_voltage - self._sonotrode.lowest_voltage
+        return Interlock(
+            limits,
+            inputs,
+            np.array(
+                [line.gain * volts_a_count(one) for line, one in zip(lines, inputs, strict=True)]
+            ),
+            np.array([line.offset for line in lines]),
+            0.5 * swing / self._sonotrode.amplifier_gain,
+        )
+
+    def go(self) -> AsperityError | None:
+        """Do what is left.
+
+        Returns
+        -------
+        AsperityError or None
+            What latched; None when all is done.
+
+        Raises
+        ------
+        Interrupted
+            Ctrl-C was pressed; what is done is kept.
+        """
+        done = self._journal.done
+        try:
+            self._remember(done)
+            with self._run.going_on():
+                for action in self._actions:
+                    if action.key in done:
+                        self._done_cells += action.act == "cell"
+                        continue
+                    self._journal.write("begun", action=action.key, steps=list(action.steps))
+                    told = self._act(action)
+                    self._journal.write(
+                        "done", action=action.key, steps=list(action.steps), **told, **self._held()
+                    )
+                    self._done_cells += action.act == "cell"
+        except BaseException as error:
+            return self._ended(error)
+        return None
+
+    def _remember(self, done: dict[str, dict[str, Any]]) -> None:
+        """Let a simulated rig stand where it stood when the last action was done."""
+        if self._bench.memory is not None and done:
+            last = max(done.values(), key=lambda line: line["line"])
+            self._bench.memory.restore(last["memory"])
+
+    def _held(self) -> dict[str, Any]:
+        memory = self._bench.memory
+        return {} if memory is None else {"memory": memory.state()}
+
+    def _ended(self, error: BaseException) -> AsperityError:
+        """Make everything safe, then say why; what is no fault of the rig is raised on."""
+        failures = self._bench.safe()
+        still = {"still_on": list(failures)} if failures else {}
+        if self._logger is not None:
+            self._logger.abandon()
+        if isinstance(error, Interrupted | KeyboardInterrupt):
+            self._journal.write("interrupted", reason=str(error), **still)
+            raise Interrupted(f"{error or 'interrupted'}; --resume goes on") from None
+        kind = getattr(error, "kind", "disk" if isinstance(error, StorageError) else "error")
+        reason = str(error) or type(error).__name__
+        try:
+            self._journal.write("latched", interlock=kind, reason=reason, **still)
+        except StorageError as full:
+            if not isinstance(error, StorageError):
+                error.add_note(str(full))
+        if not isinstance(error, AsperityError):
+            raise error
+        if failures:
+            return InstrumentError(
+                f"{reason}; NOT SWITCHED OFF: {'; '.join(failures)}; switch it off by hand",
+                kind=kind,
+            )
+        return error
+
+    def _act(self, action: Action) -> dict[str, Any]:
+        acts: dict[str, Callable[[Action], dict[str, Any]]] = {
+            "ask": self._ask,
+            "weigh": self._weigh,
+            "arrange": self._arrange,
+            "preload": self._preload,
+            "waveform": self._waveform,
+            "trial": self._trial,
+            "rest": self._rest,
+            "cell": self._cell,
+            "save": self._save,
+        }
+        return acts[action.act](action)
+
+    def _ask(self, action: Action) -> dict[str, Any]:
+        self._bench.person.do(action.text)
+        return {}
+
+    def _weigh(self, action: Action) -> dict[str, Any]:
+        read = self._bench.person.read
+        return {f"{disc}_kg": read(f"Weight of the {disc} disc", "kg") for disc in _DISCS}
+
+    def _arrange(self, action: Action) -> dict[str, Any]:
+        one = _file_of(action)
+        self._bench.person.arrange(action.text, one.mode)
+        return {"mode": one.mode}
+
+    def _preload(self, action: Action) -> dict[str, Any]:
+        wanted = self._sonotrode.preload_voltage
+
+        def checked(logger: Logger) -> dict[str, Any]:
+            level = logger.levels(logger.watch(_PRELOAD_TIME))["load_cell"]
+            checks.check_preload(level, wanted)
+            return {"preload_V": level}
+
+        return self._tried(action, checked)
+
+    def _waveform(self, action: Action) -> dict[str, Any]:
+        one = _file_of(action)
+        self._bench.vibration.configure(one.waveform, one.cells[0].frequency)
+        return {"waveform": one.waveform}
+
+    def _trial(self, action: Action) -> dict[str, Any]:
+        """Steps 12 to 16, with motors but without vibration."""
+        one = _file_of(action)
+
+        def checked(logger: Logger) -> dict[str, Any]:
+            rest = logger.levels(logger.watch(_REST))
+            checks.check_zeros(rest)
+            self._energise(logger, one)
+            running = logger.levels(logger.watch(_TRIAL, skip=_TRIAL - _TRIAL_MEAN))
+            given = {name: supply.reading() for name, supply in self._bench.motors.items()}
+            checks.check_changes(rest, running)
+            checks.check_map(
+                running,
+                given,
+                {"steel": self._pair.steel.radius, "bronze": self._pair.bronze.radius},
+            )
+            measured = {name: self._bench.tachometer.speed(name) for name in _DISCS}
+            pulses = self._pair.drives.encoder_pulses
+            checks.check_speeds(running, measured, 2.0 * np.pi / pulses)
+            self._still(logger)
+            return {"running": running, "tachometer_rad_per_s": measured}
+
+        return self._tried(action, checked)
+
+    def _tried(self, action: Action, check: Callable[[Logger], dict[str, Any]]) -> dict[str, Any]:
+        """Make a check, let a person put right what is wrong, and make it again."""
+        for left in range(_TRIES - 1, -1, -1):
+            logger = self._logger = self._new_logger(None, None)
+            try:
+                told = check(logger)
+            except InstrumentError as error:
+                # Only what a check found may be tried again; an interlock stays tripped.
+                if left == 0 or error.kind not in _PUT_RIGHT:
+                    raise
+                self._still(logger)
+                self._journal.write("check", action=action.key, reason=str(error))
+                logger.close(compress=False)
+                self._bench.person.do(f"{error}. Put it right.")
+                continue
+            logger.close(compress=False)
+            self._logger = None
+            return told
+        raise AssertionError
+
+    def _rest(self, action: Action) -> dict[str, Any]:
+        one = _file_of(action)
+        logger = self._recording(one)
+        logger.watch(_REST)
+        return {"recording": _name(logger)}
+
+    def _cell(self, action: Action) -> dict[str, Any]:
+        """Steps 17 to 20 of one frequency: discs alone, with vibration, and at rest."""
+        one, cell = _file_of(action), action.cell
+        if cell is None:
+            raise AssertionError
+        logger, plan = self._recording(one), self._plan
+        logger.event("cell", str(cell.number))
+        self._bench.vibration.configure(one.waveform, cell.frequency)
+        self._energise(logger, one)
+        before = logger.watch(plan.before, skip=min(self._settling, 0.5 * plan.before))
+        if self._bench.amplifier is not None:
+            # Made safe, it is off.
+            self._bench.amplifier.on()
+        self._bench.vibration.on()
+        volts = logger.expected.volts
+        logger.expect(Expected(cell.frequency, one.waveform, volts))
+        logger.event("vibration", f"{one.waveform} {cell.frequency:g} Hz")
+        shaken = logger.watch(
+            plan.shaken, skip=min(self._settling, 0.5 * plan.shaken), crc32=before.crc32
+        )
+        self._still(logger)
+        if plan.idle:
+            logger.watch(plan.idle)
+        return {
+            "cell": cell.number,
+            "frequency_Hz": cell.frequency,
+            "file": one.name,
+            "recording": _name(logger),
+            "before": [before.first, before.samples],
+            "shaken": [shaken.first, shaken.samples],
+            "crc32": shaken.crc32,
+            "level_before": logger.levels(before),
+            "level_with": logger.levels(shaken),
+        }
+
+    def _save(self, action: Action) -> dict[str, Any]:
+        if self._logger is None:
+            return {}
+        logger, self._logger, self._file = self._logger, None, None
+        logger.close(compress=True)
+        return {"recording": _name(logger), "samples": logger.samples}
+
+    def _energise(self, logger: Logger, one: PlannedFile) -> None:
+        volts = {"steel": one.steel_supply, "bronze": self._plan.bronze_supply}
+        for name, supply in self._bench.motors.items():
+            supply.set(volts[name])
+        for name, supply in self._bench.motors.items():
+            supply.on()
+            logger.event(f"{name}_supply", f"{volts[name]:g} V")
+        logger.expect(Expected(volts=volts))
+
+    def _still(self, logger: Logger) -> None:
+        """Vibration off, then motors off."""
+        if logger.expected.frequency:
+            self._bench.vibration.off()
+            logger.event("vibration", "off")
+        if logger.expected.volts:
+            for name, supply in self._bench.motors.items():
+                supply.off()
+                logger.event(f"{name}_supply", "off")
+        logger.expect(Expected())
+
+    def _recording(self, one: PlannedFile) -> Logger:
+        """Return the recording of a file that runs, or begin a part of it."""
+        if self._logger is None or self._file != one:
+            part = 1 + sum(line["file"] == one.name for line in self._journal.of("recording"))
+            name = one.name if part == 1 else f"{one.name}-{part}"
+            path = self._folder / f"{name}.nc"
+            self._journal.write("recording", file=one.name, recording=path.name)
+            self._logger, self._file = self._new_logger(path, one), one
+        return self._logger
+
+    def _new_logger(self, path: Path | None, one: PlannedFile | None) -> Logger:
+        return Logger(
+            self._bench, self._interlock, self._interval, path, self._configuration(one),
+            self._beat,
+        )  # fmt: skip
+
+    def _configuration(self, one: PlannedFile | None) -> str:
+        """Return the case as it stands for a file, as JSON."""
+        raw = {name: dict(entries) for name, entries in self._case.raw.items()}
+        if one is not None:
+            raw.setdefault("rig", {})["mode"] = one.mode
+            raw.setdefault("lubricant", {})["kind"] = one.lubricant
+            raw.setdefault("drives", {})["steel_supply"] = f"{one.steel_supply!r} V"
+            raw["drives"]["bronze_supply"] = f"{self._plan.bronze_supply!r} V"
+        return json.dumps(raw, allow_nan=False, default=str)
+
+    def _beat(self) -> None:
+        self._run.checkpoint(self._done_cells, self._cells, what="cells")
+
+
+_DISCS = "steel", "bronze"
+_PUT_RIGHT = frozenset(("preload", "zero", "no change", "wrong channel map"))
+
+
+def _file_of(action: Action) -> PlannedFile:
+    if action.file is None:
+        raise AssertionError
+    return action.file
+
+
+def _name(logger: Logger) -> str:
+    return logger.path.name if logger.path is not None else ""

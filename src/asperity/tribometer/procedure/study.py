@@ -1,0 +1,215 @@
+"""The command ``asperity rig run``: carry out a plan by the procedure."""
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity.casefile import Case
+from asperity.errors import AsperityError, InputError, choices, suggestion
+from asperity.runs import Run
+from asperity.runs.key import key
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.instruments.backends import BACKENDS, open_bench
+from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.instruments.manual import Operator
+from asperity.tribometer.instruments.protocols import Bench, InstrumentError
+from asperity.tribometer.options import Plan
+from asperity.tribometer.pair import Pair
+from asperity.tribometer.parameters import Limits, Sonotrode
+from asperity.tribometer.plan.matrix import PlannedFile, planned_files
+from asperity.tribometer.procedure.journal import Journal
+from asperity.tribometer.procedure.machine import Machine
+from asperity.tribometer.procedure.result import RunResult
+from asperity.tribometer.procedure.steps import Action, sequence
+from asperity.tribometer.twin.plant import Plant
+from asperity.tribometer.twin.provenance import standing
+
+_LEAST_SAMPLES_A_CYCLE = 2.5
+
+
+@dataclasses.dataclass(frozen=True)
+class RunProblem:
+    """A plan that may be run, and how.
+
+    Attributes
+    ----------
+    case : Case
+        The configuration.
+    files : tuple of PlannedFile
+        In their order.
+    actions : tuple of Action
+        Everything the plan needs.
+    backend : str
+        Which instruments.
+    resume : bool
+        Whether a run is gone on with.
+    acknowledge : str
+        Who has looked at what latched, and what was done; empty: nobody.
+    """
+
+    case: Case
+    files: tuple[PlannedFile, ...]
+    actions: tuple[Action, ...]
+    backend: str
+    resume: bool
+    acknowledge: str
+
+
+def prepare(
+    case: Case, backend: str = "sim", resume: bool = False, acknowledge: str = ""
+) -> RunProblem:
+    """Lay out a run; refuses a plan beyond its limits, and instruments that cannot be had."""
+    limits = case.require(Limits) if Limits.table in case else Limits()
+    plan = case.require(Plan)
+    files = planned_files(plan, limits)
+    sonotrode = case.require(Sonotrode)
+    Pair.from_case(case)
+    inputs_of(case.require(Channels), sonotrode)
+    if backend not in BACKENDS:
+        raise InputError(
+            f"--backend is {backend!r}; it must be one of {choices(BACKENDS)}"
+            f"{suggestion(backend, BACKENDS)}"
+        )
+    most = plan.sample_rate / _LEAST_SAMPLES_A_CYCLE
+    for frequency in plan.frequencies:
+        if frequency > most:
+            raise InputError(
+                f"plan.frequencies has {frequency:g} Hz, which a plan.sample_rate of "
+                f"{plan.sample_rate:g} Hz cannot tell; it must be at most {most:g} Hz"
+            )
+    if acknowledge.strip() and not resume:
+        raise InputError("--acknowledge goes with --resume: it is for a run that latched")
+    if backend == "sim":
+        plant = Plant.from_case(case)
+        for one in files:
+            for cell in one.cells:
+                if sonotrode.velocity(one.mode, cell.frequency) is None:
+                    raise InputError(
+                        f"plan.frequencies has {cell.frequency:g} Hz, outside "
+                        "sonotrode.frequencies; how fast a simulated disc moves there is not known"
+                    )
+        for volts in plan.steel_supplies:
+            plant.steady(volts, plan.bronze_supply, plant.friction())
+    else:
+        Operator()
+    return RunProblem(case, files, tuple(sequence(files)), backend, resume, acknowledge.strip())
+
+
+def answer(problem: RunProblem, run: Run) -> RunResult:
+    """Carry out a plan, or what is left of it.
+
+    Raises
+    ------
+    InputError
+        There is no folder, or what is in it does not fit.
+    """
+    if run.folder is None:
+        raise InputError("a run needs --out DIR, a folder for its recordings and its journal")
+    bench = open_bench(problem.case, problem.backend)
+    try:
+        return _run(problem, bench, run, run.folder)
+    finally:
+        bench.close()
+
+
+def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult:
+    # A process that was killed has left the instruments as they were.
+    failures = bench.safe()
+    if failures:
+        raise InstrumentError(
+            f"not everything can be switched off: {'; '.join(failures)}; switch it off by hand and "
+            "look at the instruments",
+            kind="not safe",
+        )
+    journal = Journal(folder)
+    latch: AsperityError | None = None
+    try:
+        _opened(problem, journal)
+        machine = Machine(problem.case, problem.actions, bench, journal, folder, run)
+        latch = machine.go()
+        if latch is None and not journal.of("finished"):
+            journal.write("finished")
+    finally:
+        journal.close(finished=latch is None)
+    return _result(problem, journal, latch)
+
+
+def _opened(problem: RunProblem, journal: Journal) -> None:
+    """Begin a journal, or go on with it if it is of this run and nothing stands in the way."""
+    name = key("rig run", problem.case.canonical(), problem.backend)
+    begun = journal.of("started")
+    if not problem.resume:
+        if journal.lines:
+            raise InputError(
+                f"{journal.path} holds a run; go on with it by --resume, or choose another --out"
+            )
+        journal.write("started", key=name, backend=problem.backend, cells=_cells(problem.files))
+        return
+    if not begun:
+        raise InputError(f"{journal.path} holds no run to go on with; leave --resume out")
+    if begun[0].get("key") != name:
+        raise InputError(
+            f"{journal.path} is of another configuration or backend; go on with the one it was "
+            "begun with, or choose another --out"
+        )
+    latched = journal.latched
+    if latched is not None and not problem.acknowledge:
+        raise InputError(
+            f"the run latched ({latched['interlock']}: {latched['reason']}); look at the rig, then "
+            'go on with --resume --acknowledge "who, and what was done"'
+        )
+    if latched is None and problem.acknowledge:
+        raise InputError("--acknowledge is given and nothing has latched; leave it out")
+    if latched is not None:
+        journal.write("acknowledged", text=problem.acknowledge, of=latched["line"])
+    journal.write("resumed")
+
+
+def _cells(files: tuple[PlannedFile, ...]) -> int:
+    return sum(len(one.cells) for one in files)
+
+
+def _result(problem: RunProblem, journal: Journal, latch: AsperityError | None) -> RunResult:
+    lines = tuple(line for line in journal.of("done") if "cell" in line)
+    before, after = (
+        np.array([line[level]["torque_steel"] for line in lines])
+        for level in ("level_before", "level_with")
+    )
+    change = np.zeros(len(lines))
+    np.divide(after - before, before, out=change, where=before != 0.0)
+    return RunResult(
+        lines=lines,
+        latch=latch,
+        backend=problem.backend,
+        cells_planned=_cells(problem.files),
+        cells_done=len(lines),
+        recordings=len(journal.of("recording")),
+        starts=len(journal.of("started")) + len(journal.of("resumed")),
+        cell=np.array([line["cell"] for line in lines], dtype=int),
+        frequency=np.array([line["frequency_Hz"] for line in lines], dtype=float),
+        torque_before=before,
+        torque_with=after,
+        torque_change=100.0 * change,
+        notes=tuple(_notes(problem, journal, latch)),
+    )
+
+
+def _notes(problem: RunProblem, journal: Journal, latch: AsperityError | None) -> list[str]:
+    notes: list[str] = []
+    if problem.backend == "sim":
+        notes.append("simulated: no rig was run")
+        notes.extend(standing(problem.case))
+    if latch is not None:
+        notes.append(
+            f"latched: {latch}; vibration and motors are off until a person acknowledges it"
+        )
+    parts: dict[str, Any] = {}
+    for line in journal.of("recording"):
+        parts.setdefault(line["file"], []).append(line["recording"])
+    broken = {name: made for name, made in parts.items() if len(made) > 1}
+    notes.extend(
+        f"{name} is in {len(made)} parts: {', '.join(made)}" for name, made in broken.items()
+    )
+    return notes
