@@ -29,8 +29,11 @@ GEARSET = Gearset(
     profile_shift=0.0,
     worm_material="case-hardened steel",
     wheel_material="CuAl10Fe5Ni5-C-GZ",
+    units="SI",
 )
-OPERATION = Operation(worm_speed=150.0, output_torque=300.0, lubricant="ISO VG 220 mineral")
+OPERATION = Operation(
+    worm_speed=150.0, output_torque=300.0, lubricant="ISO VG 220 mineral", units="SI"
+)
 TOTAL = "iso14521.eta_ges"
 
 

@@ -31,7 +31,7 @@ def ratios(law, direction):
         Model(
             body,
             contact,
-            Vibration(frequency="3 kHz", velocity_ratio=k, direction=direction),
+            Vibration(frequency="3 kHz", velocity_ratio=k, direction=direction, units="SI"),
             Solve(method="periodic"),
         )
         for k in velocity_ratios

@@ -43,7 +43,7 @@ for key, style in (("longitudinal", "-"), ("transverse", "--")):
     rows = [
         compare(
             gearset, operation, methods=[],
-            vibration=Vibration(frequency="20 kHz", displacement_amplitude=amplitude),
+            vibration=Vibration(frequency="20 kHz", displacement_amplitude=amplitude, units="SI"),
         )[key]
         for amplitude in amplitudes
     ]  # fmt: skip

@@ -115,6 +115,8 @@ class Command:
         What its progress counts; empty where it takes no time.
     read : str
         Reads the case where that takes more than a name and settings.
+    needs : tuple of str
+        Tables that its case must have.
     """
 
     name: str
@@ -125,6 +127,7 @@ class Command:
     options: tuple[Option, ...] = ()
     counts: str = ""
     read: str = ""
+    needs: tuple[str, ...] = ()
 
     def prepared(self, case: "Case", **options: Any) -> Any:
         """Return the problem of a case, refused if it cannot be solved."""
@@ -153,6 +156,7 @@ COMMANDS = (
         "With --out also slide.nc, slide.png and slide.json.",
         prepare="asperity.slider.methods:prepare",
         solve="asperity.slider.methods:answer",
+        needs=("slider", "friction"),
         counts="steps",
     ),
     Command(
@@ -162,6 +166,7 @@ COMMANDS = (
         "and static.png.",
         prepare="asperity.slider.static:prepare",
         solve="asperity.slider.static:answer",
+        needs=("slider", "friction"),
         counts="pulls",
     ),
     Command(
@@ -171,6 +176,7 @@ COMMANDS = (
         "animation for ParaView.",
         prepare="asperity.block.solve:prepare",
         solve="asperity.block.solve:answer",
+        needs=("slider", "friction", "block"),
         counts="increments",
     ),
     Command(
@@ -179,6 +185,7 @@ COMMANDS = (
         "With --out also sweep.nc, sweep.json and, for one or two axes, sweep.png.",
         prepare="asperity.sweep.run:prepare",
         solve="asperity.sweep.run:answer",
+        needs=("slider", "friction"),
         read="asperity.sweep.axes:read_first",
         counts="points",
         options=(
@@ -202,6 +209,7 @@ COMMANDS = (
         "With --out also branches.json, branches.nc and branches.png.",
         prepare="asperity.sweep.branches:prepare",
         solve="asperity.sweep.branches:answer",
+        needs=("slider", "friction"),
         read="asperity.sweep.axes:read_first",
         counts="states",
         options=(
@@ -220,6 +228,7 @@ COMMANDS = (
         "With --out also rate.json, rate.nc, rate.html and rate.csv.",
         prepare="asperity.rating.rate:prepare",
         solve="asperity.rating.rate:answer",
+        needs=("gearset", "operation"),
         options=(Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),),
     ),
     Command(
@@ -228,6 +237,7 @@ COMMANDS = (
         "With --out also sensitivity.nc, sensitivity.png and sensitivity.json.",
         prepare="asperity.studies.sensitivity:prepare",
         solve="asperity.studies.sensitivity:answer",
+        needs=("gearset", "operation"),
     ),
     Command(
         "methods",
@@ -236,6 +246,7 @@ COMMANDS = (
         "also methods.nc, methods.png and methods.json.",
         prepare="asperity.studies.methods:prepare",
         solve="asperity.studies.methods:answer",
+        needs=("gearset", "operation"),
     ),
     Command(
         "optimise",
@@ -244,6 +255,7 @@ COMMANDS = (
         "permissible torque costs. With --out also optimise.nc, optimise.png and optimise.json.",
         prepare="asperity.studies.optimise:prepare",
         solve="asperity.studies.optimise:answer",
+        needs=("gearset", "operation"),
     ),
     Command(
         "flank",
@@ -251,6 +263,7 @@ COMMANDS = (
         "With --out also flank.json, flank.nc, pictures, and tooth and worm as mesh and surface.",
         prepare="asperity.flanks.study:prepare",
         solve="asperity.flanks.study:answer",
+        needs=("gearset",),
         options=(
             Option(
                 "density",

@@ -99,9 +99,16 @@ def read_text(
 
 def read_toml(path: str | os.PathLike[str], name: str | None = None) -> dict[str, Any]:
     """Return the content of a TOML file; arguments and errors as :func:`read_text`."""
+    return read_toml_text(path, name)[1]
+
+
+def read_toml_text(
+    path: str | os.PathLike[str], name: str | None = None
+) -> tuple[str, dict[str, Any]]:
+    """Return the text of a TOML file and its content; as :func:`read_toml`."""
     text = read_text(path, name, _MOST_TOML_BYTES)
     try:
-        return parse_toml(text)
+        return text, parse_toml(text)
     except ValueError as error:
         last = f"(at line {len(text.splitlines())}, the last one)"
         reason = str(error).replace("(at end of document)", last)

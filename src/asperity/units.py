@@ -1,7 +1,8 @@
 """Units at the edge: text with a unit comes in, floats in SI go on.
 
 Inside the package every quantity is a plain float in SI units; an angle is in radians and a
-frequency in cycles per second. Angles have a dimension of their own here, so that ``45 deg`` is
+frequency in cycles per second. In Python a bare number is refused as it is in a file, unless its
+unit is named: see :class:`Named`. Angles have a dimension of their own here, so that ``45 deg`` is
 not taken for a ratio, nor ``4 kHz`` for an angular speed.
 """
 
@@ -11,7 +12,7 @@ import math
 import numbers
 import re
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?(?![0-9.])")
 _UNIT = re.compile(r"[A-Za-z\u00b5\u03bc\u00b0%\u00b7\u00b2\u00b3*/^() 0-9-]{0,60}")
+_A_MINUTE = frozenset(("1/min", "/min", "min^-1", "min**-1"))
 _PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
 
 
@@ -51,6 +53,9 @@ def _convert(number: str, given: str, unit: str) -> float:
     if not _UNIT.fullmatch(given):
         raise InputError(f"{given!r} is not a unit")
     text = _PLAIN_POWER.sub(r"**\1", given.replace("\u00b0C", "degC"))
+    if unit == "rad/s" and text.replace(" ", "") in _A_MINUTE:
+        # Of turns, as standards write a speed of rotation.
+        text = "rpm"
     converted = measures.convert(number, text, unit)
     if converted is not None:
         return float(converted)
@@ -78,13 +83,29 @@ def _from_text(text: str, unit: str, bare: str | None) -> float:
     return _convert(number, bare, unit)
 
 
+def _from_pint(value: Any, unit: str) -> float:
+    try:
+        number = repr(float(value.magnitude))
+    except (TypeError, ValueError):
+        raise InputError(f"{shown(value)} is not one number") from None
+    # Whatever registry it is of, so that it comes to the same bits as the text.
+    try:
+        return _convert(number, f"{value.units:~C}", unit)
+    except InputError:
+        return _convert(number, str(value.units), unit)
+
+
+def _is_pint(value: object) -> bool:
+    return hasattr(value, "magnitude") and hasattr(value, "units")
+
+
 def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
     """Return a quantity as a float in SI units.
 
     Parameters
     ----------
-    value : str or float
-        Text such as ``"0.5 mm/s"``, or a number.
+    value : str, float or quantity of pint
+        Text such as ``"0.5 mm/s"``, a number, or a quantity of any of pint's registries.
     unit : str
         SI unit of the result: ``"m/s"``; ``"rad"`` for an angle, ``"Hz"`` for cycles per second,
         ``"K"`` for an absolute temperature, ``""`` for a ratio.
@@ -104,9 +125,11 @@ def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
     >>> to_si(180, "rad", bare="deg")
     3.141592653589793
     """
-    if isinstance(value, bool) or not isinstance(value, str | numbers.Real):
+    if _is_pint(value):
+        result = _from_pint(value, unit)
+    elif isinstance(value, bool) or not isinstance(value, str | numbers.Real):
         raise InputError(f"{shown(value)} is not a number{' with a unit' if unit else ''}")
-    if isinstance(value, str):
+    elif isinstance(value, str):
         result = _from_text(value, unit, bare)
     else:
         try:
@@ -123,12 +146,79 @@ def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
     return result + 0.0
 
 
+class Held(float):
+    """A number that has been checked and is in SI already."""
+
+
+class Named:
+    """The units that are named for bare numbers in Python.
+
+    Parameters
+    ----------
+    units : str, sequence of str or mapping, optional
+        ``"SI"`` for all of them; units such as ``"mm, rpm, N m"``, of which each number takes the
+        one that fits what it is; or a unit by key. Left out: a bare number is a mistake.
+
+    Raises
+    ------
+    InputError
+        One of them is no unit, or two are of the same kind.
+
+    Examples
+    --------
+    >>> Named("mm, rpm").of("centre_distance", "m")
+    'mm'
+    """
+
+    def __init__(self, units: object = None) -> None:
+        self._by_key: dict[str, str] = {}
+        self._listed: tuple[str, ...] = ()
+        self._si = units == "SI"
+        if units is None or self._si:
+            return
+        if isinstance(units, Mapping):
+            self._by_key = {str(key): str(unit) for key, unit in units.items()}
+        elif isinstance(units, str):
+            self._listed = tuple(part.strip() for part in units.split(","))
+        elif isinstance(units, list | tuple) and all(isinstance(unit, str) for unit in units):
+            self._listed = tuple(units)
+        else:
+            raise InputError(
+                f"units is {shown(units)}; it must be 'SI', units such as 'mm, rpm', or a unit by "
+                "key"
+            )
+        for unit in (*self._by_key.values(), *self._listed):
+            if measures.measure(unit) is None:
+                raise InputError(f"units names {shown(unit)}, which is not a unit")
+        kinds = [_kind(unit) for unit in self._listed]
+        for place, unit in enumerate(self._listed):
+            if kinds[place] in kinds[:place]:
+                other = self._listed[kinds.index(kinds[place])]
+                raise InputError(
+                    f"units names {other!r} and {unit!r}, which are of one kind; name the keys, as "
+                    f"in units={{'key': {unit!r}}}"
+                )
+
+    def of(self, key: str, unit: str) -> str | None:
+        """Return the unit of a bare number by its key and SI unit; None where none is named."""
+        if self._si:
+            return unit
+        fitting = (named for named in self._listed if _kind(named) == _kind(unit))
+        return self._by_key.get(key) or next(fitting, None)
+
+
+def _kind(unit: str) -> Mapping[str, int]:
+    found = measures.measure(unit)
+    return {} if found is None else found.powers
+
+
 @dataclasses.dataclass(frozen=True)
 class Quantity:
     """Annotation that makes a float field of a pydantic model a quantity with a unit.
 
-    The model takes text with a unit or a number in SI units. With ``{"text_only": True}`` as
-    validation context a quantity that has a unit must be text; a ratio may always be a number.
+    The model takes text with a unit, a quantity of pint, or a number in SI units. As validation
+    context ``{"text_only": True}`` is that of a file: what has a unit must be text, a ratio may be
+    a number; ``{"units": Named(...)}`` is that of Python: the unit of a number must be named.
 
     Parameters
     ----------
@@ -177,10 +267,44 @@ class Quantity:
         ]
         return f"it must be {' and '.join(texts)}"
 
-    def check(self, value: object, *, text_only: bool = False) -> float:
-        """Return the value in SI units, or raise InputError saying what it must be."""
+    def named(self) -> str:
+        """Return the ways to give a right value in Python, as the end of a message."""
+        unit = (split_unit(self.example) or ("", self.unit))[1]
+        return (
+            f"it must be {self.what} with its unit: as text such as '{self.example}', as a "
+            f"quantity of pint, or as a number with units='{unit}'"
+        )
+
+    def check(
+        self,
+        value: object,
+        *,
+        text_only: bool = False,
+        named: Named | None = None,
+        key: str = "",
+    ) -> float:
+        """Return the value in SI units, or raise InputError saying what it must be.
+
+        Parameters
+        ----------
+        value : object
+            Text, number or quantity of pint.
+        text_only : bool
+            Whether a number without unit is refused.
+        named : Named, optional
+            The units of numbers without one, for the key that it is.
+        key : str
+            Name of the key.
+        """
+        bare = "refuse" if text_only else None
+        number = isinstance(value, numbers.Real) and not isinstance(value, Held | bool)
+        if named is not None and self.unit and number:
+            bare = named.of(key, self.unit)
+            if bare is None:
+                raise InputError(self.named())
+            bare = None if bare == self.unit else bare
         try:
-            result = to_si(value, self.unit, bare="refuse" if text_only else None)
+            result = to_si(value, self.unit, bare=bare)
         except InputError:
             raise InputError(self.expected()) from None
         if (
@@ -198,9 +322,21 @@ class Quantity:
         from pydantic_core import core_schema
 
         def validate(value: object, info: "ValidationInfo[Any]") -> float:
-            return self.check(value, text_only=bool(info.context and info.context.get("text_only")))
+            context = info.context or {}
+            return self.check(
+                value,
+                text_only=bool(context.get("text_only")),
+                named=context.get("units"),
+                key=info.field_name or "",
+            )
 
         return core_schema.with_info_plain_validator_function(validate)
+
+
+def bounds_of(quantity: Quantity) -> dict[str, float]:
+    """Return the bounds that a quantity has, in SI, by ``gt``, ``ge``, ``lt`` and ``le``."""
+    limits = {name: getattr(quantity, name) for name in ("gt", "ge", "lt", "le")}
+    return {name: float(limit) for name, limit in limits.items() if limit is not None}
 
 
 def _quantities(annotation: Any) -> Iterator[Quantity]:

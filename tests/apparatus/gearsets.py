@@ -20,4 +20,5 @@ def of_module_2(
         pressure_angle=pressure_angle,
         profile_shift=profile_shift,
         **changed,
+        units="SI",
     )

@@ -19,7 +19,12 @@ from asperity.vibration import Vibration
 LAWS = ["split", "unsplit", "vector"]
 END = 2.5e-3
 SLIDER = Slider(
-    drive_velocity=0.5e-3, normal_force=50.0, drive_stiffness=3e5, drive_damping=40.0, mass=0.4
+    drive_velocity=0.5e-3,
+    normal_force=50.0,
+    drive_stiffness=3e5,
+    drive_damping=40.0,
+    mass=0.4,
+    units="SI",
 )
 LUGRE = {
     "model": "lugre", "static_mu": 0.14, "stribeck_velocity": 2e-3, "contact_damping": 60.0,
@@ -28,11 +33,15 @@ LUGRE = {
 
 
 def body(steps, friction, applied_to="base"):
-    made = Friction(mu=0.1, max_deflection=6e-8, transfer=0.71, **friction)
+    made = Friction(mu=0.1, max_deflection=6e-8, transfer=0.71, **friction, units="SI")
     vibration = Vibration(
-        frequency=3e3, velocity_ratio=5.0, direction=math.radians(50.0), applied_to=applied_to
+        frequency=3e3,
+        velocity_ratio=5.0,
+        direction=math.radians(50.0),
+        applied_to=applied_to,
+        units="SI",
     )
-    return Model(SLIDER, made, vibration, Solve(step=END / steps, duration=END))
+    return Model(SLIDER, made, vibration, Solve(step=END / steps, duration=END, units="SI"))
 
 
 def equations(model):

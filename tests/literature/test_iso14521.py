@@ -60,12 +60,14 @@ def tables(bearings="fixed-floating", base_friction=None, friction=None, **given
         worm_roughness=1e-6 * given["worm_roughness"],
         wheel_material=given["material"],
         worm_material="case-hardened steel",
+        units="SI",
     )
     operation = Operation(
         worm_speed=given["worm_speed"] * math.pi / 30.0,
         output_torque=given["output_torque"],
         lubricant=f"ISO VG 220 {given['base_oil']}",
         bearings=bearings,
+        units="SI",
     )
     return gearset, operation, RatingOptions(base_friction=base_friction, friction=friction)
 
@@ -317,14 +319,16 @@ def test_both_widths_that_carry_are_offered_and_the_assumed_one_is_named():
         wheel_face_width=50e-3,
         worm_material="case-hardened steel",
         wheel_material="CuSn12Ni2-C-GZ",
+        units="SI",
     )
     operation = Operation(
         worm_speed=2298.0 * math.pi / 30.0,
         output_torque=1980.0,
         lubricant="ISO VG 460 polyglycol",
+        units="SI",
     )
     tip, chord = (
-        rate(gearset, operation, RatingOptions(**options), ("iso14521",))
+        rate(gearset, operation, RatingOptions(**options, units="SI"), ("iso14521",))
         for options in ({}, {"iso14521_face_width": "reference_chord"})
     )
     assert tip.iso14521["effective_face_width_mm"] == pytest.approx(40.07, abs=0.01)
@@ -336,5 +340,5 @@ def test_both_widths_that_carry_are_offered_and_the_assumed_one_is_named():
     equation = chord.iso14521.entry("effective_face_width_mm").equation
     assert equation == "min(b_2, sqrt(6 m_x1 d_m1 - 9 m_x1^2))"
     for options, rated in (({}, tip), ({"iso14521_face_width": "reference_chord"}, chord)):
-        found = variants(gearset, operation, RatingOptions(**options), starts=[1.0])
+        found = variants(gearset, operation, RatingOptions(**options, units="SI"), starts=[1.0])
         assert found["iso14521.tau_F_MPa"][0] == pytest.approx(rated.iso14521["tau_F_MPa"])

@@ -34,9 +34,11 @@ NOTHING = (0.0, 0.0)
 @pytest.fixture(scope="module")
 def stick_slip():
     """Time, velocity, spring force and friction of two slips, every 0.1 ms around them."""
-    slider = Slider(drive_velocity=0.1, drive_stiffness=2.0, mass=1.0, normal_force=WEIGHT)
-    solver = Solve(step=1e-5, duration=14.5)
-    model = Model(slider, Friction(**CANUDAS), None, solver)
+    slider = Slider(
+        drive_velocity=0.1, drive_stiffness=2.0, mass=1.0, normal_force=WEIGHT, units="SI"
+    )
+    solver = Solve(step=1e-5, duration=14.5, units="SI")
+    model = Model(slider, Friction(**CANUDAS, units="SI"), None, solver)
     march = March(model, record=True)
     step = march.table.step
     for begin, end in ((7.3, 7.6), (13.7, 13.9)):
@@ -113,10 +115,12 @@ def test_stick_slip_repeats_with_its_period(stick_slip, equations):
 @pytest.mark.parametrize("velocity", [1e-5, 3e-4, 1e-3, 5e-3])
 @pytest.mark.parametrize("law", LAWS)
 def test_steady_sliding_follows_the_stribeck_curve(velocity, law):
-    slider = Slider(drive_velocity=velocity, normal_force=WEIGHT)
+    slider = Slider(drive_velocity=velocity, normal_force=WEIGHT, units="SI")
     limit = 1.5e-5  # F_S / sigma_0
-    solver = Solve(step=0.01 * limit / velocity, duration=60.0 * limit / velocity)
-    answer = solve(Model(slider, Friction(**CANUDAS, law=law), None, solver), history=False)
+    solver = Solve(step=0.01 * limit / velocity, duration=60.0 * limit / velocity, units="SI")
+    answer = solve(
+        Model(slider, Friction(**CANUDAS, law=law, units="SI"), None, solver), history=False
+    )
     curve = 1.0 + 0.5 * math.exp(-((velocity / 1e-3) ** 2)) + 0.4 * velocity
     assert answer.drive_force == pytest.approx(curve, rel=1e-9)
 

@@ -30,19 +30,19 @@ def body(k, elevation, law="linear", control="force", *, azimuth=0.0, friction=N
     """Return the body of Table 4.3 on a base that vibrates out of the plane."""
     given = {"drive_stiffness": 96068.0, "mass": 0.5, "lateral": "guided"} | slider
     return Model(
-        Slider(drive_velocity=0.5e-3, normal_force=W, **given),
-        friction or Friction(mu=0.1, max_deflection=LIMIT),
+        Slider(drive_velocity=0.5e-3, normal_force=W, **given, units="SI"),
+        friction or Friction(mu=0.1, max_deflection=LIMIT, units="SI"),
         Vibration(
             frequency=4e3, velocity_ratio=k, start=0.14,
-            elevation=f"{elevation} deg", direction=f"{azimuth} deg",
+            elevation=f"{elevation} deg", direction=f"{azimuth} deg", units="SI"
         ),
         Solve(method="periodic"),
-        normal=Normal(law=law, control=control, stiffness=SLOPE, damping_ratio=0.05),
+        normal=Normal(law=law, control=control, stiffness=SLOPE, damping_ratio=0.05, units="SI"),
     )  # fmt: skip
 
 
 def marched(model, duration):
-    return dataclasses.replace(model, solve=Solve(duration=duration))
+    return dataclasses.replace(model, solve=Solve(duration=duration, units="SI"))
 
 
 TABLE = {
@@ -173,7 +173,7 @@ def test_where_period_one_is_unstable_period_two_is_found_and_both_are_named():
     ("k", "elevation", "ratio"), [(6, 90, 1.0), (20, 90, 0.64418), (6, 30, 0.0071)]
 )
 def test_ideally_plastic_asperities_have_the_ratios_of_another_program(k, elevation, ratio):
-    plastic = Friction(mu=0.1, max_deflection=LIMIT, exponent=0.0)
+    plastic = Friction(mu=0.1, max_deflection=LIMIT, exponent=0.0, units="SI")
     answer = solve(body(k, elevation, friction=plastic), history=False)
     assert answer.ratio == pytest.approx(ratio, abs=1e-4)
 
@@ -183,7 +183,12 @@ def test_ideally_plastic_asperities_have_the_ratios_of_another_program(k, elevat
 )
 def test_friction_that_falls_with_speed_has_the_ratios_of_another_program(k, elevation, ratio):
     lugre = Friction(
-        model="lugre", mu=0.1, max_deflection=LIMIT, static_mu=0.15, stribeck_velocity=1e-3
+        model="lugre",
+        mu=0.1,
+        max_deflection=LIMIT,
+        static_mu=0.15,
+        stribeck_velocity=1e-3,
+        units="SI",
     )
     answer = solve(body(k, elevation, friction=lugre, drive_damping=5.0), history=False)
     assert answer.ratio == pytest.approx(ratio, abs=1e-4)
@@ -195,11 +200,13 @@ def machine(a, speed, law="linear", model="springs"):
     slope = {"linear": 1.0, "hertz": 1.5, "rough": 1.0}[law]
     critical = LIMIT * slope * a * 2.0 * math.pi * frequency
     return Model(
-        Slider(drive_velocity=speed * critical, normal_force=W),
-        Friction(model=model, mu=0.1, max_deflection=LIMIT),
-        Vibration(frequency=frequency, displacement_amplitude=a * depth, elevation="90 deg"),
+        Slider(drive_velocity=speed * critical, normal_force=W, units="SI"),
+        Friction(model=model, mu=0.1, max_deflection=LIMIT, units="SI"),
+        Vibration(
+            frequency=frequency, displacement_amplitude=a * depth, elevation="90 deg", units="SI"
+        ),
         Solve(method="periodic"),
-        normal=Normal(law=law, control="displacement", penetration=depth),
+        normal=Normal(law=law, control="displacement", penetration=depth, units="SI"),
     )
 
 
@@ -249,11 +256,13 @@ def test_dahls_asperity_under_a_rigid_machine_has_no_critical_velocity():
 def thrown(amplitude, law="hertz", frequency=4e3, n=1.0):
     """Return a body under a dead load that slides so fast that its slip never turns."""
     return Model(
-        Slider(drive_velocity=0.5, normal_force=W, mass=0.5, lateral="guided"),
+        Slider(drive_velocity=0.5, normal_force=W, mass=0.5, lateral="guided", units="SI"),
         Friction(model="coulomb", mu=0.1, load_exponent=n),
-        Vibration(frequency=frequency, displacement_amplitude=amplitude, elevation="90 deg"),
+        Vibration(
+            frequency=frequency, displacement_amplitude=amplitude, elevation="90 deg", units="SI"
+        ),
         Solve(method="periodic"),
-        normal=Normal(law=law, stiffness=SLOPE, damping_ratio=0.05),
+        normal=Normal(law=law, stiffness=SLOPE, damping_ratio=0.05, units="SI"),
     )
 
 
@@ -269,7 +278,7 @@ def test_asperities_that_yield_lag_behind_a_rising_load_and_not_behind_a_falling
     # Behind a load that rises by N' Dahl's asperity lags by N' s_max/v; a falling one holds it at
     # the limit. Over a cycle friction misses f s_max (N_max - N_min)/v of the mean load's.
     model = thrown(40e-9, law)
-    model = dataclasses.replace(model, friction=Friction(mu=0.1, max_deflection=LIMIT))
+    model = dataclasses.replace(model, friction=Friction(mu=0.1, max_deflection=LIMIT, units="SI"))
     answer = solve(model, history=False)
     swing = (answer.normal.normal_max - answer.normal.normal_min) / W
     assert 1.0 - answer.ratio == pytest.approx(4e3 * LIMIT / 0.5 * swing, rel=0.03)
@@ -296,14 +305,14 @@ def test_an_elliptic_vibration_of_rigid_friction_has_its_closed_form(phase):
     k, a, amplitude, frequency = 6.0, 0.8, 0.2e-6, 4e3
     part = amplitude * math.sqrt(0.5)
     model = Model(
-        Slider(drive_velocity=2.0 * math.pi * frequency * part / k, normal_force=W),
+        Slider(drive_velocity=2.0 * math.pi * frequency * part / k, normal_force=W, units="SI"),
         Friction(model="coulomb", mu=0.1),
         Vibration(
             frequency=frequency, displacement_amplitude=amplitude, elevation="45 deg",
-            normal_phase=f"{phase} deg",
+            normal_phase=f"{phase} deg", units="SI"
         ),
         Solve(method="periodic"),
-        normal=Normal(control="displacement", penetration=part / a),
+        normal=Normal(control="displacement", penetration=part / a, units="SI"),
     )  # fmt: skip
     swing = a * math.sin(math.radians(phase)) * math.sqrt(1.0 - 1.0 / k**2)
     closed = 2.0 / math.pi * (math.asin(1.0 / k) - swing)
@@ -319,14 +328,14 @@ def test_an_elliptic_vibration_of_stiff_asperities_nears_the_closed_form(azimuth
     k, a, amplitude, frequency = 6.0, 0.8, 0.2e-6, 4e3
     part = amplitude * math.sqrt(0.5)
     model = Model(
-        Slider(drive_velocity=2.0 * math.pi * frequency * part / k, normal_force=W),
-        Friction(mu=0.1, max_deflection=2.5e-5 * part),
+        Slider(drive_velocity=2.0 * math.pi * frequency * part / k, normal_force=W, units="SI"),
+        Friction(mu=0.1, max_deflection=2.5e-5 * part, units="SI"),
         Vibration(
             frequency=frequency, displacement_amplitude=amplitude, elevation="45 deg",
-            direction=f"{azimuth} deg", normal_phase=f"{phase} deg",
+            direction=f"{azimuth} deg", normal_phase=f"{phase} deg", units="SI"
         ),
-        Solve(method="periodic", step=1.0 / (5000.0 * frequency)),
-        normal=Normal(control="displacement", penetration=part / a),
+        Solve(method="periodic", step=1.0 / (5000.0 * frequency), units="SI"),
+        normal=Normal(control="displacement", penetration=part / a, units="SI"),
     )  # fmt: skip
     closed = elliptic_ratio(k, math.radians(azimuth), a, math.radians(phase))
     assert solve(model, history=False).ratio == pytest.approx(closed, abs=allowed)
@@ -339,7 +348,7 @@ def test_the_whole_body_is_solved_to_second_order():
     steps = [256, 384, 512, 768, 1024, 1536, 2560]
 
     def ratio(count):
-        asked = Solve(method="periodic", step=1.0 / (4e3 * count))
+        asked = Solve(method="periodic", step=1.0 / (4e3 * count), units="SI")
         return solve(dataclasses.replace(model, solve=asked), history=False).ratio
 
     exact = ratio(40960)
@@ -372,11 +381,11 @@ def test_on_its_way_the_law_of_a_cycle_tells_the_loads_and_the_wear_of_its_own_v
     # The window of so short a march has the body start from rest in it.
     model = body(k, 90.0, law, control)
     model = dataclasses.replace(
-        model, vibration=model.vibration.model_copy(update={"start": 0.0}),
-        solve=Solve(duration=0.1),
+        model, vibration=model.vibration.model_copy(update={"start": 0.0}, units="SI"),
+        solve=Solve(duration=0.1, units="SI"),
     )  # fmt: skip
     fast = solve(model, history=False)
-    brief = Solve(method="homogenised", duration=0.1)
+    brief = Solve(method="homogenised", duration=0.1, units="SI")
     slow = solve(dataclasses.replace(model, solve=brief), history=False)
     assert fast.ratio < 0.8 * solve(body(k, 90.0, law, control), history=False).ratio
     for name in ("normal_mean", "normal_min", "normal_max", "penetration_mean"):
@@ -400,9 +409,11 @@ def test_a_body_that_goes_the_other_way_meets_the_vibration_of_the_other_side():
 
 
 def test_the_cycle_mean_law_follows_the_march_into_its_steady_state():
-    model = dataclasses.replace(body(6.0, 30.0), solve=Solve(duration=0.2, step=5e-7))
+    model = dataclasses.replace(body(6.0, 30.0), solve=Solve(duration=0.2, step=5e-7, units="SI"))
     fast = solve(model)
-    slow = solve(dataclasses.replace(model, solve=Solve(method="homogenised", duration=0.2)))
+    slow = solve(
+        dataclasses.replace(model, solve=Solve(method="homogenised", duration=0.2, units="SI"))
+    )
     at = np.linspace(0.142, 0.2, 59)
     apart = [np.interp(at, one.history.time, one.history.drive_force) for one in (fast, slow)]
     assert np.abs(apart[0] - apart[1]).max() < 5e-3 * 5.5

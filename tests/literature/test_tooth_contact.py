@@ -35,9 +35,12 @@ from asperity.rating.iso14521 import contact, film
 
 IDENTICAL = Hob()
 OVERSIZE = Hob(oversize=1.12)
-TILTED = Hob(oversize=1.12, tilt=math.radians(2.0))
+TILTED = Hob(oversize=1.12, tilt=math.radians(2.0), units="SI")
 OUT_OF_PLACE = Mount(
-    centre_distance_error=0.05e-3, axial_offset=-0.05e-3, shaft_angle_error=math.radians(0.1)
+    centre_distance_error=0.05e-3,
+    axial_offset=-0.05e-3,
+    shaft_angle_error=math.radians(0.1),
+    units="SI",
 )
 CASE = read_case("gearset-3b", case_tables(), ())
 
@@ -162,7 +165,7 @@ def test_backlash_is_what_the_threads_are_thinned_by_times_cos_of_the_pressure_a
     wanted = 0.28
     pair = pair_of(hob)
     raw = request.getfixturevalue(kind)
-    thinned = analysed(hob, Mount(backlash=wanted * 1e-3), **few)
+    thinned = analysed(hob, Mount(backlash=wanted * 1e-3, units="SI"), **few)
     axial = 2.0 * (thinned.pair.worm.half_space - pair.worm.half_space)
     normal = axial * math.cos(pair.geometry.lead_angle)
     gained = normal * math.cos(pair.geometry.pressure_angle)
@@ -173,7 +176,7 @@ def test_backlash_is_what_the_threads_are_thinned_by_times_cos_of_the_pressure_a
 
 def test_worm_can_move_along_its_axis_as_far_as_the_thesis_has_it():
     # A backlash of 0.28 mm leaves the amplitude of 0.16 mm of section 7.2.
-    free = analysed(TILTED, Mount(backlash=0.28e-3)).play
+    free = analysed(TILTED, Mount(backlash=0.28e-3, units="SI")).play
     gamma_b = pair_of(TILTED).geometry.base_lead_angle
     assert free.axial == pytest.approx(0.28 / math.cos(gamma_b), abs=1e-9)
     assert free.amplitude == pytest.approx(0.16, abs=0.006)
@@ -190,8 +193,12 @@ def test_both_flanks_are_alike_turned_about_the_line_of_centres(tilted):
 
 @pytest.mark.slow
 def test_left_hand_is_the_mirror_image_of_right_hand():
-    mount = Mount(centre_distance_error=0.05e-3, axial_offset=0.1e-3, shaft_angle_error=1e-3)
-    seen = Mount(centre_distance_error=0.05e-3, axial_offset=-0.1e-3, shaft_angle_error=-1e-3)
+    mount = Mount(
+        centre_distance_error=0.05e-3, axial_offset=0.1e-3, shaft_angle_error=1e-3, units="SI"
+    )
+    seen = Mount(
+        centre_distance_error=0.05e-3, axial_offset=-0.1e-3, shaft_angle_error=-1e-3, units="SI"
+    )
     right, left = analysed(TILTED, mount, **FEW), analysed(TILTED, seen, hand="left", **FEW)
     for side in (1, -1):
         one, other = right.flanks[side], left.flanks[side]

@@ -25,7 +25,7 @@ STEEL = {"contact_radius": 1e-4, "conductivity": 46.0, "diffusivity": 1.25e-5}
 def heated(speed, table=None, frequency=0.0):
     """Steel under 55 N, mu = 0.1, all heat in one body."""
     mean = (0.1 * 55.0 * speed, speed)
-    return wear_and_heat(table or Wear(**STEEL), 55.0 * speed, mean, frequency)
+    return wear_and_heat(table or Wear(**STEEL, units="SI"), 55.0 * speed, mean, frequency)
 
 
 @pytest.mark.parametrize(("speed", "rise", "digits"), [(0.5e-3, 0.19, 2), (0.1, 33, 0)])
@@ -85,7 +85,7 @@ def test_of_what_is_slower_the_mean_heat_is_told_and_that_its_peaks_flash_above(
 
 
 def test_wear_is_the_integral_over_the_hardness_and_its_depth_that_over_the_contact():
-    table = Wear(coefficient=1e-5, hardness=2e9, contact_radius=1e-4)
+    table = Wear(coefficient=1e-5, hardness=2e9, contact_radius=1e-4, units="SI")
     worn = heated(0.1, table, 4e3)
     assert worn.wear_rate == pytest.approx(1e-5 / 2e9 * 5.5)
     assert worn.wear_depth_per_cycle == pytest.approx(worn.wear_rate / (math.pi * 1e-8) / 4e3)
@@ -94,12 +94,12 @@ def test_wear_is_the_integral_over_the_hardness_and_its_depth_that_over_the_cont
 
 
 def test_the_answer_names_its_units():
-    table = Wear(coefficient=1e-5, hardness=2e9, **STEEL)
+    table = Wear(coefficient=1e-5, hardness=2e9, **STEEL, units="SI")
     assert heated(0.1, table, 4e3).to_json().keys() == {
         "wear_rate_m3_per_s", "wear_depth_per_cycle_m", "flash_temperature_K",
         "peclet", "warming_time_s", "heated_by",
     }  # fmt: skip
-    radius_alone = heated(0.1, Wear(contact_radius=1e-4), 4e3)
+    radius_alone = heated(0.1, Wear(contact_radius=1e-4, units="SI"), 4e3)
     assert not any(entry.value for entry in radius_alone.entries())
     assert radius_alone.notes == ()
 
@@ -108,7 +108,7 @@ def test_every_command_knows_the_table_with_its_units():
     settings = ["coefficient=1e-5", "hardness=2 GPa", "contact_radius=0.1 mm",
                 "conductivity=46 W/m/K", "diffusivity=12.5 mm**2/s"]  # fmt: skip
     case = read_case("table-4.3", case_tables(), [f"wear.{setting}" for setting in settings])
-    expected = Wear(coefficient=1e-5, hardness=2e9, **STEEL)
+    expected = Wear(coefficient=1e-5, hardness=2e9, **STEEL, units="SI")
     for key, value in case["wear"]:
         assert value == pytest.approx(getattr(expected, key), rel=1e-14), key
 
@@ -127,7 +127,7 @@ def test_every_command_knows_the_table_with_its_units():
 )
 def test_what_cannot_be_answered_is_refused_in_a_line(given, message):
     with pytest.raises(InputError) as refused:
-        Wear(**given)
+        Wear(**given, units="SI")
     assert message in str(refused.value)
     assert "\n" not in str(refused.value)
 

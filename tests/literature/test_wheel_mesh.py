@@ -22,7 +22,10 @@ REASONS = ("undercut", "pointed", "hob too short", "does not reach")
 def _gearset(**changed):
     given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     return Gearset(
-        worm_material=given.worm_material, wheel_material=given.wheel_material, **changed
+        worm_material=given.worm_material,
+        wheel_material=given.wheel_material,
+        **changed,
+        units="SI",
     )
 
 

@@ -143,11 +143,14 @@ def test_similar_gearsets_have_similar_lengths_and_equal_angles(z1, m, q, z2, sc
 def test_a_change_of_units_changes_nothing(module, q, z2, unit, alpha, hand):
     name, power = unit
     common = {"starts": 2, "wheel_teeth": z2, "diameter_factor": q, "hand": hand, **MATERIALS}
-    millimetres = Gearset(**common, axial_module=f"{module} mm", pressure_angle=f"{alpha} deg")
+    millimetres = Gearset(
+        **common, axial_module=f"{module} mm", pressure_angle=f"{alpha} deg", units="SI"
+    )
     other = Gearset(
         **common,
         axial_module=f"{module.scaleb(power)} {name}",
         pressure_angle=f"{alpha * 60} arcmin",
+        units="SI",
     )
     assert other == millimetres
     assert other.geometry == millimetres.geometry
@@ -163,6 +166,7 @@ def test_the_hand_of_the_worm_changes_no_length_and_no_angle(z1, m, q, z2):
             diameter_factor=q,
             hand=hand,
             **MATERIALS,
+            units="SI",
         )
         for hand in ("right", "left")
     )

@@ -53,9 +53,9 @@ OPERATION = {"worm_speed": 150.0, "output_torque": 300.0, "lubricant": "ISO VG 2
 def rated(options, **varied):
     """Efficiencies and frictions of variants; in SI, but for what has no unit."""
     flank = {"flank": options["flank"]}
-    gearset = Gearset(**GEARSET, **flank)
+    gearset = Gearset(**GEARSET, **flank, units="SI")
     how = RatingOptions(iso14521_edition=options["edition"])
-    operation = Operation(**OPERATION, lubrication=options["lubrication"])
+    operation = Operation(**OPERATION, lubrication=options["lubrication"], units="SI")
     return variants(gearset, operation, how, ("iso14521",), capacity=False, **varied)
 
 

@@ -59,7 +59,11 @@ def tables(draw):
         "friction_factor": numbers["friction_factor"],
     }
     try:
-        return Gearset(**gearset), Operation(**operation), RatingOptions(**options)
+        return (
+            Gearset(**gearset, units="SI"),
+            Operation(**operation, units="SI"),
+            RatingOptions(**options, units="SI"),
+        )
     except InputError:
         # The teeth of a steep worm vanish by BS 721.
         assume(False)
@@ -178,7 +182,10 @@ def test_units_of_the_input_change_nothing(case):
         "output_torque": f"{operation.output_torque * 1e3!r} N mm",
         "life": f"{operation.life / 3600.0!r} h",
     }
-    one, other = rate(*case), rate(Gearset(**metres), Operation(**turns), options)
+    one, other = (
+        rate(*case),
+        rate(Gearset(**metres, units="SI"), Operation(**turns, units="SI"), options),
+    )
     assert one.found.keys() == other.found.keys()
     for name, rating in one.found.items():
         changed = numbers_of(other.found[name])

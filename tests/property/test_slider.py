@@ -25,7 +25,7 @@ def samples(tmp_path_factory):
 def sliders(rigid):
     return st.builds(
         lambda compliant, lateral, mass: Slider(
-            drive_velocity=0.5e-3, normal_force=50.0, mass=mass, lateral=lateral, **compliant
+            drive_velocity=0.5e-3, normal_force=50.0, mass=mass, lateral=lateral, **compliant, units="SI"
         ),
         st.just({}) if rigid else st.builds(
             dict,
@@ -46,13 +46,13 @@ def frictions(models=("coulomb", "dahl", "lugre")):
     }
     made = {
         "coulomb": st.builds(
-            Friction, model=st.just("coulomb"), mu=st.just(0.1), transfer=elastic["transfer"]
+            Friction, units=st.just("SI"), model=st.just("coulomb"), mu=st.just(0.1), transfer=elastic["transfer"]
         ),
         "dahl": st.builds(
-            Friction, exponent=st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0]), **elastic
+            Friction, units=st.just("SI"), exponent=st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0]), **elastic
         ),
         "lugre": st.builds(
-            Friction, model=st.just("lugre"), static_mu=st.floats(0.1, 0.2),
+            Friction, units=st.just("SI"), model=st.just("lugre"), static_mu=st.floats(0.1, 0.2),
             stribeck_velocity=st.floats(1e-4, 1e-2), contact_damping=st.floats(0.0, 300.0),
             viscous_damping=st.floats(0.0, 100.0), **elastic,
         ),
@@ -72,7 +72,7 @@ waves = st.sampled_from(
 
 def vibrations():
     return st.builds(
-        lambda wave, **entries: Vibration(**wave, **entries),
+        lambda wave, **entries: Vibration(**wave, **entries, units="SI"),
         waves,
         velocity_ratio=st.floats(0.1, 20.0),
         direction=st.floats(0.0, 2.0 * math.pi),
@@ -84,7 +84,9 @@ def vibrations():
 def made(slider, friction, vibration, folder, **entries):
     shape = vibration.shape(folder)
     duration = vibration.start + 20.0 / shape.frequency
-    return Model(slider, friction, vibration, Solve(duration=duration, **entries), shape)
+    return Model(
+        slider, friction, vibration, Solve(duration=duration, **entries, units="SI"), shape
+    )
 
 
 bodies = st.one_of(sliders(rigid=True), sliders(rigid=False))
@@ -128,7 +130,7 @@ def test_friction_takes_power_out_of_the_motion(samples, slider, friction, vibra
 
 
 def mirrored(model):
-    vibration = model.vibration.model_copy(update={"direction": -model.direction})
+    vibration = model.vibration.model_copy(update={"direction": -model.direction}, units="SI")
     return Model(model.slider, model.friction, vibration, model.solve, model.shape)
 
 
@@ -157,12 +159,14 @@ periodic_bodies = st.tuples(
 
 def periodic(k, direction, law, free, case, turn=0.0):
     frequency, mass = case
-    vibration = Vibration(frequency=frequency, velocity_ratio=k, direction=direction + turn)
+    vibration = Vibration(
+        frequency=frequency, velocity_ratio=k, direction=direction + turn, units="SI"
+    )
     slider = Slider(
         drive_velocity=0.5e-3, normal_force=50.0, drive_stiffness=1e5, mass=mass,
-        lateral="free" if free else "guided",
+        lateral="free" if free else "guided", units="SI"
     )  # fmt: skip
-    friction = Friction(mu=0.1, max_deflection=7e-8, law=law, transfer=0.71)
+    friction = Friction(mu=0.1, max_deflection=7e-8, law=law, transfer=0.71, units="SI")
     return solve(Model(slider, friction, vibration, Solve(method="periodic")), history=False)
 
 

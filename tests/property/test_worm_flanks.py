@@ -29,6 +29,7 @@ hobs = st.builds(
 )
 modifications = st.builds(
     Modification,
+    units=st.just("SI"),
     lead_correction=st.floats(-0.002, 0.002),
     tip_relief=st.floats(0.0, 2e-5),
     tip_relief_start=st.floats(0.0, 0.9),

@@ -35,8 +35,13 @@ def body(slider=None, friction=None, vibration=None, **solve_entries):
     amplitudes = "velocity_amplitude", "displacement_amplitude"
     if any(name in vibration for name in amplitudes):
         del vibration["velocity_ratio"]
-    solver = Solve(**{"step": 1e-6, "duration": 0.03} | solve_entries)
-    return Model(Slider(**slider), Friction(**friction), Vibration(**vibration), solver)
+    solver = Solve(**{"step": 1e-6, "duration": 0.03} | solve_entries, units="SI")
+    return Model(
+        Slider(**slider, units="SI"),
+        Friction(**friction, units="SI"),
+        Vibration(**vibration, units="SI"),
+        solver,
+    )
 
 
 def assert_same(answer, alone):

@@ -69,7 +69,7 @@ def refusal(call, *arguments, **keywords):
 
 
 def test_a_table_built_in_python_takes_si_and_is_frozen():
-    body = Body(speed=0.5, mass="200 g")
+    body = Body(speed=0.5, mass="200 g", units="SI")
     assert (body.speed, body.mass, body.law) == (0.5, 0.2, "split")
     with pytest.raises(pydantic.ValidationError, match="frozen"):
         body.speed = 1.0
@@ -113,7 +113,7 @@ def test_a_table_built_in_python_takes_si_and_is_frozen():
     ],
 )
 def test_a_bad_table_is_refused_in_one_line(table, given, message):
-    assert refusal(table, **given) == message
+    assert refusal(table, units="SI", **given) == message
     assert refusal(table.model_validate, given) == message
 
 
@@ -270,7 +270,7 @@ def test_a_bare_number_takes_the_unit_set_before(case_file):
 def test_a_setting_adds_a_table(case_file):
     case_file.write_text("")
     case = read_case(case_file, TABLES, ["body.speed=1 m/s", "body.mass=1 kg"])
-    assert case["body"] == Body(speed=1, mass=1)
+    assert case["body"] == Body(speed=1, mass=1, units="SI")
 
 
 def test_setting_one_form_of_an_amplitude_replaces_the_other(case_file):

@@ -9,20 +9,22 @@ STEEL = {"size": (0.04, 0.03, 0.03), "youngs_modulus": 209e9, "poissons_ratio": 
 
 
 def test_a_block_needs_size_and_material_and_has_defaults_for_the_rest():
-    block = Block(**STEEL)
+    block = Block(**STEEL, units="SI")
     assert (block.elements, block.element, block.modes) == ((8, 6, 6), "hex27", 0)
     contact = Contact()
     assert (contact.normal, contact.stiffness) == ("linear", None)
 
 
 def test_size_and_mass_make_contact_area_and_density():
-    block = Block(**STEEL)
+    block = Block(**STEEL, units="SI")
     assert block.area == pytest.approx(1.2e-3)
     assert block.density(0.5) == pytest.approx(0.5 / (0.04 * 0.03 * 0.03))
 
 
 def test_only_27_node_elements_are_of_second_order():
-    orders = {name: Block(**STEEL, element=name).order for name in ("hex27", "hex8", "hex8i")}
+    orders = {
+        name: Block(**STEEL, element=name, units="SI").order for name in ("hex27", "hex8", "hex8i")
+    }
     assert orders == {"hex27": 2, "hex8": 1, "hex8i": 1}
 
 
@@ -110,6 +112,6 @@ def test_the_blocks_that_ship_are_the_sliding_bodies_with_a_block(name, table):
     for key, value in body.tables.items():
         # What stays where the pressure changes does not matter to a body whose load is a constant.
         keeps = {"keeps": "deflection"} if key == "friction" else {}
-        assert block[key] == value.model_copy(update=keeps)
-    assert block[Block.table] == Block(**STEEL)
+        assert block[key] == value.model_copy(update=keeps, units="SI")
+    assert block[Block.table] == Block(**STEEL, units="SI")
     assert block[Contact.table] == Contact()

@@ -33,7 +33,10 @@ CASE = read_case("gearset-3b", case_tables(), ())
 GEARSET = CASE.require(Gearset)
 TILTED = CASE.require(Hob)
 OUT_OF_PLACE = Mount(
-    centre_distance_error=0.05e-3, axial_offset=-0.05e-3, shaft_angle_error=math.radians(0.1)
+    centre_distance_error=0.05e-3,
+    axial_offset=-0.05e-3,
+    shaft_angle_error=math.radians(0.1),
+    units="SI",
 )
 
 
@@ -211,7 +214,7 @@ def test_loads_that_make_no_sense_are_refused(field):
 
 
 def test_backlash_that_would_leave_no_thread_is_refused():
-    pair = Pair.of(GEARSET, TILTED, Mount(backlash=3e-3))
+    pair = Pair.of(GEARSET, TILTED, Mount(backlash=3e-3, units="SI"))
     with pytest.raises(
         InputError, match=r"mount.backlash is 3 mm; .* pointed: .* at most about 0\.\d+ mm"
     ):
@@ -221,7 +224,7 @@ def test_backlash_that_would_leave_no_thread_is_refused():
 @pytest.mark.parametrize("wanted", [0.28, 0.6])
 def test_room_between_the_wheels_tips_and_the_worms_core_does_not_bound_the_backlash(wanted):
     # The worm stands off the middle: one edge of the face is 0.26 mm from the core.
-    pair = Pair.of(GEARSET, TILTED, Mount(axial_offset=0.25e-3, backlash=wanted * 1e-3))
+    pair = Pair.of(GEARSET, TILTED, Mount(axial_offset=0.25e-3, backlash=wanted * 1e-3, units="SI"))
     free = analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8).play
     assert min(free.normal.values()) == pytest.approx(wanted, abs=1e-9)
     axial = wanted / math.cos(pair.geometry.base_lead_angle)
@@ -229,7 +232,7 @@ def test_room_between_the_wheels_tips_and_the_worms_core_does_not_bound_the_back
 
 
 def test_tips_of_the_wheel_that_reach_into_the_worms_core_are_told():
-    low = Pair.of(GEARSET, TILTED, Mount(centre_distance_error=-0.3e-3))
+    low = Pair.of(GEARSET, TILTED, Mount(centre_distance_error=-0.3e-3, units="SI"))
     found = [core_clearance(pair, Wheel(pair).blank) for pair in (Pair.of(GEARSET, TILTED), low)]
     # The wheel's throat lies round the worm.
     room = low.geometry.wheel_throat_radius - low.worm.root_radius

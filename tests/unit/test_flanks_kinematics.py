@@ -15,9 +15,12 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
 SPEED = 1440.0 * math.pi / 30.0
-TILTED = Hob(oversize=1.12, tilt=math.radians(2.0))
+TILTED = Hob(oversize=1.12, tilt=math.radians(2.0), units="SI")
 OUT_OF_PLACE = Mount(
-    centre_distance_error=0.05e-3, axial_offset=-0.05e-3, shaft_angle_error=math.radians(0.5)
+    centre_distance_error=0.05e-3,
+    axial_offset=-0.05e-3,
+    shaft_angle_error=math.radians(0.5),
+    units="SI",
 )
 
 

@@ -82,7 +82,11 @@ def test_a_disc_of_200_mm_for_500_mm_moves_a_zk_flank_by_a_hundredth_and_a_zi_fl
 
 def test_a_smaller_profile_radius_makes_zc_more_hollow():
     hollow = [
-        float(profile("ZC", **NUMBERS, disc=Disc(profile_radius=radius)).derivatives(9.0)[2])
+        float(
+            profile("ZC", **NUMBERS, disc=Disc(profile_radius=radius, units="SI")).derivatives(9.0)[
+                2
+            ]
+        )
         for radius in ("10 mm", "13 mm", "20 mm")
     ]
     assert hollow == sorted(hollow)

@@ -22,7 +22,7 @@ NOTHING = (0.0, 0.0)
 
 def refusal(**entries):
     with pytest.raises(InputError) as raised:
-        Friction(**entries)
+        Friction(**entries, units="SI")
     assert len(str(raised.value).splitlines()) == 1
     return str(raised.value)
 
@@ -247,14 +247,16 @@ def test_where_the_slip_velocity_turns_steadily_the_mean_share_is_its_mean_direc
 
 
 def test_stiffness_and_deflection_limit_are_two_forms_of_one_thing():
-    by_limit = Friction(mu=0.1, max_deflection=68.75e-9)
-    by_stiffness = Friction(mu=0.1, tangential_stiffness=80e6)
+    by_limit = Friction(mu=0.1, max_deflection=68.75e-9, units="SI")
+    by_stiffness = Friction(mu=0.1, tangential_stiffness=80e6, units="SI")
     assert by_limit.stiffness(55.0) == pytest.approx(80e6, rel=1e-12)
     assert by_stiffness.deflection_limit(55.0) == pytest.approx(68.75e-9, rel=1e-12)
 
 
 def test_a_law_is_known_by_its_name():
-    assert [Friction(mu=0.1, max_deflection=1e-7, law=law).law_code for law in LAWS] == [
+    assert [
+        Friction(mu=0.1, max_deflection=1e-7, law=law, units="SI").law_code for law in LAWS
+    ] == [
         SPLIT,
         UNSPLIT,
         VECTOR,
@@ -324,14 +326,17 @@ def test_coulomb_friction_has_no_stiffness_to_keep():
 
 @pytest.mark.parametrize("model", ["dahl", "lugre"])
 def test_an_asperity_keeps_its_stiffness_unless_told(model):
-    assert Friction(model=model, mu=0.1, max_deflection=1e-7).keeps_code == KEEPS["stiffness"]
-    kept = Friction(model=model, mu=0.1, max_deflection=1e-7, keeps="deflection")
+    assert (
+        Friction(model=model, mu=0.1, max_deflection=1e-7, units="SI").keeps_code
+        == KEEPS["stiffness"]
+    )
+    kept = Friction(model=model, mu=0.1, max_deflection=1e-7, keeps="deflection", units="SI")
     assert kept.keeps_code == KEEPS["deflection"]
 
 
 def test_a_point_of_a_contact_takes_its_limit_at_the_mean_pressure_unless_the_deflection_stays():
     def reference(model="dahl", two_phase=False, **entries):
-        table = Friction(model=model, mu=0.1, max_deflection=1e-7, **entries)
+        table = Friction(model=model, mu=0.1, max_deflection=1e-7, **entries, units="SI")
         return PointFriction.of(table, 55.0, area=1e-3, two_phase=two_phase).reference
 
     assert reference() == reference("lugre") == pytest.approx(55e3, rel=1e-15)

@@ -118,7 +118,7 @@ def test_bad_input_is_refused_in_one_line_that_names_the_key(changes, message):
 
 def test_a_missing_material_is_named():
     with pytest.raises(InputError, match=r"gearset\.wheel_material is missing"):
-        Gearset(starts=4, wheel_teeth=60, worm_material=STEEL, **MACRO)
+        Gearset(starts=4, wheel_teeth=60, worm_material=STEEL, **MACRO, units="SI")
 
 
 def test_numbers_that_make_no_gearset_are_held_for_a_study_and_refused_elsewhere():

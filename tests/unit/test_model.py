@@ -23,8 +23,13 @@ def refusal(call, *arguments, **entries):
 
 
 def body(slider=COMPLIANT, friction=DAHL, vibration=SINE, **entries):
-    made = Vibration(**vibration) if vibration is not None else None
-    return Model(Slider(**slider), Friction(**friction), made, Solve(**entries))
+    made = Vibration(**vibration, units="SI") if vibration is not None else None
+    return Model(
+        Slider(**slider, units="SI"),
+        Friction(**friction, units="SI"),
+        made,
+        Solve(**entries, units="SI"),
+    )
 
 
 def test_a_case_is_read_as_it_is_written():
@@ -83,18 +88,18 @@ def test_quarter_turns_are_exact(theta, expected):
     ],
 )
 def test_a_slider_that_makes_no_sense_is_refused(entries, message):
-    assert message in refusal(Slider, **BODY | entries)
+    assert message in refusal(Slider, units="SI", **BODY | entries)
 
 
 def test_a_reversed_drive_is_told_what_to_do():
-    assert "180 deg" in refusal(Slider, **BODY | {"drive_velocity": -1e-3})
+    assert "180 deg" in refusal(Slider, units="SI", **BODY | {"drive_velocity": -1e-3})
 
 
 def test_a_body_with_mass_is_free_unless_guided():
-    assert Slider(**COMPLIANT).free
-    assert not Slider(**COMPLIANT, lateral="guided").free
-    assert not Slider(**BODY).free
-    assert Slider(**BODY, mass=1.0).free
+    assert Slider(**COMPLIANT, units="SI").free
+    assert not Slider(**COMPLIANT, lateral="guided", units="SI").free
+    assert not Slider(**BODY, units="SI").free
+    assert Slider(**BODY, mass=1.0, units="SI").free
 
 
 def test_the_step_left_out_divides_a_cycle_by_five_hundred():
@@ -214,7 +219,7 @@ def test_a_vibrated_body_moves_against_a_vibrated_base_and_transfers_its_own_mot
 
 def test_a_model_cannot_be_changed():
     with pytest.raises(dataclasses.FrozenInstanceError):
-        body().slider = Slider(**BODY)
+        body().slider = Slider(**BODY, units="SI")
 
 
 def test_a_square_wave_needs_a_fine_step_only_for_its_flanks():

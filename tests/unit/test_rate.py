@@ -55,9 +55,9 @@ def case(name, *settings):
 
 def minimal(gearset=(), run=(), options=()):
     return (
-        Gearset(**{**MINIMAL, **dict(gearset)}),
-        Operation(**{**RUN, **dict(run)}),
-        RatingOptions(**dict(options)),
+        Gearset(**{**MINIMAL, **dict(gearset)}, units="SI"),
+        Operation(**{**RUN, **dict(run)}, units="SI"),
+        RatingOptions(**dict(options), units="SI"),
     )
 
 

@@ -26,12 +26,14 @@ def solved(name, *settings, history=False, **values):
 
 def falling(stribeck_velocity, static_mu):
     """A slow body on a soft drive whose friction falls with speed."""
-    slider = Slider(drive_velocity=0.5e-3, normal_force=50.0, mass=1.0, drive_stiffness=1e4)
+    slider = Slider(
+        drive_velocity=0.5e-3, normal_force=50.0, mass=1.0, drive_stiffness=1e4, units="SI"
+    )
     friction = Friction(
         model="lugre", mu=0.1, static_mu=static_mu, stribeck_velocity=stribeck_velocity,
-        max_deflection=7e-8,
+        max_deflection=7e-8, units="SI"
     )  # fmt: skip
-    vibration = Vibration(frequency=3e3, velocity_ratio=0.2)
+    vibration = Vibration(frequency=3e3, velocity_ratio=0.2, units="SI")
     return Model(slider, friction, vibration, Solve(method="periodic"))
 
 

@@ -68,13 +68,13 @@ def test_no_size_of_a_number_ends_in_anything_but_a_refusal(numbers, method, law
         model = Model(
             Slider(
                 drive_velocity=speed, normal_force=force, drive_stiffness=pull, drive_damping=drag,
-                mass=mass,
+                mass=mass, units="SI"
             ),
             Friction(
-                model=law, mu=mu, tangential_stiffness=None if law == "coulomb" else stiff
+                model=law, mu=mu, tangential_stiffness=None if law == "coulomb" else stiff, units="SI"
             ),
-            Vibration(frequency=frequency, velocity_amplitude=shake, start=start),
-            Solve(method=method, step=step, duration=duration),
+            Vibration(frequency=frequency, velocity_amplitude=shake, start=start, units="SI"),
+            Solve(method=method, step=step, duration=duration, units="SI"),
         )  # fmt: skip
         assert math.isfinite(estimate(model))
         assert all(map(math.isfinite, model.parameters(model.step)))

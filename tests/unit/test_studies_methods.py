@@ -133,7 +133,7 @@ def test_the_power_of_friction_is_the_loss_between_the_teeth_plus_the_vibration(
 
 
 def test_longitudinal_vibration_slower_than_the_sliding_does_nothing():
-    slow = Vibration(frequency=20e3, velocity_ratio=0.9)
+    slow = Vibration(frequency=20e3, velocity_ratio=0.9, units="SI")
     found = compare(*gearset(), vibration=slow)
     assert found["longitudinal"].gain == pytest.approx(0.0, abs=1e-12)
     assert found["longitudinal"].vibration_power == 0.0
@@ -142,7 +142,7 @@ def test_longitudinal_vibration_slower_than_the_sliding_does_nothing():
 
 
 def test_a_direction_of_its_own_is_compared_too():
-    turned = Vibration(frequency=20e3, velocity_ratio=3.0, direction=math.radians(30))
+    turned = Vibration(frequency=20e3, velocity_ratio=3.0, direction=math.radians(30), units="SI")
     row = compare(*gearset(), vibration=turned)["given"]
     assert row.name == "vibration at 30 deg, k = 3"
     assert row.vibration.share == pytest.approx(directed_ratio(3.0, math.radians(30)))
@@ -151,7 +151,7 @@ def test_a_direction_of_its_own_is_compared_too():
 @pytest.mark.parametrize("direction", [0.0, 1.0, math.pi / 2])
 @pytest.mark.parametrize("k", [0.5, 3.0, 20.0])
 def test_the_sliding_body_agrees_with_the_closed_forms_where_both_answer(k, direction):
-    wave = Vibration(frequency=20e3, velocity_ratio=k)
+    wave = Vibration(frequency=20e3, velocity_ratio=k, units="SI")
     solved = shake(wave, direction, 1.39, friction=Friction(model="coulomb", mu=0.1))
     closed = shake(wave, direction, 1.39)
     assert solved.share == pytest.approx(closed.share, abs=2e-3)
@@ -159,24 +159,24 @@ def test_the_sliding_body_agrees_with_the_closed_forms_where_both_answer(k, dire
 
 
 def test_elastic_asperities_far_below_the_amplitude_are_as_good_as_rigid():
-    wave = Vibration(frequency=20e3, displacement_amplitude=20e-6)
-    stiff = shake(wave, 0.0, 1.39, friction=Friction(mu=0.1, max_deflection=70e-9))
-    soft = shake(wave, 0.0, 1.39, friction=Friction(mu=0.1, max_deflection=3e-6))
+    wave = Vibration(frequency=20e3, displacement_amplitude=20e-6, units="SI")
+    stiff = shake(wave, 0.0, 1.39, friction=Friction(mu=0.1, max_deflection=70e-9, units="SI"))
+    soft = shake(wave, 0.0, 1.39, friction=Friction(mu=0.1, max_deflection=3e-6, units="SI"))
     rigid = shake(wave, 0.0, 1.39)
     assert stiff.share == pytest.approx(rigid.share, abs=1e-3)
     assert soft.share > rigid.share + 0.02
 
 
 def test_a_tangential_stiffness_is_taken_with_the_normal_force():
-    wave = Vibration(frequency=20e3, displacement_amplitude=20e-6)
-    law = Friction(mu=0.15, tangential_stiffness=80e6)
-    same = Friction(mu=0.15, max_deflection=0.15 * 1000.0 / 80e6)
+    wave = Vibration(frequency=20e3, displacement_amplitude=20e-6, units="SI")
+    law = Friction(mu=0.15, tangential_stiffness=80e6, units="SI")
+    same = Friction(mu=0.15, max_deflection=0.15 * 1000.0 / 80e6, units="SI")
     by_force = shake(wave, 0.0, 1.39, friction=law, normal_force=1000.0)
     assert by_force.share == pytest.approx(shake(wave, 0.0, 1.39, friction=same).share)
 
 
 def test_a_triangle_along_the_sliding_leaves_no_friction_and_no_loss():
-    wave = Vibration(waveform="triangle", frequency=20e3, velocity_ratio=3.0)
+    wave = Vibration(waveform="triangle", frequency=20e3, velocity_ratio=3.0, units="SI")
     found = compare(*gearset(), vibration=wave)["longitudinal"]
     assert found.vibration.share == pytest.approx(0.0, abs=2e-3)
     assert found.efficiency == pytest.approx(1.0, abs=5e-3)
@@ -188,7 +188,7 @@ def test_a_wave_that_drives_the_contact_on_is_refused(tmp_path):
     shape = np.where(time < 0.9e-3, time / 0.9e-3, (1e-3 - time) / 0.1e-3)
     rows = "\n".join(f"{t:.9g},{1e-3 * u:.9g}" for t, u in zip(time, shape, strict=True))
     (tmp_path / "saw.csv").write_text(rows)
-    wave = Vibration(waveform="sampled", samples="saw.csv", velocity_amplitude=200.0)
+    wave = Vibration(waveform="sampled", samples="saw.csv", velocity_amplitude=200.0, units="SI")
     with pytest.raises(InputError, match="drives the contact forward"):
         shake(wave, 0.0, 1.39, folder=tmp_path)
 
@@ -203,8 +203,8 @@ def test_the_tables_of_a_case_describe_the_vibration():
         "slider.normal_force=2 kN",
     )
     found = compare_case(case("gearset-2", *settings))
-    wave = Vibration(frequency=30e3, displacement_amplitude=10e-6)
-    law = Friction(mu=0.1, tangential_stiffness=80e6)
+    wave = Vibration(frequency=30e3, displacement_amplitude=10e-6, units="SI")
+    law = Friction(mu=0.1, tangential_stiffness=80e6, units="SI")
     velocity = found.sliding_velocity
     expected = shake(wave, 0.0, velocity, friction=law, normal_force=2000.0)
     assert found["longitudinal"].vibration == expected

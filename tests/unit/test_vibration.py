@@ -54,7 +54,7 @@ def displacement(shape, cycles):
 
 @pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
 def test_the_displacement_has_unit_amplitude_and_closes_its_period(wave, folder):
-    shape = Vibration(velocity_ratio=1.0, **wave).shape(folder)
+    shape = Vibration(velocity_ratio=1.0, **wave, units="SI").shape(folder)
     u = displacement(shape, np.linspace(1.0, 2.0, 8193))
     assert 0.5 * (u.max() - u.min()) == pytest.approx(1.0, abs=2e-7)
     assert u[-1] == pytest.approx(u[0], abs=1e-12)
@@ -62,7 +62,7 @@ def test_the_displacement_has_unit_amplitude_and_closes_its_period(wave, folder)
 
 @pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
 def test_the_peak_velocity_is_the_steepest_slope_of_the_displacement(wave, folder):
-    vibration = Vibration(displacement_amplitude=2e-7, **wave)
+    vibration = Vibration(displacement_amplitude=2e-7, **wave, units="SI")
     shape = vibration.shape(folder)
     steps = 8192
     slopes = shape.increments(1.0, 1.0 / steps, steps) * steps * shape.frequency * 2e-7
@@ -78,17 +78,17 @@ def test_the_peak_velocity_is_the_steepest_slope_of_the_displacement(wave, folde
     ],
 )
 def test_the_peak_velocity_follows_its_formula(name, expected):
-    vibration = Vibration(displacement_amplitude=2e-7, **WAVES[name])
+    vibration = Vibration(displacement_amplitude=2e-7, **WAVES[name], units="SI")
     assert vibration.velocity(vibration.shape(), 1.0) == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
 def test_the_three_forms_of_an_amplitude_agree(wave, folder):
-    by_ratio = Vibration(velocity_ratio=6.0, **wave)
+    by_ratio = Vibration(velocity_ratio=6.0, **wave, units="SI")
     shape = by_ratio.shape(folder)
-    by_velocity = Vibration(velocity_amplitude=3e-3, **wave)
+    by_velocity = Vibration(velocity_amplitude=3e-3, **wave, units="SI")
     amplitude = by_velocity.displacement(shape, 0.5e-3)
-    by_displacement = Vibration(displacement_amplitude=amplitude, **wave)
+    by_displacement = Vibration(displacement_amplitude=amplitude, **wave, units="SI")
     assert by_ratio.velocity(shape, 0.5e-3) == pytest.approx(3e-3, rel=1e-15)
     assert by_ratio.displacement(shape, 0.5e-3) == pytest.approx(amplitude, rel=1e-15)
     assert by_displacement.velocity(shape, 0.5e-3) == pytest.approx(3e-3, rel=1e-15)
@@ -96,7 +96,7 @@ def test_the_three_forms_of_an_amplitude_agree(wave, folder):
 
 @pytest.mark.parametrize("name", ["sine", "triangle", "square"])
 def test_the_vibration_starts_at_zero_and_rises(name):
-    shape = Vibration(velocity_ratio=1.0, **WAVES[name]).shape()
+    shape = Vibration(velocity_ratio=1.0, **WAVES[name], units="SI").shape()
     assert np.all(shape.increments(-3.0, 0.01, 300) == 0.0)
     first = displacement(shape, np.linspace(0.0, 0.02, 21))
     assert np.all(np.diff(first) > 0.0)
@@ -104,13 +104,13 @@ def test_the_vibration_starts_at_zero_and_rises(name):
 
 
 def test_a_step_across_the_start_moves_only_by_the_part_after_it():
-    shape = Vibration(velocity_ratio=1.0, **WAVES["sine"]).shape()
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sine"], units="SI").shape()
     (across,) = shape.increments(-0.004, 0.01, 1)
     assert across == pytest.approx(math.sin(2.0 * math.pi * 0.006), rel=1e-14)
 
 
 def test_before_its_start_a_sampled_wave_rests_where_it_begins(folder):
-    shape = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(folder)
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI").shape(folder)
     assert np.all(shape.increments(-3.0, 0.01, 300) == 0.0)
     (first,) = shape.increments(-0.01, 0.02, 1)
     (same,) = shape.increments(1.0, 0.01, 1)
@@ -118,7 +118,7 @@ def test_before_its_start_a_sampled_wave_rests_where_it_begins(folder):
 
 
 def test_a_square_wave_dwells_between_flanks_of_its_rise_time():
-    shape = Vibration(velocity_ratio=1.0, **WAVES["square"]).shape()
+    shape = Vibration(velocity_ratio=1.0, **WAVES["square"], units="SI").shape()
     # 20 us are 0.08 of a period at 4 kHz: a flank reaches 0.04 to either side of a crossing.
     u = displacement(shape, np.linspace(0.0, 1.0, 1001))
     assert u[:41] == pytest.approx(np.linspace(0.0, 1.0, 41), abs=1e-12)
@@ -130,9 +130,9 @@ def test_a_square_wave_dwells_between_flanks_of_its_rise_time():
 
 def test_a_square_wave_that_rises_all_the_time_is_a_triangle():
     square = Vibration(
-        waveform="square", frequency=4000.0, rise_time=0.125e-3, velocity_ratio=1.0
+        waveform="square", frequency=4000.0, rise_time=0.125e-3, velocity_ratio=1.0, units="SI"
     ).shape()
-    triangle = Vibration(velocity_ratio=1.0, **WAVES["triangle"]).shape()
+    triangle = Vibration(velocity_ratio=1.0, **WAVES["triangle"], units="SI").shape()
     assert square.steepness == triangle.steepness
     assert square.increments(0.0, 0.001, 1000) == pytest.approx(
         triangle.increments(0.0, 0.001, 1000), abs=1e-14
@@ -142,8 +142,8 @@ def test_a_square_wave_that_rises_all_the_time_is_a_triangle():
 def test_samples_of_a_sine_are_the_sine(tmp_path):
     phase = 2.0 * math.pi * np.arange(100) / 100
     write_samples(tmp_path / "wave.csv", 7e-6 * np.sin(phase) + 3e-6)
-    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
-    sine = Vibration(velocity_ratio=1.0, **WAVES["sine"]).shape()
+    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI").shape(tmp_path)
+    sine = Vibration(velocity_ratio=1.0, **WAVES["sine"], units="SI").shape()
     assert sampled.frequency == pytest.approx(4000.0, rel=1e-12)
     assert sampled.steepness == pytest.approx(sine.steepness, rel=1e-5)
     cycles = np.linspace(1.0, 2.0, 501)
@@ -169,7 +169,7 @@ def test_samples_need_no_equal_spacing(tmp_path):
         f"{t * 2.5e-4!r},{x!r}\n" for t, x in zip(cycles.tolist(), u.tolist(), strict=True)
     )
     (tmp_path / "wave.csv").write_text(rows)
-    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
+    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI").shape(tmp_path)
     at = np.linspace(1.0, 2.0, 101)
     assert displacement(sampled, at) == pytest.approx(np.sin(2.0 * math.pi * at), abs=2e-5)
 
@@ -191,7 +191,7 @@ def test_a_byte_order_mark_costs_no_sample(tmp_path):
 @pytest.mark.parametrize("first", ["0.0,zero", "zero,0.0"])
 def test_a_first_row_with_a_number_in_it_is_no_header(tmp_path, first):
     (tmp_path / "wave.csv").write_text("".join(f"{row}\n" for row in [first, *rows_of()[1:]]))
-    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
     assert f"row 1 is '{first}'" in refusal(vibration.shape, tmp_path)
 
 
@@ -199,15 +199,15 @@ def test_a_first_row_with_a_number_in_it_is_no_header(tmp_path, first):
 def test_samples_of_a_sine_need_the_steps_of_a_sine_for_each_of_its_cycles(tmp_path, cycles):
     phase = 2.0 * math.pi * np.arange(1000) / 1000
     write_samples(tmp_path / "wave.csv", np.sin(cycles * phase))
-    shape = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
-    sine = Vibration(velocity_ratio=1.0, **WAVES["sine"]).shape()
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI").shape(tmp_path)
+    sine = Vibration(velocity_ratio=1.0, **WAVES["sine"], units="SI").shape()
     assert shape.least_steps == pytest.approx(cycles * sine.least_steps, rel=1e-3)
 
 
 def test_samples_of_a_square_wave_need_at_least_the_steps_of_the_square_wave(tmp_path):
-    square = Vibration(velocity_ratio=1.0, **WAVES["square"]).shape()
+    square = Vibration(velocity_ratio=1.0, **WAVES["square"], units="SI").shape()
     write_samples(tmp_path / "wave.csv", displacement(square, np.linspace(0.0, 1.0, 1001))[:-1])
-    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"]).shape(tmp_path)
+    sampled = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI").shape(tmp_path)
     assert square.least_steps == 4.0 / square.rise == 50.0
     assert square.least_steps < sampled.least_steps < 4.0 * square.least_steps
 
@@ -215,21 +215,21 @@ def test_samples_of_a_square_wave_need_at_least_the_steps_of_the_square_wave(tmp
 def test_a_step_that_passes_over_what_the_samples_contain_is_refused(tmp_path):
     phase = 2.0 * math.pi * np.arange(1000) / 1000
     write_samples(tmp_path / "wave.csv", np.sin(phase) + 0.1 * np.sin(20.0 * phase))
-    body = Slider(drive_velocity=5e-4, normal_force=55.0)
-    contact = Friction(mu=0.1, max_deflection=1e-7)
-    vibration = Vibration(velocity_ratio=6.0, **WAVES["sampled"])
+    body = Slider(drive_velocity=5e-4, normal_force=55.0, units="SI")
+    contact = Friction(mu=0.1, max_deflection=1e-7, units="SI")
+    vibration = Vibration(velocity_ratio=6.0, **WAVES["sampled"], units="SI")
     shape = vibration.shape(tmp_path)
-    coarse = Model(body, contact, vibration, Solve(step=1e-6), shape)
+    coarse = Model(body, contact, vibration, Solve(step=1e-6, units="SI"), shape)
     text = refusal(lambda: coarse.step)
     assert "solve.step is 1e-06 s, too coarse for the vibration of 4000 Hz" in text
-    fine = Model(body, contact, vibration, Solve(step=8e-7), shape)
+    fine = Model(body, contact, vibration, Solve(step=8e-7, units="SI"), shape)
     assert fine.step == 8e-7
     assert Model(body, contact, vibration, Solve(), shape).step == 1.0 / (500 * shape.frequency)
 
 
 def test_changed_samples_are_read_anew(tmp_path):
     path = write_samples(tmp_path / "wave.csv", np.sin(np.linspace(0, 2 * math.pi, 32, False)))
-    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
     first = vibration.shape(tmp_path)
     write_samples(path, np.sin(np.linspace(0, 2 * math.pi, 64, False)), period=1e-3)
     assert first.frequency == pytest.approx(4000.0)
@@ -277,14 +277,14 @@ SAMPLES = {
 @pytest.mark.parametrize(("rows", "message"), SAMPLES.values(), ids=SAMPLES)
 def test_samples_that_are_no_period_are_refused(rows, message, tmp_path):
     (tmp_path / "wave.csv").write_text("".join(row + "\n" for row in rows))
-    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
     text = refusal(vibration.shape, tmp_path)
     assert message in text
     assert str(tmp_path / "wave.csv") in text
 
 
 def test_samples_that_cannot_be_read_are_refused(tmp_path):
-    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"])
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
     assert "cannot be read" in refusal(vibration.shape, tmp_path)
     (tmp_path / "wave.csv").write_bytes(bytes(range(128, 256)))
     assert "cannot be read" in refusal(vibration.shape, tmp_path)
@@ -294,13 +294,13 @@ def test_samples_that_cannot_be_read_are_refused(tmp_path):
 
 
 def test_a_frequency_that_contradicts_the_samples_is_refused(folder):
-    vibration = Vibration(velocity_ratio=1.0, frequency=3000.0, **WAVES["sampled"])
+    vibration = Vibration(velocity_ratio=1.0, frequency=3000.0, **WAVES["sampled"], units="SI")
     assert "leave the frequency out" in refusal(vibration.shape, folder)
-    near = Vibration(velocity_ratio=1.0, frequency=4000.01, **WAVES["sampled"])
+    near = Vibration(velocity_ratio=1.0, frequency=4000.01, **WAVES["sampled"], units="SI")
     text = refusal(near.shape, folder)
     assert "4000.01 Hz" in text
     assert "(4000 Hz); leave the frequency out" in text
-    agreeing = Vibration(velocity_ratio=1.0, frequency=4000.001, **WAVES["sampled"])
+    agreeing = Vibration(velocity_ratio=1.0, frequency=4000.001, **WAVES["sampled"], units="SI")
     assert agreeing.shape(folder).frequency == pytest.approx(4000.0, rel=1e-12)
 
 
@@ -324,12 +324,16 @@ def test_a_frequency_that_contradicts_the_samples_is_refused(folder):
     ],
 )
 def test_a_vibration_that_makes_no_sense_is_refused(entries, message):
-    assert message in refusal(Vibration, velocity_ratio=1.0, **entries)
+    assert message in refusal(Vibration, units="SI", velocity_ratio=1.0, **entries)
 
 
 def test_exactly_one_amplitude_is_needed():
-    assert "velocity_ratio" in refusal(Vibration, frequency=1e3)
-    text = refusal(Vibration, frequency=1e3, velocity_ratio=2.0, velocity_amplitude=1e-3)
+    assert "velocity_ratio" in refusal(Vibration, units="SI", frequency=1e3)
+    text = refusal(
+        Vibration, units="SI", frequency=1e3, velocity_ratio=2.0, velocity_amplitude=1e-3
+    )
     assert "velocity_ratio" in text
     assert "velocity_amplitude" in text
-    assert "vibration.velocity_ratio" in refusal(Vibration, frequency=1e3, velocity_ratio=-1.0)
+    assert "vibration.velocity_ratio" in refusal(
+        Vibration, units="SI", frequency=1e3, velocity_ratio=-1.0
+    )

@@ -194,6 +194,44 @@ def cases(as_json: JsonOption = False) -> None:
         show.print_text("\n".join(f"{name:{width}}{said}" for name, said in shipped.items()))
 
 
+@app.command()
+@reported
+def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
+    """Find all mistakes of a case file, each with its line and what is allowed."""
+    from asperity.cli.check import check as run
+
+    run(case, settings or (), as_json=as_json)
+
+
+@app.command()
+@reported
+def schema() -> None:
+    """Print the JSON Schema of case files, by which editors complete and underline."""
+    from asperity.cli.check import print_schema
+
+    print_schema()
+
+
+@app.command()
+@reported
+def materials(as_json: JsonOption = False) -> None:
+    """List the materials of worms and wheels, with source and trust."""
+    from asperity.cli.lists import print_library
+    from asperity.gearset.materials import WheelMaterial, WormMaterial
+
+    print_library((WheelMaterial, WormMaterial), as_json=as_json)
+
+
+@app.command()
+@reported
+def lubricants(as_json: JsonOption = False) -> None:
+    """List the lubricants and their base oils, with source and trust."""
+    from asperity.cli.lists import print_library
+    from asperity.gearset.lubricants import BaseOil, Lubricant
+
+    print_library((Lubricant, BaseOil), as_json=as_json)
+
+
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
     hold_streams()

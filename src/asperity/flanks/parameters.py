@@ -48,7 +48,7 @@ def _size(value: object) -> str:
     return text.format(size)
 
 
-Size = Annotated[str, BeforeValidator(_size)]
+Size = Annotated[str, BeforeValidator(_size, json_schema_input_type=str | float)]
 
 
 def size_in_mm(size: str, module: float) -> float:

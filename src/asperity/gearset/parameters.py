@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BeforeValidator, ValidationInfo, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
@@ -48,7 +48,8 @@ def _count(least: int) -> Any:
             raise InputError(f"it must be at least {least}")
         return value
 
-    return BeforeValidator(lambda value: check(_whole(value)))
+    written = Annotated[int, Field(ge=least)]
+    return BeforeValidator(lambda value: check(_whole(value)), json_schema_input_type=written)
 
 
 def _length(example: str) -> Quantity:

@@ -138,8 +138,8 @@ class Operation(Table):
     bearing_span: (
         Annotated[float, Quantity("m", what="a length", example="110 mm", gt=0)] | None
     ) = None
-    seals: Annotated[int, Field(ge=0, le=10)] = 2
-    fan: bool = False
+    seals: Annotated[int, Field(strict=True, ge=0, le=10)] = 2
+    fan: Annotated[bool, Field(strict=True)] = False
     immersed: Literal["worm", "wheel"] = "worm"
     application_factor: Ratio = 1.0
     starts_per_hour: Annotated[float, Quantity("", what="a number", example="0", ge=0)] = 0.0
@@ -214,7 +214,10 @@ class RatingOptions(Table):
     # A year given by --set arrives as a number.
     iso14521_edition: Annotated[
         Literal["1998", "2010"],
-        BeforeValidator(lambda year: str(year) if isinstance(year, int) else year),
+        BeforeValidator(
+            lambda year: str(year) if isinstance(year, int) else year,
+            json_schema_input_type=Literal["1998", "2010", 1998, 2010],
+        ),
     ] = "2010"
     iso14521_face_width: Literal["tip_chord", "reference_chord"] = "tip_chord"
     bs721_tables: Path | None = None

@@ -122,7 +122,7 @@ class HeldBody:
         friction = {"model": "coulomb", "load_exponent": 1.0, "law": "vector"}
         alone = dataclasses.replace(
             model,
-            slider=model.slider.model_copy(update=slider),
+            slider=model.slider.model_copy(update=slider, units="SI"),
             friction=model.friction.model_copy(update=friction),
         )
         pressed = Cycle(alone, steps, self.step)

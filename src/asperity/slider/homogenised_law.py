@@ -289,14 +289,15 @@ def _at(model: Model, velocity: float) -> Model:
     """Return the model with a mean velocity; backwards its vibration is turned by half a turn."""
     if model.vibration is None:
         raise InputError("nothing vibrates")
-    slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)})
+    slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)}, units="SI")
     vibration = model.vibration.model_copy(
         update={
             "velocity_ratio": None,
             "velocity_amplitude": None,
             "displacement_amplitude": model.amplitude,
             "direction": model.direction + (math.pi if velocity < 0.0 else 0.0),
-        }
+        },
+        units="SI",
     )
     return dataclasses.replace(model, slider=slider, vibration=vibration)
 

@@ -19,7 +19,9 @@ FREQUENCY, AMPLITUDE = 20e3, 20e-6
 
 _NOTHING = 1e-9
 
-DEFAULT = Vibration(waveform="sine", frequency=FREQUENCY, displacement_amplitude=AMPLITUDE)
+DEFAULT = Vibration(
+    waveform="sine", frequency=FREQUENCY, displacement_amplitude=AMPLITUDE, units="SI"
+)
 """Vibration where none is given, assumed: 20 kHz, 20 um."""
 
 
@@ -131,8 +133,10 @@ def _solved(
     from asperity.slider import Model, Slider, Solve
     from asperity.slider.periodic import solve_periodic
 
-    body = Slider(drive_velocity=sliding_velocity, normal_force=normal_force, lateral="guided")
-    turned = vibration.model_copy(update={"direction": direction})
+    body = Slider(
+        drive_velocity=sliding_velocity, normal_force=normal_force, lateral="guided", units="SI"
+    )
+    turned = vibration.model_copy(update={"direction": direction}, units="SI")
     how = Solve(method="periodic")
     still = solve_periodic(Model(body, friction, solve=how), history=False)
     model = Model(body, friction, turned, how, turned.shape(folder))

@@ -213,7 +213,9 @@ def slope_over_velocity(model: Model) -> float:
         solve_periodic(
             dataclasses.replace(
                 periodic,
-                slider=slider.model_copy(update={"drive_velocity": share * slider.drive_velocity}),
+                slider=slider.model_copy(
+                    update={"drive_velocity": share * slider.drive_velocity}, units="SI"
+                ),
                 vibration=_at_peak_velocity(model),
             ),
             history=False,
@@ -227,7 +229,7 @@ def _at_peak_velocity(model: Model) -> Vibration:
     assert model.vibration is not None
     given = {"velocity_amplitude": model.peak_velocity}
     others = dict.fromkeys(("velocity_ratio", "displacement_amplitude"))
-    return model.vibration.model_copy(update=others | given)
+    return model.vibration.model_copy(update=others | given, units="SI")
 
 
 def read_settled(

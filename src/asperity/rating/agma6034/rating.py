@@ -11,6 +11,7 @@ from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
 from asperity.rating.agma6034 import capacity, forces, limits, mesh, thermal
 from asperity.rating.agma6034.symbols import FROM_MEMORY
+from asperity.rating.demands import failures
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import losses, strength
@@ -132,8 +133,4 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             f"the worm of {given.gearset.worm_material.name} is not known to be hardened to 58 HRC "
             "or more, which the standard takes for granted"
         )
-    if values["safety_torque"] < 1.0:
-        notes.append(
-            f"the allowable torque is {values['allowable_torque_Nm']:.4g} N m, below the rated one"
-        )
-    return tuple(notes)
+    return (*failures("agma6034", values), *notes)

@@ -17,6 +17,7 @@ from asperity.rating.bs721 import life, torque
 from asperity.rating.bs721.limits import VALIDITY
 from asperity.rating.bs721.symbols import FROM_MEMORY
 from asperity.rating.bs721.tables import TableRangeError, Tables
+from asperity.rating.demands import failures
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import efficiency
@@ -159,13 +160,7 @@ def _notes(given: Inputs, values: Values) -> list[str]:
         notes.append("the friction is that of phosphor bronze on a case-hardened worm")
     if given.gearset.flank != "ZI":
         notes.append(f"the flank is {given.gearset.flank}; the standard is for ZI")
-    if values["safety_wear"] <= 1.0:
-        notes.append(
-            f"M_w is {values['M_w_Nm']:.4g} N m and not above the torque through the travel"
-        )
-    if values["safety_strength"] <= 1.0:
-        notes.append(f"M_s is {values['M_s_Nm']:.4g} N m and not above the rated torque")
-    return notes
+    return [*failures("bs721", values), *notes]
 
 
 def _rows(given: Inputs) -> tuple[str, str]:

@@ -5,10 +5,11 @@ import math
 from asperity.formulas import masking
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
+from asperity.rating.demands import failures
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
-from asperity.rating.iso14521.limits import MINIMUM_SAFETIES, implausible, violations
+from asperity.rating.iso14521.limits import implausible, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
 from asperity.rating.result import Rating
 from asperity.sources import Source
@@ -58,11 +59,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
 
 
 def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
-    notes = [
-        f"{key} is {values[key]:.3g}; the standard asks for at least {least:g}"
-        for key, (least, _) in MINIMUM_SAFETIES.items()
-        if values[key] < least
-    ]
+    notes = [*failures("iso14521", values)]
     if given.operation.lubrication == "spray" and given.oil_temperature is None:
         notes.append(
             "the oil temperature is that of a splash-lubricated gearbox, though the lubrication is "

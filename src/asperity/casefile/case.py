@@ -1,4 +1,4 @@
-"""Case files: TOML tables with units as text, read and validated into frozen tables in SI."""
+"""A case: its tables validated, its settings, and where each value came from."""
 
 import contextlib
 import dataclasses
@@ -9,13 +9,11 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Self, TypeVar, get_args, overload
-
-import pydantic
-from pydantic_core import ErrorDetails
+from typing import Any, TypeVar, overload
 
 from asperity import store
-from asperity.errors import InputError, choices, is_plain, nearest, plain, shown, suggestion
+from asperity.casefile.table import Table, names_file, same_thing, trouble_with
+from asperity.errors import InputError, nearest, plain
 from asperity.shipped import shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
@@ -23,111 +21,6 @@ Raw = dict[str, dict[str, Any]]
 
 _TEXT_ONLY = {"text_only": True}
 _KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
-_MOST_BITS = 1024  # of a whole number, as large as floats are
-
-
-class Table(pydantic.BaseModel):
-    """Base of the tables of a case file: frozen, no unknown keys, InputError in one line.
-
-    A subclass names its table in `table`. Keys that are forms of the same thing stand together in
-    `alternatives` (at most one is given) or `required_alternatives` (exactly one), and default to
-    None. A check over several keys is a ``model_validator(mode="after")`` that raises ValueError
-    with a whole sentence beginning with ``table.key``. A file name is a field of type
-    :class:`pathlib.Path`, so that :meth:`Case.canonical` follows the file's content.
-    """
-
-    model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
-
-    table: ClassVar[str] = ""
-    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
-
-    def __init__(self, /, **data: Any) -> None:
-        try:
-            super().__init__(**data)
-        except pydantic.ValidationError as error:
-            raise InputError(self._one_line(error)) from None
-
-    # Pydantic would otherwise take the constructor for part of the validation and lose the
-    # context that says whether bare numbers are allowed.
-    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
-
-    @classmethod
-    def model_validate(cls, obj: Any, **options: Any) -> Self:
-        """Validate a mapping of keys to values; raises InputError."""
-        try:
-            return super().model_validate(obj, **options)
-        except pydantic.ValidationError as error:
-            raise InputError(cls._one_line(error)) from None
-
-    @pydantic.model_validator(mode="before")
-    @classmethod
-    def _harmless(cls, data: Any) -> Any:
-        if isinstance(data, Mapping):
-            for key, value in data.items():
-                if trouble := _trouble(value):
-                    raise ValueError(f"{cls.table}.{key} is {shown(value)}; {trouble}")
-        return data
-
-    @pydantic.model_validator(mode="after")
-    def _one_form(self) -> Self:
-        for group in (*self.alternatives, *self.required_alternatives):
-            given = [f"{self.table}.{key}" for key in group if getattr(self, key) is not None]
-            if len(given) > 1:
-                raise ValueError(f"{' and '.join(given)} are given; keep one of them")
-            if not given and group in self.required_alternatives:
-                raise ValueError(
-                    f"{self.table}.{group[0]} is missing; give one of {choices(group)}"
-                )
-        return self
-
-    @classmethod
-    def _one_line(cls, error: pydantic.ValidationError) -> str:
-        details = error.errors(include_url=False)
-        # A misspelt key also makes the right one missing; the misspelling is the news.
-        first = min(details, key=lambda detail: detail["type"] != "extra_forbidden")
-        return " ".join(cls._sentence(first).split())
-
-    @classmethod
-    def _sentence(cls, detail: ErrorDetails) -> str:
-        cause = detail.get("ctx", {}).get("error")
-        reason = str(cause) if cause is not None else detail["msg"]
-        if not detail["loc"]:
-            return reason
-        field = str(detail["loc"][0])
-        key = f"{cls.table}.{field}"
-        if reason.startswith((f"{key} ", f"{key}.")):
-            return reason
-        if detail["type"] == "extra_forbidden":
-            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.model_fields)}"
-        if detail["type"] == "missing":
-            quantity = quantity_of(cls, field)
-            return f"{key} is missing" + (f"; {quantity.expected()}" if quantity else "")
-        given = detail["input"]
-        if detail["type"] == "literal_error":
-            allowed = detail["ctx"]["expected"].replace(" or ", ", ")
-            words = re.findall(r"'([^']*)'", allowed)
-            hint = suggestion(given, words) if isinstance(given, str) else ""
-            reason = f"it must be one of {allowed}{hint}"
-        elif cause is None:
-            reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
-        place = detail["loc"][1] if len(detail["loc"]) > 1 else None
-        where = f", number {place + 1} of the list" if isinstance(place, int) else ""
-        return f"{key} is {shown(given)}{where}; {reason}"
-
-
-def _trouble(value: object) -> str:
-    """Return what no value of any key may be; nothing for one that may."""
-    if isinstance(value, str):
-        return "" if is_plain(value) else "it must be one line without control characters"
-    if isinstance(value, int):
-        return "" if value.bit_length() < _MOST_BITS else "it is too large"
-    if isinstance(value, Mapping):
-        return next(filter(None, map(_trouble, (*value, *value.values()))), "")
-    if isinstance(value, list | tuple):
-        return next(filter(None, map(_trouble, value)), "")
-    return ""
-
 
 T = TypeVar("T", bound=Table)
 
@@ -186,7 +79,7 @@ class Case:
         raw = {name: dict(entries) for name, entries in self.raw.items()}
         given = dict(self.settings)
         for setting in settings:
-            given[_apply(raw, setting, self.known)] = " ".join(setting.split())
+            given[apply(raw, setting, self.known)] = " ".join(setting.split())
         case = dataclasses.replace(self, tables={}, raw=raw, settings=given)
         with told(case):
             for name, entries in raw.items():
@@ -275,27 +168,37 @@ def read_case(
     InputError
         One line that names the file or setting, the key, the value and what is allowed.
     """
+    case, _ = read_raw(name_or_path, tables)
+    for name, entries in case.raw.items():
+        if isinstance(entries, list):
+            raise InputError(
+                f"{case.source}: [{name}] is given as a list; write it once, as [{name}]"
+            )
+        if not isinstance(entries, dict):
+            raise InputError(
+                f"{case.source}: {name} stands outside a table; put it below a heading such as "
+                "[slider]"
+            )
+    return case.replace(settings)
+
+
+def read_raw(
+    name_or_path: str | os.PathLike[str], tables: Mapping[str, type[Table]]
+) -> tuple[Case, str]:
+    """Return a case whose tables are not validated yet, and the text of its file."""
     path = Path(name_or_path)
     source = plain(str(name_or_path))
     shipped = shipped_cases()
     if source in shipped and not path.is_file():
         path = shipped[source]
     try:
-        raw = store.read_toml(path, source)
+        text, raw = store.read_toml_text(path, source)
     except InputError as error:
         if not isinstance(error.__cause__, FileNotFoundError):
             raise
         known = nearest(plain(path.name).removesuffix(".toml"), shipped)
         raise InputError(f"{source} is neither a file nor a case that ships{known}") from None
-    for name, entries in raw.items():
-        if isinstance(entries, list):
-            raise InputError(f"{source}: [{name}] is given as a list; write it once, as [{name}]")
-        if not isinstance(entries, dict):
-            raise InputError(
-                f"{source}: {name} stands outside a table; put it below a heading such as [slider]"
-            )
-    case = Case(source, path.parent.absolute(), {}, raw, tables)
-    return case.replace(settings)
+    return Case(source, path.parent.absolute(), {}, raw, tables), text
 
 
 def _known_table(name: str, known: Mapping[str, type[Table]]) -> type[Table]:
@@ -304,19 +207,8 @@ def _known_table(name: str, known: Mapping[str, type[Table]]) -> type[Table]:
     return known[name]
 
 
-def same_thing(model: type[Table], key: str) -> set[str]:
-    """Return the key and those that are other forms of the same thing."""
-    groups = (*model.alternatives, *model.required_alternatives)
-    return {key}.union(*(group for group in groups if key in group))
-
-
-def names_file(model: type[Table], key: str) -> bool:
-    """Whether a key's value is the name of a file."""
-    field = model.model_fields.get(key)
-    return field is not None and Path in (field.annotation, *get_args(field.annotation))
-
-
-def _apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
+def apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
+    """Apply a ``table.key=value`` to what is to be validated; returns the key."""
     path, equals, text = setting.partition("=")
     parts = _KEY.fullmatch(path.strip())
     if not equals or not parts:
@@ -341,7 +233,7 @@ def _toml_value(text: str) -> Any:
         parsed = store.parse_toml(f"value = {text}")
     except ValueError:
         return text
-    return text if len(parsed) > 1 or _trouble(parsed) else parsed["value"]
+    return text if len(parsed) > 1 or trouble_with(parsed) else parsed["value"]
 
 
 def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str) -> Any:

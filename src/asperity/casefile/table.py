@@ -1,0 +1,178 @@
+"""A table of a case file: frozen, in SI, refusing in one line what it cannot hold."""
+
+import re
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import Any, ClassVar, Self, get_args
+
+import pydantic
+from pydantic_core import ErrorDetails
+
+from asperity.errors import InputError, choices, is_plain, nearest, shown, suggestion
+from asperity.units import Held, Named, quantity_of
+
+_MOST_BITS = 1024  # of a whole number, as large as floats are
+
+
+class Table(pydantic.BaseModel):
+    """Base of the tables of a case file: frozen, no unknown keys, InputError in one line.
+
+    A subclass names its table in `table`. Keys that are forms of the same thing stand together in
+    `alternatives` (at most one is given) or `required_alternatives` (exactly one), and default to
+    None. A check over several keys is a ``model_validator(mode="after")`` that raises ValueError
+    with a whole sentence beginning with ``table.key``. A file name is a field of type
+    :class:`pathlib.Path`, so that :meth:`Case.canonical` follows the file's content.
+
+    Parameters
+    ----------
+    units : str, sequence of str or mapping, optional
+        What bare numbers are in: ``"SI"``, units such as ``"mm, rpm"``, or a unit by key. Left
+        out, what has a unit must be text such as ``"75 mm"`` or a quantity of pint.
+    **data
+        The keys of the table.
+    """
+
+    model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
+
+    table: ClassVar[str] = ""
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
+
+    def __init__(self, /, *arguments: Any, units: Any = None, **data: Any) -> None:
+        name = type(self).__name__
+        if arguments:
+            first = next(iter(type(self).model_fields), "key")
+            raise InputError(
+                f"{name} is given {shown(arguments[0])} without a key; name each, as in "
+                f"{name}({first}=...)"
+            )
+        try:
+            self.__pydantic_validator__.validate_python(
+                data, self_instance=self, context={"units": Named(units)}
+            )
+        except pydantic.ValidationError as error:
+            raise InputError(self._one_line(error)) from None
+
+    # Pydantic would otherwise take the constructor for part of the validation and lose the
+    # context that says what bare numbers are.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    @classmethod
+    def model_validate(cls, obj: Any, **options: Any) -> Self:
+        """Validate a mapping of keys to values, bare numbers in SI; raises InputError."""
+        try:
+            return super().model_validate(obj, **options)
+        except pydantic.ValidationError as error:
+            raise InputError(cls._one_line(error)) from None
+
+    def model_copy(
+        self, *, update: Mapping[str, Any] | None = None, deep: bool = False, units: Any = None
+    ) -> Self:
+        """Return a copy with keys replaced, checked like a new table; raises InputError.
+
+        Parameters
+        ----------
+        update : mapping of str to object, optional
+            Values by key. One form of the same thing replaces another; None removes a key.
+        deep : bool
+            Without meaning: what a table holds cannot be changed.
+        units
+            As in the constructor, for the numbers of `update`.
+        """
+        replaced: set[str] = set()
+        for key, value in (update or {}).items():
+            replaced |= same_thing(type(self), key) if value is not None else {key}
+        kept = {key: getattr(self, key) for key in self.model_fields_set - replaced}
+        held = {k: Held(v) if isinstance(v, float) else v for k, v in kept.items()}
+        given = {key: value for key, value in (update or {}).items() if value is not None}
+        return type(self)(units=units, **held, **given)
+
+    @pydantic.model_validator(mode="before")
+    @classmethod
+    def _harmless(cls, data: Any) -> Any:
+        if isinstance(data, Mapping):
+            for key, value in data.items():
+                if trouble := trouble_with(value):
+                    raise ValueError(f"{cls.table}.{key} is {shown(value)}; {trouble}")
+        return data
+
+    @pydantic.model_validator(mode="after")
+    def _one_form(self) -> Self:
+        given = [key for key in type(self).model_fields if getattr(self, key) is not None]
+        for sentence in self.forms(given):
+            raise ValueError(sentence)
+        return self
+
+    @classmethod
+    def forms(cls, given: Collection[str]) -> Iterator[str]:
+        """Yield a sentence for each thing that is given in two forms, or in none."""
+        for group in (*cls.alternatives, *cls.required_alternatives):
+            found = [f"{cls.table}.{key}" for key in group if key in given]
+            if len(found) > 1:
+                yield f"{' and '.join(found)} are given; keep one of them"
+            if not found and group in cls.required_alternatives:
+                yield f"{cls.table}.{group[0]} is missing; give one of {choices(group)}"
+
+    @classmethod
+    def _one_line(cls, error: pydantic.ValidationError) -> str:
+        details = error.errors(include_url=False)
+        # A misspelt key also makes the right one missing; the misspelling is the news.
+        first = min(details, key=lambda detail: detail["type"] != "extra_forbidden")
+        return cls.sentence(first)
+
+    @classmethod
+    def sentence(cls, detail: ErrorDetails) -> str:
+        """Return what is wrong as a line that begins with ``table.key``."""
+        return " ".join(cls._sentence(detail).split())
+
+    @classmethod
+    def _sentence(cls, detail: ErrorDetails) -> str:
+        cause = detail.get("ctx", {}).get("error")
+        reason = str(cause) if cause is not None else detail["msg"]
+        if not detail["loc"]:
+            return reason
+        field = str(detail["loc"][0])
+        key = f"{cls.table}.{field}"
+        if reason.startswith((f"{key} ", f"{key}.")):
+            return reason
+        if detail["type"] == "extra_forbidden":
+            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.model_fields)}"
+        if detail["type"] == "missing":
+            quantity = quantity_of(cls, field)
+            return f"{key} is missing" + (f"; {quantity.expected()}" if quantity else "")
+        given = detail["input"]
+        if detail["type"] == "literal_error":
+            allowed = detail["ctx"]["expected"].replace(" or ", ", ")
+            words = re.findall(r"'([^']*)'", allowed)
+            hint = suggestion(given, words) if isinstance(given, str) else ""
+            reason = f"it must be one of {allowed}{hint}"
+        elif cause is None:
+            reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
+        place = detail["loc"][1] if len(detail["loc"]) > 1 else None
+        where = f", number {place + 1} of the list" if isinstance(place, int) else ""
+        return f"{key} is {shown(given)}{where}; {reason}"
+
+
+def trouble_with(value: object) -> str:
+    """Return what no value of any key may be; nothing for one that may."""
+    if isinstance(value, str):
+        return "" if is_plain(value) else "it must be one line without control characters"
+    if isinstance(value, int):
+        return "" if value.bit_length() < _MOST_BITS else "it is too large"
+    if isinstance(value, Mapping):
+        return next(filter(None, map(trouble_with, (*value, *value.values()))), "")
+    if isinstance(value, list | tuple):
+        return next(filter(None, map(trouble_with, value)), "")
+    return ""
+
+
+def same_thing(model: type[Table], key: str) -> set[str]:
+    """Return the key and those that are other forms of the same thing."""
+    groups = (*model.alternatives, *model.required_alternatives)
+    return {key}.union(*(group for group in groups if key in group))
+
+
+def names_file(model: type[Table], key: str) -> bool:
+    """Whether a key's value is the name of a file."""
+    field = model.model_fields.get(key)
+    return field is not None and Path in (field.annotation, *get_args(field.annotation))

@@ -1,0 +1,61 @@
+"""What ``asperity materials`` and ``asperity lubricants`` do: what data files hold, by name."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from asperity.casefile.schema import in_unit
+from asperity.cli import show
+from asperity.gearset.library import Sourced, every
+from asperity.results.table import Column, Table
+from asperity.units import quantity_of
+
+
+def print_library(models: Sequence[type[Sourced]], *, as_json: bool) -> None:
+    """Print everything of some kinds that data files hold, with its source and trust."""
+    things = [(model, thing) for model in models for thing in every(model)]
+    if as_json:
+        show.print_json({"listed": [_json(model, thing) for model, thing in things]})
+        return
+    tables = []
+    for model in models:
+        keys = [key for key in model.model_fields if key not in ("name", "sources", "assumption")]
+        shown = [thing for of, thing in things if of is model]
+        rows = [(t.name, *(_text(t, key) for key in keys), _trust(t)) for t in shown]
+        headings = ("name", *(key.replace("_", " ") for key in keys), "source and trust")
+        columns = tuple(Column(heading, folds=True) for heading in headings)
+        tables.append(Table(columns, tuple(rows), title=(model.__doc__ or "").partition("\n")[0]))
+    remarks = (
+        "the name, in quotes, is what a case file takes; a table with these keys works as well",
+        "files of your own are named in ASPERITY_MATERIALS",
+    )
+    show.print_tables([*tables, Table((), (), remarks=remarks)])
+
+
+def _text(thing: Sourced, key: str) -> str:
+    value = getattr(thing, key)
+    if value is None or value == {}:
+        return "-"
+    quantity = quantity_of(type(thing), key)
+    if isinstance(value, float):
+        return in_unit(value, quantity) if quantity and quantity.unit else f"{value:g}"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {number:g}" for name, number in value.items())
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _trust(thing: Sourced) -> str:
+    found = dict.fromkeys(f"{s.name} ({s.confidence})" for s in thing.sources.values())
+    return "; ".join(found)
+
+
+def _json(model: type[Sourced], thing: Sourced) -> dict[str, Any]:
+    sources = {
+        key: {"name": source.name, "confidence": source.confidence, "note": source.note}
+        for key, source in thing.sources.items()
+    }
+    return {
+        "kind": model.section,
+        "name": thing.name,
+        **{key: _text(thing, key) for key in model.model_fields if key not in ("name", "sources")},
+        "sources": sources,
+    }

@@ -1,0 +1,71 @@
+"""What the standards ask for: each safety with its least value, said in the same words by all."""
+
+import functools
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from asperity.rating.entries import facts
+from asperity.rating.iso14521.limits import MINIMUM_SAFETIES
+
+
+class Demand(NamedTuple):
+    """A safety that a standard asks for.
+
+    Attributes
+    ----------
+    standard : {'iso14521', 'bs721', 'agma6034'}
+        Which standard.
+    key : str
+        Of the safety in its rating.
+    name : str
+        What it is a safety against, in a word or two.
+    asked : float
+        Its least value.
+    """
+
+    standard: str
+    key: str
+    name: str
+    asked: float
+
+    @property
+    def path(self) -> str:
+        """``standard.key``."""
+        return f"{self.standard}.{self.key}"
+
+    @property
+    def symbol(self) -> str:
+        """The standard's symbol."""
+        return next(fact.symbol for fact in facts(self.standard) if fact.key == self.key)
+
+    def holds(self, value: float) -> bool:
+        """Whether a value is enough."""
+        return value >= self.asked
+
+    def sentence(self, value: float) -> str:
+        """Return a failure in words."""
+        return f"{self.name} fails: {self.symbol} is {value:.3g}; at least {self.asked:g} is asked"
+
+
+@functools.cache
+def demands() -> tuple[Demand, ...]:
+    """Return every safety of every standard, in the order of the standards."""
+    iso = [
+        Demand("iso14521", key, key.removeprefix("safety_"), least)
+        for key, (least, _) in MINIMUM_SAFETIES.items()
+    ]
+    return (
+        *iso,
+        Demand("bs721", "safety_wear", "wear", 1.0),
+        Demand("bs721", "safety_strength", "strength", 1.0),
+        Demand("agma6034", "safety_torque", "torque", 1.0),
+    )
+
+
+def failures(standard: str, values: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return a sentence for each safety of a standard that is not enough."""
+    return tuple(
+        demand.sentence(values[demand.key])
+        for demand in demands()
+        if demand.standard == standard and values[demand.key] < demand.asked
+    )
