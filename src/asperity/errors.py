@@ -3,7 +3,8 @@
 import difflib
 import unicodedata
 from collections.abc import Iterable, Mapping
-from typing import ClassVar
+from dataclasses import fields
+from typing import Any, ClassVar, get_args
 
 
 class AsperityError(Exception):
@@ -95,6 +96,35 @@ def shown(value: object) -> str:
 
 def _acts(character: str) -> bool:
     return unicodedata.category(character) in _CONTROLS or character in _TURNING
+
+
+def require_fields(record: Any) -> None:
+    """Refuse fields of a dataclass of another type than it declares; as :func:`require_types`."""
+    kinds = {field.name: (getattr(record, field.name), field.type) for field in fields(record)}
+    require_types(type(record).__name__, **kinds)
+
+
+def require_types(what: str, **given: tuple[object, Any]) -> None:
+    """Refuse arguments of another type, as those in a wrong order are.
+
+    Parameters
+    ----------
+    what : str
+        Who is given them.
+    **given : tuple
+        By name: the argument and its type, or a union of one with None.
+
+    Raises
+    ------
+    InputError
+        Naming the argument, what it is and what it must be.
+    """
+    for name, (value, kind) in given.items():
+        if not isinstance(value, kind):
+            plainly = value is None or isinstance(value, str | int | float)
+            is_given = shown(value) if plainly else f"a {type(value).__name__}"
+            wanted = (*get_args(kind), kind)[0].__name__
+            raise InputError(f"{what} is given {is_given} as {name}; it must be a {wanted}")
 
 
 def choices(known: Iterable[str]) -> str:

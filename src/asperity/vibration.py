@@ -219,7 +219,7 @@ class Vibration(Table):
                     "here: give it in Hz"
                 )
             counted = {"frequency": self.per_turn * turns, "per_turn": None}
-            return self.model_copy(update=counted).shape(folder)
+            return self.model_copy(update=counted, units="SI").shape(folder)
         if self.waveform == "sampled":
             if self.samples is None:
                 raise InputError("vibration.samples is missing")

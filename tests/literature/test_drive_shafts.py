@@ -83,7 +83,7 @@ def test_the_action_at_the_mesh_is_the_closed_form_of_an_involute_worm(geometry)
 
 
 def test_the_thesis_shaft_twists_by_its_stiffness_over_the_ratio(action, geometry):
-    shaft = Shaft(diameter=D, span=SPAN)
+    shaft = Shaft(diameter=D, span=SPAN, units="SI")
     stiffness = shaft.torsion
     assert round(stiffness) == 4394
     parts = compliances_of(shaft, action.radius)

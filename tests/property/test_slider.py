@@ -22,10 +22,14 @@ def samples(tmp_path_factory):
     return path.parent
 
 
+SI = st.just("SI")
+
+
 def sliders(rigid):
     return st.builds(
         lambda compliant, lateral, mass: Slider(
-            drive_velocity=0.5e-3, normal_force=50.0, mass=mass, lateral=lateral, **compliant, units="SI"
+            drive_velocity=0.5e-3, normal_force=50.0, mass=mass, lateral=lateral, **compliant,
+            units="SI",
         ),
         st.just({}) if rigid else st.builds(
             dict,
@@ -46,13 +50,14 @@ def frictions(models=("coulomb", "dahl", "lugre")):
     }
     made = {
         "coulomb": st.builds(
-            Friction, units=st.just("SI"), model=st.just("coulomb"), mu=st.just(0.1), transfer=elastic["transfer"]
+            Friction, units=SI, model=st.just("coulomb"),
+            mu=st.just(0.1), transfer=elastic["transfer"]
         ),
         "dahl": st.builds(
-            Friction, units=st.just("SI"), exponent=st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0]), **elastic
+            Friction, units=SI, exponent=st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0]), **elastic
         ),
         "lugre": st.builds(
-            Friction, units=st.just("SI"), model=st.just("lugre"), static_mu=st.floats(0.1, 0.2),
+            Friction, units=SI, model=st.just("lugre"), static_mu=st.floats(0.1, 0.2),
             stribeck_velocity=st.floats(1e-4, 1e-2), contact_damping=st.floats(0.0, 300.0),
             viscous_damping=st.floats(0.0, 100.0), **elastic,
         ),

@@ -46,10 +46,10 @@ def test_a_table_that_cannot_be_is_refused_in_one_line(keys, words):
 
 
 def test_a_shaft_of_a_given_size_has_the_thesis_s_stiffness_and_a_cylinder_s_inertia():
-    shaft = Shaft(diameter=17e-3, span=150e-3)
+    shaft = Shaft(diameter=17e-3, span=150e-3, units="SI")
     assert shaft.torsion == pytest.approx(4394.17, abs=0.01)
     assert shaft.inertia(18.09e-3, 0.05) == pytest.approx(1.057e-5, rel=1e-3)
-    assert Shaft(torsional_stiffness=4000.0, diameter=1.0, span=1.0).torsion == 4000.0
+    assert Shaft(torsional_stiffness=4000.0, diameter=1.0, span=1.0, units="SI").torsion == 4000.0
     assert Shaft().torsion is None
     assert Shaft().inertia(18e-3, 0.05) is None
 

@@ -60,7 +60,9 @@ def controller():
     from apparatus.pty_controller import DIALECT, PtyController
 
     fake = PtyController()
-    line = serial_vibration.SerialVibration(Controller(port=fake.port, timeout="200 ms", **DIALECT))
+    line = serial_vibration.SerialVibration(
+        Controller(port=fake.port, timeout="200 ms", **DIALECT, units="SI")
+    )
     yield fake, line
     line.close()
     fake.pull()
@@ -215,7 +217,7 @@ def test_a_port_that_is_none_is_one_line():
 def test_a_dialect_that_cannot_be_spoken_is_refused(key, text, said):
     words = {"set_waveform": "W {waveform}", "set_frequency": "F {frequency}"}
     with pytest.raises(InputError, match=f"controller.{key} .*{said}"):
-        Controller(port="p", **{"start": "1", "stop": "0", **words, key: text})
+        Controller(port="p", **{"start": "1", "stop": "0", **words, key: text}, units="SI")
 
 
 def test_a_supply_does_as_it_is_told():

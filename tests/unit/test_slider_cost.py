@@ -71,7 +71,10 @@ def test_no_size_of_a_number_ends_in_anything_but_a_refusal(numbers, method, law
                 mass=mass, units="SI"
             ),
             Friction(
-                model=law, mu=mu, tangential_stiffness=None if law == "coulomb" else stiff, units="SI"
+                model=law,
+                mu=mu,
+                tangential_stiffness=None if law == "coulomb" else stiff,
+                units="SI",
             ),
             Vibration(frequency=frequency, velocity_amplitude=shake, start=start, units="SI"),
             Solve(method=method, step=step, duration=duration, units="SI"),

@@ -17,7 +17,7 @@ from asperity.errors import InputError, nearest, plain
 from asperity.shipped import shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
-Raw = dict[str, dict[str, Any]]
+Raw = dict[str, Any]
 
 _TEXT_ONLY = {"text_only": True}
 _KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pydantic
@@ -12,6 +12,7 @@ from asperity.casefile.table import Table
 from asperity.errors import InputError, nearest
 
 _KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
+_MEANT = re.compile(r"\(did you mean '([^']*)'\?\)")
 _HEADING = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]")
 _ENTRY = re.compile(r"""\s*["']?([\w-]+)["']?\s*(?:\.\s*["']?([\w-]+)["']?\s*)?[.=]""")
 _FENCES = ('"' * 3, "'" * 3)
@@ -77,7 +78,7 @@ def check_case(
         elif name not in tables:
             found.append((name, f"[{name}] is not a table of a case file{nearest(name, tables)}"))
         else:
-            wrong = list(mistakes_of(tables[name], entries))
+            wrong = _without_echoes(mistakes_of(tables[name], entries))
             found += wrong
             if not wrong:
                 case.tables[name] = tables[name].model_validate(
@@ -86,8 +87,8 @@ def check_case(
     made = []
     for key, sentence in found:
         line = None if key in case.settings else lines.get(key, lines.get(key.partition(".")[0]))
-        setting = case.settings.get(key)
-        made.append(Mistake(line, key, f"--set {setting}: {sentence}" if setting else sentence))
+        given = case.settings.get(key)
+        made.append(Mistake(line, key, f"--set {given}: {sentence}" if given else sentence))
     return case, tuple(sorted(made, key=lambda mistake: mistake.line or 0))
 
 
@@ -122,6 +123,17 @@ def mistakes_of(model: type[Table], entries: Mapping[str, Any]) -> Iterator[tupl
                 wrong = True
         if not wrong:
             return
+
+
+def _without_echoes(found: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Leave out keys that are missing because they are misspelt."""
+    listed = list(found)
+    meant = {word for _, sentence in listed for word in _MEANT.findall(sentence)}
+    return [
+        (key, sentence)
+        for key, sentence in listed
+        if not (sentence.startswith(f"{key} is missing") and key.partition(".")[2] in meant)
+    ]
 
 
 def _errors(model: type[Table], entries: Mapping[str, Any]) -> list[tuple[str, str, bool]]:

@@ -82,7 +82,7 @@ def table_schema(model: type[Table]) -> dict[str, Any]:
     required = [key.name for key in keys if key.default == "required"]
     if required:
         made["required"] = required
-    together = [
+    together: list[dict[str, Any]] = [
         {"not": {"required": [one, other]}}
         for group in (*model.alternatives, *model.required_alternatives)
         for place, one in enumerate(group)

@@ -118,7 +118,7 @@ def life(
     operation = given.operation
     if operation.oil_temperature is None:
         kelvin = sump + _ZERO_CELSIUS
-        operation = operation.model_copy(update={"oil_temperature": kelvin})
+        operation = operation.model_copy(update={"oil_temperature": kelvin}, units="SI")
     warmer = dataclasses.replace(given, operation=operation)
     found = rated_capacity(warmer, plain | {"loss_meshing_W": meshing})
     path = 1.0 - share + share * path_ratio

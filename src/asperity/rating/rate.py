@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from asperity.casefile import Case, told
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, require_types, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rate as rate_agma6034
@@ -192,6 +192,12 @@ def rate(
         applied; `asperity.rating.iso14521.film_failure.FilmParameterError` where h* is
         not above zero.
     """
+    require_types(
+        "rate",
+        gearset=(gearset, Gearset),
+        operation=(operation, Operation),
+        options=(options, RatingOptions | None),
+    )
     options = options or RatingOptions()
     wanted = known_standards(standards)
     given = inputs(gearset, operation, options)

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 
 from asperity.casefile import Case
-from asperity.errors import InputError
+from asperity.errors import InputError, require_fields
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
 from asperity.normal import Normal, elastic_slope
@@ -38,10 +38,9 @@ RING_BOUND = 0.25
 # Part of the penetration's length a body may come nearer in a step.
 LANDING_BOUND = 0.05
 _MOST_SWING = 1000.0
-# Springs are laid out to what the body comes to in so many cycles from rest, and a little more.
+# Springs are laid out to what the body comes to in so many cycles from rest and a little more.
 _FIRST_CYCLES = 100
-_MOST_FIRST_STEPS = 1_000_000
-_DEEPER = 1.05
+_MOST_FIRST_STEPS, _DEEPER = 1_000_000, 1.05
 COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
@@ -76,6 +75,7 @@ class Model:
     wear: Wear | None = None
 
     def __post_init__(self) -> None:
+        require_fields(self)
         if self.vibration is not None and self.shape is None:
             object.__setattr__(self, "shape", self.vibration.shape())
         if self.normal is not None and self.normal.law == "constant":

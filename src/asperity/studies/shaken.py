@@ -19,8 +19,8 @@ FREQUENCY, AMPLITUDE = 20e3, 20e-6
 
 _NOTHING = 1e-9
 
-DEFAULT = Vibration(
-    waveform="sine", frequency=FREQUENCY, displacement_amplitude=AMPLITUDE, units="SI"
+DEFAULT = Vibration.model_validate(
+    {"waveform": "sine", "frequency": FREQUENCY, "displacement_amplitude": AMPLITUDE}
 )
 """Vibration where none is given, assumed: 20 kHz, 20 um."""
 
@@ -133,9 +133,8 @@ def _solved(
     from asperity.slider import Model, Slider, Solve
     from asperity.slider.periodic import solve_periodic
 
-    body = Slider(
-        drive_velocity=sliding_velocity, normal_force=normal_force, lateral="guided", units="SI"
-    )
+    pulled = {"drive_velocity": sliding_velocity, "normal_force": normal_force}
+    body = Slider.model_validate(pulled | {"lateral": "guided"})
     turned = vibration.model_copy(update={"direction": direction}, units="SI")
     how = Solve(method="periodic")
     still = solve_periodic(Model(body, friction, solve=how), history=False)

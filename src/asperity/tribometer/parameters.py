@@ -91,6 +91,8 @@ class Disc(Table):
         Pa.
     poisson_ratio : float
         Of the material.
+    density : float or str, optional
+        kg/m³.
     roughness : float or str, optional
         Ra along the circumference, m.
     hardness : float or str, optional
