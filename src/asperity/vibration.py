@@ -39,8 +39,8 @@ class Vibration(Table):
     waveform : {'sine', 'triangle', 'square', 'sampled'}
         Shape of the displacement.
     frequency : float or str, optional
-        Hz. Left out, a sampled waveform takes the period of its samples; given, it must agree with
-        them to 1e-6. At a gearset also "12 per turn", as of a cam on the worm.
+        Cycles per second, Hz. Left out, a sampled waveform takes the period of its samples; given,
+        it must agree with them to 1e-6. At a gearset also "12 per turn", as of a cam on the worm.
     per_turn : float, optional
         The same as a number: cycles in a turn of the worm.
     velocity_ratio : float, optional

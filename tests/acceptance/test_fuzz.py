@@ -41,7 +41,10 @@ BLOCK = [
 ]  # fmt: skip
 # Command, cases, settings that make them small, how many inputs of a hundred.
 COMMANDS = {
-    "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 34),
+    "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 30),
+    "check": (["table-4.3", "gearset-3", "normal-pin", "block-longitudinal"], [], 10),
+    "new": (["gear", "slide", "block"], [], 2),
+    "size": (["gearset-3"], [], 2),
     "static": (["normal-pin", "table-4.4"], [], 2),
     "branches": (["normal-pin", "table-4.3"], [], 4),
     "rate": (["gearset-2", "gearset-3"], [], 24),
@@ -53,6 +56,9 @@ COMMANDS = {
     "flank": (["gearset-3", "gearset-3b"], [], 1),
 }
 ROOMS = {
+    "check": ["slider", "friction", "vibration", "solve", "gearset", "operation", "rating"],
+    "new": ["gearset", "operation", "rating", "slider", "friction", "vibration"],
+    "size": ["gearset", "operation", "rating"],
     "slide": ["slider", "friction", "vibration", "solve"],
     "static": ["slider", "friction", "vibration", "solve", "normal"],
     "branches": ["slider", "friction", "vibration", "solve", "normal"],
@@ -162,10 +168,18 @@ def arguments(rng, folder):
     command = rng.choices(list(COMMANDS), [weight for *_, weight in COMMANDS.values()])[0]
     cases, small, _ = COMMANDS[command]
     case = rng.choice(cases)
-    text = shipped_cases()[case].read_bytes()
+    text = shipped_cases().get(case, shipped_cases()["gearset-3"]).read_bytes()
     raw = tomllib.loads(text.decode())
     given = [case]
-    if rng.random() < 0.35:
+    if command == "size":
+        asked = {"ratio": "40", "output-torque": "300 N m", "worm-speed": "1500 rpm"}
+        asked[rng.choice(list(asked))] = changed_number(rng, rng.choice(list(asked.values())))
+        given = [part for name, value in asked.items() for part in (f"--{name}", value)]
+        given += rng.choice([[], ["--rank", rng.choice(["margin", "x"])]])
+    elif command == "new":
+        given += [f"new-{rng.randrange(10**9)}.toml", "--defaults"]
+        given += rng.choice([[], ["--ratio", changed_number(rng, "40")]])
+    elif rng.random() < 0.35:
         Path(folder / "broken.toml").write_bytes(broken(rng, text))
         given = ["broken.toml"]
     given += [part for one in small for part in ("--set", one)]

@@ -11,6 +11,7 @@ from apparatus.formulas import formulas_of
 from asperity.errors import InputError
 from asperity.formulas import Masked
 from asperity.rating import iso14521 as iso
+from asperity.rating.demands import DEMANDS
 
 ALPHA = math.radians(20.0)
 # Every formula with numbers it takes.
@@ -300,8 +301,9 @@ def test_violations_are_sentences_about_what_is_used():
 
 
 def test_every_least_safety_has_a_source():
-    assert all(least >= 1.0 for least, _ in iso.limits.MINIMUM_SAFETIES.values())
-    assert iso.limits.MINIMUM_SAFETIES["safety_temperature"][1].confidence == "from memory"
+    asked = {demand.path: demand for demand in DEMANDS}
+    assert all(demand.asked >= 1.0 for demand in asked.values())
+    assert asked["iso14521.safety_temperature"].source.confidence == "from memory"
 
 
 def test_examples_in_the_docstrings_hold():

@@ -249,8 +249,15 @@ def _dedented(text: str) -> list[str]:
 
 def _one_line(lines: Iterable[str]) -> str:
     text = " ".join(filter(None, lines))
-    text = _MATHS.sub(lambda found: re.sub(r"[\\{}]", "", found[1]), text)
+    text = _MATHS.sub(lambda found: _plain_maths(found[1]), text)
     return _ROLE.sub(r"\1", text).replace("``", "").replace("`", "").strip()
+
+
+def _plain_maths(text: str) -> str:
+    text = re.sub(r"\\sqrt\{([^{}]*)\}", r"sqrt(\1)", text)
+    for command, sign in (("ge", ">="), ("le", "<="), ("sim", "~"), (",", " ")):
+        text = re.sub(rf"\\{command}(?![A-Za-z])", sign, text)
+    return re.sub(r"[\\{}]", "", text)
 
 
 def _first_line(text: str) -> str:

@@ -7,7 +7,9 @@ from asperity.casefile.schema import in_unit
 from asperity.cli import show
 from asperity.gearset.library import Sourced, every
 from asperity.results.table import Column, Table
-from asperity.units import quantity_of
+from asperity.units import quantity_of, split_unit
+
+_SHORT = {"polyalphaolefin": "PAO", "polyglycol": "PG"}
 
 
 def print_library(models: Sequence[type[Sourced]], *, as_json: bool) -> None:
@@ -16,19 +18,43 @@ def print_library(models: Sequence[type[Sourced]], *, as_json: bool) -> None:
     if as_json:
         show.print_json({"listed": [_json(model, thing) for model, thing in things]})
         return
+    sources: dict[str, int] = {}
     tables = []
     for model in models:
         keys = [key for key in model.model_fields if key not in ("name", "sources", "assumption")]
         shown = [thing for of, thing in things if of is model]
-        rows = [(t.name, *(_text(t, key) for key in keys), _trust(t)) for t in shown]
-        headings = ("name", *(key.replace("_", " ") for key in keys), "source and trust")
-        columns = tuple(Column(heading, folds=True) for heading in headings)
+        rows = [(t.name, *(_short(t, key) for key in keys), _numbers(t, sources)) for t in shown]
+        headings = [_heading(model, key) for key in keys]
+        columns = (
+            Column("name"),
+            *(Column(heading, folds=True) for heading in headings),
+            Column("from"),
+        )
         tables.append(Table(columns, tuple(rows), title=(model.__doc__ or "").partition("\n")[0]))
     remarks = (
+        *(f"{number}: {source}" for source, number in sources.items()),
         "the name, in quotes, is what a case file takes; a table with these keys works as well",
         "files of your own are named in ASPERITY_MATERIALS",
     )
     show.print_tables([*tables, Table((), (), remarks=remarks)])
+
+
+def _unit(model: type[Sourced], key: str) -> str:
+    quantity = quantity_of(model, key)
+    return (split_unit(quantity.example) or ("", ""))[1] if quantity and quantity.unit else ""
+
+
+def _heading(model: type[Sourced], key: str) -> str:
+    unit = _unit(model, key)
+    return f"{key.replace('_', ' ')}{f' ({unit})' if unit else ''}"
+
+
+def _short(thing: Sourced, key: str) -> str:
+    """Return a value without its unit, which stands above it."""
+    value = getattr(thing, key)
+    if isinstance(value, dict) and value:
+        return " ".join(f"{_SHORT.get(name, name)} {number:g}" for name, number in value.items())
+    return _text(thing, key).removesuffix(_unit(type(thing), key)).strip()
 
 
 def _text(thing: Sourced, key: str) -> str:
@@ -43,9 +69,10 @@ def _text(thing: Sourced, key: str) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _trust(thing: Sourced) -> str:
+def _numbers(thing: Sourced, known: dict[str, int]) -> str:
+    """Return the numbers of a thing's sources, and number those that are new."""
     found = dict.fromkeys(f"{s.name} ({s.confidence})" for s in thing.sources.values())
-    return "; ".join(found)
+    return ",".join(str(known.setdefault(source, len(known) + 1)) for source in found)
 
 
 def _json(model: type[Sourced], thing: Sourced) -> dict[str, Any]:

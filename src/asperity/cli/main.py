@@ -196,6 +196,57 @@ def cases(as_json: JsonOption = False) -> None:
 
 @app.command()
 @reported
+def new(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide or block.")],
+    file: Annotated[
+        str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")
+    ] = "",
+    ratio: Annotated[
+        str, typer.Option("--ratio", metavar="RATIO", help="Of a gear's speeds; 40 if left out.")
+    ] = "",
+    settings: SetOption = None,
+    defaults: Annotated[bool, typer.Option("--defaults", help="Ask nothing.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Write a commented case file of your own, asking what is to be in it.
+
+    A gearset is sized from ratio, torque and speed.
+    """
+    from asperity.cli.new import new as run
+
+    path = Path(file) if file else None
+    run(kind, path, settings or (), ratio, defaults=defaults, as_json=as_json)
+
+
+@app.command()
+@reported
+def size(
+    ratio: Annotated[str, typer.Option("--ratio", metavar="RATIO", help="Of the speeds.")],
+    output_torque: Annotated[
+        str, typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
+    ],
+    worm_speed: Annotated[
+        str, typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
+    ],
+    rank: Annotated[
+        str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
+    ] = "size",
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+) -> None:
+    """Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.
+
+    With --out also size.json, size.nc and a case file for each proposal.
+    """
+    from asperity.cli.new import size as run
+
+    asked = (f"operation.output_torque={output_torque}", f"operation.worm_speed={worm_speed}")
+    run(ratio, (*asked, *(settings or ())), rank, as_json=as_json, out=out)
+
+
+@app.command()
+@reported
 def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
     """Find all mistakes of a case file, each with its line and what is allowed."""
     from asperity.cli.check import check as run
@@ -205,8 +256,11 @@ def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = 
 
 @app.command()
 @reported
-def schema() -> None:
-    """Print the JSON Schema of case files, by which editors complete and underline."""
+def schema(as_json: JsonOption = False) -> None:
+    """Print the JSON Schema of case files, by which editors complete and underline.
+
+    It is one JSON object in any case.
+    """
     from asperity.cli.check import print_schema
 
     print_schema()

@@ -107,7 +107,7 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     if step:
         require_cad()
     size = read_density(density) if isinstance(density, str) else density
-    gearset = case.require(Gearset)
+    gearset = case.require(Gearset).require_consistent()
     made = prepare_gearset(
         gearset, table(Hob), table(Mount), table(Modification), table(Disc), size
     )

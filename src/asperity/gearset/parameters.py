@@ -80,32 +80,32 @@ class Gearset(Table):
     wheel_teeth : int
         Number of teeth of the wheel :math:`z_2`.
     centre_distance : float or str, optional
-        :math:`a`, m.
+        Centre distance :math:`a`, m.
     axial_module : float or str, optional
-        :math:`m_{x1}`, m.
+        Axial module :math:`m_{x1}`, m.
     diameter_factor : float, optional
-        :math:`q_1 = d_{m1}/m_{x1}`. Give this or ``worm_pitch_diameter``.
+        Diameter factor :math:`q_1 = d_{m1}/m_{x1}`. Give this or ``worm_pitch_diameter``.
     worm_pitch_diameter : float or str, optional
-        :math:`d_{m1}`, m.
+        Reference diameter of the worm :math:`d_{m1}`, m.
     profile_shift : float, optional
-        :math:`x_2`.
+        Profile shift of the wheel :math:`x_2`.
     pressure_angle : float or str
-        :math:`\alpha_n`, normal pressure angle, rad; 20 deg if left out.
+        Normal pressure angle :math:`\alpha_n`, rad; 20 deg if left out.
     flank : {'ZI', 'ZA', 'ZN', 'ZK', 'ZC'}
         Type of the worm's flank: involute, straight in the axial section, straight in the normal
         section, cone or torus ground; ISO's A, I, N, K and C.
     hand : {'right', 'left'}
         Hand of the worm's thread.
     worm_roughness : float or str
-        :math:`Ra_1`, mean roughness of the worm's flanks, m; 0.5 um if left out.
+        Mean roughness of the worm's flanks :math:`Ra_1`, m; 0.5 um if left out.
     worm_material, wheel_material : str or table
-        A name of `asperity.gearset.materials`, or a table with its keys.
+        A name that ``asperity materials`` lists, or a table with its keys.
     worm_face_width : float or str, optional
         Length of the threaded worm :math:`b_1`, m. Left out: all that the wheel can touch.
     wheel_face_width : float or str, optional
-        :math:`b_2`, m. Left out: :math:`2 m_{x1} \sqrt{q_1 + 1}`.
+        Face width of the wheel :math:`b_2`, m. Left out: :math:`2 m_{x1} \sqrt{q_1 + 1}`.
     rim_thickness : float or str, optional
-        :math:`s_K`, m. Left out: :math:`2 m_{x1}`.
+        Thickness of the wheel's rim :math:`s_K`, m. Left out: :math:`2 m_{x1}`.
     tooth_proportions : {'bs721', 'iso'}
         Rule of the tooth heights.
     """

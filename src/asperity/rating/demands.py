@@ -1,11 +1,14 @@
 """What the standards ask for: each safety with its least value, said in the same words by all."""
 
-import functools
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from asperity.rating.entries import facts
-from asperity.rating.iso14521.limits import MINIMUM_SAFETIES
+from asperity.sources import Source
+
+_ISO = Source("ISO/TR 14521:2010", "one source")
+_ISO_FROM_MEMORY = Source("ISO/TR 14521:2010", "from memory")
+_RATIO = Source("definition", "verified", "what is permitted over what is required")
 
 
 class Demand(NamedTuple):
@@ -21,12 +24,15 @@ class Demand(NamedTuple):
         What it is a safety against, in a word or two.
     asked : float
         Its least value.
+    source : Source
+        Where that comes from.
     """
 
     standard: str
     key: str
     name: str
     asked: float
+    source: Source
 
     @property
     def path(self) -> str:
@@ -47,25 +53,23 @@ class Demand(NamedTuple):
         return f"{self.name} fails: {self.symbol} is {value:.3g}; at least {self.asked:g} is asked"
 
 
-@functools.cache
-def demands() -> tuple[Demand, ...]:
-    """Return every safety of every standard, in the order of the standards."""
-    iso = [
-        Demand("iso14521", key, key.removeprefix("safety_"), least)
-        for key, (least, _) in MINIMUM_SAFETIES.items()
-    ]
-    return (
-        *iso,
-        Demand("bs721", "safety_wear", "wear", 1.0),
-        Demand("bs721", "safety_strength", "strength", 1.0),
-        Demand("agma6034", "safety_torque", "torque", 1.0),
-    )
+DEMANDS = (
+    Demand("iso14521", "safety_wear", "wear", 1.1, _ISO),
+    Demand("iso14521", "safety_pitting", "pitting", 1.0, _ISO),
+    Demand("iso14521", "safety_deflection", "deflection", 1.0, _ISO),
+    Demand("iso14521", "safety_root", "root", 1.1, _ISO),
+    Demand("iso14521", "safety_temperature", "temperature", 1.1, _ISO_FROM_MEMORY),
+    Demand("bs721", "safety_wear", "wear", 1.0, _RATIO),
+    Demand("bs721", "safety_strength", "strength", 1.0, _RATIO),
+    Demand("agma6034", "safety_torque", "torque", 1.0, _RATIO),
+)
+"""Every safety of every standard, in the order of the standards."""
 
 
 def failures(standard: str, values: Mapping[str, Any]) -> tuple[str, ...]:
     """Return a sentence for each safety of a standard that is not enough."""
     return tuple(
         demand.sentence(values[demand.key])
-        for demand in demands()
+        for demand in DEMANDS
         if demand.standard == standard and values[demand.key] < demand.asked
     )

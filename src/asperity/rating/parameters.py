@@ -80,7 +80,7 @@ class Operation(Table):
     Parameters
     ----------
     worm_speed : float or str
-        :math:`n_1`, rad/s ("1440 rpm" in a file).
+        Speed of the worm :math:`n_1`, rad/s.
     output_torque : float or str
         Rated wheel torque :math:`T_R`, N m: strength is judged by it.
     through_travel_torque : float or str, optional
@@ -89,17 +89,17 @@ class Operation(Table):
     wheel_revolutions : float, optional
         Required life in turns of the wheel. Give this or ``life``; left out: ``life``.
     life : float or str, optional
-        Required life, s ("25000 h" in a file). Left out: 25000 h.
+        Required life, s. Left out: 25000 h.
     duty_cycle : list of table, optional
         Parts of the required life, each a `LoadStep`, in place of ``life``.
     lubricant : str or table
-        A name, or a table with the keys of `asperity.gearset.lubricants.Lubricant`.
+        A name that ``asperity lubricants`` lists, or a table with its keys.
     lubrication : {'bath', 'spray'}
-        How it gets there.
+        How the lubricant gets to the teeth.
     oil_temperature : float or str, optional
         Sump temperature, K. Left out: from the heat balance of the standard.
     ambient_temperature : float or str
-        K; 20 degC if left out.
+        Temperature of the air around, K; 20 degC if left out.
     bearings : str or table
         Arrangement of the worm's bearings: 'fixed-floating', 'preloaded', a name of your own or a
         table with the keys of `asperity.gearset.bearings.Bearings`.
@@ -112,9 +112,9 @@ class Operation(Table):
     immersed : {'worm', 'wheel'}
         What dips into the oil.
     application_factor : float
-        :math:`K_A`, multiplies the torque.
+        Application factor :math:`K_A`, which multiplies the torque.
     starts_per_hour : float
-        :math:`N_S`.
+        Starts per hour :math:`N_S`.
     """
 
     table: ClassVar[str] = "operation"
@@ -192,7 +192,7 @@ class RatingOptions(Table):
     Parameters
     ----------
     iso14521_edition : {'1998', '2010'}
-        Family of formulas.
+        Edition whose formulas are taken.
     iso14521_face_width : {'tip_chord', 'reference_chord'}
         Face width :math:`b_{2H}` that carries by ISO/TR 14521, at most the wheel's own where that
         is given: :math:`2 m_{x1} \sqrt{q_1 + 1}`, which is assumed because BS 721 takes it, or
@@ -201,9 +201,10 @@ class RatingOptions(Table):
     bs721_tables : path, optional
         A TOML file of your own tables of BS 721, in place of those that ship from memory.
     base_friction : float, optional
-        In place of :math:`\mu_{0T}`: the methods of the thesis's Table 3.3 act here.
+        Coefficient of friction in place of :math:`\mu_{0T}`: the methods of the thesis's Table 3.3
+        act here.
     friction : float, optional
-        In place of the mean tooth friction of every standard.
+        Coefficient of friction in place of the mean tooth friction of every standard.
     friction_factor : float
         Multiplies the tooth friction of every standard: the way in for vibration.
     """

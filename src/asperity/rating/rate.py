@@ -238,9 +238,11 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
             f"--standard {standard}: it must be one of {choices(allowed)}"
             f"{suggestion(standard, allowed)}"
         )
-    for table in (Gearset, Operation):
-        case.require(table)
-    return case, STANDARDS if standard == ALL else (standard,)
+    gearset, operation = case.require(Gearset), case.require(Operation)
+    options = case.require(RatingOptions) if RatingOptions.table in case else RatingOptions()
+    wanted = STANDARDS if standard == ALL else (standard,)
+    _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
+    return case, wanted
 
 
 def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:

@@ -26,15 +26,15 @@ class Slider(Table):
     Parameters
     ----------
     drive_velocity : float or str
-        v_d > 0, m/s.
+        Velocity at which the drive is pulled v_d > 0, m/s.
     normal_force : float or str
-        F_N, N.
+        Force between body and base F_N, N.
     drive_stiffness : float or str, optional
-        k_d, N/m; left out: a rigid drive, the body moves at v_d.
+        Stiffness between drive and body k_d, N/m; left out: a rigid drive, the body moves at v_d.
     drive_damping : float or str
-        h_d, N s/m, parallel to the stiffness.
+        Damping beside the stiffness h_d, N s/m.
     mass : float or str, optional
-        m, kg; needed with a drive stiffness, or for a body that moves sideways.
+        Mass of the body m, kg; needed with a drive stiffness, or for a body that moves sideways.
     lateral : {'free', 'guided'}, optional
         Whether the body can move sideways. Left out: free if it has a mass.
     """

@@ -29,6 +29,7 @@ class Gears:
 
     @classmethod
     def of(cls, case: Case) -> Self:
-        """Return the tables of a case; raises InputError where one is missing."""
+        """Return the tables of a case; raises InputError where one is missing or cannot be."""
         options = case.require(RatingOptions) if RatingOptions.table in case else None
-        return cls(case.require(Gearset), case.require(Operation), options, case.folder)
+        gearset = case.require(Gearset).require_consistent()
+        return cls(gearset, case.require(Operation), options, case.folder)

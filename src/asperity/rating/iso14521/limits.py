@@ -1,4 +1,4 @@
-"""Where ISO/TR 14521 is valid, and what safety it asks for."""
+"""Where ISO/TR 14521 is valid; the safety it asks for stands in `asperity.rating.demands`."""
 
 import math
 from collections.abc import Mapping
@@ -9,15 +9,6 @@ from asperity.sources import Range, Source
 _STANDARD = "ISO/TR 14521:2010"
 _ONE_SOURCE = Source(_STANDARD, "one source")
 _FROM_MEMORY = Source(_STANDARD, "from memory")
-
-MINIMUM_SAFETIES: Mapping[str, tuple[float, Source]] = {
-    "safety_wear": (1.1, _ONE_SOURCE),
-    "safety_pitting": (1.0, _ONE_SOURCE),
-    "safety_deflection": (1.0, _ONE_SOURCE),
-    "safety_root": (1.1, _ONE_SOURCE),
-    "safety_temperature": (1.1, _FROM_MEMORY),
-}
-"""The least of each safety, by its key in a rating."""
 
 VALIDITY: Mapping[str, Range] = {
     "centre_distance": Range("centre distance a (Y_S)", 65.0, 250.0, "mm", _ONE_SOURCE),

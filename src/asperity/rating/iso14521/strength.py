@@ -19,7 +19,7 @@ _Actual = Annotated[Real, Symbol("actual", "", positive)]
 def safety(allowable: _Allowable, actual: _Actual) -> Real:
     """Safety, what is allowable over what is there; temperatures in degC (from memory).
 
-    The least the standard asks for stands in `MINIMUM_SAFETIES`.
+    The least the standard asks for stands in `asperity.rating.demands`.
 
     Examples
     --------

@@ -1,0 +1,145 @@
+"""What ``asperity new`` and ``asperity size`` do."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from asperity.casefile.case import Case, apply
+from asperity.cli import show
+from asperity.commands import case_tables
+from asperity.errors import InputError, plain
+from asperity.start.gear import MACRO, begun, proposals, ratio_of
+from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
+from asperity.start.write import case_text
+from asperity.store import output_folder, write_text
+
+
+def new(
+    name: str,
+    file: Path | None,
+    settings: Sequence[str],
+    ratio: str,
+    *,
+    defaults: bool,
+    as_json: bool,
+) -> None:
+    """Write a case file of a kind, asking what is not given where there is somebody to ask."""
+    kind, path = kind_of(name), file or Path(f"{name}.toml")
+    if path.exists():
+        raise InputError(f"{plain(str(path))} is there already; name another file")
+    values = kind.begun()
+    given = {apply(values, setting, case_tables()) for setting in settings}
+    wanted = ratio or RATIO
+    if not defaults and sys.stdin is not None and sys.stdin.isatty() and not as_json:
+        for question in kind.questions:
+            if question.path == "ratio":
+                wanted = ratio or _asked_ratio(question)
+            elif question.path not in given:
+                _ask(question, values)
+    remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
+    if name == "gear":
+        remarks += _sized(values, given, ratio_of(wanted))
+    case = Case(path.name, path.parent.absolute(), {}, values, case_tables()).replace(())
+    title = f"{kind.title}, begun by asperity new"
+    text = case_text(title, values, case_tables(), kind.tables, remarks)
+    write_text(path, text)
+    if as_json:
+        show.print_json({"file": str(path), "tables": list(case.tables)})
+    else:
+        show.print_text(_told(path, kind))
+
+
+def size(
+    ratio: str, settings: Sequence[str], rank: str, *, as_json: bool, out: Path | None
+) -> None:
+    """Print gearsets for a ratio, a torque and a speed, and write the first one as a case."""
+    values = begun()
+    for setting in settings:
+        apply(values, setting, case_tables())
+    found = proposals(values, ratio_of(ratio), rank)
+    if as_json:
+        show.print_json(found.to_json())
+    else:
+        show.print_tables(found.tables())
+    if out is None:
+        return
+    folder = output_folder(out)
+    kind, names = kind_of("gear"), found.write(folder, pictures=False)
+    for place, proposal in enumerate(found.found, 1):
+        mine = {**values, "gearset": {**values["gearset"], **proposal.keys}}
+        text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)
+        names.append(write_text(folder / f"proposal-{place}.toml", text).name)
+    show.note(f"written to {folder}: {', '.join(names)}")
+
+
+def _sized(values: Values, given: set[str], ratio: float) -> list[str]:
+    """Fill in the macro-geometry that is not given; returns what is to be said of it."""
+    if any(f"gearset.{key}" in given for key in MACRO):
+        return []
+    found = proposals(values, ratio, exact=True)
+    best = found.found[0]
+    # Behind the name, before the materials.
+    gearset = values["gearset"]
+    values["gearset"] = {"name": gearset.pop("name", ""), **best.keys, **gearset}
+    judged = (
+        "the smallest that holds by every standard"
+        if best.holds
+        else "which does not hold by every standard, but comes nearest"
+    )
+    return [
+        f"Starts, teeth, centre distance, module and diameter factor are proposed for a ratio of "
+        f"{ratio:g}: of {found.rated} gearsets {judged}. See asperity size for others."
+    ]
+
+
+def _told(path: Path, kind: Kind) -> str:
+    first, *others = kind.then
+    name = plain(str(path))
+    more = f" (or {', '.join(others)})" if others else ""
+    return f"{name} is written; go on with\n\n  asperity {first} {name}{more}"
+
+
+def _ask(question: Question, values: Values) -> None:
+    table, _, key = question.path.partition(".")
+    while True:
+        now = values[table].get(key)
+        answer = _answer(f"{question.words} [{now}]: ")
+        if not answer:
+            return
+        before = dict(values[table])
+        try:
+            apply(values, f"{question.path}={answer}", case_tables())
+            _try(question.path, values)
+        except InputError as error:
+            values[table] = before
+            show.note(str(error).removeprefix(f"--set {question.path}={answer}: "))
+        else:
+            return
+
+
+def _try(path: str, values: Values) -> None:
+    from asperity.casefile.check import mistakes_of
+
+    table = path.partition(".")[0]
+    for key, sentence in mistakes_of(case_tables()[table], values[table]):
+        if key == path:
+            raise InputError(sentence)
+
+
+def _asked_ratio(question: Question) -> str:
+    while True:
+        answer = _answer(f"{question.words} [{RATIO}]: ") or RATIO
+        try:
+            ratio_of(answer)
+        except InputError as error:
+            show.note(str(error))
+        else:
+            return answer
+
+
+def _answer(prompt: str) -> str:
+    print(prompt, end="", file=sys.stderr, flush=True)
+    line = sys.stdin.readline()
+    if not line:
+        raise KeyboardInterrupt("interrupted; nothing is written")
+    return line.strip()

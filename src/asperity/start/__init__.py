@@ -1,0 +1,1 @@
+"""The way in: a case file of one's own, begun from what is known."""

@@ -1,0 +1,152 @@
+"""What a case file of each kind begins with, and what is asked about it."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from asperity.errors import InputError, nearest
+
+Values = dict[str, dict[str, Any]]
+
+
+class Question(NamedTuple):
+    """Something that is asked before a file is written.
+
+    Attributes
+    ----------
+    path : str
+        The ``table.key`` it fills, or ``ratio``.
+    words : str
+        What is asked.
+    optional : bool
+        Whether "none" is an answer.
+    """
+
+    path: str
+    words: str
+    optional: bool = False
+
+
+class Kind(NamedTuple):
+    """A kind of case file.
+
+    Attributes
+    ----------
+    title : str
+        First line of the file; ``{name}`` is the file's.
+    values : mapping
+        What it begins with, by table and key, as a file has it.
+    questions : tuple of Question
+        What is asked.
+    tables : tuple of str
+        Whose other keys stand in the file as comments.
+    then : tuple of str
+        Commands to go on with.
+    """
+
+    title: str
+    values: Mapping[str, Mapping[str, Any]]
+    questions: tuple[Question, ...]
+    tables: tuple[str, ...]
+    then: tuple[str, ...]
+
+    def begun(self) -> Values:
+        """Return a copy of what it begins with."""
+        return {table: dict(keys) for table, keys in self.values.items()}
+
+
+_BODY: Values = {
+    "slider": {
+        "drive_velocity": "0.5 mm/s",
+        "normal_force": "55 N",
+        "drive_stiffness": "96068 N/m",
+        "mass": "0.5 kg",
+    },
+    "friction": {"model": "dahl", "mu": 0.1, "max_deflection": "68.75 nm", "law": "vector"},
+    "vibration": {
+        "frequency": "4 kHz",
+        "velocity_ratio": 6.0,
+        "direction": "0 deg",
+        "start": "10 ms",
+    },
+}
+_ASKED_OF_A_BODY = (
+    Question("slider.drive_velocity", "velocity at which it is pulled"),
+    Question("slider.normal_force", "force that presses it on its base"),
+    Question("slider.mass", "its mass"),
+    Question("slider.drive_stiffness", "stiffness of what pulls it"),
+    Question("friction.mu", "coefficient of friction"),
+    Question("friction.max_deflection", "deflection of the asperities at which it slides"),
+    Question("vibration.frequency", "frequency of the vibration"),
+    Question("vibration.velocity_ratio", "peak velocity of the vibration over that of the drive"),
+    Question("vibration.direction", "its direction; 0 deg along the drive, 90 deg across"),
+)
+
+KINDS: Mapping[str, Kind] = MappingProxyType(
+    {
+        "gear": Kind(
+            "A worm gearset",
+            {
+                "gearset": {
+                    "name": "my worm gear",
+                    "worm_material": "case-hardened steel",
+                    "wheel_material": "CuSn12Ni2-C-GZ",
+                },
+                "operation": {
+                    "worm_speed": "1500 rpm",
+                    "output_torque": "300 N m",
+                    "life": "25000 h",
+                    "lubricant": "ISO VG 220 polyglycol",
+                },
+                "rating": {},
+            },
+            (
+                Question("ratio", "ratio of the speeds"),
+                Question("operation.output_torque", "rated torque of the wheel"),
+                Question("operation.worm_speed", "speed of the worm"),
+                Question("operation.life", "life that is required"),
+                Question(
+                    "gearset.wheel_material", "material of the wheel (asperity materials lists)"
+                ),
+                Question("operation.lubricant", "lubricant (asperity lubricants lists)"),
+            ),
+            ("gearset", "operation", "rating"),
+            ("rate", "sensitivity", "optimise", "flank"),
+        ),
+        "slide": Kind(
+            "A body pulled over a vibrating base",
+            {**_BODY, "solve": {"method": "periodic"}},
+            _ASKED_OF_A_BODY,
+            ("slider", "friction", "vibration", "solve"),
+            ("slide", "sweep"),
+        ),
+        "block": Kind(
+            "An elastic block pulled over a vibrating base",
+            {
+                **_BODY,
+                "block": {
+                    "size": ["30 mm", "20 mm", "10 mm"],
+                    "youngs_modulus": "209 GPa",
+                    "poissons_ratio": 0.3,
+                    "elements": [4, 3, 2],
+                    "element": "hex8i",
+                },
+                "solve": {"method": "settled"},
+            },
+            _ASKED_OF_A_BODY,
+            ("slider", "friction", "vibration", "block", "contact", "solve"),
+            ("block", "slide"),
+        ),
+    }
+)
+"""By the name that ``asperity new`` takes."""
+
+RATIO = "40"
+"""Ratio of a gearset that nobody asked otherwise of."""
+
+
+def kind_of(name: str) -> Kind:
+    """Return a kind by its name; raises InputError where there is none."""
+    if name not in KINDS:
+        raise InputError(f"{name} is not a kind of case file{nearest(name, KINDS)}")
+    return KINDS[name]

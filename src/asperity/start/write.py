@@ -1,0 +1,94 @@
+"""A commented case file: what is given as keys, and all that could be as comments."""
+
+import json
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from asperity.casefile.schema import Key, keys_of, table_schema
+from asperity.casefile.table import Table, same_thing
+from asperity.start.kinds import Values
+
+_WIDTH = 98
+
+
+def case_text(
+    title: str,
+    values: Values,
+    tables: Mapping[str, type[Table]],
+    names: Sequence[str],
+    remarks: Sequence[str] = (),
+) -> str:
+    """Return the text of a case file.
+
+    Parameters
+    ----------
+    title : str
+        Its first line, which says what it is.
+    values : dict
+        By table and key, as a file has them.
+    tables : mapping of str to type of Table
+        The tables that there are.
+    names : sequence of str
+        Of the tables in their order.
+    remarks : sequence of str
+        Sentences below the first line.
+    """
+    lines = [f"# {title}", ""]
+    for remark in remarks:
+        lines += [*_comment(remark), ""]
+    for name in names:
+        model, given = tables[name], values.get(name, {})
+        heading = _comment(table_schema(model)["description"])
+        lines += [*heading, f"[{name}]" if given else f"#[{name}]"]
+        keys = {key.name: key for key in keys_of(model)}
+        for own, value in given.items():
+            lines += [*_comment(keys[own].meaning), f"{own} = {toml(value)}", ""]
+        forms = {form for own in given for form in same_thing(model, own)}
+        for key in keys.values():
+            if key.name not in given:
+                other = key.name in forms
+                lines += list(_left_out(key, other=other))
+        lines.append("")
+    text = "\n".join(lines)
+    while "\n\n\n" in text:
+        text = text.replace("\n\n\n", "\n\n")
+    return f"{text.rstrip()}\n"
+
+
+def _left_out(key: Key, *, other: bool) -> Iterator[str]:
+    written = f'"{key.default}"' if key.schema.get("type") == "string" else key.default
+    value = (written if key.default not in ("", "required") else "") or key.example
+    meaning = f"{key.meaning} (another form of what is given)" if other else key.meaning
+    yield from _comment(meaning)
+    if value:
+        yield f"#{key.name} = {_tidy(value)}"
+    else:
+        yield f"#{key.name} ="
+    yield ""
+
+
+def _tidy(value: str) -> str:
+    if value[:1] in '"[{' or value in ("true", "false"):
+        return value
+    if value[:1] == "(":
+        return f"[{value[1:-1]}]"
+    try:
+        float(value)
+    except ValueError:
+        return f'"{value}"'
+    return value
+
+
+def _comment(text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
+
+
+def toml(value: Any) -> str:
+    """Return a value as TOML has it."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {toml(entry)}" for key, entry in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(toml, value))}]"
+    # What JSON writes of a text, a number and a truth is TOML too.
+    return json.dumps(value, ensure_ascii=False)

@@ -1,0 +1,279 @@
+"""Worm gearsets for a ratio, a torque and a speed: proposals over the series that are made.
+
+Every combination of starts, standard centre distance, module and profile shift is rated by all
+three standards at once. Of those that hold, the ones stay that no other beats in size, efficiency
+and margin together; where none holds, the nearest ones are told as such.
+"""
+
+import math
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.errors import InputError, choices, suggestion
+from asperity.gearset.parameters import Gearset
+from asperity.gearset.sizing import possible_starts
+from asperity.rating.demands import DEMANDS
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.rate import STANDARDS
+from asperity.rating.variants import Variants, variants
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+
+DISTANCES = (25, 31.5, 40, 50, 63, 80, 100, 125, 140, 160, 180, 200, 225, 250, 280, 315, 355, 400,
+             450, 500)  # fmt: skip
+"""Centre distances, mm: R10 of ISO 3, and R20 from 125, as catalogues have them."""
+
+MODULES = (1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3, 8, 10, 12.5, 16, 20)
+"""Axial modules, mm: R10 of ISO 3, as DIN 780-2 has them (from memory)."""
+
+MOST_SHIFT = 0.5
+"""Greatest profile shift of the wheel to either side."""
+
+FACTORS = (6.0, 20.0)
+"""Least and greatest diameter factor; between them every half one is tried."""
+
+RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
+MOST = 20
+"""Proposals that are shown."""
+
+_FROM_SI = 1e3
+_RATIO_OFF = 0.03
+
+
+class Proposal(NamedTuple):
+    """A gearset that is proposed.
+
+    Attributes
+    ----------
+    starts, wheel_teeth : int
+        Threads and teeth.
+    centre_distance_mm, axial_module_mm, diameter_factor, profile_shift : float
+        Its macro-geometry.
+    efficiency : float
+        Of the whole gearbox by ISO/TR 14521, worm driving.
+    margin : float
+        The least of all safeties over what is asked; 1 and more holds.
+    limited_by : str
+        The safety that has it, as ``standard.key``.
+    holds : bool
+        Whether every safety is enough.
+    """
+
+    starts: int
+    wheel_teeth: int
+    centre_distance_mm: float
+    axial_module_mm: float
+    diameter_factor: float
+    profile_shift: float
+    efficiency: float
+    margin: float
+    limited_by: str
+    holds: bool
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """What a ``[gearset]`` table has of it."""
+        return {
+            "starts": self.starts,
+            "wheel_teeth": self.wheel_teeth,
+            "centre_distance": f"{self.centre_distance_mm:g} mm",
+            "axial_module": f"{self.axial_module_mm:g} mm",
+            "diameter_factor": self.diameter_factor,
+        }
+
+    @property
+    def settings(self) -> tuple[str, ...]:
+        """What makes a case it, for ``--set``."""
+        return tuple(f"gearset.{key}={value}" for key, value in self.keys.items())
+
+
+class Proposals(Result):
+    """Gearsets that are proposed for a ratio, a torque and a speed."""
+
+    title: ClassVar[str] = "Worm gearsets for what is asked"
+    stem: ClassVar[str] = "size"
+
+    rated: int = quantity("", "", "gearsets rated")
+    holding: int = quantity("", "", "of them hold by every standard")
+    ranked_by: str = quantity("", "", "ranked by")
+    found: tuple[Proposal, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the proposals, each with the settings that make it."""
+        found = [p._asdict() | {"settings": list(p.settings)} for p in self.found]
+        return super().to_json() | {"proposals": found}
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return a row for each proposal."""
+        headings = ("", "a (mm)", "z_1", "z_2", "u", "m_x1 (mm)", "q_1", "x_2", "eta (%)", "margin",
+                    "least safety")  # fmt: skip
+        rows = [
+            (str(place), f"{p.centre_distance_mm:g}", str(p.starts), str(p.wheel_teeth),
+             f"{p.wheel_teeth / p.starts:.4g}",
+             f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{p.profile_shift:.3g}",
+             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", p.limited_by)
+            for place, p in enumerate(self.found[:MOST], 1)
+        ]  # fmt: skip
+        first = " ".join(f'--set "{setting}"' for setting in self.found[0].settings)
+        remarks = [
+            f"{self.rated} gearsets rated, {self.holding} hold by every standard; shown are those "
+            f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
+            f"the first one: {first}",
+            *self.notes,
+        ]
+        if len(self.found) > MOST:
+            remarks.insert(1, f"{len(self.found) - MOST} more with --json")
+        return (Table.of(headings, rows, remarks=remarks),)
+
+
+def propose(
+    gear_ratio: float,
+    gearset: Gearset,
+    operation: Operation,
+    options: RatingOptions | None = None,
+    *,
+    rank: str = "size",
+    exact: bool = False,
+) -> Proposals:
+    """Propose gearsets for a ratio, by the torque and the speed of an operation.
+
+    Parameters
+    ----------
+    gear_ratio : float
+        Wanted ratio of the speeds, 3 to 100; teeth are counted, so that it is met within 3 %.
+    gearset : Gearset
+        Materials, roughness, flank and whatever is not proposed.
+    operation : Operation
+        Torque, speed, lubricant, life.
+    options : RatingOptions, optional
+        How they are rated.
+    rank : {'size', 'efficiency', 'margin'}
+        What the first one is best in.
+    exact : bool
+        Whether the teeth must give the ratio as nearly as they can; else a tooth more or less is
+        proposed too.
+
+    Raises
+    ------
+    InputError
+        A rank that is not known, a ratio that no gearset has, or a case that no standard rates.
+    """
+    if rank not in RANKS:
+        raise InputError(
+            f"--rank {rank}: it must be one of {choices(RANKS)}{suggestion(rank, RANKS)}"
+        )
+    if not 3.0 <= gear_ratio <= 100.0:
+        raise InputError(f"ratio is {gear_ratio:g}; it must be from 3 to 100")
+    grid = _grid(gear_ratio, exact=exact)
+    if not grid:
+        raise InputError(
+            f"ratio is {gear_ratio:g}, which no whole numbers of starts and teeth give within "
+            f"{100 * _RATIO_OFF:g} %; choose another"
+        )
+    starts, teeth, distance, module, factor, shift = np.array(grid).T
+    rated = variants(
+        gearset,
+        operation,
+        options,
+        STANDARDS,
+        starts=starts,
+        wheel_teeth=teeth,
+        centre_distance=distance / _FROM_SI,
+        axial_module=module / _FROM_SI,
+        diameter_factor=factor,
+    )
+    margins, least, rated_by_all = _margins(rated)
+    efficiency = np.asarray(rated["iso14521.eta_ges"])
+    known = np.isfinite(margins) & np.isfinite(efficiency) & (efficiency > 0.0)
+    holding = known & (margins >= 1.0) & rated_by_all
+    if not holding.any():
+        holding = known & (margins >= 1.0)
+    kept = np.flatnonzero(holding if holding.any() else known)
+    if not len(kept):
+        raise InputError(
+            "no gearset of the series can be rated for this; look for a value with a wrong unit"
+        )
+    worth = np.stack([-distance, efficiency, margins], axis=-1)
+    notes = list(rated.notes)
+    if holding.any():
+        kept = kept[_undominated(worth[kept])]
+        if not rated_by_all[kept].all():
+            notes.append("not all of these are rated by every standard; rate them to see why")
+    else:
+        kept = kept[np.argsort(-margins[kept], kind="stable")[:MOST]]
+        notes.append("none holds by every standard; these come nearest")
+    order = {"size": (-efficiency, distance), "efficiency": (distance, -efficiency),
+             "margin": (distance, -margins)}[rank]  # fmt: skip
+    if holding.any():
+        kept = kept[np.lexsort(tuple(keys[kept] for keys in order))]
+    paths = [demand.path for demand in DEMANDS]
+    found = tuple(
+        Proposal(
+            int(starts[n]),
+            int(teeth[n]),
+            float(distance[n]),
+            float(module[n]),
+            float(f"{factor[n]:.12g}"),
+            float(f"{shift[n]:.12g}"),
+            float(efficiency[n]),
+            float(margins[n]),
+            paths[least[n]],
+            bool(holding[n]),
+        )
+        for n in kept
+    )
+    return Proposals(
+        rated=len(grid),
+        holding=int(holding.sum()),
+        ranked_by=rank,
+        found=found,
+        notes=tuple(notes),
+    )
+
+
+def _grid(gear_ratio: float, *, exact: bool) -> list[tuple[float, ...]]:
+    """Return starts, teeth, centre distance, module, diameter factor and shift of all designs."""
+    found: list[tuple[float, ...]] = []
+    factors = np.arange(FACTORS[0], FACTORS[1] + 0.25, 0.5).tolist()
+    for distance in DISTANCES:
+        for starts in possible_starts(distance, gear_ratio):
+            near = round(starts * gear_ratio)
+            for teeth in (near,) if exact else (near - 1, near, near + 1):
+                if abs(teeth / starts / gear_ratio - 1.0) > _RATIO_OFF:
+                    continue
+                for module in MODULES:
+                    for factor in factors:
+                        shift = distance / module - 0.5 * (factor + teeth)
+                        if abs(shift) <= MOST_SHIFT:
+                            found.append((starts, teeth, distance, module, factor, shift))
+    return found
+
+
+def _margins(rated: Variants) -> tuple[FloatArray, Any, Any]:
+    """Return of each design the least safety over what is asked, and which demand has it.
+
+    And whether every standard has an answer: the tables of BS 721 do not reach everywhere.
+    """
+    rows = [
+        np.broadcast_to(np.asarray(rated[demand.path]) / demand.asked, rated.shape)
+        if demand.path in rated
+        else np.full(rated.shape, math.nan)
+        for demand in DEMANDS
+    ]
+    stacked = np.stack(rows)
+    asked = np.array([demand.path in rated for demand in DEMANDS])
+    least = np.argmin(np.where(np.isnan(stacked), math.inf, stacked), axis=0)
+    margins = np.take_along_axis(stacked, least[None], axis=0)[0]
+    # What ISO/TR 14521 cannot rate has no efficiency either.
+    return margins, least, ~np.any(np.isnan(stacked[asked]), axis=0)
+
+
+def _undominated(worth: FloatArray) -> npt.NDArray[np.bool_]:
+    """Return whether no other row is at least as high in everything and higher in something."""
+    above = np.all(worth[:, None] >= worth[None], axis=-1)
+    higher = np.any(worth[:, None] > worth[None], axis=-1)
+    beaten: npt.NDArray[np.bool_] = np.any(above & higher, axis=0)
+    return ~beaten

@@ -1,0 +1,217 @@
+"""The way in: ``new``, ``check``, ``schema``, ``size`` and the lists, as a user runs them."""
+
+import json
+import math
+import os
+import pty
+import tomllib
+
+import pytest
+
+from asperity.commands import COMMANDS
+from asperity.start.kinds import KINDS
+
+EIGHT = """\
+[gearset]
+starts = 0
+wheel_teeth = 40
+centre_distance = "100 kg"
+axial_module = 4
+worm_material = "case-hardend steel"
+wheel_material = "CuSn12-C-GX"
+
+[operation]
+worm_sped = "1500 rpm"
+output_torque = "-300 N m"
+lubricant = "ISO VG 220 mineral"
+
+[ratin]
+friction = 0.05
+"""
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_from_nothing_to_a_verdict_are_two_commands(asperity, here):
+    code, output, errors = asperity("new", "gear", "--defaults")
+    assert (code, errors) == (0, "")
+    assert "asperity rate gear.toml" in output
+    code, output, errors = asperity("rate", "gear.toml")
+    assert (code, errors) == (0, "")
+    assert output.startswith("gear.toml: my worm gear")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_new_file_is_commented_and_has_no_mistake(asperity, here, kind):
+    assert asperity("new", kind, "mine.toml", "--defaults")[0] == 0
+    text = (here / "mine.toml").read_text("utf-8")
+    assert text.count("#") > 40
+    code, output, _ = asperity("check", "mine.toml", "--json")
+    answer = json.loads(output)
+    assert (code, answer["mistakes"]) == (0, [])
+    assert KINDS[kind].then[0] in answer["commands"]
+    assert {command.name for command in COMMANDS} >= set(KINDS[kind].then)
+
+
+def test_what_is_commented_out_can_be_given(asperity, here):
+    asperity("new", "slide", "mine.toml", "--defaults")
+    lines = (here / "mine.toml").read_text("utf-8").splitlines()
+    keys = [line[1:] for line in lines if line[:1] == "#" and line[1:2].isalpha()]
+    assert len(keys) > 10
+    for line in keys:
+        if not line.startswith("[") and not line.endswith("="):
+            tomllib.loads(line)
+
+
+def test_a_gear_is_begun_from_ratio_torque_and_speed_alone(asperity, here):
+    asked = ("--set", "operation.output_torque=100 N m", "--set", "operation.worm_speed=3000 rpm")
+    assert asperity("new", "gear", "--defaults", "--ratio", "20", *asked)[0] == 0
+    made = tomllib.loads((here / "gear.toml").read_text("utf-8"))
+    gearset = made["gearset"]
+    assert gearset["wheel_teeth"] / gearset["starts"] == 20
+    assert made["operation"]["output_torque"] == "100 N m"
+    rated = json.loads(asperity("rate", "gear.toml", "--json")[1])
+    assert rated["iso14521"]["safety_wear"] >= 1.1
+    assert rated["agma6034"]["safety_torque"] >= 1.0
+
+
+def test_a_file_that_is_there_is_kept(asperity, here):
+    (here / "gear.toml").write_text("mine")
+    code, output, errors = asperity("new", "gear", "--defaults")
+    assert (code, output) == (2, "")
+    assert errors == "gear.toml is there already; name another file\n"
+    assert (here / "gear.toml").read_text() == "mine"
+
+
+def test_an_unknown_kind_is_told_the_near_one(asperity, here):
+    code, _, errors = asperity("new", "gears", "--defaults")
+    assert code == 2
+    assert "did you mean 'gear'?" in errors
+    assert not list(here.iterdir())
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a terminal is stood in for by a pseudo terminal")
+def test_in_a_terminal_it_asks_and_asks_again_what_cannot_be(environment, here):
+    import subprocess
+    import sys
+
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "asperity", "new", "gear"],
+        stdin=theirs,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
+        text=True,
+    )
+    os.close(theirs)
+    os.write(ours, b"20\n200 kg\n200 N m\n\n\n\n\n")
+    output, errors = process.communicate(timeout=60)
+    os.close(ours)
+    assert process.returncode == 0
+    assert "gear.toml is written" in output
+    assert "rated torque of the wheel [300 N m]: " in errors
+    assert "operation.output_torque is '200 kg'; it must be a torque such as '366 N m'" in errors
+    made = tomllib.loads((here / "gear.toml").read_text("utf-8"))
+    assert made["operation"]["output_torque"] == "200 N m"
+    assert made["gearset"]["wheel_teeth"] / made["gearset"]["starts"] == 20
+
+
+def test_check_names_all_mistakes_at_once(asperity, here):
+    (here / "eight.toml").write_text(EIGHT)
+    code, output, errors = asperity("check", "eight.toml")
+    assert (code, errors) == (2, "eight.toml has 8 mistakes\n")
+    lines = output.splitlines()
+    assert [line.split(":")[1] for line in lines] == ["2", "4", "5", "6", "7", "10", "11", "14"]
+    assert lines[0] == "eight.toml:2: gearset.starts is 0; it must be at least 1"
+    answer = json.loads(asperity("check", "eight.toml", "--json")[1])
+    assert [mistake["line"] for mistake in answer["mistakes"]] == [2, 4, 5, 6, 7, 10, 11, 14]
+
+
+def test_check_tells_which_tables_are_missing(asperity, here):
+    (here / "half.toml").write_text(
+        '[operation]\nworm_speed = "1500 rpm"\n'
+        'output_torque = "3 N m"\nlubricant = "ISO VG 68 mineral"\n'
+    )
+    code, output, _ = asperity("check", "half.toml")
+    assert code == 2
+    assert "the table [gearset] is missing; asperity rate needs it" in output
+
+
+def test_check_finds_what_only_a_command_would_refuse(asperity):
+    code, output, _ = asperity("check", "gearset-3", "--set", "gearset.centre_distance=80 mm")
+    assert code == 2
+    assert "gearset.centre_distance is 80 mm; with 60 teeth" in output
+
+
+def test_the_schema_is_one_object(asperity):
+    code, output, _ = asperity("schema")
+    assert code == 0
+    made = json.loads(output)
+    assert {"gearset", "operation", "slider", "vibration"} <= made["properties"].keys()
+
+
+@pytest.mark.parametrize("name", ["materials", "lubricants"])
+def test_lists_tell_sources_and_trust(asperity, name):
+    code, output, errors = asperity(name)
+    assert (code, errors) == (0, "")
+    assert "(from memory)" in output
+    listed = json.loads(asperity(name, "--json")[1])["listed"]
+    assert all(entry["sources"] for entry in listed)
+
+
+SIZE = ("--ratio", "40", "--output-torque", "300 N m", "--worm-speed", "1500 rpm")
+
+
+def test_a_proposal_is_rated_as_it_says(asperity, here):
+    answer = json.loads(asperity("size", *SIZE, "--out", here / "out", "--json")[1])
+    assert answer["holding"] > 10
+    best = answer["proposals"][0]
+    rated = json.loads(asperity("rate", here / "out" / "proposal-1.toml", "--json")[1])
+    assert rated["iso14521"]["eta_ges"] == pytest.approx(best["efficiency"], rel=1e-9)
+    standard, _, key = best["limited_by"].partition(".")
+    assert rated[standard][key] >= best["margin"] * (1 - 1e-9)
+    assert rated["geometry"]["profile_shift"] == pytest.approx(best["profile_shift"], abs=1e-9)
+
+
+def test_proposals_stand_in_the_order_that_is_asked_and_none_beats_another(asperity):
+    for rank, sign in (("size", 1), ("efficiency", -1), ("margin", -1)):
+        found = json.loads(asperity("size", *SIZE, "--rank", rank, "--json")[1])["proposals"]
+        key = {"size": "centre_distance_mm"}.get(rank, rank)
+        values = [sign * proposal[key] for proposal in found]
+        assert values == sorted(values)
+        worth = [(-p["centre_distance_mm"], p["efficiency"], p["margin"]) for p in found]
+        for one in worth:
+            assert not any(
+                all(map(lambda a, b: a >= b, other, one)) and other != one for other in worth
+            )
+
+
+def test_a_load_that_nothing_bears_is_told_with_what_comes_nearest(asperity):
+    heavy = ("--ratio", "40", "--output-torque", "5 MN m", "--worm-speed", "1500 rpm")
+    code, output, _ = asperity("size", *heavy, "--json")
+    answer = json.loads(output)
+    assert code == 0
+    assert answer["holding"] == 0
+    assert all(math.isfinite(p["margin"]) and p["margin"] < 1 for p in answer["proposals"])
+    assert "none holds by every standard; these come nearest" in answer["notes"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--ratio", "2"), "ratio is 2; it must be from 3 to 100"),
+        (("--ratio", "x"), "ratio is 'x'; it must be a number such as 40"),
+        (("--rank", "price"), "--rank price: it must be one of 'size', 'efficiency', 'margin'"),
+        (("--output-torque", "3 kg"), "operation.output_torque"),
+    ],
+)
+def test_what_cannot_be_sized_is_one_line(asperity, options, said):
+    code, output, errors = asperity("size", *SIZE, *options)
+    assert (code, output) == (2, "")
+    assert said in errors
+    assert errors.count("\n") == 1
