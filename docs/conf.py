@@ -16,6 +16,7 @@ project_copyright = "2026, the asperity authors"
 version = release = asperity.__version__
 
 extensions = [
+    "case_tables",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",

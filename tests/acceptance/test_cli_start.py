@@ -9,6 +9,7 @@ import tomllib
 import pytest
 
 from asperity.commands import COMMANDS
+from asperity.shipped import shipped_cases
 from asperity.start.kinds import KINDS
 
 EIGHT = """\
@@ -130,6 +131,13 @@ def test_check_names_all_mistakes_at_once(asperity, here):
     assert lines[0] == "eight.toml:2: gearset.starts is 0; it must be at least 1"
     answer = json.loads(asperity("check", "eight.toml", "--json")[1])
     assert [mistake["line"] for mistake in answer["mistakes"]] == [2, 4, 5, 6, 7, 10, 11, 14]
+
+
+@pytest.mark.parametrize("case", shipped_cases())
+def test_every_case_that_ships_passes(asperity, case):
+    code, output, errors = asperity("check", case)
+    assert (code, errors) == (0, "")
+    assert output.startswith(f"{case}: no mistakes")
 
 
 def test_check_tells_which_tables_are_missing(asperity, here):

@@ -9,9 +9,10 @@ import matplotlib
 import pytest
 from apparatus.grid import slow
 
-from asperity.slider import TABLES
+from asperity.casefile.schema import keys_of
+from asperity.commands import case_tables
 from asperity.store import read_dataset
-from asperity.units import quantity_of, to_si
+from asperity.units import quantity_of
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text("utf-8")
@@ -31,12 +32,10 @@ COMMANDS = [
 ]
 
 
-def keys_on_the_page():
-    """Each table's keys, with the default beside them."""
-    page = (ROOT / "docs" / "case-file.rst").read_text("utf-8")
-    parts = re.split(r"^``\[(\w+)\]``", page, flags=re.MULTILINE)
-    row = re.compile(r"^   \* - ``(\w+)``\n     - .*\n     - (.*)\n", re.MULTILINE)
-    return {parts[n]: dict(row.findall(parts[n + 1])) for n in range(1, len(parts), 2)}
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Where the README's commands are run, one after the other, as a reader would."""
+    return tmp_path_factory.mktemp("reader")
 
 
 def test_the_python_block_runs_and_comes_to_its_numbers(tmp_path, monkeypatch, capsys):
@@ -69,17 +68,17 @@ def test_the_readme_has_the_commands_below():
     "command",
     [slow(line) if re.match("block|optimise|flank", line) else line for line in COMMANDS],
 )
-def test_each_command_runs(asperity, tmp_path, command):
+def test_each_command_runs(asperity, folder, command):
     arguments = shlex.split(command)
-    code, output, errors = asperity(*arguments, cwd=tmp_path)
+    code, output, errors = asperity(*arguments, cwd=folder)
     assert code == 0, errors
     assert output
     if "--out" in arguments:
-        folder = tmp_path / arguments[arguments.index("--out") + 1]
+        out = folder / arguments[arguments.index("--out") + 1]
         if arguments[0] == "export":
-            assert (folder / "block.inp").read_text("utf-8").startswith("*HEADING")
+            assert (out / "block.inp").read_text("utf-8").startswith("*HEADING")
         else:
-            assert read_dataset(folder / f"{arguments[0]}.nc").attrs
+            assert read_dataset(out / f"{arguments[0]}.nc").attrs
 
 
 def test_each_target_of_make_that_the_readme_names_exists():
@@ -96,20 +95,11 @@ def test_each_file_that_the_readme_names_exists():
         assert (ROOT / name).is_file(), name
 
 
-@pytest.mark.parametrize("name", TABLES)
-def test_the_page_on_case_files_has_each_key_with_its_default(name):
-    model = TABLES[name]
-    page = keys_on_the_page()[name]
-    assert page.keys() == model.model_fields.keys()
-    for key, text in page.items():
-        field = model.model_fields[key]
-        written = re.match(r"``(.*?)``", text)
-        if field.is_required():
-            assert text == "required", key
-        elif field.default is None:
-            assert not re.fullmatch(r"|``.*``|required", text), key
-        else:
-            value = tomllib.loads(f"value = {written[1]}")["value"]
-            quantity = quantity_of(model, key)
-            has_unit = quantity is not None and quantity.unit
-            assert (to_si(value, quantity.unit) if has_unit else value) == field.default, key
+@pytest.mark.parametrize("name", case_tables())
+def test_the_default_that_a_key_is_said_to_have_is_its_default(name):
+    model = case_tables()[name]
+    for key in keys_of(model):
+        field, quantity = model.model_fields[key.name], quantity_of(model, key.name)
+        assert (key.default == "required") == field.is_required()
+        if quantity is not None and quantity.unit and key.default not in ("", "required"):
+            assert quantity.check(key.default, text_only=True) == field.default

@@ -7,7 +7,7 @@ from asperity.casefile.check import Mistake, check_case, missing
 from asperity.casefile.schema import schema
 from asperity.cli import show
 from asperity.commands import COMMANDS, Command, case_tables
-from asperity.errors import AsperityError, InputError, choices
+from asperity.errors import AsperityError, InputError
 
 
 def check(name: str, settings: Sequence[str], *, as_json: bool) -> None:
@@ -15,32 +15,35 @@ def check(name: str, settings: Sequence[str], *, as_json: bool) -> None:
     case, mistakes = check_case(name, case_tables(), settings)
     takers: list[str] = []
     refusals: dict[str, str] = {}
-    if not mistakes:
-        for command in _asked(case):
-            try:
-                with told(case):
-                    command.prepared(case, **{o.name: o.default for o in command.options})
-            except AsperityError as error:
-                refusals[command.name] = str(error)
-            else:
-                takers.append(command.name)
-        if not takers:
-            mistakes = tuple(_of_commands(case, refusals))
-            refusals = {}
+    asked = [] if mistakes else _asked(case)
+    for command in asked:
+        try:
+            with told(case):
+                command.prepared(case, **{o.name: o.default for o in command.options})
+        except AsperityError as error:
+            refusals[command.name] = str(error)
+        else:
+            takers.append(command.name)
+    # The command that needs most of the case is the one it is written for.
+    if asked and asked[0].name in refusals:
+        text = refusals[asked[0].name].removeprefix(f"{case.source}: ")
+        mistakes, takers = (Mistake(None, "", text),), []
+    elif not mistakes and not asked:
+        mistakes = tuple(_lacking(case))
     if as_json:
         show.print_json(
             {
                 "file": case.source,
                 "mistakes": [mistake._asdict() for mistake in mistakes],
                 "commands": takers,
-                "refused": refusals,
+                "refused": {} if mistakes else refusals,
             }
         )
     else:
         lines = [f"{case.source}:{m.line or ''}: {m.text}".replace(":: ", ": ") for m in mistakes]
-        if takers:
-            lines.append(f"{case.source}: no mistakes; asperity {', '.join(takers)} can take it")
-            lines += [f"asperity {name} cannot: {why}" for name, why in refusals.items()]
+        if not mistakes:
+            able = f"; asperity {', '.join(takers)} can take it" if takers else ""
+            lines.append(f"{case.source}: no mistakes{able}")
         show.print_text("\n".join(lines))
     if mistakes:
         count = len(mistakes)
@@ -52,31 +55,29 @@ def print_schema() -> None:
     show.print_json(schema(case_tables()))
 
 
-def _asked(case: Case) -> Iterator[Command]:
-    """Yield the commands whose tables a case has, of those that take nothing else."""
-    for command in COMMANDS:
-        asks = any(option.default is None for option in command.options)
-        if command.needs and not asks and not missing(case, command.needs):
-            yield command
+def _asked(case: Case) -> list[Command]:
+    """Return the commands whose tables a case has, what needs most first.
+
+    Those that take something else beside a case are left out.
+    """
+    able = [
+        command
+        for command in COMMANDS
+        if command.needs
+        and not missing(case, command.needs)
+        and not any(option.default is None for option in command.options)
+    ]
+    return sorted(able, key=lambda command: -len(command.needs))
 
 
-def _of_commands(case: Case, refusals: dict[str, str]) -> Iterator[Mistake]:
-    """Yield why no command takes a case: what they say, or the tables that it lacks."""
-    texts = dict.fromkeys(refusals.values())
-    for text in texts:
-        yield Mistake(None, "", text.removeprefix(f"{case.source}: "))
-    if texts:
+def _lacking(case: Case) -> Iterator[Mistake]:
+    """Yield the tables that the command lacks which has most of what it needs."""
+    begun = [c for c in COMMANDS if 0 < len(missing(case, c.needs)) < len(c.needs)]
+    if not begun:
         return
-    nearest = min(
-        (command for command in COMMANDS if command.needs),
-        key=lambda c: (len(missing(case, c.needs)) / len(c.needs), -len(c.needs)),
-    )
+    nearest = min(begun, key=lambda c: len(missing(case, c.needs)) / len(c.needs))
     lacks = missing(case, nearest.needs)
-    tables = choices(lacks).replace("'", "")
-    yield Mistake(
-        None,
-        lacks[0],
-        f"the table{'s' if len(lacks) > 1 else ''} [{tables.replace(', ', '], [')}] "
-        f"{'are' if len(lacks) > 1 else 'is'} missing; asperity {nearest.name} needs "
-        f"{'them' if len(lacks) > 1 else 'it'}",
-    )
+    verb, which = ("are", "them") if len(lacks) > 1 else ("is", "it")
+    tables = ", ".join(f"[{name}]" for name in lacks)
+    text = f"the table{'s' if len(lacks) > 1 else ''} {tables} {verb} missing; asperity "
+    yield Mistake(None, lacks[0], f"{text}{nearest.name} needs {which}")

@@ -29,7 +29,6 @@ class Gears:
 
     @classmethod
     def of(cls, case: Case) -> Self:
-        """Return the tables of a case; raises InputError where one is missing or cannot be."""
+        """Return the tables of a case; raises InputError where one is missing."""
         options = case.require(RatingOptions) if RatingOptions.table in case else None
-        gearset = case.require(Gearset).require_consistent()
-        return cls(gearset, case.require(Operation), options, case.folder)
+        return cls(case.require(Gearset), case.require(Operation), options, case.folder)
