@@ -155,7 +155,8 @@ class DriveProblem:
                 "velocity_ratio": None,
                 "velocity_amplitude": None,
                 "displacement_amplitude": amplitude,
-            }
+            },
+            units="SI",
         )
         return dataclasses.replace(self, vibration=changed)
 
