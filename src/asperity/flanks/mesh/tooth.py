@@ -23,6 +23,17 @@ COARSE = 0.2
 DENSITIES: Mapping[str, float] = {"coarse": 1.0, "intermediate": 0.75, "fine": 0.5}
 """Element sizes by name, in coarse ones; thesis 7.4.2 and Table 7.4."""
 
+CONTACT_FLANKS: Mapping[str, tuple[int, int]] = {
+    "coarse": (11, 13),
+    "intermediate": (15, 18),
+    "fine": (23, 27),
+}
+"""Elements over the height and the face of a flank for a loaded contact, by density.
+
+The contact lines run across the face at a slant: they are as well resolved as on elements that are
+as long as high at a third of the unknowns.
+"""
+
 MEMORY = 2 * 1024**3
 """Memory that a mesh may take while it is made, bytes; a finer one is refused."""
 
@@ -33,6 +44,9 @@ _BYTES_PER_NODE = 400
 # and what these lengths are in modules of any gearset, for the numbers to follow the element size.
 _LEAST = (2, 3, 2)
 _LENGTHS = (0.6, 0.9, 0.6)
+# Of a tooth whose flank is to touch: through its thickness, through the rim, land and fillets.
+_COARSE_INSIDE = (4, 3, 2, 3, 2)
+_FINE_INSIDE = (6, 4, 3, 4, 3)
 # Elements are shorter over the face, where the section changes most: the volume of 8-node elements
 # then is within 1e-4 at the intermediate density.
 _OVER_FACE = 0.8
@@ -118,6 +132,24 @@ def counts(wheel: Wheel, size: float) -> Counts:
         low_fillet=low,
         high_fillet=high,
     )
+
+
+def contact_counts(density: str) -> Counts:
+    """Return the hexahedra of a tooth whose flank is to touch, by the density of its flank.
+
+    Raises
+    ------
+    InputError
+        There is no such density.
+    """
+    if density not in CONTACT_FLANKS:
+        raise InputError(
+            f"density is {density!r}; it must be one of {choices(CONTACT_FLANKS)}"
+            f"{suggestion(density, CONTACT_FLANKS)}"
+        )
+    flank, face = CONTACT_FLANKS[density]
+    inner = _FINE_INSIDE if density == "fine" else _COARSE_INSIDE
+    return Counts(flank, face, *inner)
 
 
 def tooth(

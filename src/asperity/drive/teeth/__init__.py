@@ -1,0 +1,1 @@
+"""The wheel's elastic teeth and what the worm does to them."""

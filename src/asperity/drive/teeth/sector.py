@@ -1,0 +1,227 @@
+r"""A sector of the wheel condensed to the flanks of its middle teeth.
+
+A tooth cut out of the wheel is far too soft, since the rim under it is a cantilever. So several
+teeth are condensed on one rim, whose inside is held, and the middle one serves for all: a tooth
+:math:`m` is the middle one turned about the wheel's axis by :math:`m` pitches. What a loaded tooth
+does to its neighbours goes through the rim and is small and smooth: it is taken from the coarse
+mesh for all densities.
+
+Lengths are in m. A tooth's own frame is the wheel's, with the tooth about +Y.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+
+import numpy as np
+from scipy import sparse
+
+from asperity.arrays import FloatArray, IntArray
+from asperity.contact.candidates.records import Body
+from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
+from asperity.contact.interface.surface import ContactSurface, contact_surface
+from asperity.errors import InputError
+from asperity.flanks.mesh.tooth import Counts, contact_counts, tooth
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.frame import turned
+from asperity.gearset.materials import WheelMaterial
+from asperity.mesh import HexMesh
+
+TEETH = (1, 3, 5, 7)
+"""Teeth that a sector may have."""
+
+_COARSE = "coarse"
+_LOADED = "loaded"
+_ELEMENT = "hex8i"
+_RIM = "inner"
+# Nothing here has inertia; bronze and iron are about as dense as that.
+_DENSITY = 7500.0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sector:
+    """The middle tooth of a sector, ready for contact."""
+
+    wheel: Wheel
+    density: str  #: By name
+    counts: Counts  #: Hexahedra of a tooth
+    teeth: int  #: Teeth on the condensed rim
+    surface: ContactSurface  #: Flank ``s = +1`` of the middle tooth, in its own frame
+    body: Body  #: As the kernels take it
+    #: Displacement of the teeth 1, 2 .. pitches further about +Z under forces on this one, each in
+    #: its own frame, (3n, 3n) each, m/N; none for one tooth alone
+    neighbours: tuple[FloatArray, ...]
+    seconds: float  #: What condensing took, s
+    residual: float  #: Of its solutions
+
+    @property
+    def pitch(self) -> float:
+        """Angle between teeth, rad."""
+        return 2.0 * math.pi / self.wheel.pair.geometry.wheel_teeth
+
+    @property
+    def mesh(self) -> HexMesh:
+        """The sector's hexahedra, its middle tooth about +Y, in mm."""
+        mesh = tooth(_right_handed(self.wheel), self.counts, teeth=self.teeth)
+        return mesh.transformed(_middle(self.wheel, self.teeth).T)
+
+    @property
+    def mean_compliance(self) -> float:
+        """Mean deflection along the normal under a force spread evenly over the flank, m/N."""
+        force = self.surface.to_forces(self.surface.normals / self.surface.area).reshape(-1)
+        return float(force @ self.body.flexibility @ force)
+
+
+def sector(
+    wheel: Wheel,
+    material: WheelMaterial,
+    *,
+    density: str = _COARSE,
+    teeth: int = 5,
+    notify: Callable[[str], None] | None = None,
+) -> Sector:
+    """Condense a sector of the wheel, or find it among those that are kept.
+
+    Parameters
+    ----------
+    wheel : Wheel
+        The cut wheel.
+    material : WheelMaterial
+        What it is made of.
+    density : {'coarse', 'intermediate', 'fine'}
+        Of the flank.
+    teeth : int
+        Teeth on the rim, an odd number; the middle one serves for all.
+    notify : callable, optional
+        Takes one line about a kept file that is damaged.
+
+    Raises
+    ------
+    InputError
+        There is no such density or sector, or it does not fit into this machine's memory.
+    """
+    if teeth not in TEETH:
+        raise InputError(f"drive.teeth is {teeth}; it must be one of 1, 3, 5, 7")
+    counts = contact_counts(density)
+    # One tooth has no neighbours; the others have theirs from the coarse mesh.
+    together = density == _COARSE
+    found = _condensed(wheel, material, counts, teeth, together, notify)
+    surface = _own_surface(wheel, counts, teeth)
+    size = len(surface.positions)
+    turn = _middle(wheel, teeth)
+    middle = _block(found, teeth, size, 0, 0, together, turn, turn)
+    neighbours: tuple[FloatArray, ...] = ()
+    seconds, residual = found.seconds, found.residual
+    if teeth > 1:
+        rim, coarse = found, surface
+        if not together:
+            coarse_counts = contact_counts(_COARSE)
+            rim = _condensed(wheel, material, coarse_counts, teeth, True, notify)
+            coarse = _own_surface(wheel, coarse_counts, teeth)
+            seconds, residual = seconds + rim.seconds, max(residual, rim.residual)
+        count = len(coarse.positions)
+        pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
+        # In the mesh teeth follow one another about -Z: the tooth before is further about +Z.
+        turns = {k: turn @ turned(-k * pitch) for k in (-1, 0, 1)}
+        blocks = (
+            _block(rim, teeth, count, row, column, True, turns[row], turns[column])
+            for row, column in ((1, 0), (1, -1))
+        )
+        to = sparse.kron(_interpolation(coarse, surface), sparse.eye_array(3), format="csr")
+        neighbours = tuple(
+            block if together else np.ascontiguousarray(to @ (to @ block.T).T) for block in blocks
+        )
+    return Sector(
+        wheel, density, counts, teeth, surface, Body.of(surface, middle), neighbours, seconds,
+        residual,
+    )  # fmt: skip
+
+
+def _right_handed(wheel: Wheel) -> Wheel:
+    """Everything is solved in the frame of the right-handed gearset."""
+    return dataclasses.replace(wheel, pair=dataclasses.replace(wheel.pair, hand="right"))
+
+
+def _middle(wheel: Wheel, teeth: int) -> FloatArray:
+    """What turns a tooth's own frame to that of the middle tooth of a mesh of so many."""
+    return turned((teeth // 2) * 2.0 * math.pi / wheel.pair.geometry.wheel_teeth)
+
+
+def _flank(teeth: int, shift: int = 0) -> str:
+    return "flank_plus" if teeth == 1 else f"flank_plus_{teeth // 2 + shift}"
+
+
+def _condensed(
+    wheel: Wheel,
+    material: WheelMaterial,
+    counts: Counts,
+    teeth: int,
+    neighbours: bool,
+    notify: Callable[[str], None] | None,
+) -> CondensedBody:
+    mesh = tooth(_right_handed(wheel), counts, teeth=teeth)
+    shifts = (-1, 0, 1) if neighbours and teeth > 1 else (0,)
+    faces = np.concatenate([mesh.face_sets[_flank(teeth, k)] for k in shifts])
+    mesh = dataclasses.replace(mesh, face_sets={**mesh.face_sets, _LOADED: faces})
+    elastic = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, _DENSITY)
+    return condense(mesh, elastic, _LOADED, element=_ELEMENT, tied=_RIM, notify=notify)
+
+
+def _own_surface(wheel: Wheel, counts: Counts, teeth: int) -> ContactSurface:
+    """The middle tooth's flank in its own frame; that of a mesh of one tooth is the same."""
+    mesh = tooth(_right_handed(wheel), counts)
+    return contact_surface(mesh, _flank(1))
+
+
+def _block(
+    body: CondensedBody,
+    teeth: int,
+    size: int,
+    row: int,
+    column: int,
+    neighbours: bool,
+    row_turn: FloatArray,
+    column_turn: FloatArray,
+) -> FloatArray:
+    """Displacement of one tooth under forces on another, each in its own frame.
+
+    Teeth count from the middle one about +Z; the condensed body has them the other way round.
+    """
+    first = 1 if neighbours and teeth > 1 else 0
+    rows, columns = (slice(3 * size * (first - k), 3 * size * (first - k + 1)) for k in (row, column))
+    block = body.flexibility[rows, columns].reshape(size, 3, size, 3)
+    own = np.einsum("ca,mcnd,db->manb", row_turn, block, column_turn, optimize=True)
+    return np.ascontiguousarray(own.reshape(3 * size, 3 * size))
+
+
+def _interpolation(coarse: ContactSurface, fine: ContactSurface) -> sparse.csr_array:
+    """Values at the nodes of a fine flank from those of a coarse one, bilinear over the flank."""
+    rows: list[IntArray] = []
+    columns: list[IntArray] = []
+    values: list[FloatArray] = []
+    grids = [_lattice(surface) for surface in (coarse, fine)]
+    shape, target = grids[0].shape, grids[1].shape
+    places = [np.linspace(0.0, n - 1.0, m) for n, m in zip(shape, target, strict=True)]
+    low = [np.minimum(p.astype(np.int64), n - 2) for p, n in zip(places, shape, strict=True)]
+    share = [p - k for p, k in zip(places, low, strict=True)]
+    for i in (0, 1):
+        for j in (0, 1):
+            weight = np.outer(
+                share[0] if i else 1.0 - share[0], share[1] if j else 1.0 - share[1]
+            )
+            rows.append(grids[1].reshape(-1))
+            columns.append(grids[0][np.ix_(low[0] + i, low[1] + j)].reshape(-1))
+            values.append(weight.reshape(-1))
+    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+    size = len(fine.positions), len(coarse.positions)
+    return sparse.csr_array(sparse.coo_array(entries, shape=size))
+
+
+def _lattice(surface: ContactSurface) -> IntArray:
+    """The flank's nodes by row, from the inside out, and by column over the face."""
+    x, y, z = surface.positions.T
+    order = np.lexsort((np.hypot(x, y), np.round(z, 9)))
+    columns = len(np.unique(np.round(z, 9)))
+    return np.asarray(order.reshape(columns, -1).T)
