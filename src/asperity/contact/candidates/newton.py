@@ -12,6 +12,8 @@ the norm of what is missing.
 
 import math
 
+import numpy as np
+
 from asperity.compiled import kernel
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
 from asperity.contact.interface.tractions import tractions
@@ -23,7 +25,7 @@ _LEAST_STEP = 1.0 / 32.0
 
 
 @kernel
-def _spread(candidates, shapes, force, nodal):
+def spread(candidates, shapes, force, nodal):
     """Write the nodal forces of forces at the candidates' points."""
     for i in range(candidates.counts[1]):
         j = 3 * candidates.nodes[i]
@@ -49,7 +51,7 @@ def _spread(candidates, shapes, force, nodal):
 @kernel
 def respond(body, candidates, force, free, nodal, u):
     """Write the displacement of the candidates' nodes under forces at the candidates' points."""
-    _spread(candidates, body.shapes, force, nodal)
+    spread(candidates, body.shapes, force, nodal)
     a = body.flexibility
     count = candidates.counts[1]
     for i in range(count):
@@ -72,7 +74,7 @@ def respond(body, candidates, force, free, nodal, u):
 
 
 @kernel
-def _evaluate(body, candidates, laws, motion, history, room):
+def _evaluate(body, candidates, laws, motion, history, answer, work):
     """Write the contact that the forces lead to; squared norms of what is missing and of both."""
     faces = candidates.counts[0]
     points = faces * body.shapes.shape[0]
@@ -85,14 +87,14 @@ def _evaluate(body, candidates, laws, motion, history, room):
         history.displacement, history.deflection[:points], history.size[:points],
         history.multiplier,
     )  # fmt: skip
-    p = room.points
     part = ContactPoints(
-        p.pressure[:points], p.distance[:points], p.normal[:points], p.traction[:points],
-        p.slip_1[:points], p.slip_2[:points], p.deflection[:points], p.size[:points],
+        answer.pressure[:points], answer.distance[:points], answer.normal[:points],
+        answer.traction[:points], answer.slip_1[:points], answer.slip_2[:points],
+        answer.deflection[:points], answer.size[:points],
     )  # fmt: skip
-    respond(body, candidates, room.force, room.free, room.nodal, room.u)
+    respond(body, candidates, answer.force, answer.free, work.nodal, answer.u)
     tractions(
-        room.u, committed, interface, motion, room.nodal, part, room.stiffness[:points], True
+        answer.u, committed, interface, motion, work.nodal, part, answer.stiffness[:points], True
     )
     missing = 0.0
     made = 0.0
@@ -100,8 +102,8 @@ def _evaluate(body, candidates, laws, motion, history, room):
     for q in range(points):
         weight = candidates.weights[q]
         for c in range(3):
-            t = weight * p.traction[q, c]
-            f = room.force[q, c]
+            t = weight * answer.traction[q, c]
+            f = answer.force[q, c]
             missing += (t - f) * (t - f)
             made += t * t
             assumed += f * f
@@ -109,37 +111,39 @@ def _evaluate(body, candidates, laws, motion, history, room):
 
 
 @kernel
-def gather(body, candidates, room):
+def gather(body, candidates, answer, work):
     """List the points in contact or with a force, and the nodes about them; how many of each."""
     rule = body.shapes.shape[0]
     count = 0
     nodes = 0
     for i in range(candidates.counts[1]):
-        room.local[candidates.nodes[i]] = -1
+        work.local[candidates.nodes[i]] = -1
     for q in range(rule * candidates.counts[0]):
-        f = room.force[q]
-        if room.points.pressure[q] <= 0.0 and f[0] == 0.0 and f[1] == 0.0 and f[2] == 0.0:
+        f = answer.force[q]
+        if answer.pressure[q] <= 0.0 and f[0] == 0.0 and f[1] == 0.0 and f[2] == 0.0:
             continue
-        room.active[count] = q
+        work.active[count] = q
         count += 1
         for a in range(body.shapes.shape[1]):
             node = candidates.faces[q // rule, a]
-            if room.local[node] < 0:
-                room.local[node] = nodes
-                room.nodes[nodes] = node
+            if work.local[node] < 0:
+                work.local[node] = nodes
+                work.nodes[nodes] = node
                 nodes += 1
     return count, nodes
 
 
 @kernel
-def assemble(body, candidates, count, nodes, room):
-    """Write Newton's matrix of the active points, ``1 - w K G``."""
+def assemble(body, candidates, count, nodes, answer, work):
+    """Return Newton's matrix of the active points, ``1 - w K G``."""
     a = body.flexibility
     shapes = body.shapes
     rule, width = shapes.shape
-    near, matrix = room.near, room.matrix
+    near = work.near[: 9 * count * nodes].reshape(3 * count, 3 * nodes)
+    # Written by columns, as LAPACK takes it.
+    matrix = work.matrix[: 9 * count * count].reshape(3 * count, 3 * count)
     for i in range(count):
-        q = room.active[i]
+        q = work.active[i]
         face = q // rule
         at = q - face * rule
         for c in range(3):
@@ -150,17 +154,17 @@ def assemble(body, candidates, count, nodes, room):
                 shape = shapes[at, b]
                 from_row = a[3 * candidates.faces[face, b] + c]
                 for m in range(nodes):
-                    j = 3 * room.nodes[m]
+                    j = 3 * work.nodes[m]
                     row[3 * m] += shape * from_row[j]
                     row[3 * m + 1] += shape * from_row[j + 1]
                     row[3 * m + 2] += shape * from_row[j + 2]
     for i in range(count):
-        q = room.active[i]
-        k = room.stiffness[q]
+        q = work.active[i]
+        k = answer.stiffness[q]
         w = candidates.weights[q]
-        open_ = room.points.pressure[q] <= 0.0
+        open_ = answer.pressure[q] <= 0.0
         for j in range(count):
-            p = room.active[j]
+            p = work.active[j]
             face = p // rule
             at = p - face * rule
             for e in range(3):
@@ -169,76 +173,40 @@ def assemble(body, candidates, count, nodes, room):
                 gz = 0.0
                 if not open_:
                     for b in range(width):
-                        m = 3 * room.local[candidates.faces[face, b]] + e
+                        m = 3 * work.local[candidates.faces[face, b]] + e
                         shape = shapes[at, b]
                         gx += shape * near[3 * i, m]
                         gy += shape * near[3 * i + 1, m]
                         gz += shape * near[3 * i + 2, m]
                 for c in range(3):
-                    matrix[3 * i + c, 3 * j + e] = -w * (
+                    matrix[3 * j + e, 3 * i + c] = -w * (
                         k[c, 0] * gx + k[c, 1] * gy + k[c, 2] * gz
                     )
         for c in range(3):
             matrix[3 * i + c, 3 * i + c] += 1.0
+    return matrix.T
 
 
 @kernel
-def eliminate_columns(a, n, columns):
-    """Solve n equations for the columns that stand beside them, in place; whether they could be."""
-    end = n + columns
-    for i in range(n):
-        pivot = i
-        largest = abs(a[i, i])
-        for r in range(i + 1, n):
-            if abs(a[r, i]) > largest:
-                largest = abs(a[r, i])
-                pivot = r
-        if not largest > 0.0:
-            return False
-        if pivot != i:
-            for c in range(i, end):
-                a[i, c], a[pivot, c] = a[pivot, c], a[i, c]
-        top = a[i]
-        inverse = 1.0 / top[i]
-        for r in range(i + 1, n):
-            row = a[r]
-            factor = row[i] * inverse
-            if factor != 0.0:
-                for c in range(i + 1, end):
-                    row[c] -= factor * top[c]
-    for i in range(n - 1, -1, -1):
-        row = a[i]
-        for k in range(n, end):
-            total = row[k]
-            for c in range(i + 1, n):
-                total -= row[c] * a[c, k]
-            row[k] = total / row[i]
-    return True
-
-
-@kernel
-def _newton_change(body, candidates, count, room):
-    """Write Newton's change of the forces; whether there is one."""
-    matrix = room.matrix
-    n = 3 * count
+def _newton_change(candidates, count, matrix, answer, work):
+    """Write Newton's change of the forces."""
+    right = work.right[: 3 * count]
     for i in range(count):
-        q = room.active[i]
+        q = work.active[i]
         for c in range(3):
-            matrix[3 * i + c, n] = (
-                candidates.weights[q] * room.points.traction[q, c] - room.force[q, c]
+            right[3 * i + c] = (
+                candidates.weights[q] * answer.traction[q, c] - answer.force[q, c]
             )
-    if not eliminate_columns(matrix, n, 1):
-        return False
+    change = np.linalg.solve(matrix, right)
     for i in range(count):
-        q = room.active[i]
+        q = work.active[i]
         for c in range(3):
-            room.change[q, c] = matrix[3 * i + c, n]
-            room.trial[q, c] = room.force[q, c]
-    return True
+            work.change[q, c] = change[3 * i + c]
+            work.trial[q, c] = answer.force[q, c]
 
 
 @kernel
-def solve(body, candidates, laws, motion, history, room):
+def solve(body, candidates, laws, motion, history, answer, work):
     """Solve the contact of a body with its counter-surface.
 
     Parameters
@@ -250,8 +218,9 @@ def solve(body, candidates, laws, motion, history, room):
     motion : MotionNumbers
         Where the surface stands, and the slip it makes.
     history : History
-    room : Room
+    answer : Answer
         Has the displacement ``free``, and ``force`` to begin with; written.
+    work : Work
 
     Returns
     -------
@@ -259,7 +228,7 @@ def solve(body, candidates, laws, motion, history, room):
         What is missing of the forces, over them; 0 where the surfaces only touch. `FULL`: more
         points touch than there is room for.
     """
-    missing, whole = _evaluate(body, candidates, laws, motion, history, room)
+    missing, whole = _evaluate(body, candidates, laws, motion, history, answer, work)
     floor = laws.floor * laws.floor
     iterations = 1
     for _ in range(laws.most):
@@ -267,19 +236,18 @@ def solve(body, candidates, laws, motion, history, room):
             return 0.0, iterations
         if missing <= laws.tolerance * laws.tolerance * whole:
             break
-        count, nodes = gather(body, candidates, room)
-        if 3 * count > room.matrix.shape[0]:
+        count, nodes = gather(body, candidates, answer, work)
+        if 9 * count * count > work.matrix.size:
             return FULL, iterations
-        assemble(body, candidates, count, nodes, room)
-        if not _newton_change(body, candidates, count, room):
-            break
+        matrix = assemble(body, candidates, count, nodes, answer, work)
+        _newton_change(candidates, count, matrix, answer, work)
         share = 1.0
         while True:
             for i in range(count):
-                q = room.active[i]
+                q = work.active[i]
                 for c in range(3):
-                    room.force[q, c] = room.trial[q, c] + share * room.change[q, c]
-            now, whole = _evaluate(body, candidates, laws, motion, history, room)
+                    answer.force[q, c] = work.trial[q, c] + share * work.change[q, c]
+            now, whole = _evaluate(body, candidates, laws, motion, history, answer, work)
             iterations += 1
             if now <= (1.0 - 1e-4 * share) * missing or share <= _LEAST_STEP or whole <= floor:
                 break

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.contact.interface.records import ContactPoints, Interface
+from asperity.compiled import kernel
+from asperity.contact.interface.records import Interface
 from asperity.contact.interface.surface import ContactSurface
 
 
@@ -41,7 +42,8 @@ class Candidates(NamedTuple):
     """The faces of a body that are near the counter-surface, with room for all k of them.
 
     The first ``counts[0]`` entries of lists of faces count, the fourfold of lists of points, and
-    the first ``counts[1]`` of lists of nodes.
+    the first ``counts[1]`` of lists of nodes. With several bodies each array has one more axis
+    before (`of_slot`).
     """
 
     counts: IntArray  #: (2,): Faces and nodes there are
@@ -54,77 +56,120 @@ class Candidates(NamedTuple):
     seen: IntArray  #: (n,): 1 for them
 
     @classmethod
-    def room(cls, body: Body) -> Candidates:
-        """Return room for the candidates of a body; there are none yet."""
+    def room(cls, body: Body, slots: int) -> Candidates:
+        """Return room for the candidates of so many bodies; there are none yet."""
         k, n = len(body.faces), body.nodes
         return cls(
-            np.zeros(2, dtype=np.int64),
-            np.zeros(k, dtype=np.int64),
-            np.full(k, -1, dtype=np.int64),
-            np.zeros((k, 4), dtype=np.int64),
-            np.zeros(4 * k),
-            np.zeros((4 * k, 3)),
-            np.zeros(n, dtype=np.int64),
-            np.zeros(n, dtype=np.int64),
+            np.zeros((slots, 2), dtype=np.int64),
+            np.zeros((slots, k), dtype=np.int64),
+            np.full((slots, k), -1, dtype=np.int64),
+            np.zeros((slots, k, 4), dtype=np.int64),
+            np.zeros((slots, 4 * k)),
+            np.zeros((slots, 4 * k, 3)),
+            np.zeros((slots, n), dtype=np.int64),
+            np.zeros((slots, n), dtype=np.int64),
         )
 
 
 class History(NamedTuple):
-    """What a solve starts from at the candidates' points, and where it begins to look."""
+    """What a solve starts from at the candidates' points."""
 
     displacement: FloatArray  #: (3n,): Committed displacement of the nodes, m
     deflection: FloatArray  #: (4k, 3): Committed deflection of the asperities, m
     size: FloatArray  #: (4k,): As in `asperity.contact.interface.records.Committed`
     multiplier: FloatArray  #: (n,): Zeros: nothing here is hard
 
+    @classmethod
+    def none(cls, body: Body) -> History:
+        """Return the history of a body that has not been touched."""
+        q, n = len(body.weights), body.nodes
+        return cls(np.zeros(3 * n), np.zeros((q, 3)), np.zeros(q), np.zeros(n))
 
-class Room(NamedTuple):
-    """What a solve writes: its answer, and what it works with."""
 
-    force: FloatArray  #: (4k, 3): Forces on the body at the candidates' points, N; its guess before
+class Answer(NamedTuple):
+    """What a solve starts its search with and writes; with several bodies as `Candidates`."""
+
+    force: FloatArray  #: (4k, 3): Forces on the body at the candidates' points, N
     u: FloatArray  #: (3n,): Displacement of the candidates' nodes, m; of others not meant
     free: FloatArray  #: (3n,): Displacement of the nodes without contact here, m
-    nodal: FloatArray  #: (3n,): Nodal forces
-    points: ContactPoints  #: The contact at the candidates' points
+    pressure: FloatArray  #: The others as in `ContactPoints`
+    distance: FloatArray
+    normal: FloatArray
+    traction: FloatArray
+    slip_1: FloatArray
+    slip_2: FloatArray
+    deflection: FloatArray
+    size: FloatArray
     stiffness: FloatArray  #: (4k, 3, 3): Derivative of the tractions by the displacement, Pa/m
+
+    @classmethod
+    def room(cls, body: Body, slots: int) -> Answer:
+        """Return room for the contacts of so many bodies."""
+        q, n = len(body.weights), body.nodes
+        at = (slots, q)
+        return cls(
+            np.zeros((*at, 3)), np.zeros((slots, 3 * n)), np.zeros((slots, 3 * n)),
+            np.zeros(at), np.zeros(at), *(np.zeros((*at, 3)) for _ in range(5)), np.zeros(at),
+            np.zeros((*at, 3, 3)),
+        )  # fmt: skip
+
+
+class Work(NamedTuple):
+    """What solves work with, one after the other."""
+
+    nodal: FloatArray  #: (3n,): Nodal forces
     trial: FloatArray  #: (4k, 3): Forces at the start of a search
     change: FloatArray  #: (4k, 3): Newton's change of them
     active: IntArray  #: (4k,): Points in contact, or with a force still
     local: IntArray  #: (n,): Place of a node among those of the active points
     nodes: IntArray  #: (n,): These nodes
-    near: FloatArray  #: (12k, 3n): Response of the active points to forces at these nodes, m/N
-    matrix: FloatArray  #: (12k, 12k + 6): Newton's equations beside their right-hand sides
+    #: (9mn,): Response of m active points to forces at these nodes, m/N
+    near: FloatArray
+    matrix: FloatArray  #: (9mm,): Newton's equations
+    right: FloatArray  #: (18m,): Their right-hand sides
 
     @classmethod
-    def of(cls, body: Body, most: int) -> Room:
-        """Return room for a body's contact in which so many points touch at most."""
+    def room(cls, body: Body, most: int) -> Work:
+        """Return room for contacts in which so many points touch at most."""
         q, n = len(body.weights), body.nodes
         most = min(most, q)
         return cls(
-            np.zeros((q, 3)),
             np.zeros(3 * n),
-            np.zeros(3 * n),
-            np.zeros(3 * n),
-            ContactPoints(*map(_whole, ContactPoints.empty(q))),
-            np.zeros((q, 3, 3)),
             np.zeros((q, 3)),
             np.zeros((q, 3)),
             np.zeros(q, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
-            np.zeros((3 * most, 3 * n)),
-            np.zeros((3 * most, 3 * most + 6)),
+            np.zeros(9 * most * n),
+            np.zeros(9 * most * most),
+            np.zeros(18 * most),
         )
 
 
 class Laws(NamedTuple):
-    """What a contact is of: an `Interface` of which faces, weights and places are the candidates'."""
+    """The laws of a contact, and how well it is to be solved."""
 
+    #: Of it faces, weights and places are not used: those of the candidates are
     interface: Interface
     tolerance: float  #: Relative residual to be reached
     floor: float  #: Forces that touching alone makes, N
     most: int  #: Newton steps at most
 
 
-def _whole(array: FloatArray) -> FloatArray:
-    return np.ascontiguousarray(array)
+@kernel
+def candidates_of(all_, k):
+    """The candidates of one body of several."""
+    return Candidates(
+        all_.counts[k], all_.face[k], all_.place[k], all_.faces[k], all_.weights[k],
+        all_.places[k], all_.nodes[k], all_.seen[k],
+    )  # fmt: skip
+
+
+@kernel
+def answer_of(all_, k):
+    """The answer of one body of several."""
+    return Answer(
+        all_.force[k], all_.u[k], all_.free[k], all_.pressure[k], all_.distance[k],
+        all_.normal[k], all_.traction[k], all_.slip_1[k], all_.slip_2[k], all_.deflection[k],
+        all_.size[k], all_.stiffness[k],
+    )  # fmt: skip

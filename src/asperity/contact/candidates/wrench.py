@@ -3,7 +3,7 @@
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.candidates.newton import assemble, eliminate_columns, gather
+from asperity.contact.candidates.newton import assemble, gather
 
 
 @kernel
@@ -28,13 +28,13 @@ def place_of(candidates, shapes, u, q):
 
 
 @kernel
-def wrench(body, candidates, room, out):
+def wrench(body, candidates, answer, out):
     """Add force, N, and moment about the origin, N m, on the body to ``out``, (6,)."""
     for q in range(body.shapes.shape[0] * candidates.counts[0]):
-        fx, fy, fz = room.force[q]
+        fx, fy, fz = answer.force[q]
         if fx == 0.0 and fy == 0.0 and fz == 0.0:
             continue
-        x, y, z = place_of(candidates, body.shapes, room.u, q)
+        x, y, z = place_of(candidates, body.shapes, answer.u, q)
         mx, my, mz = _cross(x, y, z, fx, fy, fz)
         out[0] += fx
         out[1] += fy
@@ -45,24 +45,25 @@ def wrench(body, candidates, room, out):
 
 
 @kernel
-def wrench_slope(body, candidates, room, out):
+def wrench_slope(body, candidates, answer, work, out):
     r"""Add the derivative of the wrench by a shift and a turn of the counter-surface, (6, 6).
 
     The surface is shifted by :math:`d` and turned by :math:`\theta` about the origin, so that at a
     place :math:`x` it moves by :math:`s = d + \theta \times x`. The laws turn with it.
     """
-    count, nodes = gather(body, candidates, room)
-    n = 3 * count
+    count, nodes = gather(body, candidates, answer, work)
     if count == 0:
         return
-    assemble(body, candidates, count, nodes, room)
-    matrix = room.matrix
+    matrix = assemble(body, candidates, count, nodes, answer, work)
+    n = 3 * count
+    # Written by columns, as LAPACK takes it.
+    right = work.right[: 6 * n].reshape(6, n)
     move = np.empty(3)
     for i in range(count):
-        q = room.active[i]
-        x, y, z = place_of(candidates, body.shapes, room.u, q)
-        k = room.stiffness[q]
-        t = room.points.traction[q]
+        q = work.active[i]
+        x, y, z = place_of(candidates, body.shapes, answer.u, q)
+        k = answer.stiffness[q]
+        t = answer.traction[q]
         w = candidates.weights[q]
         for c in range(6):
             e = c - 3 if c >= 3 else c
@@ -76,18 +77,17 @@ def wrench_slope(body, candidates, room, out):
                 bx, by, bz = _cross(ax, ay, az, t[0], t[1], t[2])
             for r in range(3):
                 turned = bx if r == 0 else (by if r == 1 else bz)
-                matrix[3 * i + r, n + c] = w * (
+                right[c, 3 * i + r] = w * (
                     turned - k[r, 0] * move[0] - k[r, 1] * move[1] - k[r, 2] * move[2]
                 )
-    if not eliminate_columns(matrix, n, 6):
-        return
+    change = np.linalg.solve(matrix, right.T)
     for i in range(count):
-        q = room.active[i]
-        x, y, z = place_of(candidates, body.shapes, room.u, q)
+        q = work.active[i]
+        x, y, z = place_of(candidates, body.shapes, answer.u, q)
         for c in range(6):
-            fx = matrix[3 * i, n + c]
-            fy = matrix[3 * i + 1, n + c]
-            fz = matrix[3 * i + 2, n + c]
+            fx = change[3 * i, c]
+            fy = change[3 * i + 1, c]
+            fz = change[3 * i + 2, c]
             mx, my, mz = _cross(x, y, z, fx, fy, fz)
             out[0, c] += fx
             out[1, c] += fy

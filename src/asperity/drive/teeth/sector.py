@@ -32,6 +32,7 @@ from asperity.mesh import HexMesh
 TEETH = (1, 3, 5, 7)
 """Teeth that a sector may have."""
 
+_MILLIMETRES = 1e3
 _COARSE = "coarse"
 _LOADED = "loaded"
 _ELEMENT = "hex8i"
@@ -134,7 +135,7 @@ def sector(
             block if together else np.ascontiguousarray(to @ (to @ block.T).T) for block in blocks
         )
     return Sector(
-        wheel, density, counts, teeth, surface, Body.of(surface, middle), neighbours, seconds,
+        wheel, density, counts, teeth, surface, Body.of(surface, middle)._replace(places=_exact_places(wheel, surface)), neighbours, seconds,
         residual,
     )  # fmt: skip
 
@@ -173,6 +174,23 @@ def _own_surface(wheel: Wheel, counts: Counts, teeth: int) -> ContactSurface:
     """The middle tooth's flank in its own frame; that of a mesh of one tooth is the same."""
     mesh = tooth(_right_handed(wheel), counts)
     return contact_surface(mesh, _flank(1))
+
+
+def _exact_places(wheel: Wheel, surface: ContactSurface) -> FloatArray:
+    """Return the quadrature points on the flank itself, (4k, 3), m.
+
+    Between the nodes of a coarse mesh the faces cut micrometres off the flank, as much as it gives
+    way under load.
+    """
+    lattice = _lattice(surface)
+    rows = np.linspace(0.0, 1.0, len(lattice))
+    share, z = np.empty(lattice.size), surface.positions[:, 2]
+    share[lattice] = rows[:, None]
+    at = np.stack([surface.to_points(share), surface.to_points(z)], axis=-1).reshape(-1, 2)
+    shares, row = np.unique(np.round(at[:, 0], 12), return_inverse=True)
+    places, column = np.unique(np.round(at[:, 1], 12), return_inverse=True)
+    exact = wheel.flank(1).at_shares(shares, _MILLIMETRES * places).points / _MILLIMETRES
+    return np.ascontiguousarray(exact[row, column])
 
 
 def _block(

@@ -1,0 +1,139 @@
+"""Several bodies in contact with one counter-surface, each giving way to its neighbours' forces."""
+
+import numpy as np
+
+from asperity.compiled import kernel
+from asperity.contact.candidates.newton import solve, spread
+from asperity.contact.candidates.records import answer_of, candidates_of
+from asperity.contact.interface.counter_motion import MotionNumbers
+
+_SWEEPS = 30
+
+
+@kernel
+def add_response(block, transposed, shapes, source, force, target, nodal, free):
+    """Add what forces at one body's candidates do to the candidates of another.
+
+    ``block`` is the displacement of the nodes of one under forces on those of the other, (3n, 3n).
+    """
+    spread(source, shapes, force, nodal)
+    for m in range(source.counts[1]):
+        k = 3 * source.nodes[m]
+        fx = nodal[k]
+        fy = nodal[k + 1]
+        fz = nodal[k + 2]
+        if fx == 0.0 and fy == 0.0 and fz == 0.0:
+            continue
+        for i in range(target.counts[1]):
+            j = 3 * target.nodes[i]
+            for c in range(3):
+                if transposed:
+                    free[j + c] += (
+                        block[k, j + c] * fx + block[k + 1, j + c] * fy + block[k + 2, j + c] * fz
+                    )
+                else:
+                    free[j + c] += (
+                        block[j + c, k] * fx + block[j + c, k + 1] * fy + block[j + c, k + 2] * fz
+                    )
+
+
+@kernel
+def give_way(bodies, k, number, blocks, shapes, candidates, answer, work):
+    """Write the displacement of a body's candidates under its neighbours' forces.
+
+    Parameters
+    ----------
+    bodies : int
+        How many there are.
+    k : int
+        Which one.
+    number : ndarray, shape (K,)
+        Place of each in their row.
+    blocks : ndarray, shape (b, 3n, 3n)
+        Displacement of the body 1, 2 .. b places further under forces on a body, m/N.
+    """
+    own = candidates_of(candidates, k)
+    free = answer.free[k]
+    for i in range(own.counts[1]):
+        j = 3 * own.nodes[i]
+        free[j] = free[j + 1] = free[j + 2] = 0.0
+    for other in range(bodies):
+        way = number[k] - number[other]
+        if other == k or abs(way) > blocks.shape[0] or candidates.counts[other, 0] == 0:
+            continue
+        add_response(
+            blocks[abs(way) - 1], way < 0, shapes, candidates_of(candidates, other),
+            answer.force[other], own, work.nodal, free,
+        )  # fmt: skip
+
+
+@kernel
+def _norm(force, points):
+    total = 0.0
+    for q in range(points):
+        for c in range(3):
+            total += force[q, c] * force[q, c]
+    return total
+
+
+@kernel
+def solve_all(
+    body, number, blocks, candidates, surfaces, laws, history, answer, work, tolerance
+):  # fmt: skip
+    """Solve the contact of all bodies, in turns where they give way to each other.
+
+    Parameters
+    ----------
+    body : Body
+        All are alike.
+    number, blocks : ndarray
+        As in `give_way`; no blocks: each is by itself.
+    candidates, answer : Candidates, Answer
+        Of all, with one more axis before.
+    surfaces : tuple of 4 ndarrays
+        Rotation (K, 3, 3), translation (K, 3), and slip ``shift + turn @ x``, (K, 3) and (K, 3, 3),
+        of the counter-surface as each body sees it.
+    laws, history, work : Laws, History, Work
+        Shared by all.
+    tolerance : float
+        Relative change of the forces from turn to turn that is small enough.
+
+    Returns
+    -------
+    residual, iterations : float, int
+        Largest of all, or `newton.FULL`; evaluations of the contact.
+    """
+    rotation, translation, shift, turn = surfaces
+    none = np.zeros(3)
+    nothing = np.zeros((3, 3))
+    bodies = number.shape[0]
+    iterations = 0
+    residual = 0.0
+    for sweep in range(_SWEEPS):
+        changed = 0.0
+        whole = 0.0
+        residual = 0.0
+        for k in range(bodies):
+            if candidates.counts[k, 0] == 0:
+                continue
+            give_way(bodies, k, number, blocks, body.shapes, candidates, answer, work)
+            motion = MotionNumbers(
+                rotation[k], translation[k], shift[k], turn[k], none, nothing, nothing, nothing,
+                False,
+            )  # fmt: skip
+            points = body.shapes.shape[0] * candidates.counts[k, 0]
+            before = answer.force[k, :points].copy()
+            missing, took = solve(
+                body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k),
+                work,
+            )  # fmt: skip
+            iterations += took
+            if missing < 0.0:
+                return missing, iterations
+            residual = max(residual, missing)
+            before -= answer.force[k, :points]
+            changed += _norm(before, points)
+            whole += _norm(answer.force[k], points)
+        if blocks.shape[0] == 0 or changed <= tolerance * tolerance * whole:
+            break
+    return residual, iterations

@@ -1,0 +1,283 @@
+"""The worm held against elastic teeth: forces for a given place of both, quasi-static."""
+
+from __future__ import annotations
+
+import dataclasses
+from functools import cached_property
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.contact.candidates import newton
+from asperity.contact.candidates.faces import collect, least_gap
+from asperity.contact.candidates.records import (
+    Answer,
+    Candidates,
+    History,
+    Laws,
+    Work,
+    answer_of,
+    candidates_of,
+)
+from asperity.contact.candidates.several import solve_all
+from asperity.contact.candidates.wrench import wrench, wrench_slope
+from asperity.contact.interface.friction import COULOMB, PointFriction
+from asperity.contact.interface.normal import NormalLaw
+from asperity.contact.interface.records import Interface
+from asperity.contact.interface.rigid import RigidSurface
+from asperity.compiled import kernel
+from asperity.drive.teeth.placing import Stand, place_worm, sliding, to_space, tooth_numbers
+from asperity.drive.teeth.sector import Sector
+from asperity.errors import ConvergenceError
+
+CONTACT_STIFFNESS = 5e14
+"""Of the flanks' surfaces, Pa/m; from there to hard contact the torque moves by 0.2 %."""
+
+NEAR = 30e-6
+"""Faces this near to the worm are looked at, m."""
+
+_TOLERANCE = 1e-9
+_STEPS = 60
+_ROUNDING = 16.0 * np.finfo(float).eps
+_ELASTIC_SLIP = 1e-9
+_TOUCH = 1e-10
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Action:
+    """What the worm does to the wheel, about the wheel's centre and axes, right-handed."""
+
+    wrench: FloatArray  #: (6,): Force, N, and moment, N m, on the wheel
+    #: (6, 6): Its derivative by a shift and a turn of the worm about the wheel's centre
+    slope: FloatArray
+    teeth: tuple[int, ...]  #: Numbers of the teeth that may be in mesh
+    forces: FloatArray  #: (K, 3): On each of them, N, in space
+    normal: FloatArray  #: (K,): Normal force on each, N
+    residual: float
+    iterations: int  #: Evaluations of teeth
+
+
+@kernel
+def _act(body, stand, side, angles, candidates, answer, work, with_slope, out, slope, forces):
+    """Sum up what all teeth feel; where nothing is asked of the slope it stays 0."""
+    part = np.zeros(6)
+    local = np.zeros((6, 6))
+    two = np.zeros((2, 3))
+    square = np.zeros((3, 3))
+    for k in range(angles.shape[0]):
+        own = candidates_of(candidates, k)
+        if own.counts[0] == 0:
+            continue
+        part[:] = 0.0
+        wrench(body, own, answer_of(answer, k), part)
+        two[0] = part[:3]
+        two[1] = part[3:]
+        to_space(angles[k], side, two)
+        forces[k] = two[0]
+        out[:3] += two[0]
+        out[3:] += two[1]
+        if not with_slope:
+            continue
+        local[:] = 0.0
+        wrench_slope(body, own, answer_of(answer, k), work, local)
+        for i in range(2):
+            for j in range(2):
+                square[:] = local[3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
+                # R L R^T, rows first: the vectors of `to_space` are rows.
+                to_space(angles[k], side, square)
+                turned = square.T.copy()
+                to_space(angles[k], side, turned)
+                slope[3 * i : 3 * i + 3, 3 * j : 3 * j + 3] += turned.T
+
+
+class TeethContact:
+    """The wheel's elastic teeth against a worm, on one flank.
+
+    Parameters
+    ----------
+    sector : Sector
+        The condensed teeth.
+    friction : float
+        Coefficient of friction.
+    side : int
+        Flank of the teeth, 1 (driving) or -1.
+    coupled : bool
+        Whether teeth give way to what loads their neighbours.
+    stiffness : float
+        Of the surfaces, Pa/m.
+    """
+
+    def __init__(
+        self,
+        sector: Sector,
+        friction: float,
+        *,
+        side: int = 1,
+        coupled: bool = True,
+        stiffness: float = CONTACT_STIFFNESS,
+    ) -> None:
+        self.sector = sector
+        self.side = side
+        self.stand = Stand.of(sector.wheel.pair)
+        self.slots = max(3, sector.teeth)
+        body = sector.body
+        self.candidates = Candidates.room(body, self.slots)
+        self.answer = Answer.room(body, self.slots)
+        self.work = Work.room(body, len(body.weights) // 2)
+        size = len(body.flexibility)
+        self.blocks = (
+            np.stack(sector.neighbours)
+            if coupled and sector.neighbours
+            else np.empty((0, size, size))
+        )
+        self._friction = friction
+        self._stiffness = stiffness
+        self._history = History.none(body)
+        self._collected: FloatArray | None = None
+
+    @cached_property
+    def worm(self) -> RigidSurface:
+        """The counter-surface."""
+        return RigidSurface.worm(self.sector.wheel.pair.worm, side=self.side)
+
+    def laws(self, friction: float) -> Laws:
+        """Return the laws with a coefficient of friction, sliding fully."""
+        body, surface = self.sector.body, self.sector.surface
+        point = PointFriction(COULOMB, friction, _ELASTIC_SLIP)
+        interface = Interface(
+            body.faces, body.shapes, body.weights, body.places, self.worm.numbers,
+            NormalLaw("linear", self._stiffness).numbers, point.numbers(0.0),
+        )  # fmt: skip
+        reach = float(np.abs(body.places).max()) + float(np.abs(self.stand.origin).max())
+        floor = _ROUNDING * reach * self._stiffness * float(np.linalg.norm(surface.nodal_area))
+        return Laws(interface, _TOLERANCE, floor, _STEPS)
+
+    def _placed(
+        self, beta: float, phi: float, shift: FloatArray, numbers: range
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Angles of the teeth, and the worm's pose as each sees it."""
+        angles = phi + self.sector.pitch * np.array(numbers, dtype=np.float64)
+        rotation, translation = np.empty((len(angles), 3, 3)), np.empty((len(angles), 3))
+        for k, angle in enumerate(angles):
+            place_worm(
+                self.stand, beta, shift, angle, 0.0, self.side, rotation[k], translation[k]
+            )
+        return angles, rotation, translation
+
+    def least_gap(self, beta: float, phi: float, shift: FloatArray) -> float:
+        """Return the least distance between the undeformed teeth and the worm, m."""
+        numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
+        _, rotation, translation = self._placed(beta, phi, shift, numbers)
+        body = self.sector.body
+        gaps = [
+            least_gap(body, self.worm.numbers, r, t)
+            for r, t in zip(rotation, translation, strict=True)
+        ]
+        return float(min(gaps))
+
+    def touching_angle(self, beta: float, shift: FloatArray) -> float:
+        """Return the angle of the wheel at which it touches the worm unloaded, rad."""
+        phi = beta / self.stand.ratio
+        side = self.side
+        step = 1e-5
+        gap = self.least_gap(beta, phi, shift)
+        for _ in range(_STEPS):
+            further = self.least_gap(beta, phi + side * step, shift)
+            slope = (further - gap) / step
+            if not slope > 0.0:
+                break
+            move = -gap / slope
+            phi += side * move
+            gap = self.least_gap(beta, phi, shift)
+            if abs(gap) <= _TOUCH:
+                return phi
+            step = max(1e-7, min(1e-5, abs(move)))
+        raise ConvergenceError(
+            "the worm reaches no tooth of the wheel: look at mount.centre_distance_error and "
+            "mount.axial_offset",
+            reached={"gap_m": gap},
+        )
+
+    def act(
+        self,
+        beta: float,
+        phi: float,
+        shift: FloatArray,
+        *,
+        sense: int = 1,
+        with_slope: bool = True,
+    ) -> Action:
+        """Return what a worm at a place does to the wheel.
+
+        Parameters
+        ----------
+        beta, phi : float
+            Angles of worm and wheel, rad.
+        shift : ndarray, shape (3,)
+            Of the worm along the axes of its own frame, m.
+        sense : int
+            1: both turn forwards; -1 backwards; 0: without friction.
+        with_slope : bool
+            Whether to find how it changes with the worm's place.
+
+        Raises
+        ------
+        ConvergenceError
+            No equilibrium, or more of a tooth touches than could be.
+        """
+        body, stand = self.sector.body, self.stand
+        numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
+        angles, rotation, translation = self._placed(beta, phi, shift, numbers)
+        self._collect(beta, phi, shift, numbers, rotation, translation)
+        slip, turn = np.zeros((len(angles), 3)), np.zeros((len(angles), 3, 3))
+        for k, angle in enumerate(angles):
+            sliding(
+                stand, rotation[k], translation[k], angle, self.side, float(sense), slip[k], turn[k]
+            )
+        laws = self.laws(self._friction if sense else 0.0)
+        residual, iterations = solve_all(
+            body, np.array(numbers), self.blocks, self.candidates,
+            (rotation, translation, slip, turn), laws, self._history, self.answer, self.work,
+            _TOLERANCE,
+        )  # fmt: skip
+        if residual == newton.FULL or residual > 1e3 * _TOLERANCE:
+            raise ConvergenceError(
+                "the teeth find no equilibrium with the worm at this load: take a smaller torque",
+                reached={"residual": residual, "iterations": float(iterations)},
+            )
+        total, slope, forces = np.zeros(6), np.zeros((6, 6)), np.zeros((len(angles), 3))
+        _act(
+            body, stand, self.side, angles, self.candidates, self.answer, self.work, with_slope,
+            total, slope, forces,
+        )  # fmt: skip
+        return Action(
+            total, slope, tuple(numbers), forces, self._normal_forces(), residual, iterations
+        )
+
+    def _normal_forces(self) -> FloatArray:
+        counts = 4 * self.candidates.counts[:, 0]
+        return np.array([
+            float(self.answer.pressure[k, :n] @ self.candidates.weights[k, :n])
+            for k, n in enumerate(counts)
+        ])
+
+    def _collect(
+        self, beta: float, phi: float, shift: FloatArray, numbers: range, rotation: FloatArray,
+        translation: FloatArray,
+    ) -> None:  # fmt: skip
+        """Gather the faces near the worm, anew where it has gone half as far as they reach."""
+        body = self.sector.body
+        here = np.array([
+            beta * self.stand.lead, phi * float(body.places[:, 1].max()), *shift, numbers[0]
+        ])  # fmt: skip
+        last = self._collected
+        if last is not None and np.abs(here - last).sum() <= 0.5 * NEAR:
+            return
+        self._collected = here
+        self.answer.force[:] = 0.0
+        still = np.zeros(3 * body.nodes)
+        for k in range(len(numbers)):
+            collect(
+                body, self.worm.numbers, rotation[k], translation[k], still, NEAR,
+                candidates_of(self.candidates, k),
+            )  # fmt: skip
