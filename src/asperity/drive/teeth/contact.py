@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.compiled import kernel
 from asperity.contact.candidates import newton
 from asperity.contact.candidates.faces import collect, least_gap
 from asperity.contact.candidates.records import (
@@ -19,13 +20,13 @@ from asperity.contact.candidates.records import (
     answer_of,
     candidates_of,
 )
+from asperity.contact.candidates.newton import spread
 from asperity.contact.candidates.several import solve_all
 from asperity.contact.candidates.wrench import wrench, wrench_slope
 from asperity.contact.interface.friction import COULOMB, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.records import Interface
 from asperity.contact.interface.rigid import RigidSurface
-from asperity.compiled import kernel
 from asperity.drive.teeth.placing import Stand, place_worm, sliding, to_space, tooth_numbers
 from asperity.drive.teeth.sector import Sector
 from asperity.errors import ConvergenceError
@@ -152,10 +153,11 @@ class TeethContact:
         floor = _ROUNDING * reach * self._stiffness * float(np.linalg.norm(surface.nodal_area))
         return Laws(interface, _TOLERANCE, floor, _STEPS)
 
-    def _placed(
-        self, beta: float, phi: float, shift: FloatArray, numbers: range
+    def placed(
+        self, beta: float, phi: float, shift: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Angles of the teeth, and the worm's pose as each sees it."""
+        """Return angles of the teeth, (K,), and the worm's pose as each sees it."""
+        numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
         angles = phi + self.sector.pitch * np.array(numbers, dtype=np.float64)
         rotation, translation = np.empty((len(angles), 3, 3)), np.empty((len(angles), 3))
         for k, angle in enumerate(angles):
@@ -166,8 +168,7 @@ class TeethContact:
 
     def least_gap(self, beta: float, phi: float, shift: FloatArray) -> float:
         """Return the least distance between the undeformed teeth and the worm, m."""
-        numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
-        _, rotation, translation = self._placed(beta, phi, shift, numbers)
+        _, rotation, translation = self.placed(beta, phi, shift)
         body = self.sector.body
         gaps = [
             least_gap(body, self.worm.numbers, r, t)
@@ -227,7 +228,7 @@ class TeethContact:
         """
         body, stand = self.sector.body, self.stand
         numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
-        angles, rotation, translation = self._placed(beta, phi, shift, numbers)
+        angles, rotation, translation = self.placed(beta, phi, shift)
         self._collect(beta, phi, shift, numbers, rotation, translation)
         slip, turn = np.zeros((len(angles), 3)), np.zeros((len(angles), 3, 3))
         for k, angle in enumerate(angles):
@@ -253,6 +254,18 @@ class TeethContact:
         return Action(
             total, slope, tuple(numbers), forces, self._normal_forces(), residual, iterations
         )
+
+    def nodal_forces(self) -> FloatArray:
+        """Return the forces on the nodes of all teeth, (K, 3n), N, each in its own frame."""
+        body = self.sector.body
+        found = np.zeros((self.slots, 3 * body.nodes))
+        for k in range(self.slots):
+            self.spread(k, self.answer.force[k], found[k])
+        return found
+
+    def spread(self, k: int, force: FloatArray, nodal: FloatArray) -> None:
+        """Write the nodal forces of forces at the candidates of a tooth, N."""
+        spread(candidates_of(self.candidates, k), self.sector.body.shapes, force, nodal)
 
     def _normal_forces(self) -> FloatArray:
         counts = 4 * self.candidates.counts[:, 0]

@@ -1,17 +1,14 @@
-r"""Where the worm stands to a tooth: the drive's coordinates and their signs.
+r"""Where the worm stands to a tooth.
 
-A drive has four: the worm's turn :math:`\beta` about its axis and its shift :math:`x` along it, the
-wheel's turn :math:`\varphi` about its axis and its shift :math:`y` along it. Worm and wheel turn
-forwards with positive :math:`\beta` and :math:`\varphi`, the worm driving the flank ``s = +1``; a
-positive :math:`x` pushes that flank's tooth forwards as well; a positive :math:`y` is along +Z of
-the right-handed gearset, against which the driving thread slides. At :math:`\beta = i\varphi` a
-tooth of nominal flanks is in the middle of its thread space.
+The drive's coordinates and their signs are those of `asperity.drive.interface`; the worm drives the
+flank ``s = +1``. At :math:`\beta = i\varphi` a tooth of nominal flanks is in the middle of its
+thread space.
 
 In the right-handed frame of `asperity.flanks.worm.setting` (the wheel's axis is Z, the worm above
-it on +Y) both turn in the positive sense about Z and the helicoid's axis :math:`e_z`, and
-:math:`x` is a shift along :math:`-e_z`. The tooth :math:`m` stands :math:`m` pitches further about
-+Z than the one about +Y, in whose frame every tooth is solved. A flank ``s = -1`` is solved as
-``s = +1``, turned by half a turn about Y; the worm then bears with its flank ``-1``.
+it on +Y) both turn in the positive sense about Z and the helicoid's axis :math:`e_z`; :math:`x` is
+a shift along :math:`-e_z`, :math:`y` one along -Z. The tooth :math:`m` stands :math:`m` pitches
+further about +Z than the one about +Y, in whose frame every tooth is solved. A flank ``s = -1`` is
+solved as ``s = +1``, turned by half a turn about Y; the worm then bears with its flank ``-1``.
 
 Lengths are in m, angles in rad.
 """
@@ -64,7 +61,7 @@ def place_worm(stand, beta, shift, angle, y, side, rotation, translation):
     angle : float
         Of the tooth about the wheel's axis.
     y : float
-        Shift of the wheel along its axis.
+        Shift of the wheel along its axis, m.
     side : int
         Flank of the tooth, 1 or -1.
     rotation, translation : ndarray, shapes (3, 3) and (3,)
@@ -84,7 +81,7 @@ def place_worm(stand, beta, shift, angle, y, side, rotation, translation):
         elif column == 2:
             x0, x1, x2 = stand.axes[2, 0], stand.axes[2, 1], stand.axes[2, 2]
         else:
-            x0, x1, x2 = stand.origin[0], stand.origin[1], stand.origin[2] - y
+            x0, x1, x2 = stand.origin[0], stand.origin[1], stand.origin[2] + y
             for k in range(3):
                 x0 += shift[k] * stand.axes[k, 0]
                 x1 += shift[k] * stand.axes[k, 1]

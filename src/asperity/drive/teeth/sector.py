@@ -25,20 +25,20 @@ from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, contact_counts, tooth
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.flank import FlankGrid
 from asperity.flanks.wheel.frame import turned
 from asperity.gearset.materials import WheelMaterial
 from asperity.mesh import HexMesh
 
-TEETH = (1, 3, 5, 7)
-"""Teeth that a sector may have."""
-
 _MILLIMETRES = 1e3
 _COARSE = "coarse"
 _LOADED = "loaded"
-_ELEMENT = "hex8i"
-_RIM = "inner"
-# Nothing here has inertia; bronze and iron are about as dense as that.
-_DENSITY = 7500.0
+
+ELEMENT, RIM = "hex8i", "inner"
+"""Finite elements of the teeth, and where they are held."""
+
+DENSITY = 7500.0
+"""kg/m3, about that of bronze and iron; nothing here has inertia."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -50,7 +50,9 @@ class Sector:
     counts: Counts  #: Hexahedra of a tooth
     teeth: int  #: Teeth on the condensed rim
     surface: ContactSurface  #: Flank ``s = +1`` of the middle tooth, in its own frame
-    body: Body  #: As the kernels take it
+    body: Body  #: As the kernels take it, its points on the exact flank
+    #: Exact flank about the points, and each point's row and column in it
+    exact_grid: tuple[FlankGrid, IntArray, IntArray]
     #: Displacement of the teeth 1, 2 .. pitches further about +Z under forces on this one, each in
     #: its own frame, (3n, 3n) each, m/N; none for one tooth alone
     neighbours: tuple[FloatArray, ...]
@@ -103,8 +105,8 @@ def sector(
     InputError
         There is no such density or sector, or it does not fit into this machine's memory.
     """
-    if teeth not in TEETH:
-        raise InputError(f"drive.teeth is {teeth}; it must be one of 1, 3, 5, 7")
+    if teeth < 1 or teeth % 2 == 0:
+        raise InputError(f"drive.teeth is {teeth}; it must be odd: there is a middle tooth")
     counts = contact_counts(density)
     # One tooth has no neighbours; the others have theirs from the coarse mesh.
     together = density == _COARSE
@@ -134,8 +136,13 @@ def sector(
         neighbours = tuple(
             block if together else np.ascontiguousarray(to @ (to @ block.T).T) for block in blocks
         )
+    grid, row, column = exact = _exact(wheel, surface)
+    # Between the nodes of a coarse mesh its faces lie micrometres off the flank, as much as it
+    # gives way under load: contact is looked for on the flank itself.
+    places = np.ascontiguousarray(grid.points[row, column]) / _MILLIMETRES
+    body = Body.of(surface, middle)._replace(places=places)
     return Sector(
-        wheel, density, counts, teeth, surface, Body.of(surface, middle)._replace(places=_exact_places(wheel, surface)), neighbours, seconds,
+        wheel, density, counts, teeth, surface, body, exact, neighbours, seconds,
         residual,
     )  # fmt: skip
 
@@ -166,8 +173,8 @@ def _condensed(
     shifts = (-1, 0, 1) if neighbours and teeth > 1 else (0,)
     faces = np.concatenate([mesh.face_sets[_flank(teeth, k)] for k in shifts])
     mesh = dataclasses.replace(mesh, face_sets={**mesh.face_sets, _LOADED: faces})
-    elastic = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, _DENSITY)
-    return condense(mesh, elastic, _LOADED, element=_ELEMENT, tied=_RIM, notify=notify)
+    elastic = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
+    return condense(mesh, elastic, _LOADED, element=ELEMENT, tied=RIM, notify=notify)
 
 
 def _own_surface(wheel: Wheel, counts: Counts, teeth: int) -> ContactSurface:
@@ -176,12 +183,8 @@ def _own_surface(wheel: Wheel, counts: Counts, teeth: int) -> ContactSurface:
     return contact_surface(mesh, _flank(1))
 
 
-def _exact_places(wheel: Wheel, surface: ContactSurface) -> FloatArray:
-    """Return the quadrature points on the flank itself, (4k, 3), m.
-
-    Between the nodes of a coarse mesh the faces cut micrometres off the flank, as much as it gives
-    way under load.
-    """
+def _exact(wheel: Wheel, surface: ContactSurface) -> tuple[FlankGrid, IntArray, IntArray]:
+    """The exact flank about the quadrature points: a grid, and each point's row and column."""
     lattice = _lattice(surface)
     rows = np.linspace(0.0, 1.0, len(lattice))
     share, z = np.empty(lattice.size), surface.positions[:, 2]
@@ -189,8 +192,8 @@ def _exact_places(wheel: Wheel, surface: ContactSurface) -> FloatArray:
     at = np.stack([surface.to_points(share), surface.to_points(z)], axis=-1).reshape(-1, 2)
     shares, row = np.unique(np.round(at[:, 0], 12), return_inverse=True)
     places, column = np.unique(np.round(at[:, 1], 12), return_inverse=True)
-    exact = wheel.flank(1).at_shares(shares, _MILLIMETRES * places).points / _MILLIMETRES
-    return np.ascontiguousarray(exact[row, column])
+    grid = wheel.flank(1).at_shares(shares, _MILLIMETRES * places)
+    return grid, row, column
 
 
 def _block(

@@ -1,0 +1,1 @@
+"""Loaded contact of worm and wheel over a pitch, without vibration."""

@@ -1,0 +1,181 @@
+r"""Worm, wheel and shaft in balance under a torque, at one angle of the worm.
+
+Unknown are the wheel's angle and how far the worm gives way: its turn and the three shifts of the
+point of contact, in the coordinates of `asperity.drive.shafts`. A few Newton steps with the slope
+of the contact solve for both.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.drive.shafts import COORDINATES
+from asperity.drive.teeth.contact import Action, TeethContact
+from asperity.errors import ConvergenceError
+
+_STEPS = 40
+_CLOSE = 1e-7
+# Of the torque: a change this small tells of the slope, and not of its change.
+_SMALL = 0.05
+# Of a change of the wheel's angle in a step, as a part of the deflection so far.
+_FURTHEST = 0.7
+# Of the axial module: beyond it elastic flanks mean nothing.
+_DEEPEST = 0.1
+
+
+class TooDeepError(ConvergenceError):
+    """The torque presses the worm further into the teeth than elastic ones could give."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Balance:
+    """The drive in balance at one angle of the worm."""
+
+    worm_angle: float  #: Of the motor's end of the shaft, rad
+    wheel_angle: float  #: rad
+    worm_torque: float  #: Needed on the worm, N m
+    yielded: FloatArray  #: (4,): How far the worm gave way, rad, m, m, m
+    action: Action  #: Of the worm on the wheel
+    contact: TeethContact  #: Holds the fields of this balance until it solves another
+    residual: float  #: Of torque and of the worm's place, relative
+
+
+class Equilibrium:
+    """Finds the balance of a drive.
+
+    Parameters
+    ----------
+    contact : TeethContact
+        Worm against teeth.
+    compliance : ndarray, shape (4, 4), optional
+        Of the worm at the point of contact, as `asperity.drive.shafts.compliances`; rigid if left
+        out.
+    """
+
+    def __init__(self, contact: TeethContact, compliance: FloatArray | None = None) -> None:
+        self.contact = contact
+        self.compliance = np.zeros((4, 4)) if compliance is None else compliance
+        self._twists = _twists(contact)
+        module = contact.sector.wheel.pair.geometry.axial_module
+        self._deepest = _DEEPEST * 1e-3 * module
+        self._last: tuple[float, FloatArray] | None = None
+        # Of the wheel's torque over what the slope of teeth that do not give way to each other says.
+        self._softer = 1.0
+
+    def shift(self, yielded: FloatArray) -> FloatArray:
+        """Return the worm's shift along the axes of its own frame, m."""
+        _, axial, tangential, radial = yielded
+        return np.array([radial, tangential, -axial])
+
+    def balance(
+        self, beta: float, torque: float, *, sense: int = 1, touching: float | None = None
+    ) -> Balance:
+        """Return the balance at an angle of the worm.
+
+        Parameters
+        ----------
+        beta : float
+            Of the motor's end of the shaft, rad.
+        torque : float
+            Of the load on the wheel, N m; above 0 it holds the wheel back.
+        sense : int
+            1: the drive runs forwards, -1: backwards, 0: without friction.
+        touching : float, optional
+            The wheel's angle without load, rad, if it is known.
+
+        Raises
+        ------
+        TooDeepError
+            The torque is beyond what elastic teeth carry.
+        ConvergenceError
+            No balance was found.
+        """
+        contact = self.contact
+        free = contact.touching_angle(beta, np.zeros(3)) if touching is None else touching
+        behind, yielded = self._guess(torque)
+        size = float(np.abs(self.compliance).max()) or 1.0
+        residual = np.inf
+        before, promised = np.nan, np.nan
+        for _ in range(_STEPS):
+            phi = free - behind
+            if self._depth(behind, yielded) > self._deepest:
+                raise TooDeepError(
+                    "the load presses the worm further into the teeth than they can give",
+                    reached={"deflection_rad": behind},
+                )
+            action = contact.act(
+                beta + yielded[0], phi, self.shift(yielded), sense=sense
+            )
+            on_worm = -self._twists @ action.wrench
+            if abs(promised) < _SMALL * torque:
+                self._softer *= (action.wrench[5] - before) / promised
+            missing = np.concatenate([
+                [action.wrench[5] - torque], yielded - self.compliance @ on_worm
+            ])
+            residual = max(
+                abs(missing[0]) / torque,
+                float(np.abs(missing[1:]).max()) / (size * (1.0 + float(np.abs(on_worm).max()))),
+            )
+            if residual <= _CLOSE:
+                self._last = torque, np.concatenate([[behind], yielded])
+                return Balance(
+                    beta, phi, -float(on_worm[0]), yielded, action, contact, residual
+                )
+            slope = self._slope(action)
+            move = np.linalg.solve(slope, -missing)
+            if not action.wrench[5] > 0.0:
+                # Out of touch there is no slope to go by.
+                move = np.zeros(5)
+                move[0] = -0.5 * max(behind, 1e-5)
+            bound = _FURTHEST * max(abs(behind), 1e-6)
+            share = min(1.0, bound / max(abs(move[0]), 1e-300))
+            before, promised = float(action.wrench[5]), share * float(slope[0] @ move)
+            behind -= share * move[0]
+            yielded = yielded + share * move[1:]
+        raise ConvergenceError(
+            f"worm and wheel found no balance at {np.degrees(beta):.4g} deg of the worm",
+            reached={"residual": residual},
+        )
+
+    def _guess(self, torque: float) -> tuple[float, FloatArray]:
+        if self._last is not None:
+            old, values = self._last
+            share = (torque / old) ** (2.0 / 3.0)
+            return float(share * values[0]), (torque / old) * values[1:]
+        sector = self.contact.sector
+        arm = float(sector.body.places[:, 1].min())
+        return 2.0 * sector.mean_compliance * torque / arm**2, np.zeros(4)
+
+    def _depth(self, behind: float, yielded: FloatArray) -> float:
+        """How far worm and teeth overlap, m."""
+        arm = float(self.contact.sector.body.places[:, 1].max())
+        lead = self.contact.stand.lead
+        return arm * behind + lead * float(yielded[0]) + float(yielded[1])
+
+    def _slope(self, action: Action) -> FloatArray:
+        """Derivative of what is missing by the wheel's angle and the worm's yielding."""
+        twists, slope = self._twists, self._softer * action.slope
+        matrix = np.zeros((5, 5))
+        matrix[0, 0] = -slope[5, 5]
+        matrix[0, 1:] = slope[5] @ twists.T
+        # On the worm the forces are opposite; the wheel's turn is the worm's about Z, turned round.
+        on_worm = -twists @ slope
+        matrix[1:, 0] = self.compliance @ on_worm[:, 5]
+        matrix[1:, 1:] = np.eye(4) - self.compliance @ on_worm @ twists.T
+        return matrix
+
+
+def _twists(contact: TeethContact) -> FloatArray:
+    """Motions of the worm's coordinates as shift and turn about the wheel's centre, (4, 6)."""
+    (radial, tangential, axis), origin = contact.stand.axes, contact.stand.origin
+    none = np.zeros(3)
+    found = {
+        "turn": np.concatenate([np.cross(origin, axis), axis]),
+        "axial": np.concatenate([-axis, none]),
+        "tangential": np.concatenate([tangential, none]),
+        "radial": np.concatenate([radial, none]),
+    }
+    return np.array([found[name] for name in COORDINATES])

@@ -1,0 +1,91 @@
+"""Pictures of a loaded worm gearset: over a pitch, patterns on the flank, what gives way."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, VERMILION, legend, panels
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_LEVELS = 24
+_SHOWN_SHARE = 1e-3
+
+
+def over_pitch(dataset: "xr.Dataset") -> "Figure":
+    """Draw torque, transmission error and the teeth's shares against the worm's angle."""
+    figure, (torque, error, share) = panels(3, height=8.0)
+    angle = np.degrees(dataset["phase"].values)
+    for k, (name, what) in enumerate(
+        (
+            ("torque", "forward"),
+            ("torque_frictionless", "without friction"),
+            ("torque_reversed", "friction turned round"),
+        )
+    ):
+        torque.plot(angle, dataset[name].values, color=COLOURS[k], dashes=DASHES[k], label=what)
+    torque.set_ylabel("torque of the worm (N m)")
+    torque.set_ylim(0.0, 1.35 * float(dataset["torque"].max()))
+    legend(torque, ncols=3)
+    micro = 1e6
+    loaded, unloaded = (micro * dataset[f"error_{name}"].values for name in ("loaded", "unloaded"))
+    error.plot(angle, loaded - loaded.mean(), color=BLUE, label="under load")
+    error.plot(
+        angle, unloaded - unloaded.mean(), color=VERMILION, dashes=DASHES[1], label="without load"
+    )
+    error.set_ylabel("transmission error (urad)")
+    error.margins(y=0.25)
+    legend(error, ncols=2)
+    force = dataset["tooth_force"].values
+    parts = force / force.sum(axis=1, keepdims=True)
+    for k, column in enumerate(parts.T[parts.max(axis=0) > _SHOWN_SHARE]):
+        share.plot(angle, column, color=COLOURS[k % len(COLOURS)], dashes=DASHES[k % len(DASHES)])
+    share.set_ylabel("share of a tooth")
+    share.set_ylim(0.0, 1.0)
+    share.set_xlabel("angle of the worm (deg)")
+    for axes in (torque, error, share):
+        axes.margins(x=0.0)
+    return figure
+
+
+def pattern(dataset: "xr.Dataset") -> "Figure":
+    """Draw where the flank bears over a pitch, and how hard, at three torques."""
+    from matplotlib.tri import Triangulation
+
+    loads = dataset["load"].values
+    figure, axes = panels(len(loads), height=1.6 + 1.9 * len(loads))
+    z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
+    corners = dataset["faces"].values
+    triangles = Triangulation(z, r, np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]))
+    for panel, load, pressure in zip(axes, loads, dataset["pattern"].values, strict=True):
+        mega = 1e-6 * pressure
+        drawn = panel.tricontourf(triangles, mega, levels=_LEVELS, cmap="cividis")
+        bar = figure.colorbar(drawn, ax=panel)
+        bar.set_label("pressure (MPa)")
+        panel.set_aspect("equal")
+        panel.grid(visible=False)
+        panel.set_ylabel("radius (mm)")
+        panel.set_title(f"{load:.4g} N m, at most {mega.max():.4g} MPa at a node")
+    axes[-1].set_xlabel("along the wheel's axis (mm)")
+    return figure
+
+
+def stiffness(dataset: "xr.Dataset") -> "Figure":
+    """Draw what gives way between motor and wheel, as turn of the wheel for its torque."""
+    names = [str(name) for name in np.atleast_1d(dataset["part"].values)]
+    give = 1e6 / dataset["part_stiffness"].values
+    figure, (axes,) = panels(height=1.2 + 0.5 * len(names))
+    axes.barh([name.replace("_", " ") for name in names], give, color=BLUE, height=0.6)
+    for place, value in enumerate(give):
+        axes.annotate(
+            f" {value:.3g}", (value, place), va="center", color=BLACK, annotation_clip=False
+        )
+    axes.invert_yaxis()
+    axes.margins(x=0.15)
+    axes.grid(visible=False, axis="y")
+    whole = float(dataset["stiffness"])
+    axes.set_xlabel("turn of the wheel for its torque (urad/(N m))")
+    axes.set_title(f"together {1e6 / whole:.3g} urad/(N m): {whole:.4g} N m/rad")
+    return figure

@@ -1,0 +1,110 @@
+"""What the elastic teeth are in a reduced model: d(T), effective radius, compliance along them."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.drive.problem import DriveProblem
+from asperity.drive.shafts import MeshAction
+from asperity.drive.static.equilibrium import Balance
+from asperity.drive.static.solve import StaticModel, contact_means
+from asperity.drive.teeth.contact import TeethContact
+from asperity.runs import Run
+
+SHARES = (1.0 / 16.0, 1.0 / 4.0, 1.0, 2.5)
+"""Torques that the table has, over the load."""
+
+_PHASES = 8
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TeethReduced:
+    """Elastic teeth in numbers, means over a pitch."""
+
+    torque: FloatArray  #: (n,): Of the wheel, N m
+    #: (n,): Angles that it is turned by, the worm and its shaft rigid, rad
+    deflection: FloatArray
+    radius: float  #: Effective radius on the worm: the closed form's with the same torque, m
+    force_radius: float  #: Mean radius of the normal force, m
+    compliance: float  #: Of the teeth along the flank, m/N
+    normal_force: float  #: Under the load, N
+
+
+def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> TeethReduced:
+    """Return a drive's teeth in numbers, from their static contact at some torques.
+
+    Raises
+    ------
+    InputError
+        The teeth cannot carry the load.
+    """
+    rigid = dataclasses.replace(problem, shaft=type(problem.shaft)())
+    model = StaticModel(rigid, run, phases)
+    load = problem.load
+    deflections = []
+    give: list[tuple[float, float, float, float]] = []
+
+    def look(_number: int, balance: Balance) -> None:
+        force, radius, _ = contact_means(balance.contact, balance)
+        give.append((force, force * radius, *_along(balance.contact)))
+
+    torque = 0.0
+    for share in SHARES:
+        course = model.course(share * load, look=look if share == 1.0 else None)
+        deflections.append(course.mean_deflection)
+        if share == 1.0:
+            torque = float(course.worm_torque.mean())
+    whole, moment, work, friction = np.array(give).sum(axis=0)
+    compliance = work / friction if friction > 0.0 else 0.0
+    return TeethReduced(
+        torque=load * np.array(SHARES),
+        deflection=np.array(deflections),
+        radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
+        force_radius=moment / whole,
+        compliance=compliance,
+        normal_force=whole / phases,
+    )
+
+
+def _closed_form_radius(
+    problem: DriveProblem, friction: float, torque: float, guess: float
+) -> float:
+    """Radius at which an involute worm has a torque, m."""
+    radius = guess
+    step = 1e-6
+    for _ in range(20):
+        here, there = (
+            problem.load * MeshAction.at_pitch_point(problem.geometry, friction, r).worm_torque
+            for r in (radius, radius + step)
+        )
+        move = (torque - here) * step / (there - here) if there != here else 0.0
+        radius += float(np.clip(move, -0.1 * guess, 0.1 * guess))
+        if abs(move) < 1e-9:
+            break
+    return radius
+
+
+def _along(contact: TeethContact) -> tuple[float, float]:
+    """Work of friction on the way that it bends the teeth by, N m, and its square's sum, N^2.
+
+    Teeth lie side by side: each takes its share of the friction.
+    """
+    body = contact.sector.body
+    work = total = 0.0
+    for k in range(contact.slots):
+        count = 4 * int(contact.candidates.counts[k, 0])
+        if not count:
+            continue
+        force = contact.answer.force[k, :count]
+        normal = contact.answer.normal[k, :count]
+        along = force - np.einsum("qi,qi->q", force, normal)[:, None] * normal
+        nodal = np.zeros(3 * body.nodes)
+        contact.spread(k, along, nodal)
+        size = float(np.linalg.norm(along.sum(axis=0)))
+        if size > 0.0:
+            work += float(nodal @ body.flexibility @ nodal)
+            total += size
+    return work, total**2

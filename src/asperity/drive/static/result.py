@@ -1,0 +1,192 @@
+"""What a loaded worm gearset without vibration is."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from asperity.arrays import FloatArray, IntArray
+from asperity.drive.problem import DriveProblem
+from asperity.drive.teeth.sector import Sector
+from asperity.results import Result, labelled, quantity
+from asperity.slider.result import table_inputs
+
+_PLOTS = "asperity.drive.static.plots"
+_PHASE, _PART = ("phase",), ("part",)
+PATTERNS = (1.0 / 9.0, 1.0 / 3.0, 1.0)
+"""Torques that patterns are drawn at, over the load."""
+
+
+class StaticResult(Result):
+    """Worm and wheel under load over a pitch, turning slowly.
+
+    Attributes
+    ----------
+    problem : DriveProblem
+        What was solved.
+    sector : Sector
+        The elastic teeth.
+    nodal_force : ndarray
+        (t, 3n) Forces on the flanks of the teeth in mesh at the phase of the largest pressure, N.
+    """
+
+    title: ClassVar[str] = "Loaded worm gearset"
+    stem: ClassVar[str] = "drive"
+    drawings: ClassVar[Mapping[str, str]] = {
+        "drive": f"{_PLOTS}:over_pitch",
+        "drive_pattern": f"{_PLOTS}:pattern",
+        "drive_stiffness": f"{_PLOTS}:stiffness",
+    }
+
+    problem: DriveProblem
+    sector: Sector
+    nodal_force: FloatArray
+
+    output_torque: float = quantity("T_R", "N m", "torque of the wheel", key="output_torque_Nm")
+    friction: float = quantity("mu", "", "coefficient of friction")
+    input_torque: float = quantity(
+        "T_B", "N m", "torque of the worm, mean over a pitch", key="input_torque_Nm"
+    )
+    input_torque_frictionless: float = quantity(
+        "T_B0", "N m", "torque of the worm without friction", key="input_torque_frictionless_Nm"
+    )
+    input_torque_reversed: float = quantity(
+        "T_C", "N m", "torque of the worm, friction turned round", key="input_torque_reversed_Nm"
+    )
+
+    @property
+    @labelled("eta", "", "efficiency of the mesh")
+    def efficiency(self) -> float:
+        """Work of the wheel over that of the worm."""
+        return self.input_torque_frictionless_exact / self.input_torque
+
+    @property
+    def input_torque_frictionless_exact(self) -> float:
+        """Torque of the worm for which no work is lost over a pitch, N m."""
+        return self.output_torque / self.problem.geometry.gear_ratio
+
+    @property
+    @labelled("", "", "mechanical advantage: torque of the wheel over that of the worm")
+    def mechanical_advantage(self) -> float:
+        """Torque of the wheel over that of the worm."""
+        return self.output_torque / self.input_torque
+
+    friction_radius: float = quantity(
+        "r_e", "mm", "radius on the worm of the normal force, mean by force"
+    )
+    sliding_speed: float = quantity(
+        "v_g", "m/s", "sliding speed, mean by force", key="sliding_speed_m_s"
+    )
+    transmission_error: float = quantity(
+        "", "rad", "transmission error under load, peak to peak"
+    )
+    deflection: float = quantity(
+        "", "rad", "turn of the wheel under load against the worm, mean over a pitch"
+    )
+    stiffness: float = quantity(
+        "", "N m/rad", "stiffness at the wheel, tangent", key="stiffness_Nm_per_rad"
+    )
+    stiffness_secant: float = quantity(
+        "", "N m/rad", "stiffness at the wheel, secant", key="stiffness_secant_Nm_per_rad"
+    )
+    normal_force: float = quantity("N", "N", "normal force of all teeth, mean over a pitch")
+    axial_force: float = quantity("F_x", "N", "force on the worm along its axis")
+    radial_force: float = quantity("F_r", "N", "force on the worm away from the wheel")
+    tangential_force: float = quantity("F_t", "N", "force on the worm along the wheel's axis")
+    loaded_teeth_min: int = quantity("", "", "teeth under load, least over a pitch")
+    loaded_teeth_max: int = quantity("", "", "teeth under load, most over a pitch")
+    load_share_max: float = quantity("", "", "largest share of a tooth in the normal force")
+    pressure_nodal: float = quantity(
+        "p", "MPa", "largest pressure at a node of the mesh", key="pressure_nodal_MPa"
+    )
+    pressure_hertz: float = quantity(
+        "p_H", "MPa", "largest pressure of a Hertzian line with the same load on its length",
+        key="pressure_hertz_MPa",
+    )  # fmt: skip
+    pressure_resolved: bool = quantity(
+        "", "", "whether the mesh resolves the width of the contact", shown=False
+    )
+    residual: float = quantity("", "", "largest residual of a balance", shown=False)
+    teeth_nodes: int = quantity("", "", "contact nodes of a flank", shown=False)
+    condense_seconds: float = quantity(
+        "", "s", "time of condensing", key="condense_seconds", only="json", shown=False
+    )
+
+    worm_angle: FloatArray = quantity(
+        "beta", "rad", "angle of the worm", dims=_PHASE, coordinate=True, variable="phase"
+    )
+    torque: FloatArray = quantity("T_B", "N m", "torque of the worm", dims=_PHASE)
+    torque_frictionless: FloatArray = quantity(
+        "T_B0", "N m", "torque of the worm without friction", dims=_PHASE
+    )
+    torque_reversed: FloatArray = quantity(
+        "T_C", "N m", "torque of the worm, friction turned round", dims=_PHASE
+    )
+    error_loaded: FloatArray = quantity(
+        "", "rad", "the wheel ahead of the worm under load", dims=_PHASE
+    )
+    error_unloaded: FloatArray = quantity(
+        "", "rad", "the wheel ahead of the worm without load", dims=_PHASE
+    )
+    tooth_force: FloatArray = quantity(
+        "N", "N", "normal force on each tooth", dims=(*_PHASE, "tooth")
+    )
+    part: tuple[str, ...]
+    part_stiffness: FloatArray = quantity(
+        "", "N m/rad", "stiffness at the wheel by what gives way", dims=_PART
+    )
+    pattern_torque: FloatArray = quantity(
+        "T_R", "N m", "torque of the wheel", dims=("load",), coordinate=True, variable="load"
+    )
+    pattern: FloatArray = quantity(
+        "p", "Pa", "largest pressure over a pitch at the nodes of the flank",
+        dims=("load", "node"),
+    )  # fmt: skip
+    node_radius: FloatArray = quantity(
+        "r", "m", "distance of the nodes from the wheel's axis", dims=("node",)
+    )
+    node_face: FloatArray = quantity(
+        "z", "m", "place of the nodes along the wheel's axis", dims=("node",)
+    )
+    faces: IntArray = quantity("", "", "nodes of the faces", dims=("face", "corner"), only="file")
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """The values of the problem's tables in SI, by ``table.key``."""
+        p = self.problem
+        found = table_inputs(p.gearset, p.operation, p.friction, p.drive, p.shaft, p.mount)
+        return {
+            key: value if isinstance(value, str | int | float) else str(value)
+            for key, value in found.items()
+            if not isinstance(value, bool)
+        }
+
+    @property
+    def tooth_share(self) -> FloatArray:
+        """Share of each tooth in the normal force at each phase, (p, K)."""
+        whole: FloatArray = self.tooth_force / self.tooth_force.sum(axis=1, keepdims=True)
+        return whole
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the scalars, and the stiffness by what gives way."""
+        parts = zip(self.part, np.asarray(self.part_stiffness), strict=True)
+        return super().to_json() | {
+            "stiffness_by_part_Nm_per_rad": {name: float(value) for name, value in parts},
+        }
+
+    def heading(self) -> str:
+        """Return what was solved."""
+        drive = self.problem.drive
+        return (
+            f"{self.teeth_nodes} nodes a flank ({drive.density}), {drive.teeth} teeth on the rim, "
+            f"{drive.phases} phases"
+        )
+
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write JSON, netCDF and pictures, and the loaded teeth for ParaView."""
+        from asperity.drive.static.view import write_teeth
+
+        names = super().write(folder, pictures=pictures)
+        write_teeth(self.problem, self.sector, self.nodal_force, folder / "drive_teeth.vtu")
+        return [*names, "drive_teeth.vtu"]

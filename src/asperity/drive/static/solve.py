@@ -1,0 +1,323 @@
+"""The loaded contact of a drive over a pitch of the worm: forward, without friction, reversed."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.contact.candidates.records import answer_of, candidates_of
+from asperity.contact.candidates.wrench import place_of
+from asperity.drive.friction import friction_curve, rating_inputs
+from asperity.drive.friction_curve import friction_at
+from asperity.drive.problem import DriveProblem
+from asperity.drive.shafts import MeshAction, compliances_of, wheel_compliances
+from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
+from asperity.drive.static.pressure import FlankPressure
+from asperity.drive.static.result import PATTERNS, StaticResult
+from asperity.drive.static.sweep import (
+    FORWARD,
+    FRICTIONLESS,
+    REVERSED,
+    Course,
+    phases_of,
+    sweep,
+    touching_angles,
+)
+from asperity.drive.teeth.contact import TeethContact
+from asperity.drive.teeth.sector import Sector, sector
+from asperity.errors import InputError
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
+from asperity.runs import Run
+
+_MILLIMETRES = 1e3
+_MEGA = 1e6
+# Torques beside the load, between which the tangent stiffness is taken.
+_BESIDE = 0.01
+# A tooth with less of the normal force counts as unloaded.
+_LOADED = 1e-3
+# Of the phases, for the stiffness.
+_EVERY = 3
+
+
+def condensed(problem: DriveProblem, run: Run) -> Sector:
+    """Return the elastic teeth of a drive, condensed or from those that are kept."""
+    pair = Pair.of(
+        problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc
+    )
+    drive = problem.drive
+    return sector(
+        Wheel.cut(pair),
+        problem.gearset.wheel_material,
+        density=drive.density,
+        teeth=drive.teeth,
+        notify=run.notify,
+    )
+
+
+def friction_of(problem: DriveProblem) -> float:
+    """Return the coefficient of friction while the drive runs steadily."""
+    if problem.drive.friction == "constant":
+        return problem.friction.mu
+    if problem.case is None:
+        raise InputError("drive.friction is 'iso14521', which needs a case with [operation]")
+    speed = problem.sliding_speed
+    return float(friction_at(friction_curve(rating_inputs(problem.case), 3.0 * speed), speed))
+
+
+def carried(problem: DriveProblem, torque: float, error: TooDeepError) -> InputError:
+    """Return the line that refuses a torque."""
+    module = problem.geometry.axial_module
+    return InputError(
+        f"operation.output_torque is {torque:.6g} N m; it would press the worm deeper than "
+        f"{0.1 * module:.3g} mm, a tenth of the module, into the teeth, which no elastic tooth "
+        "carries: take a smaller torque"
+    )
+
+
+class StaticModel:
+    """A drive's loaded contact, ready for any torque.
+
+    Parameters
+    ----------
+    problem : DriveProblem
+        The drive.
+    run : Run
+        Who is told about what takes long.
+    phases : int, optional
+        Positions of the worm over a pitch; those of the problem if left out.
+    """
+
+    def __init__(self, problem: DriveProblem, run: Run, phases: int | None = None) -> None:
+        self.problem = problem
+        self.run = run
+        self.sector = condensed(problem, run)
+        self.friction = friction_of(problem)
+        self.contact = TeethContact(self.sector, self.friction)
+        self.radius = problem.drive.effective_radius or problem.reference_radius
+        self.parts: Mapping[str, FloatArray] = compliances_of(problem.shaft, self.radius)
+        whole = sum(self.parts.values(), np.zeros((4, 4)))
+        self.equilibrium = Equilibrium(self.contact, whole)
+        self.phases = phases_of(self.contact, phases or problem.drive.phases)
+        self.touching = touching_angles(self.contact, self.phases)
+
+    def course(
+        self,
+        torque: float,
+        sense: int = FORWARD,
+        *,
+        every: int = 1,
+        look: Callable[[int, Balance], None] | None = None,
+    ) -> Course:
+        """Return the balances over a pitch; refuses a torque that teeth cannot carry.
+
+        Parameters
+        ----------
+        torque : float
+            Of the wheel, N m.
+        sense : {1, 0, -1}
+            Forward, without friction, or with it turned round.
+        every : int
+            1: all phases; n: each n-th.
+        look : callable, optional
+            As in `asperity.drive.static.sweep.sweep`.
+        """
+        try:
+            return sweep(
+                self.equilibrium, self.phases[::every], self.touching[::every], torque,
+                sense=sense, look=look,
+            )  # fmt: skip
+        except TooDeepError as error:
+            raise carried(self.problem, torque, error) from None
+
+
+@dataclasses.dataclass
+class _Seen:
+    """What is taken from the fields of each phase."""
+
+    model: StaticModel
+    pressure: FlankPressure
+    weight: float = 0.0
+    radius: float = 0.0
+    speed: float = 0.0
+    nodal_max: float = 0.0
+    hertz: float = 0.0
+    resolved: bool = True
+    nodal: FloatArray = dataclasses.field(init=False)
+    forces: FloatArray = dataclasses.field(init=False)
+
+    def __post_init__(self) -> None:
+        nodes = self.model.sector.body.nodes
+        self.nodal = np.zeros(nodes)
+        self.forces = np.zeros((0, 3 * nodes))
+
+    def pattern(self, _number: int, balance: Balance) -> None:
+        """Keep the largest pressure at each node."""
+        for k in range(balance.contact.slots):
+            if balance.action.normal[k] > 0.0:
+                field = self.pressure.field(balance.contact, k)
+                np.maximum(self.nodal, self.pressure.nodal(field), out=self.nodal)
+
+    def whole(self, number: int, balance: Balance) -> None:
+        """Keep pressures, radius and speed."""
+        self.pattern(number, balance)
+        contact = balance.contact
+        largest = 0.0
+        for k in range(contact.slots):
+            if balance.action.normal[k] <= 0.0:
+                continue
+            field = self.pressure.field(contact, k)
+            largest = max(largest, float(self.pressure.nodal(field).max()))
+            value, resolved = self.pressure.hertz(field)
+            if value > self.hertz:
+                self.hertz, self.resolved = value, resolved
+        force, radius, speed = contact_means(contact, balance)
+        self.weight += force
+        self.radius += force * radius
+        self.speed += force * speed
+        if largest > self.nodal_max:
+            self.nodal_max = largest
+            self.forces = contact.nodal_forces()
+
+
+def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float, float]:
+    """Return normal force, N, its mean radius on the worm, m, and sliding way, m/rad."""
+    shift = np.zeros(3)
+    _, rotation, translation = contact.placed(
+        balance.worm_angle + float(balance.yielded[0]), balance.wheel_angle, shift
+    )
+    forces, radii, ways = [], [], []
+    shapes = contact.sector.body.shapes
+    for k in range(contact.slots):
+        own, answer = candidates_of(contact.candidates, k), answer_of(contact.answer, k)
+        for q in np.flatnonzero(answer.pressure[: 4 * int(own.counts[0])] > 0.0):
+            place = np.array(place_of(own, shapes, answer.u, q))
+            x, y, _ = rotation[k].T @ (place - translation[k])
+            forces.append(answer.pressure[q] * own.weights[q])
+            radii.append(math.hypot(x, y))
+            ways.append(np.linalg.norm(answer.slip_1[q]))
+    weights = np.array(forces)
+    whole = float(weights.sum())
+    return whole, float(weights @ radii) / whole, float(weights @ ways) / whole
+
+
+def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
+    """Solve the loaded contact of a drive over a pitch.
+
+    Raises
+    ------
+    InputError
+        There is no such wheel or mesh, or the teeth cannot carry the torque.
+    ConvergenceError
+        No balance was found.
+    """
+    model = StaticModel(problem, run)
+    load, sector_, contact = problem.load, model.sector, model.contact
+    gearset = problem.gearset
+    pressure = FlankPressure.of(sector_, gearset.wheel_material, gearset.worm_material)
+    steps = 5 + len(PATTERNS) - 1
+    seen = _Seen(model, pressure)
+    forward = model.course(load, look=seen.whole)
+    run.checkpoint(1, steps, what="sweeps")
+    frictionless = model.course(load, FRICTIONLESS)
+    run.checkpoint(2, steps, what="sweeps")
+    reversed_ = model.course(load, REVERSED)
+    run.checkpoint(3, steps, what="sweeps")
+    patterns = []
+    for share in PATTERNS[:-1]:
+        part = _Seen(model, pressure)
+        model.course(share * load, look=part.pattern)
+        patterns.append(part.nodal)
+        run.checkpoint(4 + len(patterns), steps, what="sweeps")
+    more, less = (
+        model.course((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0)
+    )
+    tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
+    radius = seen.radius / seen.weight
+    parts = _parts(model, tangent, radius)
+    share = forward.tooth_force / forward.tooth_force.sum(axis=1, keepdims=True)
+    loaded = (share > _LOADED).sum(axis=1)
+    axes = contact.stand.axes
+    on_worm = -forward.wrench[:, :3].mean(axis=0)
+    surface = sector_.surface
+    return StaticResult(
+        problem=problem,
+        sector=sector_,
+        nodal_force=seen.forces,
+        output_torque=load,
+        friction=model.friction,
+        input_torque=float(forward.worm_torque.mean()),
+        input_torque_frictionless=float(frictionless.worm_torque.mean()),
+        input_torque_reversed=float(reversed_.worm_torque.mean()),
+        friction_radius=_MILLIMETRES * radius,
+        sliding_speed=problem.worm_speed * seen.speed / seen.weight,
+        transmission_error=float(np.ptp(forward.error)),
+        deflection=forward.mean_deflection,
+        stiffness=tangent,
+        stiffness_secant=load / forward.mean_deflection,
+        normal_force=float(forward.tooth_force.sum(axis=1).mean()),
+        axial_force=float(abs(on_worm @ axes[2])),
+        radial_force=float(-on_worm @ axes[0]),
+        tangential_force=float(abs(on_worm @ axes[1])),
+        loaded_teeth_min=int(loaded.min()),
+        loaded_teeth_max=int(loaded.max()),
+        load_share_max=float(share.max()),
+        pressure_nodal=seen.nodal_max / _MEGA,
+        pressure_hertz=seen.hertz / _MEGA,
+        pressure_resolved=seen.resolved,
+        residual=max(forward.residual, frictionless.residual, reversed_.residual),
+        teeth_nodes=sector_.body.nodes,
+        condense_seconds=sector_.seconds,
+        worm_angle=forward.worm_angle,
+        torque=forward.worm_torque,
+        torque_frictionless=frictionless.worm_torque,
+        torque_reversed=reversed_.worm_torque,
+        error_loaded=forward.error,
+        error_unloaded=forward.touching,
+        tooth_force=forward.tooth_force,
+        part=tuple(parts),
+        part_stiffness=np.array(list(parts.values())),
+        pattern_torque=load * np.array(PATTERNS),
+        pattern=np.array([*patterns, seen.nodal]),
+        node_radius=np.hypot(surface.positions[:, 0], surface.positions[:, 1]),
+        node_face=problem.gearset.hand_sign * surface.positions[:, 2],
+        faces=surface.faces,
+        notes=_notes(problem, seen),
+    )
+
+
+def _parts(model: StaticModel, tangent: float, radius: float) -> dict[str, float]:
+    """Stiffness at the wheel by what gives way, N m/rad: what shafts leave is the teeth's."""
+    action = MeshAction.at_pitch_point(model.problem.geometry, model.friction, radius)
+    shafts = wheel_compliances(action, model.parts)
+    teeth = 1.0 / tangent - sum(shafts.values())
+    return {"teeth": 1.0 / teeth} | {name: 1.0 / value for name, value in shafts.items()}
+
+
+def _notes(problem: DriveProblem, seen: _Seen) -> tuple[str, ...]:
+    notes = []
+    left_out = [
+        what
+        for what, there in (
+            ("bending of the worm's shaft", problem.shaft.diameter and problem.shaft.span),
+            ("its radial bearings", problem.shaft.bearing_radial),
+            ("its axial bearing", problem.shaft.bearing_axial),
+            ("its torsion", problem.shaft.torsion),
+        )
+        if not there
+    ]
+    if left_out:
+        notes.append(
+            f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
+        )
+    notes.append("the worm's threads are rigid: elastic ones take a fifth off the pressure")
+    if not seen.resolved:
+        notes.append(
+            "the contact is narrower than the elements: the pressure at nodes grows with a finer "
+            "mesh; the Hertzian one does not"
+        )
+    return tuple(notes)

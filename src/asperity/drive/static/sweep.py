@@ -1,0 +1,105 @@
+"""A pitch of the worm passed through under one torque: what is summed up at each phase."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.drive.static.equilibrium import Balance, Equilibrium
+from asperity.drive.teeth.contact import TeethContact
+
+FORWARD, FRICTIONLESS, REVERSED = 1, 0, -1
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Course:
+    """Balances over a pitch under one torque; all arrays have a row for each phase."""
+
+    torque: float  #: Of the wheel, N m
+    worm_angle: FloatArray  #: (p,): rad
+    touching: FloatArray  #: (p,): The wheel's angle without load, ahead of the ratio's, rad
+    deflection: FloatArray  #: (p,): By which the load turns the wheel back, rad
+    worm_torque: FloatArray  #: (p,): N m
+    wrench: FloatArray  #: (p, 6): On the wheel about its centre, N and N m
+    tooth_force: FloatArray  #: (p, K): Normal force by tooth, from the one that enters, N
+    residual: float  #: Largest
+
+    @property
+    def error(self) -> FloatArray:
+        """Transmission error under load: the wheel ahead of the ratio's angle, rad."""
+        return self.touching - self.deflection
+
+    @property
+    def mean_deflection(self) -> float:
+        """Over the pitch, rad."""
+        return float(self.deflection.mean())
+
+
+def phases_of(contact: TeethContact, count: int) -> FloatArray:
+    """Return so many angles of the worm over a pitch, rad."""
+    pitch = contact.sector.pitch * contact.stand.ratio
+    return np.asarray(np.arange(count) * (pitch / count), dtype=np.float64)
+
+
+def touching_angles(contact: TeethContact, phases: FloatArray) -> FloatArray:
+    """Return the wheel's angles without load, rad."""
+    still = np.zeros(3)
+    return np.array([contact.touching_angle(float(beta), still) for beta in phases])
+
+
+def sweep(
+    equilibrium: Equilibrium,
+    phases: FloatArray,
+    touching: FloatArray,
+    torque: float,
+    *,
+    sense: int = FORWARD,
+    look: Callable[[int, Balance], None] | None = None,
+) -> Course:
+    """Solve for the balance at all phases.
+
+    Parameters
+    ----------
+    equilibrium : Equilibrium
+        Of the drive.
+    phases, touching : ndarray
+        Angles of the worm, and of the wheel without load there, rad.
+    torque : float
+        Of the wheel, N m.
+    sense : {1, 0, -1}
+        `FORWARD`, `FRICTIONLESS` or `REVERSED`.
+    look : callable, optional
+        Takes the number of a phase and its balance while the fields of the contact are its own.
+    """
+    ratio = equilibrium.contact.stand.ratio
+    found = []
+    for number, (beta, free) in enumerate(zip(phases, touching, strict=True)):
+        balance = equilibrium.balance(float(beta), torque, sense=sense, touching=float(free))
+        if look is not None:
+            look(number, balance)
+        found.append(balance)
+    return Course(
+        torque=torque,
+        worm_angle=phases,
+        touching=touching - phases / ratio,
+        deflection=touching - np.array([b.wheel_angle for b in found]),
+        worm_torque=np.array([b.worm_torque for b in found]),
+        wrench=np.array([b.action.wrench for b in found]),
+        tooth_force=_in_one_row([b.action.teeth for b in found], [b.action.normal for b in found]),
+        residual=max(b.residual for b in found),
+    )
+
+
+def _in_one_row(numbers: list[tuple[int, ...]], forces: list[FloatArray]) -> FloatArray:
+    """Forces by tooth with each tooth in a column of its own over the whole pitch."""
+    first = min(n[0] for n in numbers)
+    last = max(n[-1] for n in numbers)
+    rows = np.zeros((len(numbers), last - first + 1))
+    for row, own, values in zip(rows, numbers, forces, strict=True):
+        row[own[0] - first : own[-1] - first + 1] = values
+    return rows
+
+
