@@ -5,7 +5,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import check, solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
-from asperity.errors import InputError
+from asperity.drive.static.solve import solve_static
 from asperity.results import Result
 from asperity.runs import Run
 
@@ -27,5 +27,5 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
 def answer(problem: DriveProblem, run: Run) -> Result:
     """Solve a drive: its loaded teeth without vibration, its protocol with one."""
     if problem.vibration is None:
-        raise InputError("the table [vibration] is missing; add it")
+        return solve_static(problem, run)
     return solve_shaken(problem, ReducedModel(problem, reduction(problem, run)), run)

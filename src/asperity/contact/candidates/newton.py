@@ -179,9 +179,7 @@ def assemble(body, candidates, count, nodes, answer, work):
                         gy += shape * near[3 * i + 1, m]
                         gz += shape * near[3 * i + 2, m]
                 for c in range(3):
-                    matrix[3 * j + e, 3 * i + c] = -w * (
-                        k[c, 0] * gx + k[c, 1] * gy + k[c, 2] * gz
-                    )
+                    matrix[3 * j + e, 3 * i + c] = -w * (k[c, 0] * gx + k[c, 1] * gy + k[c, 2] * gz)
         for c in range(3):
             matrix[3 * i + c, 3 * i + c] += 1.0
     return matrix.T
@@ -194,9 +192,7 @@ def _newton_change(candidates, count, matrix, answer, work):
     for i in range(count):
         q = work.active[i]
         for c in range(3):
-            right[3 * i + c] = (
-                candidates.weights[q] * answer.traction[q, c] - answer.force[q, c]
-            )
+            right[3 * i + c] = candidates.weights[q] * answer.traction[q, c] - answer.force[q, c]
     change = np.linalg.solve(matrix, right)
     for i in range(count):
         q = work.active[i]

@@ -109,7 +109,8 @@ class Answer(NamedTuple):
         at = (slots, q)
         return cls(
             np.zeros((*at, 3)), np.zeros((slots, 3 * n)), np.zeros((slots, 3 * n)),
-            np.zeros(at), np.zeros(at), *(np.zeros((*at, 3)) for _ in range(5)), np.zeros(at),
+            np.zeros(at), np.zeros(at), np.zeros((*at, 3)), np.zeros((*at, 3)), np.zeros((*at, 3)),
+            np.zeros((*at, 3)), np.zeros((*at, 3)), np.zeros(at),
             np.zeros((*at, 3, 3)),
         )  # fmt: skip
 

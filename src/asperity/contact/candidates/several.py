@@ -109,7 +109,7 @@ def solve_all(
     bodies = number.shape[0]
     iterations = 0
     residual = 0.0
-    for sweep in range(_SWEEPS):
+    for _ in range(_SWEEPS):
         changed = 0.0
         whole = 0.0
         residual = 0.0

@@ -3,7 +3,7 @@
 import dataclasses
 
 from asperity.drive.problem import DriveProblem
-from asperity.errors import InputError
+from asperity.drive.static.reduction import teeth_reduced
 from asperity.runs import Run
 
 
@@ -33,10 +33,7 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
     """Return what a problem's teeth are reduced to: as given, else by their static solution."""
     drive = problem.drive
     if drive.deflection is None:
-        raise InputError(
-            "drive.deflection is missing; give torques of the wheel and the angles that they turn "
-            'it by, such as [["23 N m", "47.6 urad"], ["366 N m", "365 urad"]]'
-        )
+        return _of_teeth(problem, run)
     notes = []
     if drive.effective_radius is None:
         notes.append(
@@ -47,4 +44,20 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
         notes.append("drive.tangential_compliance is left out: teeth are rigid along the flank")
     return Reduction(
         drive.effective_radius, drive.deflection, drive.tangential_compliance or 0.0, tuple(notes)
+    )
+
+
+def _of_teeth(problem: DriveProblem, run: Run) -> Reduction:
+    """What the static solution says; what is given beside it stays."""
+    teeth = teeth_reduced(problem, run)
+    drive = problem.drive
+    compliance = drive.tangential_compliance
+    return Reduction(
+        drive.effective_radius or teeth.radius,
+        tuple(zip(teeth.torque.tolist(), teeth.deflection.tolist(), strict=True)),
+        teeth.compliance if compliance is None else compliance,
+        (
+            f"deflection, radius and compliance are those of {drive.teeth} elastic teeth on a rim, "
+            f"{drive.density} mesh",
+        ),
     )

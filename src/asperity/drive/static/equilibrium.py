@@ -62,7 +62,8 @@ class Equilibrium:
         module = contact.sector.wheel.pair.geometry.axial_module
         self._deepest = _DEEPEST * 1e-3 * module
         self._last: tuple[float, FloatArray] | None = None
-        # Of the wheel's torque over what the slope of teeth that do not give way to each other says.
+        # Change of the torque over what the slope says, which leaves out that teeth give way to
+        # each other.
         self._softer = 1.0
 
     def shift(self, yielded: FloatArray) -> FloatArray:
@@ -106,24 +107,20 @@ class Equilibrium:
                     "the load presses the worm further into the teeth than they can give",
                     reached={"deflection_rad": behind},
                 )
-            action = contact.act(
-                beta + yielded[0], phi, self.shift(yielded), sense=sense
-            )
+            action = contact.act(beta + yielded[0], phi, self.shift(yielded), sense=sense)
             on_worm = -self._twists @ action.wrench
             if abs(promised) < _SMALL * torque:
                 self._softer *= (action.wrench[5] - before) / promised
-            missing = np.concatenate([
-                [action.wrench[5] - torque], yielded - self.compliance @ on_worm
-            ])
+            missing = np.concatenate(
+                [[action.wrench[5] - torque], yielded - self.compliance @ on_worm]
+            )
             residual = max(
                 abs(missing[0]) / torque,
                 float(np.abs(missing[1:]).max()) / (size * (1.0 + float(np.abs(on_worm).max()))),
             )
             if residual <= _CLOSE:
                 self._last = torque, np.concatenate([[behind], yielded])
-                return Balance(
-                    beta, phi, -float(on_worm[0]), yielded, action, contact, residual
-                )
+                return Balance(beta, phi, -float(on_worm[0]), yielded, action, contact, residual)
             slope = self._slope(action)
             move = np.linalg.solve(slope, -missing)
             if not action.wrench[5] > 0.0:

@@ -77,7 +77,7 @@ class FlankPressure:
         curvature, along = self._curvature
         z = np.round(body.places[:, 2], 9)
         columns, column = np.unique(z, return_inverse=True)
-        load = np.bincount(column, force)
+        load = np.asarray(np.bincount(column, force), dtype=np.float64)
         edges = np.concatenate([[columns[0]], 0.5 * (columns[1:] + columns[:-1]), [columns[-1]]])
         # The first and last points lie inside the face by as much as they stand for.
         edges[0] -= edges[1] - columns[0]

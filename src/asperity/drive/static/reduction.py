@@ -8,7 +8,6 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
-from asperity.drive.shafts import MeshAction
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.solve import StaticModel, contact_means
 from asperity.drive.teeth.contact import TeethContact
@@ -63,9 +62,9 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
         torque=load * np.array(SHARES),
         deflection=np.array(deflections),
         radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
-        force_radius=moment / whole,
-        compliance=compliance,
-        normal_force=whole / phases,
+        force_radius=float(moment / whole),
+        compliance=float(compliance),
+        normal_force=float(whole / phases),
     )
 
 
@@ -77,14 +76,13 @@ def _closed_form_radius(
     step = 1e-6
     for _ in range(20):
         here, there = (
-            problem.load * MeshAction.at_pitch_point(problem.geometry, friction, r).worm_torque
-            for r in (radius, radius + step)
+            problem.point(r).worm_torque(problem.load, friction) for r in (radius, radius + step)
         )
         move = (torque - here) * step / (there - here) if there != here else 0.0
         radius += float(np.clip(move, -0.1 * guess, 0.1 * guess))
         if abs(move) < 1e-9:
             break
-    return radius
+    return float(radius)
 
 
 def _along(contact: TeethContact) -> tuple[float, float]:

@@ -78,9 +78,7 @@ class StaticResult(Result):
     sliding_speed: float = quantity(
         "v_g", "m/s", "sliding speed, mean by force", key="sliding_speed_m_s"
     )
-    transmission_error: float = quantity(
-        "", "rad", "transmission error under load, peak to peak"
-    )
+    transmission_error: float = quantity("", "rad", "transmission error under load, peak to peak")
     deflection: float = quantity(
         "", "rad", "turn of the wheel under load against the worm, mean over a pitch"
     )

@@ -46,9 +46,7 @@ _EVERY = 3
 
 def condensed(problem: DriveProblem, run: Run) -> Sector:
     """Return the elastic teeth of a drive, condensed or from those that are kept."""
-    pair = Pair.of(
-        problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc
-    )
+    pair = Pair.of(problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc)
     drive = problem.drive
     return sector(
         Wheel.cut(pair),
@@ -233,9 +231,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         model.course(share * load, look=part.pattern)
         patterns.append(part.nodal)
         run.checkpoint(4 + len(patterns), steps, what="sweeps")
-    more, less = (
-        model.course((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0)
-    )
+    more, less = (model.course((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0))
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, tangent, radius)
@@ -292,7 +288,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
 
 def _parts(model: StaticModel, tangent: float, radius: float) -> dict[str, float]:
     """Stiffness at the wheel by what gives way, N m/rad: what shafts leave is the teeth's."""
-    action = MeshAction.at_pitch_point(model.problem.geometry, model.friction, radius)
+    action = MeshAction.of(model.problem.point(radius), model.friction)
     shafts = wheel_compliances(action, model.parts)
     teeth = 1.0 / tangent - sum(shafts.values())
     return {"teeth": 1.0 / teeth} | {name: 1.0 / value for name, value in shafts.items()}

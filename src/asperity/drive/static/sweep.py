@@ -101,5 +101,3 @@ def _in_one_row(numbers: list[tuple[int, ...]], forces: list[FloatArray]) -> Flo
     for row, own, values in zip(rows, numbers, forces, strict=True):
         row[own[0] - first : own[-1] - first + 1] = values
     return rows
-
-

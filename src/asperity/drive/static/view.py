@@ -13,9 +13,7 @@ from asperity.flanks.wheel.frame import turned
 from asperity.mesh.vtu import write_vtu
 
 
-def write_teeth(
-    problem: DriveProblem, sector: Sector, nodal_force: FloatArray, path: Path
-) -> Path:
+def write_teeth(problem: DriveProblem, sector: Sector, nodal_force: FloatArray, path: Path) -> Path:
     """Write the sector under the forces on its flanks.
 
     Parameters

@@ -11,6 +11,7 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.contact.candidates import newton
 from asperity.contact.candidates.faces import collect, least_gap
+from asperity.contact.candidates.newton import spread
 from asperity.contact.candidates.records import (
     Answer,
     Candidates,
@@ -20,7 +21,6 @@ from asperity.contact.candidates.records import (
     answer_of,
     candidates_of,
 )
-from asperity.contact.candidates.newton import spread
 from asperity.contact.candidates.several import solve_all
 from asperity.contact.candidates.wrench import wrench, wrench_slope
 from asperity.contact.interface.friction import COULOMB, PointFriction
@@ -161,9 +161,7 @@ class TeethContact:
         angles = phi + self.sector.pitch * np.array(numbers, dtype=np.float64)
         rotation, translation = np.empty((len(angles), 3, 3)), np.empty((len(angles), 3))
         for k, angle in enumerate(angles):
-            place_worm(
-                self.stand, beta, shift, angle, 0.0, self.side, rotation[k], translation[k]
-            )
+            place_worm(self.stand, beta, shift, angle, 0.0, self.side, rotation[k], translation[k])
         return angles, rotation, translation
 
     def least_gap(self, beta: float, phi: float, shift: FloatArray) -> float:
@@ -269,10 +267,12 @@ class TeethContact:
 
     def _normal_forces(self) -> FloatArray:
         counts = 4 * self.candidates.counts[:, 0]
-        return np.array([
-            float(self.answer.pressure[k, :n] @ self.candidates.weights[k, :n])
-            for k, n in enumerate(counts)
-        ])
+        return np.array(
+            [
+                float(self.answer.pressure[k, :n] @ self.candidates.weights[k, :n])
+                for k, n in enumerate(counts)
+            ]
+        )
 
     def _collect(
         self, beta: float, phi: float, shift: FloatArray, numbers: range, rotation: FloatArray,

@@ -211,7 +211,9 @@ def _block(
     Teeth count from the middle one about +Z; the condensed body has them the other way round.
     """
     first = 1 if neighbours and teeth > 1 else 0
-    rows, columns = (slice(3 * size * (first - k), 3 * size * (first - k + 1)) for k in (row, column))
+    rows, columns = (
+        slice(3 * size * (first - k), 3 * size * (first - k + 1)) for k in (row, column)
+    )
     block = body.flexibility[rows, columns].reshape(size, 3, size, 3)
     own = np.einsum("ca,mcnd,db->manb", row_turn, block, column_turn, optimize=True)
     return np.ascontiguousarray(own.reshape(3 * size, 3 * size))
@@ -229,9 +231,7 @@ def _interpolation(coarse: ContactSurface, fine: ContactSurface) -> sparse.csr_a
     share = [p - k for p, k in zip(places, low, strict=True)]
     for i in (0, 1):
         for j in (0, 1):
-            weight = np.outer(
-                share[0] if i else 1.0 - share[0], share[1] if j else 1.0 - share[1]
-            )
+            weight = np.outer(share[0] if i else 1.0 - share[0], share[1] if j else 1.0 - share[1])
             rows.append(grids[1].reshape(-1))
             columns.append(grids[0][np.ix_(low[0] + i, low[1] + j)].reshape(-1))
             values.append(weight.reshape(-1))
