@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from asperity.errors import InputError, nearest
 from asperity.thesis.contact import elastic
 from asperity.thesis.contact.elastic import LONGITUDINAL, TRANSVERSE
+from asperity.thesis.drive import simulations
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE, Exhibit, Part
 
 
@@ -61,6 +62,7 @@ _MADE_IN = {
         "flanks.solids": "7.1 7.2 7.3 7.4 7.11",
         "contact.figures": "5.2 5.3 5.5 5.6 5.7 5.8 5.9 5.10 5.11 7.8 7.9",
         "drive.models": "7.5 7.6 7.7",
+        "drive.figures": "7.10 7.12 7.13 7.14 7.15",
     },
     TABLE: {
         "sliding.tables": "4.1 4.3 4.4",
@@ -77,6 +79,7 @@ _MADE_IN = {
         "contact.derivatives": "7.14",
         "drive.claims": "7.4 7.11 7.12 7.13 7.16 7.18",
         "drive.laws": "7.6",
+        "drive.claims_shaken": "7.2 7.3 7.7 7.10 7.15 7.17",
     },
 }
 
@@ -86,7 +89,7 @@ _CASES = {
     "rating": ("gearset-2", "gearset-3"),
     "flanks": ("gearset-3b",),
     "contact": ("table-4.3", "table-4.4", LONGITUDINAL, TRANSVERSE),
-    "drive": ("gearset-3b",),
+    "drive": ("gearset-2", "gearset-3b", "drive-screw"),
 }
 
 _over_ratio, _from_rest = elastic.over_ratio, elastic.from_rest
@@ -102,6 +105,7 @@ _PARTS: dict[str, Callable[[bool], Sequence[Part]]] = {
     "figure 7.9": functools.partial(_over_ratio, LONGITUDINAL, on_body=True),
     "claim 5.1": elastic.equal_ratios,
     "claim 7.8": elastic.base_or_body,
+    **simulations.PARTS,
 }
 
 

@@ -4,14 +4,15 @@ Light, so that a run can hand them out before anything of theirs is imported.
 """
 
 import dataclasses
-from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeVar
+import functools
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.runs.workers import Task
 from asperity.thesis.cases import Shipped
+from asperity.thesis.kept import once
 from asperity.thesis.products import labelled
 
 if TYPE_CHECKING:
@@ -43,8 +44,8 @@ _STEP = {False: "solve.step=4 us", True: "solve.step=1 us"}
 _MARCHED = {LONGITUDINAL: "6", TRANSVERSE: "20"}
 
 _ROOM = "asperity.thesis.contact"
+_SOLVED_BY = f"{_ROOM}.blocks"
 _SETTLING, _MARCH = 4.0, 30.0  # s, about
-T = TypeVar("T")
 
 
 class ElasticBlock(Shipped):
@@ -56,7 +57,7 @@ class ElasticBlock(Shipped):
         """Its friction and that of the sliding bodies beside it, solved once for all runs."""
         from asperity.thesis.contact.blocks import Settled, settle
 
-        return _once(self, Settled, lambda: settle(self.case, self.settings))
+        return once(self, Settled, _SOLVED_BY, lambda: settle(self.case, self.settings))
 
     @property
     def task(self) -> Task:
@@ -104,28 +105,13 @@ class BlockFromRest(Shipped):
         """What is shown of its march, solved once for all runs."""
         from asperity.thesis.contact.blocks import march
 
-        return _once(self, FromRest, lambda: FromRest.of(march(self.case, self.settings)))
+        marched = functools.partial(march, self.case, self.settings)
+        return once(self, FromRest, _SOLVED_BY, lambda: FromRest.of(marched()))
 
     @property
     def task(self) -> Task:
         """To march it, for those that ask later."""
         return Task(f"march {self.name}", self.marched, _ROOM, _MARCH)
-
-
-def _once(block: ElasticBlock | BlockFromRest, of: type[T], solve: Callable[[], T]) -> T:
-    from asperity.runs.cache import Cache
-    from asperity.runs.key import code_key, key
-    from asperity.runs.tree import from_tree, to_tree
-    from asperity.shipped import shipped_cases
-
-    case = shipped_cases()[block.case].read_bytes()
-    name = key(code_key(f"{_ROOM}.blocks"), of.__name__, case, *block.settings)
-    kept = Cache.of_this_user("thesis")
-    tree = kept.get(name)
-    if tree is None:
-        tree = to_tree(solve())
-        kept.put(name, tree)
-    return from_tree(of, tree)
 
 
 def over_ratio(case: str, full: bool = False, *, on_body: bool = False) -> list[ElasticBlock]:

@@ -14,6 +14,9 @@ from asperity.thesis.products import Finding
 
 GEAR = Gear("gearset-3b")
 FRICTION = 0.1344
+RADIUS = 9.81e-3
+"""Where the loaded teeth of gearset 3 touch the worm, weighted by force, m."""
+
 _TORQUE = "asperity.drive.point.MeshPoint.worm_torque"
 _SAVED_MASS, _SAVED_DIAMETER, _SAVED_LENGTH, _SAVED_COST = 6.0, 0.05, 0.03, 23.0
 # A motor of cast iron or aluminium, copper and steel; kg/m3.
@@ -30,12 +33,8 @@ def geometry() -> Geometry:
 
 
 def band() -> tuple[float, float, float]:
-    """Worm torques with friction reversed, without, and as it is, N m, in balance with the wheel.
-
-    At the pitch radius; a contact further out gives a little more.
-    """
-    g = geometry()
-    point = MeshPoint.of(g, 0.5e-3 * g.worm_pitch_diameter)
+    """Worm torques with friction reversed, without, and as it is, N m, in balance with the wheel."""
+    point = MeshPoint.of(geometry(), RADIUS)
     low, none, high = (point.worm_torque(LOAD, mu) for mu in (-FRICTION, 0.0, FRICTION))
     return low, none, high
 

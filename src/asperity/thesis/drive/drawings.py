@@ -1,0 +1,124 @@
+"""Pictures of the shaken gearset, drawn from their datasets alone."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, legend, panels
+from asperity.thesis.drawing import DOTTED, legend_above, limit, line, marks
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_K = r"velocity ratio $k_w = v_a/v_g$"
+_RATIO = r"$T_{Bv}/T_{Bs}$"
+_GREY = "#D9D9D9"
+_SCALE: dict[str, Any] = {"linthresh": 0.5, "linscale": 0.6}
+_TICKS = (0.1, 0.5, 1, 2, 3, 5, 10, 20)
+
+
+def _over_k(axes: "Axes", label: str = _RATIO) -> None:
+    axes.set_xscale("log")
+    axes.set_xticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
+    axes.set_xticks([], minor=True)
+    axes.set(xlabel=_K, ylabel=label, xlim=(0.09, 22.0))
+
+
+def _not_settled(axes: "Axes", k: Any, values: Any, settled: Any) -> None:
+    loose = np.asarray(settled) < 0.5
+    axes.plot(
+        np.asarray(k)[loose], np.asarray(values)[loose], "x", color=BLACK, markersize=9, zorder=4
+    )
+
+
+def ratios(dataset: "xr.Dataset") -> "Figure":
+    """Draw both readings of the ratio over k_w above, how the wheel is balanced below."""
+    figure, (upper, lower) = panels(2, height=7.2)
+    k = dataset["k"]
+    for index, name in enumerate(dataset["series"].values):
+        own = dataset.sel(series=name)
+        marks(upper, index, k, own["ratio"], str(name), filled=True)
+        line(upper, index, k, own["ratio"], linewidth=0.8)
+        _not_settled(upper, k, own["ratio"], own["settled"])
+        marks(upper, index, k, own["window"], f"{name}, first cycles")
+        marks(lower, index, k, own["balance"], filled=True)
+        marks(lower, index, k, own["window_balance"])
+        line(lower, index, k, own["window_balance"], linewidth=0.8)
+    limit(upper, 1.0)
+    upper.axhline(float(dataset["floor"]), color=BLACK, dashes=DOTTED, linewidth=1.0)
+    _over_k(upper)
+    legend_above(upper, 2)
+    _over_k(lower, "wheel's torque over its load, less 1")
+    lower.set_yscale("symlog", linthresh=0.1)
+    limit(lower, 0.0)
+    return figure
+
+
+def torque_over_time(dataset: "xr.Dataset") -> "Figure":
+    """Draw the torque of the first cycles, contact lost in grey, and means so far."""
+    figure, (upper, lower) = panels(2, height=6.8)
+    time = 1e3 * dataset["time"].values
+    low, high = float(dataset["torque"].min()), float(dataset["torque"].max())
+    upper.fill_between(
+        time, low, high, where=dataset["open"].values > 0.5, color=_GREY, linewidth=0,
+        label="no contact",
+    )  # fmt: skip
+    line(upper, 0, time, dataset["torque"], "$T_B$", linewidth=1.0)
+    for value, name, dashes in (
+        ("static", "without vibration", (5, 2)),
+        ("thesis", "7.4 N m of the thesis", DOTTED),
+    ):
+        upper.axhline(float(dataset[value]), color=BLACK, dashes=dashes, label=name, linewidth=1.2)
+    upper.set(xlabel="time from the start of the vibration (ms)", ylabel="$T_B$ (N m)")
+    upper.set_xlim(time[0], time[-1])
+    legend_above(upper, 4)
+    cycles = dataset["cycles"]
+    line(lower, 0, cycles, dataset["worm"], r"worm, over $T_{Bs}$")
+    line(lower, 1, cycles, dataset["wheel"], r"wheel, over $T_R$")
+    lower.axhline(
+        float(dataset["thesis"] / dataset["thesis_static"]), color=BLACK, dashes=DOTTED,
+        linewidth=1.2, label="0.22 of the thesis",
+    )  # fmt: skip
+    at_end = "settled" if float(dataset["settled"]) > 0.5 else "not settled"
+    lower.axhline(
+        float(dataset["ratio"]), color=BLUE, dashes=(5, 2), linewidth=1.0,
+        label=f"at the end ({at_end})",
+    )  # fmt: skip
+    limit(lower, 1.0)
+    lower.set(xscale="log", xlabel="cycles from the start", ylabel="mean so far")
+    legend(lower, loc="upper right")
+    return figure
+
+
+def advantage(dataset: "xr.Dataset") -> "Figure":
+    """Draw ratio, advantage and system efficiency; rigid friction beside them."""
+    figure, (left, right) = panels(1, 2, width=11.0, height=4.6)
+    k = dataset["k"]
+    for index, (name, label) in enumerate(
+        (("ratio", _RATIO), ("efficiency", r"$\eta_{sys}$ with the actuator"))
+    ):
+        line(left, index, k, dataset[name], linewidth=0.8)
+        marks(left, index, k, dataset[name], label, filled=True)
+        _not_settled(left, k, dataset[name], dataset["settled"])
+    _over_k(left, r"$T_{Bv}/T_{Bs}$, $\eta_{sys}$")
+    other = left.twinx()
+    other.grid(False)
+    line(other, 2, k, dataset["advantage"], color=GREEN, marker="D", markerfacecolor="none")
+    other.set_ylabel(r"mechanical advantage $M_a$", color=GREEN)
+    other.set_ylim(0.0, None)
+    legend_above(left, 2)
+    left.set_title("(a)", loc="left")
+    for name, colour in (("across", BLUE), ("along", VERMILION)):
+        right.plot(dataset["k_v"], dataset[name], color=colour, label=f"rigid friction, {name}")
+        right.axhline(
+            float(dataset["measured"].sel(test=name)), color=colour, dashes=DOTTED,
+            label=f"least of the disc tests, {name}",
+        )  # fmt: skip
+    right.set(
+        xlabel="velocity ratio $k_v$", ylabel=r"$T_{sv}/T_{ss}$", xlim=(0, 20), ylim=(0, 1.05)
+    )
+    legend(right, loc="upper right")
+    right.set_title("(b)", loc="left")
+    return figure

@@ -1,0 +1,89 @@
+"""Shaken gearsets marched, for `asperity.thesis.drive.simulations` and the pictures over time."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.march import March
+from asperity.drive.protocols.setup import begin, system
+from asperity.drive.protocols.solve import solve_shaken
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
+from asperity.drive.solve import prepare
+from asperity.runs import Run
+from asperity.thesis.drive.simulations import Shaken
+
+_KEPT = 200
+"""First cycles of which the means are shown."""
+
+
+def _model(case: str, settings: Sequence[str]) -> tuple[DriveProblem, ReducedModel]:
+    problem = prepare(read_case(case, case_tables(), settings))
+    return problem, ReducedModel(problem, reduction(problem, Run()))
+
+
+def march(case: str, settings: Sequence[str]) -> Shaken:
+    """March a shipped drive, as ``asperity drive`` does."""
+    problem, model = _model(case, settings)
+    found = solve_shaken(problem, model, Run())
+    ledger, course = found.ledger, found.course
+    window, balance = found.torque_ratio_window, found.window_balance
+    if found.torque_ratio is None or window is None or balance is None or course is None:
+        raise ValueError("a march without a motor")
+    return Shaken(
+        static=found.torque_static,
+        ratio=found.torque_ratio,
+        balance=found.torque_balance,
+        spread=found.spread if found.spread is not None else np.inf,
+        settled=found.settled,
+        window=window,
+        window_balance=balance,
+        open=found.open_share,
+        second=found.second_flank_share,
+        force=found.force_max,
+        drive=ledger.drive,
+        actuator=ledger.actuator,
+        load=ledger.load,
+        friction=ledger.friction,
+        closure=found.closure,
+        cycle_torque=course.cycle_torque[:_KEPT],
+        cycle_wheel=course.cycle_wheel[:_KEPT],
+        electrical=found.actuator_electrical,
+        apparent=found.actuator_apparent,
+    )
+
+
+def from_start(
+    case: str, settings: Sequence[str], cycles: int, rows: int
+) -> dict[str, FloatArray | float]:
+    """March the first cycles of a shipped drive and return their motion over time.
+
+    Returns
+    -------
+    dict
+        ``time``, ``torque``, ``normal``, ``wheel`` (torque of the mesh on the wheel), means of so
+        many stretches a cycle, ``open``, the share of each without contact, and ``static``.
+    """
+    problem, model = _model(case, settings)
+    moving = system(problem, model)
+    run = March(model, moving, *begin(problem, model, moving), Run())
+    sums = run.stretches(cycles * rows, run.cycle / rows)
+    span = sums["time"]
+    return {
+        "time": np.cumsum(span) - 0.5 * span,
+        "torque": sums["torque"] / span,
+        "normal": sums["driving"] / span,
+        "wheel": sums["wheel_torque"] / span,
+        "open": sums["open"] / span,
+        "static": model.worm_torque,
+    }
+
+
+def holding(case: str, settings: Sequence[str]) -> tuple[float | None, bool | None]:
+    """Return the wheel's creep with the motor off, rad/s, and whether the gearset holds after."""
+    found = solve_shaken(*_model(case, settings), Run())
+    return found.creep, found.held_after

@@ -1,0 +1,144 @@
+"""The 33 simulations of a shaken gearset by what decides them, and which of them an exhibit shows.
+
+Light, so that a run can hand them out before anything of theirs is imported.
+"""
+
+import dataclasses
+import functools
+from collections.abc import Callable, Mapping, Sequence
+
+from asperity.arrays import FloatArray
+from asperity.runs.workers import Task
+from asperity.thesis.cases import Shipped
+from asperity.thesis.drive.sets import Condition, conditions
+from asperity.thesis.kept import once
+
+_ROOM = "asperity.thesis.drive"
+_SOLVED_BY = f"{_ROOM}.marches"
+_MARCHING = 1.5  # s, about
+
+BASE = "drive-screw"
+"""Gearset 3 with its shaft and load; what is set of it is the vibration."""
+
+_AXIAL = "vibration.mode=axial"
+COULOMB = "friction.model=coulomb"
+CUT_OUT = (
+    'drive.deflection=[["23 N m", "70.7 urad"], ["100 N m", "212 urad"], ["366 N m", "542 urad"], '
+    '["1000 N m", "1051 urad"]]'
+)
+"""A tooth cut out of the wheel, its rim a cantilever: 542 for 365 urad."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Shaken:
+    """What is shown of a march: its end, and its first cycles.
+
+    Attributes
+    ----------
+    static : float
+        Torque without vibration, N m.
+    ratio, balance, spread : float
+        Mean torque over it at the end, what the mesh gives the wheel beyond its load, over it, and
+        how far three blocks of cycles are apart.
+    settled : bool
+        Whether the end is a periodic state.
+    window, window_balance : float
+        The same ratio and balance over the first three cycles.
+    open, second : float
+        Shares of time without contact, and on the flank that does not drive.
+    force : float
+        Greatest normal force, N.
+    drive, actuator, load, friction : float
+        Mean powers, W.
+    closure : float
+        Of the ledger.
+    cycle_torque, cycle_wheel : ndarray
+        Means over each cycle from the first on: torque of the worm and of the mesh on the wheel,
+        N m.
+    electrical, apparent : float or None
+        What the actuator takes, W and VA.
+    """
+
+    static: float
+    ratio: float
+    balance: float
+    spread: float
+    settled: bool
+    window: float
+    window_balance: float
+    open: float
+    second: float
+    force: float
+    drive: float
+    actuator: float
+    load: float
+    friction: float
+    closure: float
+    cycle_torque: FloatArray
+    cycle_wheel: FloatArray
+    electrical: float | None
+    apparent: float | None
+
+
+class Simulation(Shipped):
+    """A shaken gearset."""
+
+    verb = "drive"
+
+    def shaken(self) -> Shaken:
+        """What it comes to, marched once for all runs."""
+        from asperity.thesis.drive.marches import march
+
+        return once(self, Shaken, _SOLVED_BY, functools.partial(march, self.case, self.settings))
+
+    @property
+    def task(self) -> Task:
+        """To march it, for those that ask later."""
+        return Task(f"march {self.name}", self.shaken, _ROOM, _MARCHING)
+
+
+def simulation(condition: Condition, *settings: str) -> Simulation:
+    """Return the simulation of a row of Table 7.2, with more settings."""
+    return Simulation(
+        BASE,
+        (
+            _AXIAL,
+            f"vibration.frequency={condition.frequency:.6g} Hz",
+            f"vibration.velocity_amplitude={condition.velocity:.6g} m/s",
+            f"operation.worm_speed={condition.worm_speed:.6g} rad/s",
+            f"operation.output_torque={condition.torque:g} N m",
+            *settings,
+        ),
+    )
+
+
+def of_set(number: int, *settings: str) -> list[Simulation]:
+    """Return the eleven simulations of a set."""
+    return [simulation(condition, *settings) for condition in conditions(number)]
+
+
+ACTUATOR = (
+    "actuator.coupling=0.3", "actuator.quality_factor=500", "actuator.efficiency=0.9",
+    "drive.worm_mass=0.3 kg",
+)  # fmt: skip
+"""An ultrasonic actuator, tuned to each frequency, and the worm that it moves."""
+
+Parts = Callable[[bool], Sequence[Simulation]]
+
+
+def _kept(*settings: tuple[int, tuple[str, ...]]) -> Parts:
+    return lambda full: [one for number, given in settings for one in of_set(number, *given)]
+
+
+PARTS: Mapping[str, Parts] = {
+    "figure 7.10": lambda full: of_set(3)[-1:],
+    "figure 7.12": _kept((3, ()), (3, (CUT_OUT,))),
+    "figure 7.13": _kept((1, ()), (2, ())),
+    "figure 7.14": _kept((3, ()), (3, (COULOMB,))),
+    "figure 7.15": _kept((3, ACTUATOR)),
+    "claim 7.3": _kept((3, ())),
+    "claim 7.7": _kept((3, ACTUATOR)),
+    "claim 7.10": _kept((1, ()), (2, ())),
+    "claim 7.15": _kept((3, ())),
+}
+"""What each exhibit needs of them."""
