@@ -117,8 +117,8 @@ class Exhibit:
 
     @property
     def has_full(self) -> bool:
-        """Whether it can be made in full: what is drawn of parts."""
-        return self.kind == FIGURE and self.parts is not _no_parts
+        """Whether it can be made in full: what is drawn of other parts then."""
+        return self.kind == FIGURE and list(self.parts(True)) != list(self.parts(False))
 
     @property
     def maker(self) -> Maker:

@@ -33,7 +33,7 @@ def geometry() -> Geometry:
 
 
 def band() -> tuple[float, float, float]:
-    """Worm torques with friction reversed, without, and as it is, N m, in balance with the wheel."""
+    """Worm torques with friction reversed, without, and as it is, N m; the wheel in balance."""
     point = MeshPoint.of(geometry(), RADIUS)
     low, none, high = (point.worm_torque(LOAD, mu) for mu in (-FRICTION, 0.0, FRICTION))
     return low, none, high
