@@ -66,8 +66,11 @@ class Shared:
 def shared(full):
     return [Shared()]
 
-def none(full):
-    return []
+class Finer:
+    task = Task("finer", int, "elsewhere")
+
+def finer(full):
+    return [Finer()] if full else []
 """
 
 
@@ -83,7 +86,7 @@ def made(tmp_path, monkeypatch):
 
     name = module.__name__
     shelves = {
-        "FIGURES": [Exhibit("figure", "9.1", name, parts=module.none)],
+        "FIGURES": [Exhibit("figure", "9.1", name, parts=module.finer)],
         "TABLES": [
             Exhibit("table", number, name, parts=module.shared) for number in ("9.1", "9.2")
         ],
