@@ -4,8 +4,9 @@ import numpy as np
 
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.thesis.drive.figures import floor, system_efficiencies
+from asperity.thesis.drive.marches import Shaken
 from asperity.thesis.drive.sets import LOAD, RATIO, RATIOS, SHAKEN, UNSHAKEN
-from asperity.thesis.drive.simulations import ACTUATOR, Shaken, Simulation, of_set
+from asperity.thesis.drive.simulations import ACTUATOR, Simulation, of_set
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
 

@@ -8,12 +8,12 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
 from asperity.thesis.drive import drawings
+from asperity.thesis.drive.marches import Shaken
 from asperity.thesis.drive.sets import RATIOS, SHAKEN, UNSHAKEN, conditions
 from asperity.thesis.drive.simulations import (
     ACTUATOR,
     COULOMB,
     CUT_OUT,
-    Shaken,
     Simulation,
     of_set,
     simulation,

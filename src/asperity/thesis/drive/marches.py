@@ -1,5 +1,6 @@
 """Shaken gearsets marched, for `asperity.thesis.drive.simulations` and the pictures over time."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,10 +16,60 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.solve import prepare
 from asperity.runs import Run
-from asperity.thesis.drive.simulations import Shaken
 
 _KEPT = 200
 """First cycles of which the means are shown."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Shaken:
+    """What is shown of a march: its end, and its first cycles.
+
+    Attributes
+    ----------
+    static : float
+        Torque without vibration, N m.
+    ratio, balance, spread : float
+        Mean torque over it at the end, what the mesh gives the wheel beyond its load, over it, and
+        how far three blocks of cycles are apart.
+    settled : bool
+        Whether the end is a periodic state.
+    window, window_balance : float
+        The same ratio and balance over the first three cycles.
+    open, second : float
+        Shares of time without contact, and on the flank that does not drive.
+    force : float
+        Greatest normal force, N.
+    drive, actuator, load, friction : float
+        Mean powers, W.
+    closure : float
+        Of the ledger.
+    cycle_torque, cycle_wheel : ndarray
+        Means over each cycle from the first on: torque of the worm and of the mesh on the wheel,
+        N m.
+    electrical, apparent : float or None
+        What the actuator takes, W and VA.
+    """
+
+    static: float
+    ratio: float
+    balance: float
+    spread: float
+    settled: bool
+    window: float
+    window_balance: float
+    open: float
+    second: float
+    force: float
+    drive: float
+    actuator: float
+    load: float
+    friction: float
+    closure: float
+    cycle_torque: FloatArray
+    cycle_wheel: FloatArray
+    electrical: float | None
+    apparent: float | None
 
 
 def _model(case: str, settings: Sequence[str]) -> tuple[DriveProblem, ReducedModel]:

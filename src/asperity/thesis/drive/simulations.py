@@ -3,15 +3,17 @@
 Light, so that a run can hand them out before anything of theirs is imported.
 """
 
-import dataclasses
 import functools
 from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from asperity.arrays import FloatArray
 from asperity.runs.workers import Task
 from asperity.thesis.cases import Shipped
 from asperity.thesis.drive.sets import Condition, conditions
 from asperity.thesis.kept import once
+
+if TYPE_CHECKING:
+    from asperity.thesis.drive.marches import Shaken
 
 _ROOM = "asperity.thesis.drive"
 _SOLVED_BY = f"{_ROOM}.marches"
@@ -29,65 +31,14 @@ CUT_OUT = (
 """A tooth cut out of the wheel, its rim a cantilever: 542 for 365 urad."""
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Shaken:
-    """What is shown of a march: its end, and its first cycles.
-
-    Attributes
-    ----------
-    static : float
-        Torque without vibration, N m.
-    ratio, balance, spread : float
-        Mean torque over it at the end, what the mesh gives the wheel beyond its load, over it, and
-        how far three blocks of cycles are apart.
-    settled : bool
-        Whether the end is a periodic state.
-    window, window_balance : float
-        The same ratio and balance over the first three cycles.
-    open, second : float
-        Shares of time without contact, and on the flank that does not drive.
-    force : float
-        Greatest normal force, N.
-    drive, actuator, load, friction : float
-        Mean powers, W.
-    closure : float
-        Of the ledger.
-    cycle_torque, cycle_wheel : ndarray
-        Means over each cycle from the first on: torque of the worm and of the mesh on the wheel,
-        N m.
-    electrical, apparent : float or None
-        What the actuator takes, W and VA.
-    """
-
-    static: float
-    ratio: float
-    balance: float
-    spread: float
-    settled: bool
-    window: float
-    window_balance: float
-    open: float
-    second: float
-    force: float
-    drive: float
-    actuator: float
-    load: float
-    friction: float
-    closure: float
-    cycle_torque: FloatArray
-    cycle_wheel: FloatArray
-    electrical: float | None
-    apparent: float | None
-
-
 class Simulation(Shipped):
     """A shaken gearset."""
 
     verb = "drive"
 
-    def shaken(self) -> Shaken:
+    def shaken(self) -> "Shaken":
         """What it comes to, marched once for all runs."""
-        from asperity.thesis.drive.marches import march
+        from asperity.thesis.drive.marches import Shaken, march
 
         return once(self, Shaken, _SOLVED_BY, functools.partial(march, self.case, self.settings))
 
