@@ -161,11 +161,11 @@ class Logger:
         names = (one.signal for one in self._bench.scope.inputs)
         return dict(zip(names, map(float, means), strict=True))
 
-    def close(self, *, compress: bool) -> None:
-        """End stream and recording."""
+    def close(self) -> None:
+        """End stream and recording; it is not compressed yet."""
         self._stream.stop()
         if self._recorder is not None:
-            self._recorder.close(compress=compress)
+            self._recorder.close(compress=False)
 
     def abandon(self) -> None:
         """Leave the recording as it stands on the disk; nothing that goes wrong is raised."""

@@ -27,6 +27,7 @@ from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.procedure.journal import Journal
 from asperity.tribometer.procedure.logger import Logger
+from asperity.tribometer.procedure.packer import Packer
 from asperity.tribometer.procedure.steps import Action
 
 _TRIES = 3
@@ -82,6 +83,7 @@ class Machine:
         self._file: PlannedFile | None = None
         self._cells = sum(action.act == "cell" for action in actions)
         self._done_cells = 0
+        self._packer = Packer(run.notify)
 
     def _made_interlock(self) -> Interlock:
         case, inputs = self._case, self._bench.scope.inputs
@@ -114,7 +116,7 @@ class Machine:
         done = self._journal.done
         try:
             self._remember(done)
-            with self._run.going_on():
+            with self._packer, self._run.going_on():
                 for action in self._actions:
                     if action.key in done:
                         self._done_cells += action.act == "cell"
@@ -242,10 +244,10 @@ class Machine:
                     raise
                 self._still(logger)
                 self._journal.write("check", action=action.key, reason=str(error))
-                logger.close(compress=False)
+                logger.close()
                 self._bench.person.do(f"{error}. Put it right.")
                 continue
-            logger.close(compress=False)
+            logger.close()
             self._logger = None
             return told
         raise AssertionError
@@ -295,7 +297,9 @@ class Machine:
         if self._logger is None:
             return {}
         logger, self._logger, self._file = self._logger, None, None
-        logger.close(compress=True)
+        logger.close()
+        if logger.path is not None:
+            self._packer.pack(logger.path)
         return {"recording": _name(logger), "samples": logger.samples}
 
     def _energise(self, logger: Logger, one: PlannedFile) -> None:

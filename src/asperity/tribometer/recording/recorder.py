@@ -25,8 +25,7 @@ Counts = NDArray[np.int16]
 
 _ROWS = 128  # of a chunk of the tables of blocks and events
 _BLOCK_SECONDS = 0.1
-_STRETCH = 32  # blocks that are compressed at a time
-_COMPRESSION = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+_COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -273,8 +272,16 @@ def compressed(source: Path, target: Path) -> None:
                 made.resize_dimension(dim, whole.dimensions[dim].size)
             for name in names:
                 made[name][...] = whole[name][...]
-            # Through HDF5 itself, which looks up no dimension with every stretch.
-            counts, packed = whole._h5file[layout.RAW], made._h5file[layout.RAW]
-            stretch = _STRETCH * block
-            for first in range(0, counts.shape[0], stretch):
-                packed[first : first + stretch] = counts[first : first + stretch]
+            # Packed here, since HDF5's filters would keep every other thread waiting.
+            counts, chunks = whole._h5file[layout.RAW], made._h5file[layout.RAW].id
+            for first in range(0, counts.shape[0], block):
+                rows = np.full((block, len(sources)), layout.MISSING, np.int16)
+                some = counts[first : first + block]
+                rows[: len(some)] = some
+                chunks.write_direct_chunk((first, 0), _packed(rows))
+
+
+def _packed(rows: Counts) -> bytes:
+    """Return a chunk as the filters of a compressed recording have it: shuffled, then gzip."""
+    low_and_high = rows.view(np.uint8).reshape(-1, rows.itemsize).T
+    return zlib.compress(low_and_high.tobytes(), _COMPRESSION["compression_opts"])
