@@ -117,6 +117,8 @@ class Command:
         Reads the case where that takes more than a name and settings.
     needs : tuple of str
         Tables that its case must have.
+    brief : bool
+        Whether a terminal shows a screen of it unless ``--full`` is given.
     """
 
     name: str
@@ -128,6 +130,7 @@ class Command:
     counts: str = ""
     read: str = ""
     needs: tuple[str, ...] = ()
+    brief: bool = False
 
     def prepared(self, case: "Case", **options: Any) -> Any:
         """Return the problem of a case, refused if it cannot be solved."""
@@ -228,6 +231,7 @@ COMMANDS = (
         "With --out also rate.json, rate.nc, rate.html and rate.csv.",
         prepare="asperity.rating.rate:prepare",
         solve="asperity.rating.rate:answer",
+        brief=True,
         needs=("gearset", "operation"),
         options=(Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),),
     ),

@@ -95,7 +95,7 @@ def test_all_is_the_default(asperity, own):
 
 
 def test_table_names_symbol_value_unit_equation_and_trust(asperity):
-    code, output, errors = asperity("rate", "gearset-3")
+    code, output, errors = asperity("rate", "gearset-3", "--full")
     assert (code, errors) == (0, "")
     lines = output.splitlines()
     assert max(map(len, lines)) <= 100
@@ -105,6 +105,67 @@ def test_table_names_symbol_value_unit_equation_and_trust(asperity):
     assert any(line.startswith("- from memory, check before use:") for line in lines)
     assert any(line.startswith("- outside its validity: lead angle") for line in lines)
     assert any(line.startswith("Self-locking at a lead angle of 26") for line in lines)
+
+
+@pytest.mark.parametrize("case", ["gearset-2", "gearset-3", "gearset-3b"])
+def test_one_screen_says_whether_it_holds(asperity, case):
+    code, output, errors = asperity("rate", case)
+    assert (code, errors) == (0, "")
+    lines = output.splitlines()
+    assert len(lines) <= 25
+    assert max(map(len, lines)) <= 80
+    assert output.isascii()
+    answer = one_object(asperity("rate", case, "--json")[1])
+    verdict = answer["verdict"]
+    assert verdict["holds"]["iso14521"] is False
+    assert "does not hold by ISO/TR 14521" in output
+    for safety in verdict["safeties"]:
+        assert answer[safety["standard"]][safety["key"]] == safety["value"]
+        (line,) = (
+            line
+            for line in lines
+            if f"{safety['symbol']} {safety['value']:.3g} of" in line
+            and "|" in line
+            and safety["name"] in line
+        )
+        assert (
+            line.endswith("FAILS") == (not safety["holds"]) == (safety["value"] < safety["asked"])
+        )
+    least = min(verdict["safeties"], key=lambda s: s["value"] / s["asked"])
+    assert verdict["first"] == f"{least['standard']}.{least['key']}"
+    assert f"first to fail: {least['name']}" in output
+
+
+def test_what_moves_the_first_to_fail_is_what_raising_it_does(asperity):
+    before = one_object(asperity("rate", "gearset-3", "--json")[1])
+    levers = {lever["name"]: lever["exponent"] for lever in before["verdict"]["moved_by"]}
+    assert before["verdict"]["first"] == "iso14521.safety_deflection"
+    setting = "operation.output_torque=369.66 N m", "operation.through_travel_torque=123.22 N m"
+    after = one_object(
+        asperity("rate", "gearset-3", "--json", "--set", setting[0], "--set", setting[1])[1]
+    )
+    ratio = after["iso14521"]["safety_deflection"] / before["iso14521"]["safety_deflection"]
+    assert ratio == pytest.approx(1.01 ** levers["torque"], rel=1e-9)
+    sizes = [abs(exponent) for exponent in levers.values()]
+    assert sizes == sorted(sizes, reverse=True)
+
+
+def test_the_three_standards_word_a_failure_alike(asperity):
+    heavy = ("--set", "operation.output_torque=900 N m")
+    answer = one_object(asperity("rate", "gearset-3", *heavy, "--json")[1])
+    for standard in ("iso14521", "bs721", "agma6034"):
+        failing = [note for note in answer[standard]["notes"] if " fails: " in note]
+        assert failing
+        assert all(
+            re.fullmatch(r"\w+ fails: S_\w+ is [\d.]+; at least [\d.]+ is asked", n)
+            for n in failing
+        )
+
+
+def test_polyglycol_with_aluminium_bronze_is_remarked(asperity):
+    oil = ("--set", "operation.lubricant=ISO VG 220 polyglycol")
+    notes = one_object(asperity("rate", "gearset-3", *oil, "--json")[1])["iso14521"]["notes"]
+    assert any("practice avoids" in note for note in notes)
 
 
 def test_files_hold_the_same_numbers(asperity, own, tmp_path):

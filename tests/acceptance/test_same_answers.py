@@ -34,6 +34,8 @@ CHANGES = (
         for line in ("slide table-4.? --out OUT", "slide table-4.1-L4 * --out OUT")
         for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
     ),
+    ("rate *", "json.verdict", "whether a gearset holds is told as such"),
+    ("rate *", "rate.json.verdict", "whether a gearset holds is told as such"),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
     ("*", "json*.assumed.rating.iso14521_face_width", "b_2H is offered both ways, one is assumed"),
     ("rate *--out*", "rate.csv:equation", "equations come from the formulas, in all their pieces"),

@@ -79,7 +79,8 @@ def test_your_own_motor_is_chosen_where_it_is_lighter(tmp_path, monkeypatch):
 
 
 def test_of_the_same_make_mass_goes_with_torque_and_size_with_its_cube_root():
-    motor = Motor(power=1.0, speed=1.0, breakdown=2.0, mass=8.0, diameter=0.1, length=0.2, name="x")
+    made = {"power": 1.0, "speed": 1.0, "breakdown": 2.0, "mass": 8.0, "diameter": 0.1}
+    motor = Motor(**made, length=0.2, name="x", units="SI")
     small = scaled(motor, 0.125)
     assert (small.mass, small.diameter, small.length) == pytest.approx((7.0, 0.05, 0.1))
     with pytest.raises(InputError, match=r"share of the torque is 1\.2"):

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from asperity.errors import InputError
-from asperity.rating import result
+from asperity.rating import result, verdict
 from asperity.rating.result import Entry, Rating
 from asperity.results.terminal import rendered
 from asperity.sources import Source
@@ -143,3 +143,14 @@ def test_a_key_occurs_once():
 
 def test_examples_in_the_docstrings_hold():
     assert doctest.testmod(result).failed == 0
+    assert doctest.testmod(verdict).failed == 0
+
+
+def test_a_number_is_found_by_the_symbol_that_is_printed():
+    source = Source("ISO/TR 14521:2010", "verified")
+    entry = Entry("safety_pitting", "S_H", 1.6, "", "safety against pitting", "", source)
+    rating = Rating("ISO/TR 14521:2010", (entry,))
+    assert rating["S_H"] == rating["safety_pitting"] == 1.6
+    assert "S_H" in rating
+    with pytest.raises(InputError, match=r"did you mean 'S_H'\?"):
+        rating["S_h"]

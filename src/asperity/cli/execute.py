@@ -29,6 +29,7 @@ def execute(
     *,
     as_json: bool,
     out: Path | None,
+    full: bool = True,
     **options: Any,
 ) -> None:
     """Do what a command does with a case, print the answer and write its files."""
@@ -48,7 +49,7 @@ def execute(
             if as_json:
                 show.print_json({"error": str(error), "reached": plain(error.reached)})
             raise
-    shown = _show(found.source, result, as_json=as_json)
+    shown = _show(found.source, result, as_json=as_json, full=full)
     if folder is not None:
         names = result.write(folder)
         run.finished()
@@ -76,14 +77,20 @@ def _folder(out: Path | None) -> Iterator[Path | None]:
         raise
 
 
-def _show(source: str, result: "Result", *, as_json: bool) -> BrokenPipeError | StorageError | None:
+def _show(
+    source: str, result: "Result", *, as_json: bool, full: bool
+) -> BrokenPipeError | StorageError | None:
     """Print an answer; returns what is to be raised once it is written."""
     try:
         if as_json:
             show.print_json(result.to_json())
         else:
+            brief = "" if full else result.brief()
             show.print_text(f"{source}: {result.heading()}\n")
-            show.print_tables(result.tables())
+            if brief:
+                show.print_text(brief)
+            else:
+                show.print_tables(result.tables())
     except (BrokenPipeError, StorageError) as error:
         return error
     return None

@@ -40,6 +40,11 @@ JsonOption = Annotated[
 ]
 
 
+FullOption = Annotated[
+    bool, typer.Option("--full", help="Print every number, not one screen with the verdict.")
+]
+
+
 def _folder(given: str) -> Path:
     # Python takes "" for the working directory; it is a variable of the shell that was not set.
     if not given:
@@ -86,6 +91,7 @@ def _command(command: Command) -> None:
     parameters = {
         "case": (CaseArgument, inspect.Parameter.empty),
         **{option.name: _typed(option) for option in command.options},
+        **({"full": (FullOption, False)} if command.brief else {}),
         "settings": (SetOption, None),
         "as_json": (JsonOption, False),
         "out": (OutOption, None),

@@ -11,14 +11,17 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rate as rate_agma6034
 from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables, read_tables
+from asperity.rating.demands import Demand
 from asperity.rating.entries import assumptions
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.iso14521.rating import rate as rate_iso14521
+from asperity.rating.levers import Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
+from asperity.rating.verdict import Verdict, screen
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.results.table import Column, Table
@@ -63,6 +66,8 @@ class Rated(Result):
         Why a standard could not be applied.
     assumed : mapping of str to str
         What was assumed for the keys of a case file that were left out, by ``table.key``.
+    levers : tuple of Lever
+        What moves the least safety most.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -75,6 +80,12 @@ class Rated(Result):
     agma6034: Rating | None
     self_locking: SelfLocking
     assumed: Mapping[str, str]
+    levers: tuple[Lever, ...] = ()
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether it holds by each standard, and what fails first."""
+        return Verdict.of(self.found, self.levers)
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -100,6 +111,7 @@ class Rated(Result):
             "self_locking": self.self_locking.to_json(),
             "assumed": dict(self.assumed),
             "notes": list(self.notes),
+            "verdict": self.verdict.to_json(),
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -118,6 +130,10 @@ class Rated(Result):
     def heading(self) -> str:
         """Return the gearset's name."""
         return self.gearset.name or "worm gearset"
+
+    def brief(self) -> str:
+        """Return the verdict on one screen."""
+        return screen(self.verdict, self.found, self.self_locking, len(self.assumed), self.notes)
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
@@ -212,7 +228,9 @@ def rate(
             if len(wanted) == 1:
                 raise
             notes.append(f"{name}: {error}")
+    first = Verdict.of(found).first
     return Rated(
+        levers=() if first is None else _levers(first.demand, given, tables),
         gearset=gearset,
         geometry=gearset.geometry,
         **{name: found.get(name) for name in STANDARDS},
@@ -282,6 +300,14 @@ def _require_consistent(given: Inputs, by_iso: bool) -> None:
                 f"{film}; {error}", film.value, film.driver, film.limits
             ) from None
         raise
+
+
+def _levers(demand: Demand, given: Inputs, tables: Tables) -> tuple[Lever, ...]:
+    def judge(gearset: Gearset, operation: Operation) -> float:
+        rating = _rate(demand.standard, inputs(gearset, operation, given.options), tables)
+        return float(rating[demand.key])
+
+    return levers(judge, given.gearset, given.operation)
 
 
 def _rate(name: str, given: Inputs, tables: Tables) -> Rating:

@@ -140,7 +140,7 @@ class Rating:
         return self.entry(key).value
 
     def __contains__(self, key: object) -> bool:
-        return any(entry.key == key for entry in self.entries)
+        return self._entry(key) is not None
 
     def __iter__(self) -> Iterator[Entry]:
         return iter(self.entries)
@@ -149,18 +149,27 @@ class Rating:
         return len(self.entries)
 
     def entry(self, key: str) -> Entry:
-        """Return the entry with a key.
+        """Return the entry with a key, or with a symbol as it is printed.
 
         Raises
         ------
         InputError
             There is none.
         """
-        for entry in self.entries:
-            if entry.key == key:
-                return entry
-        known = nearest(key, [entry.key for entry in self.entries])
-        raise InputError(f"{key!r} is not part of the rating by {self.standard}{known}")
+        found = self._entry(key)
+        if found is not None:
+            return found
+        names = [name for entry in self.entries for name in (entry.key, entry.symbol) if name]
+        raise InputError(
+            f"{key!r} is not part of the rating by {self.standard}{nearest(key, names)}"
+        )
+
+    def _entry(self, key: object) -> Entry | None:
+        for name in ("key", "symbol"):
+            for entry in self.entries:
+                if key == getattr(entry, name):
+                    return entry
+        return None
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -217,6 +226,9 @@ class Rating:
                 for e in self.entries
             ]
         return Table(columns, tuple(rows), self.standard, self.remarks())
+
+    def __repr__(self) -> str:
+        return f"<Rating by {self.standard}: {len(self.entries)} numbers by key and by symbol>"
 
     def _repr_html_(self) -> str:
         from asperity.results.page import fragment

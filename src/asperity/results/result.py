@@ -102,6 +102,10 @@ class Result(Quantities):
         """Return the line above the tables."""
         return self.title
 
+    def brief(self) -> str:
+        """Return what a terminal shows in place of the tables unless all is asked for."""
+        return ""
+
     def tables(self) -> tuple[Table, ...]:
         """Return what a person reads, whatever shows it."""
         return (table_of(self, remarks=self.notes),)

@@ -1,0 +1,124 @@
+"""What moves a safety most: how much it changes where one input is raised alone."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from asperity.errors import AsperityError
+from asperity.gearset.parameters import Gearset
+from asperity.rating.parameters import DEFAULT_LIFE, Operation
+
+_STEP = 0.01
+_NOTHING = 0.05
+
+Judge = Callable[[Gearset, Operation], float]
+
+
+class Lever(NamedTuple):
+    """An input that moves a safety.
+
+    Attributes
+    ----------
+    name : str
+        What is raised, in words.
+    keys : tuple of str
+        The keys of a case that it takes, as ``table.key``.
+    exponent : float
+        Percent of the safety for a percent of the input.
+    """
+
+    name: str
+    keys: tuple[str, ...]
+    exponent: float
+
+    @property
+    def text(self) -> str:
+        """In words: what to do for more safety, and what a percent of it brings."""
+        return f"{'more' if self.exponent > 0 else 'less'} {self.name} ({abs(self.exponent):.1f})"
+
+
+def levers(judge: Judge, gearset: Gearset, operation: Operation) -> tuple[Lever, ...]:
+    """Return what moves a safety, the strongest first.
+
+    Parameters
+    ----------
+    judge : callable
+        Returns the safety of a gearset and its operation.
+    gearset, operation
+        As they are.
+
+    Returns
+    -------
+    tuple of Lever
+        Those of which a percent brings at least a twentieth of a percent.
+    """
+    now = judge(gearset, operation)
+    found = []
+    if not (math.isfinite(now) and now > 0.0):
+        return ()
+    for name, keys, changed in _raised(gearset, operation):
+        try:
+            then = judge(*changed())
+        except AsperityError:
+            continue
+        if math.isfinite(then) and then > 0.0:
+            found.append(Lever(name, keys, math.log(then / now) / math.log1p(_STEP)))
+    strong = [lever for lever in found if abs(lever.exponent) >= _NOTHING]
+    return tuple(sorted(strong, key=lambda lever: -abs(lever.exponent)))
+
+
+Raised = tuple[str, tuple[str, ...], Callable[[], tuple[Gearset, Operation]]]
+
+
+def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
+    """Yield what can be raised by itself: its name, its keys, and how."""
+
+    def gears(**values: float) -> Callable[[], tuple[Gearset, Operation]]:
+        return lambda: (gearset.model_copy(update=values, units="SI"), operation)
+
+    def run(**values: float) -> Callable[[], tuple[Gearset, Operation]]:
+        return lambda: (gearset, operation.model_copy(update=values, units="SI"))
+
+    more = 1.0 + _STEP
+    g = gearset.geometry
+    millimetres = {
+        "centre_distance": g.centre_distance,
+        "axial_module": g.axial_module,
+    }
+    # Everything else of the geometry keeps its proportions to these.
+    grown = {key: 1e-3 * value * more for key, value in millimetres.items()}
+    widths = ("worm_face_width", "wheel_face_width", "rim_thickness")
+    given = {key: getattr(gearset, key) for key in widths}
+    grown |= {key: value * more for key, value in given.items() if value is not None}
+    if gearset.worm_pitch_diameter is not None:
+        grown["worm_pitch_diameter"] = gearset.worm_pitch_diameter * more
+    elif gearset.diameter_factor is not None:
+        grown["diameter_factor"] = gearset.diameter_factor
+    yield "size", ("gearset.centre_distance", "gearset.axial_module"), gears(**grown)
+    yield (
+        "diameter factor",
+        ("gearset.diameter_factor",),
+        gears(
+            diameter_factor=g.diameter_factor * more,
+            centre_distance=1e-3 * g.centre_distance,
+            axial_module=1e-3 * g.axial_module,
+        ),
+    )
+    rough = gearset.worm_roughness
+    yield "worm roughness", ("gearset.worm_roughness",), gears(worm_roughness=rough * more)
+    torques = {"output_torque": operation.output_torque * more}
+    keys = ["operation.output_torque"]
+    if operation.through_travel_torque is not None:
+        torques["through_travel_torque"] = operation.through_travel_torque * more
+        keys.append("operation.through_travel_torque")
+    yield "torque", tuple(keys), run(**torques)
+    speed = operation.worm_speed * more
+    yield "worm speed", ("operation.worm_speed",), run(worm_speed=speed)
+    if operation.duty_cycle is None:
+        turns = operation.wheel_revolutions
+        if turns is None:
+            life = (operation.life or DEFAULT_LIFE) * more
+            yield "life", ("operation.life",), run(life=life)
+        else:
+            raised = run(wheel_revolutions=turns * more)
+            yield "life", ("operation.wheel_revolutions",), raised

@@ -1,0 +1,231 @@
+"""Whether a gearset holds, on one screen: what a rating comes to before its numbers."""
+
+import math
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from asperity.rating.demands import DEMANDS, Demand
+from asperity.rating.levers import Lever
+from asperity.rating.result import Rating
+from asperity.rating.self_locking import SelfLocking
+
+NAMES = {"iso14521": "ISO/TR 14521", "bs721": "BS 721", "agma6034": "AGMA 6034"}
+"""What people call the standards."""
+
+_WIDTH = 79
+_LONGEST = 3.0
+_BAR = 27
+_MOST_LEVERS = 3
+_MOST_REMARKS = 3
+
+
+class Safety(NamedTuple):
+    """A safety against what is asked of it.
+
+    Attributes
+    ----------
+    demand : Demand
+        What is asked.
+    value : float
+        What there is.
+    """
+
+    demand: Demand
+    value: float
+
+    @property
+    def margin(self) -> float:
+        """What there is over what is asked."""
+        return self.value / self.demand.asked
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is enough."""
+        return self.value >= self.demand.asked
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it by key."""
+        d = self.demand
+        named = {"standard": d.standard, "key": d.key, "symbol": d.symbol, "name": d.name}
+        return {**named, "value": self.value, "asked": d.asked, "holds": self.holds}
+
+
+class Verdict(NamedTuple):
+    """Whether a gearset holds.
+
+    Attributes
+    ----------
+    safeties : tuple of Safety
+        Of every standard that it was rated by, in their order.
+    unrated : tuple of str
+        Safeties that have no answer, as ``standard.key``.
+    levers : tuple of Lever
+        What moves the least of them, the strongest first.
+    """
+
+    safeties: tuple[Safety, ...]
+    unrated: tuple[str, ...]
+    levers: tuple[Lever, ...] = ()
+
+    @classmethod
+    def of(cls, found: Mapping[str, Rating], levers: tuple[Lever, ...] = ()) -> "Verdict":
+        """Return the verdict of ratings by standard."""
+        asked = [demand for demand in DEMANDS if demand.standard in found]
+        rated = {d: found[d.standard][d.key] for d in asked if d.key in found[d.standard]}
+        return cls(
+            tuple(Safety(demand, float(value)) for demand, value in rated.items()),
+            tuple(demand.path for demand in asked if demand not in rated),
+            levers,
+        )
+
+    @property
+    def first(self) -> Safety | None:
+        """The safety that fails first: the least over what is asked; None without any."""
+        return min(self.safeties, key=lambda safety: safety.margin, default=None)
+
+    @property
+    def holds(self) -> dict[str, bool]:
+        """Whether it holds, by standard."""
+        standards = dict.fromkeys(
+            (
+                *(s.demand.standard for s in self.safeties),
+                *(p.partition(".")[0] for p in self.unrated),
+            )
+        )
+        return {
+            name: all(s.holds for s in self.safeties if s.demand.standard == name)
+            and not any(path.startswith(f"{name}.") for path in self.unrated)
+            for name in standards
+        }
+
+    def to_json(self) -> dict[str, Any]:
+        """Return everything by key."""
+        first = self.first
+        return {
+            "holds": self.holds,
+            "first": None if first is None else first.demand.path,
+            "safeties": [safety.to_json() for safety in self.safeties],
+            "unrated": list(self.unrated),
+            "moved_by": [
+                {"name": lever.name, "keys": list(lever.keys), "exponent": lever.exponent}
+                for lever in self.levers
+            ],
+        }
+
+    def sentences(self) -> Iterator[str]:
+        """Yield whether it holds, and what fails first."""
+        holds = [NAMES[name] for name, holds in self.holds.items() if holds]
+        fails = [NAMES[name] for name, holds in self.holds.items() if not holds]
+        parts = [f"does not hold by {_and(fails)}"] if fails else []
+        parts += [f"holds by {_and(holds)}"] if holds else []
+        yield "; ".join(parts)
+        first = self.first
+        if first is None:
+            return
+        d = first.demand
+        begin = "nearest to its limit" if first.holds else "first to fail"
+        said = f"{begin}: {d.name} by {NAMES[d.standard]}, {d.symbol} {first.value:.3g} of the "
+        said += f"{d.asked:g} asked"
+        if self.levers:
+            strongest = ", ".join(lever.text for lever in self.levers[:_MOST_LEVERS])
+            said += f"; a percent of it brings most: {strongest}"
+        yield said
+
+    def bars(self) -> Iterator[str]:
+        """Yield a line each safety: its bar up to three times what is asked, and numbers."""
+        if not self.safeties:
+            return
+        unit = _BAR // int(_LONGEST)
+        scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
+        yield f"{'':26}{scale}  times what is asked"
+        for safety in self.safeties:
+            d = safety.demand
+            name = f"{NAMES[d.standard]} {d.name}"
+            said = f"{d.symbol} {safety.value:.3g} of {d.asked:g}"
+            yield f"{name:25} {bar(safety.margin)} {said}{'' if safety.holds else '  FAILS'}"
+
+
+def bar(margin: float) -> str:
+    """Return a margin as a bar with a mark at 1.
+
+    Examples
+    --------
+    >>> bar(0.5).rstrip(), bar(2.0).rstrip()
+    ('####    |', '########|#########')
+    """
+    one = int(_BAR / _LONGEST) - 1
+    filled = min(round(margin * _BAR / _LONGEST), _BAR) if math.isfinite(margin) else 0
+    # What does not reach the mark never seems to.
+    filled = min(filled, one) if margin < 1.0 else max(filled, one + 1)
+    signs = ["#" if place < filled else " " for place in range(_BAR)]
+    signs[one] = "|"
+    return "".join(signs) + (">" if margin > _LONGEST else " ")
+
+
+def power_lines(iso: Rating) -> Iterator[str]:
+    """Yield efficiency and losses of a rating by ISO/TR 14521."""
+    n = {entry.key: entry.value for entry in iso}
+    parts = {"teeth": "meshing", "idling": "idle", "bearings": "bearing", "seals": "seal"}
+    losses = {name: float(n[f"loss_{key}_W"]) for name, key in parts.items()}
+    shares = " + ".join(f"{name} {value:.4g}" for name, value in losses.items())
+    yield (
+        f"efficiency {100 * float(n['eta_ges']):.1f} % of the gearbox, "
+        f"{100 * float(n['eta_z1_2']):.1f} % of the teeth (ISO/TR 14521)"
+    )
+    yield (f"losses {sum(losses.values()):.4g} W of {float(n['input_power_W']):.4g} W: {shares}")
+
+
+def locking_line(locking: SelfLocking) -> str:
+    """Return whether the worm locks itself, in a sentence."""
+    said = []
+    for state, words in (("static", "at rest"), ("dynamic", "in motion")):
+        own = [verdict for verdict in locking if verdict.state == state]
+        locks = [NAMES.get(v.standard, "the given friction") for v in own if v.locks]
+        if locks:
+            alone = "" if len(locks) == len(own) else f" by {_and(locks)} alone"
+            said.append(f"{words}{alone}")
+    locked = f"locks itself {', '.join(said)}" if said else "does not lock itself"
+    angles = [math.degrees(math.atan(v.friction)) for v in locking]
+    lead = math.degrees(locking.lead_angle)
+    spread = f", friction {min(angles):.2g} to {max(angles):.2g} deg" if angles else ""
+    return f"{locked} (lead angle {lead:.3g} deg{spread})"
+
+
+def screen(
+    verdict: Verdict,
+    found: Mapping[str, Rating],
+    locking: SelfLocking,
+    assumed: int,
+    notes: Iterable[str],
+) -> str:
+    """Return what is shown first: the verdict, at most 23 lines of 79 characters."""
+    lines: list[str] = []
+    for sentence in verdict.sentences():
+        lines += _wrapped(sentence)
+    lines += ["", *verdict.bars(), ""]
+    if "iso14521" in found:
+        for line in power_lines(found["iso14521"]):
+            lines += _wrapped(line)
+    lines += _wrapped(locking_line(locking))
+    remarks = [
+        *notes,
+        *(text for rating in found.values() for text in rating.violations),
+    ]
+    for remark in remarks[:_MOST_REMARKS]:
+        lines.append(textwrap.shorten(f"- {remark}", _WIDTH, placeholder=" ..."))
+    memory = len({entry.key for rating in found.values() for entry in rating if entry.from_memory})
+    more = len(remarks) - _MOST_REMARKS
+    lines.append(
+        f"assumed {assumed} keys, {memory} numbers rest on sources from memory"
+        f"{f', {more} more remarks' if more > 0 else ''}: --full"
+    )
+    return "\n".join(lines)
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+
+
+def _and(words: list[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
