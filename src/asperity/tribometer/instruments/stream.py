@@ -16,6 +16,7 @@ from asperity.tribometer.instruments.protocols import (
 )
 
 _DRIFT = 2e-4  # Of the device's clock against the computer's.
+_LATE = 0.9  # Of a block, so that the second poll of half a block that lacks samples tells.
 _MOST_BEYOND = 2  # Samples at the end of a range in one poll that may be spikes.
 
 
@@ -107,7 +108,7 @@ class Stream:
         passed = poll.clock - self._begun
         delay = passed - float(self._totals.max()) * self.interval
         self._delay = min(self._delay, delay)
-        most = self._block + _DRIFT * passed
+        most = _LATE * self._block + _DRIFT * passed
         if delay - max(min(self._delay, self._block), 0.0) >= most:
             raise InstrumentError(
                 f"{self._scope.name} handed over {self._totals.max()} samples in {passed:.3f} s, "

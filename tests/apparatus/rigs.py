@@ -1,0 +1,203 @@
+"""Simulated rigs for tests: small plans, faults, and runs that are killed."""
+
+import json
+import os
+import signal
+import traceback
+
+import numpy as np
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.runs import Run
+from asperity.tribometer.instruments.inputs import inputs_of, lines_of
+from asperity.tribometer.instruments.protocols import FULL_SCALE, InstrumentError, Poll, Reading
+from asperity.tribometer.instruments.sim import simulated_bench
+from asperity.tribometer.procedure import study
+from asperity.tribometer.twin.plant import Plant
+
+SMALL = (
+    'plan.modes=["transverse"]', 'plan.lubricants=["oil"]', "plan.excluded=[]",
+    'plan.waveforms=["sine"]', 'plan.steel_supplies=["1 V"]', "plan.repeats=1",
+    'plan.frequencies=["250 Hz","750 Hz"]', 'plan.before="1 s"', 'plan.shaken="1 s"',
+    'plan.idle="0.5 s"', 'plan.sample_rate="4 kHz"',
+)  # fmt: skip
+BLOCK = 0.1
+
+
+def small_case(*settings):
+    """Return the final rig with a plan of two cells of 2.5 s."""
+    return read_case("rig-final", case_tables(), (*SMALL, *settings))
+
+
+def made_bench(case):
+    """Return bench and rig of a case, all simulated."""
+    channels = case["channels"]
+    inputs = inputs_of(channels, case["sonotrode"])
+    return simulated_bench(Plant.from_case(case), inputs, lines_of(channels, inputs))
+
+
+def run(case, folder, *, bench=None, resume=False, acknowledge=""):
+    """Run a plan, on a bench of one's own if given; returns the answer."""
+    folder.mkdir(exist_ok=True)
+    problem = study.prepare(case, "sim", resume, acknowledge)
+    work = Run(folder=folder, stem="rig-run")
+    if bench is None:
+        return study.answer(problem, work)
+    return study._run(problem, bench, work, folder)
+
+
+def cells(folder):
+    """What the journal tells of the cells, without where they stand in a file."""
+    kept = []
+    for row in (folder / "journal.jsonl").read_text().splitlines():
+        line = json.loads(row)
+        if line["kind"] == "done" and "cell" in line:
+            kept.append((line["cell"], line["crc32"], line["level_before"], line["level_with"]))
+    return kept
+
+
+def journal(folder):
+    """The lines of a journal."""
+    return [json.loads(row) for row in (folder / "journal.jsonl").read_text().splitlines()]
+
+
+class FaultyScope:
+    """An oscilloscope behind which something is done to the samples once vibration is on."""
+
+    def __init__(self, scope, rig, change, begins):
+        self._scope, self._rig, self._change, self._begins = scope, rig, change, begins
+        self.inputs, self.name = scope.inputs, scope.name
+        self.since = None
+        self.held = {}
+
+    def __getattr__(self, name):
+        return getattr(self._scope, name)
+
+    def poll(self):
+        poll = self._scope.poll()
+        if self.since is None and self._begins(self._rig):
+            self.since = self._rig.now
+        if self.since is None:
+            return poll
+        counts = [np.array(one) for one in poll.counts]
+        over = self._change(self, counts)
+        return Poll(tuple(counts), poll.clock, poll.overrange if over is None else over)
+
+    def column(self, signal):
+        return next(n for n, one in enumerate(self.inputs) if one.signal == signal)
+
+
+def losing(signal, samples=200):
+    """Samples of a channel are lost, once."""
+
+    def change(scope, counts):
+        if not scope.held.get("lost"):
+            scope.held["lost"] = True
+            place = scope.column(signal)
+            counts[place] = counts[place][samples:]
+
+    return change
+
+
+def late(signal):
+    """Samples of a channel come no more."""
+
+    def change(scope, counts):
+        counts[scope.column(signal)] = counts[0][:0]
+
+    return change
+
+
+def silent(scope, counts):
+    """No samples come at all."""
+    for place in range(len(counts)):
+        counts[place] = counts[place][:0]
+
+
+def at_limit(signal):
+    """A sensor is at its limit."""
+
+    def change(scope, counts):
+        counts[scope.column(signal)][:] = FULL_SCALE
+
+    return change
+
+
+def scaled(signal, factor):
+    """A signal is a multiple of what it was."""
+
+    def change(scope, counts):
+        place = scope.column(signal)
+        counts[place][:] = np.clip(factor * counts[place].astype(float), -32000, 32000)
+
+    return change
+
+
+def exchanged(first, second):
+    """Two cables are exchanged."""
+
+    def change(scope, counts):
+        a, b = scope.column(first), scope.column(second)
+        counts[a], counts[b] = counts[b], counts[a]
+
+    return change
+
+
+class Deaf:
+    """An instrument whose line breaks once the vibration is on; it does nothing any more."""
+
+    def __init__(self, instrument, rig, kind):
+        self._instrument, self._rig, self._kind = instrument, rig, kind
+        self.name, self.since = instrument.name, None
+
+    def _heard(self):
+        if self.since is None and self._rig.vibrates:
+            self.since = self._rig.now
+        if self.since is not None:
+            raise InstrumentError(f"{self.name} is gone", kind=self._kind)
+
+    def __getattr__(self, name):
+        found = getattr(self._instrument, name)
+        if not callable(found):
+            return found
+
+        def called(*arguments):
+            self._heard()
+            return found(*arguments)
+
+        return called
+
+
+class WrongSupply:
+    """A supply that gives something else than it was told."""
+
+    def __init__(self, supply, rig):
+        self._supply, self._rig, self.name, self.since = supply, rig, supply.name, None
+
+    def __getattr__(self, name):
+        return getattr(self._supply, name)
+
+    def reading(self):
+        given = self._supply.reading()
+        if self._rig.vibrates:
+            self.since = self._rig.now if self.since is None else self.since
+            return Reading(0.5 * given.voltage, given.current)
+        return given
+
+
+def killed_run(case, folder, seconds, *, resume):
+    """Run in a process of its own that is ended at some moment; returns whether it was done."""
+    child = os.fork()
+    if child:
+        _, status = os.waitpid(child, 0)
+        return os.WIFEXITED(status) and os.WEXITSTATUS(status) == 0
+    try:
+        # Nothing hears this signal: it ends the process wherever it stands, as kill -9 does.
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        run(case, folder, resume=resume)
+        os._exit(0)
+    except BaseException:
+        traceback.print_exc()
+        os._exit(1)

@@ -1,0 +1,301 @@
+"""A run keeps what is done, goes on at its cell, and latches with vibration and motors off."""
+
+import dataclasses
+import random
+
+import numpy as np
+import pytest
+from apparatus import rigs
+
+from asperity.errors import InputError, StorageError
+from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure import journal as journals
+from asperity.tribometer.procedure.journal import Journal
+
+VIBRATES = lambda rig: rig.vibrates  # noqa: E731
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """Run the small plan once."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    answer = rigs.run(rigs.small_case(), folder)
+    assert answer.failure is None
+    return folder, answer
+
+
+def test_a_run_does_every_step_and_records_every_cell(undisturbed):
+    folder, answer = undisturbed
+    assert answer.cells_done == answer.cells_planned == 2
+    lines = rigs.journal(folder)
+    begun = [line["action"] for line in lines if line["kind"] == "begun"]
+    done = [line["action"] for line in lines if line["kind"] == "done"]
+    assert begun == done
+    steps = {step for line in lines if line["kind"] == "begun" for step in line["steps"]}
+    assert steps == {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22,
+                     25, 26, 27, 32}  # fmt: skip
+    assert lines[-1]["kind"] == "finished"
+    assert [cell["frequency_Hz"] for cell in answer.to_json()["cells"]] == [250.0, 750.0]
+    # What the twin was fitted to, but for a second of settling and the run-out.
+    assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.03)
+    assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.05)
+
+
+def test_what_a_run_records_is_what_its_journal_says(undisturbed):
+    import zlib
+
+    import h5py
+
+    folder, answer = undisturbed
+    with h5py.File(folder / "file-01.nc") as file:
+        raw = file["raw"][:]
+    for cell in answer.to_json()["cells"]:
+        first, count = cell["before"]
+        crc = zlib.crc32(np.ascontiguousarray(raw[first : first + count]))
+        first, count = cell["shaken"]
+        assert zlib.crc32(np.ascontiguousarray(raw[first : first + count]), crc) == cell["crc32"]
+
+
+def test_a_run_is_the_same_again(undisturbed, tmp_path):
+    folder, _ = undisturbed
+    rigs.run(rigs.small_case(), tmp_path / "again")
+    assert rigs.cells(tmp_path / "again") == rigs.cells(folder)
+
+
+def killed_and_resumed(case, folder, draw):
+    """Kill a run at random moments until it comes to its end; returns how often it was killed."""
+    resume, kills = False, 0
+    while not rigs.killed_run(case, folder, draw(), resume=resume):
+        kills += 1
+        path = folder / "journal.jsonl"
+        resume = path.exists() and b"\n" in path.read_bytes()
+        assert kills < 200
+    return kills
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_runs_that_are_killed_go_on_to_the_same_cells(undisturbed, tmp_path):
+    folder, _ = undisturbed
+    rng = random.Random(1)
+    kills = killed_and_resumed(rigs.small_case(), tmp_path / "run", lambda: rng.uniform(0.1, 0.5))
+    assert kills >= 1
+    assert rigs.cells(tmp_path / "run") == rigs.cells(folder)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_hundred_killed_runs_give_the_undisturbed_cells(undisturbed, tmp_path):
+    folder, _ = undisturbed
+    rng = random.Random(2)
+    runs = kills = 0
+    while kills < 100:
+        here = tmp_path / f"run-{runs}"
+        kills += killed_and_resumed(rigs.small_case(), here, lambda: rng.uniform(0.05, 0.8))
+        assert rigs.cells(here) == rigs.cells(folder)
+        runs += 1
+
+
+FAULTS = {
+    "samples of one channel lost": (rigs.losing("torque_bronze"), "samples lost or late"),
+    "one channel late": (rigs.late("current_steel"), "samples lost or late"),
+    "no samples": (rigs.silent, "samples lost or late"),
+    "sensor at its limit": (rigs.at_limit("torque_steel"), "sensor at its limit"),
+    "torque": (rigs.scaled("torque_steel", 150.0), "torque"),
+    "no drive signal": (rigs.scaled("drive_voltage", 0.0), "vibration"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_what_goes_wrong_is_named_and_everything_is_off_within_a_block(name, tmp_path):
+    change, kind = FAULTS[name]
+    case = rigs.small_case('limits.torque="1.5 N m"')
+    bench, rig = rigs.made_bench(case)
+    # Once it has vibrated for a while, so that nothing is unsettled.
+    began = []
+
+    def begins(rig):
+        if rig.vibrates and not began:
+            began.append(rig.now)
+        return bool(began) and rig.now > began[0] + 0.5
+
+    scope = rigs.FaultyScope(bench.scope, rig, change, begins)
+    faulty = dataclasses.replace(bench, scope=scope)
+    answer = rigs.run(case, tmp_path, bench=faulty)
+    assert isinstance(answer.failure, InstrumentError)
+    assert answer.failure.kind == kind
+    assert not rig.vibrates
+    assert not rig.on & {"steel", "bronze", "vibration"}
+    # The first sample that went wrong came with the poll that `since` is the end of.
+    assert rig.now - scope.since <= rigs.BLOCK / 2 + 1e-9
+    latched = rigs.journal(tmp_path)[-1]
+    assert (latched["kind"], latched["interlock"]) == ("latched", kind)
+    assert "still_on" not in latched
+
+
+@pytest.mark.parametrize("kind", ["line lost", "half an answer"])
+def test_a_controller_that_is_gone_costs_the_amplifier_its_power(kind, tmp_path):
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+    deaf = rigs.Deaf(bench.vibration, rig, kind)
+    answer = rigs.run(case, tmp_path, bench=dataclasses.replace(bench, vibration=deaf))
+    assert answer.failure.kind == kind
+    assert "NOT SWITCHED OFF" in str(answer.failure)
+    assert not rig.vibrates
+    assert not rig.on & {"steel", "bronze", "amplifier"}
+    assert rig.now - deaf.since <= rigs.BLOCK
+    assert rigs.journal(tmp_path)[-1]["still_on"]
+
+
+def test_a_supply_that_gives_something_else_latches(tmp_path):
+    case = rigs.small_case('plan.shaken="2 s"')
+    bench, rig = rigs.made_bench(case)
+    motors = dict(bench.motors) | {"steel": rigs.WrongSupply(bench.motors["steel"], rig)}
+    answer = rigs.run(case, tmp_path, bench=dataclasses.replace(bench, motors=motors))
+    assert answer.failure.kind == "supply"
+    assert not rig.on & {"steel", "bronze", "vibration"}
+
+
+@pytest.mark.parametrize(
+    ("pair", "kind"),
+    [
+        (("torque_steel", "torque_bronze"), "wrong channel map"),
+        (("current_steel", "current_bronze"), "wrong channel map"),
+        (("speed_steel", "speed_bronze"), "no change"),
+        (("speed_steel", "current_steel"), "no change"),
+        (("load_cell", "torque_steel"), "preload"),
+        (("drive_voltage", "torque_steel"), "no change"),
+    ],
+)
+def test_exchanged_cables_are_found_before_the_first_recording(pair, kind, tmp_path):
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+    scope = rigs.FaultyScope(bench.scope, rig, rigs.exchanged(*pair), lambda rig: True)
+    answer = rigs.run(case, tmp_path, bench=dataclasses.replace(bench, scope=scope))
+    assert answer.failure.kind == kind
+    assert not list(tmp_path.glob("*.nc"))
+    assert not rig.on & {"steel", "bronze", "vibration"}
+
+
+def test_a_latched_run_waits_for_a_person(undisturbed, tmp_path):
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+    scope = rigs.FaultyScope(bench.scope, rig, rigs.at_limit("torque_steel"), VIBRATES)
+    rigs.run(case, tmp_path, bench=dataclasses.replace(bench, scope=scope))
+    with pytest.raises(InputError, match="look at the rig, then go on with --resume --ackno"):
+        rigs.run(case, tmp_path, resume=True)
+    with pytest.raises(InputError, match="goes with --resume"):
+        rigs.run(case, tmp_path, acknowledge="me")
+    answer = rigs.run(case, tmp_path, resume=True, acknowledge="J. Doe: cable replaced")
+    assert answer.failure is None
+    assert rigs.cells(tmp_path) == rigs.cells(undisturbed[0])
+    kinds = [line["kind"] for line in rigs.journal(tmp_path)]
+    place = kinds.index("acknowledged")
+    assert kinds[place - 1] == "latched"
+    assert rigs.journal(tmp_path)[place]["text"] == "J. Doe: cable replaced"
+    with pytest.raises(InputError, match="nothing has latched"):
+        rigs.run(case, tmp_path, resume=True, acknowledge="again")
+
+
+def test_a_full_disk_latches_with_everything_off(undisturbed, tmp_path, monkeypatch):
+    from asperity.tribometer.recording import Recorder
+
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+    real = Recorder.append
+
+    def full(self, counts, clock, first=None):
+        if rig.vibrates:
+            raise StorageError(f"{self.path} cannot be written: no space left on device")
+        real(self, counts, clock, first)
+
+    monkeypatch.setattr(Recorder, "append", full)
+    answer = rigs.run(case, tmp_path, bench=bench)
+    assert isinstance(answer.failure, StorageError)
+    assert not rig.on & {"steel", "bronze", "vibration"}
+    assert rigs.journal(tmp_path)[-1]["interlock"] == "disk"
+    monkeypatch.undo()
+    rigs.run(case, tmp_path, resume=True, acknowledge="space made")
+    assert rigs.cells(tmp_path) == rigs.cells(undisturbed[0])
+
+
+def test_a_journal_on_a_full_disk_writes_into_what_it_held_back(tmp_path, monkeypatch):
+    book = Journal(tmp_path)
+    spare = tmp_path / ".journal.spare"
+    real = journals.os.write
+
+    def write(file, row):
+        if spare.exists():
+            real(file, row[: len(row) // 2])
+            raise OSError(28, "No space left on device")
+        return real(file, row)
+
+    monkeypatch.setattr(journals.os, "write", write)
+    book.write("latched", interlock="disk")
+    assert not spare.exists()
+    book.close()
+    assert [line["kind"] for line in rigs.journal(tmp_path)] == ["latched"]
+
+
+def test_half_a_line_is_taken_off_and_a_damaged_one_refused(tmp_path):
+    book = Journal(tmp_path)
+    book.write("started")
+    book.write("begun", action="a\nb")
+    book.close()
+    path = tmp_path / "journal.jsonl"
+    whole = path.read_bytes()
+    path.write_bytes(whole + b'{"line": 3, "ki')
+    book = Journal(tmp_path)
+    assert [line["kind"] for line in book.lines] == ["started", "begun"]
+    book.close()
+    assert path.read_bytes() == whole
+    path.write_bytes(whole.replace(b'"started"', b'"star'))
+    with pytest.raises(InputError, match="line 1 is damaged"):
+        Journal(tmp_path)
+
+
+def test_a_run_is_not_begun_over_another_nor_gone_on_with_as_another(undisturbed, tmp_path):
+    folder, _ = undisturbed
+    with pytest.raises(InputError, match="holds a run; go on with it by --resume"):
+        rigs.run(rigs.small_case(), folder)
+    with pytest.raises(InputError, match="another configuration"):
+        rigs.run(rigs.small_case("twin.seed=3"), folder, resume=True)
+    with pytest.raises(InputError, match="holds no run to go on with"):
+        rigs.run(rigs.small_case(), tmp_path / "none", resume=True)
+    # Gone on with when all is done, it has nothing to do.
+    assert rigs.run(rigs.small_case(), folder, resume=True).cells_done == 2
+
+
+def test_an_interrupt_switches_everything_off_and_is_gone_on_from(undisturbed, tmp_path):
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+
+    def interrupt(scope, counts):
+        raise KeyboardInterrupt
+
+    scope = rigs.FaultyScope(bench.scope, rig, interrupt, VIBRATES)
+    with pytest.raises(KeyboardInterrupt, match="--resume goes on"):
+        rigs.run(case, tmp_path, bench=dataclasses.replace(bench, scope=scope))
+    assert not rig.on & {"steel", "bronze", "vibration"}
+    rigs.run(case, tmp_path, resume=True)
+    assert rigs.cells(tmp_path) == rigs.cells(undisturbed[0])
+
+
+@pytest.mark.parametrize(
+    ("setting", "said"),
+    [
+        ('plan.frequencies=["3500 Hz"]', "limits.highest_frequency"),
+        ('plan.frequencies=["100 Hz"]', "outside sonotrode.frequencies"),
+        ('plan.sample_rate="1 kHz"', "cannot tell"),
+        ('plan.steel_supplies=["30 V"]', "limits.steel_supply"),
+        ('plan.steel_supplies=["10 mV"]', "does not turn"),
+        ('plan.excluded=["oli"]', "did you mean 'oil'"),
+        ('plan.excluded=["oil"]', "leaves out every cell"),
+        ("plan.frequencies=[]", "is empty"),
+        ('plan.before="0 s"', "needs a time before"),
+        ('channels.torque_steel={channel="A"}', "needs its calibration"),
+    ],
+)
+def test_a_plan_that_cannot_be_run_is_refused_before_anything_moves(setting, said, tmp_path):
+    with pytest.raises(InputError, match=said):
+        rigs.run(rigs.small_case(setting), tmp_path)
+    assert not list(tmp_path.iterdir())
