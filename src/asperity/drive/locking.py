@@ -58,6 +58,7 @@ class Locking(Result):
     creep: float | None = quantity(
         "", "rad/s", "mean speed of the wheel under the case's vibration", key="creep_rad_s"
     )
+    settled: bool = quantity("", "", "whether that speed stays")
     creep_closed_form: float | None = quantity(
         "v_a sin(pi phi/2)", "rad/s", "the same far beyond the threshold",
         key="creep_closed_form_rad_s",
@@ -110,7 +111,12 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     search = _Search(problem, reduced, turn * along * frequency, run)
     amplitudes = _CHART * slip / along
     creeps = search.creeps([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
+    settled = search.settled
     notes = list(reduced.notes)
+    if not settled:
+        notes.append(
+            "the creep under the case's vibration has not settled; give a longer solve.duration"
+        )
     threshold = None
     if locked:
         threshold = search.threshold(amplitudes, creeps[:-1])
@@ -133,6 +139,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         threshold=threshold,
         threshold_closed_form=closed,
         creep=float(creeps[-1]),
+        settled=settled,
         creep_closed_form=limit * problem.amplitude if locked else None,
         amplitude=chart,
         creep_over=creeps[:-1] if locked else creeps,
@@ -160,9 +167,13 @@ class _Search:
         self._reduced = reduced
         self._unit = unit
         self._run = run
+        self.settled = False
 
     def creeps(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
-        """Return the wheel's mean speed in the load's direction at each amplitude, rad/s."""
+        """Return the wheel's mean speed in the load's direction at each amplitude, rad/s.
+
+        Whether the last of them settled is kept.
+        """
         shaken = [
             (self._problem.shaken(self._problem.mode, float(amplitude)), self._reduced)
             for amplitude in amplitudes
@@ -171,6 +182,7 @@ class _Search:
         for each in found:
             if isinstance(each, AsperityError):
                 raise each
+        self.settled = all(each.settled for each in found[-1:] if isinstance(each, DriveResult))
         speeds = [each.creep for each in found if isinstance(each, DriveResult)]
         if None in speeds:
             raise ConvergenceError("a march without a motor told no creep", reached={})

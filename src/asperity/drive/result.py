@@ -109,6 +109,11 @@ class DriveResult(Result):
     second_flank_share: float = quantity("", "", "share of time on the other flank")
     force_max: float = quantity("N_max", "N", "greatest normal force")
     force_static: float = quantity("N_s", "N", "normal force without vibration")
+    advantage_min: float | None = quantity(
+        "", "", "least torque of the worm over the wheel's, over the same without vibration, while "
+        "the driving flank alone touches",
+    )  # fmt: skip
+    advantage_max: float | None = quantity("", "", "the greatest of it")
     ledger: DriveLedger = part(DriveLedger, "power_")
     energy_ratio: float | None = quantity(
         "(P_d + P_a)/P_0", "", "mechanical power put in over that without vibration"
@@ -145,6 +150,9 @@ class DriveResult(Result):
         "whether the gearset holds once vibration and motor are off",
         optional=True,
         default=None,
+    )
+    residual: float = quantity(
+        "", "", "largest residual of the mesh's own equations, over full friction", default=0.0
     )
     course: Course | None = part(Course, default=None)
     bands: Bands | None = part(Bands, default=None)

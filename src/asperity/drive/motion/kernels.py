@@ -156,6 +156,7 @@ def arrive(system, state, dt, q, v, out, sums):
     sums.stored = stored
     sums.time += dt
     sums.torque += drive_torque * dt
+    sums.worm_torque += mesh_turn * dt
     sums.wheel_torque += mesh_roll * dt
     sums.driving += 0.5 * (state.driving + driving) * dt
     sums.back += 0.5 * (state.back + back) * dt
@@ -172,6 +173,10 @@ def arrive(system, state, dt, q, v, out, sums):
         sums.second += dt
     elif driving <= 0.0:
         sums.open += dt
+    else:
+        advantage = -worm_torque / wheel_torque
+        sums.advantage_min = min(sums.advantage_min, advantage)
+        sums.advantage_max = max(sums.advantage_max, advantage)
     state.time = time
     state.step = dt
     state.wave = wave
@@ -195,6 +200,7 @@ def clear(sums):
     """Begin a stretch."""
     sums.time = 0.0
     sums.torque = 0.0
+    sums.worm_torque = 0.0
     sums.wheel_torque = 0.0
     sums.driving = 0.0
     sums.back = 0.0
@@ -215,3 +221,5 @@ def clear(sums):
     sums.rolled = 0.0
     sums.steps = 0.0
     sums.residual = 0.0
+    sums.advantage_min = math.inf
+    sums.advantage_max = -math.inf

@@ -83,11 +83,16 @@ SUMS = np.dtype(
     [
         (name, np.float64)
         for name in (
-            "time", "torque", "wheel_torque", "driving", "back",
+            "time", "torque", "worm_torque", "wheel_torque", "driving", "back",
             "torque_min", "torque_max", "driving_min", "driving_max", "back_max",
             "drive", "actuator", "load", "friction", "contact_damping", "shaft_damping", "stored",
             "open", "second", "turned", "rolled", "steps", "residual",
+            "advantage_min", "advantage_max",
         )
     ]
 )  # fmt: skip
-"""Integrals over time of a stretch (works in J), extremes, and what was stored at its end."""
+"""Integrals over time of a stretch (works in J), extremes, and what was stored at its end.
+
+The advantage is the worm's torque by the mesh over the wheel's, while the driving flank alone
+touches.
+"""

@@ -100,6 +100,7 @@ class March:
         self.committed = committed
         self.rows = np.zeros(0, SUMS)
         self.seconds = 0.0
+        self.stored = float(states[0]["stored"])
         self._run = run
         self._stop = np.zeros(1, np.int64) if stop is None else stop
 
@@ -183,11 +184,19 @@ class March:
         per_block = last.reshape(_BLOCKS, block)
         means = per_block[measure].sum(axis=1) / per_block["time"].sum(axis=1) / scale
         spread = float(np.ptp(means))
-        wheel = float(last["wheel_torque"].sum() / last["time"].sum())
-        balance = wheel / self.system.load - 1.0
+        balance = self.balance(last)
         settled = spread <= PERIODIC and abs(balance) <= BALANCED
         surely = spread <= _EARLY * PERIODIC and abs(balance) <= _EARLY * BALANCED
         return Judgement(settled, settled and surely, spread, balance, last.size)
+
+    def balance(self, rows: Records) -> float:
+        """Return what the mesh gives the wheel beyond its load, over that.
+
+        Where the wheel is held, it is the worm that has to be balanced, against its motor.
+        """
+        if not self.system.rolls:
+            return -mean(rows, "worm_torque") / self.system.motor_torque - 1.0
+        return mean(rows, "wheel_torque") / self.system.load - 1.0
 
     def tree(self) -> Tree:
         """Return all that changes on the way."""

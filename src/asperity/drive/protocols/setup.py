@@ -181,5 +181,12 @@ def begin(
     state["torque"] = 0.0 if locked else torque
     state["worm_torque"], state["worm_force"] = -torque, thrust
     state["wheel_torque"] = problem.load
+    state["stored"] = (
+        model.stored(approach, share)
+        + 0.5 * moving.worm_inertia * state["turn_rate"] ** 2 * moving.turns
+        + 0.5 * moving.wheel_inertia * state["roll_rate"] ** 2
+        + 0.5 * moving.torsion * state["turn"] ** 2
+        + 0.5 * moving.seat * state["shift"] ** 2
+    )
     pose = np.array([state["turn"], state["shift"], state["roll"], 0.0])
     return states, model.settled_in(pose, share)

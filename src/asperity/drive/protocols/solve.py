@@ -20,9 +20,10 @@ from asperity.runs import Run
 from asperity.runs.key import code_key, key
 
 _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
-_AFTER_SECONDS = 20e-3
-_AT_REST = 1e-3  # of the wheel's speed
+_AFTER_SECONDS = 40e-3
+_AT_REST = 1e-3  # of the wheel's speed, in the second half of that time
 _ADVICE = "give a smaller solve.step"
+_SOLVED = 1e-6  # of full friction, that the mesh's own equations may be off by
 
 
 def solve_shaken(
@@ -58,14 +59,9 @@ def solve_shaken(
         if problem.drive.protocol == "window":
             judged = _first_cycles(march, window, model.worm_torque)
         else:
-            slide = problem.velocity / (model.point.length * model.point.ratio)
+            measure, scale = _measured(problem, model)
             judged = march.settle(
-                window=window,
-                measure="rolled" if locked else "torque",
-                scale=(slide or problem.worm_speed / model.point.ratio)
-                if locked
-                else model.worm_torque,
-                duration=problem.solve.duration,
+                window=window, measure=measure, scale=scale, duration=problem.solve.duration
             )
         creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
         held = _held_after(problem, model, march, run)
@@ -86,13 +82,22 @@ def _key(problem: DriveProblem) -> str:
     return key(code_key(__name__), asked)
 
 
+def _measured(problem: DriveProblem, model: ReducedModel) -> tuple[str, float]:
+    """Return what of a protocol's motion has to stay, and what it is measured by."""
+    if problem.drive.protocol == "back-drive":
+        speed = problem.velocity / model.point.length or problem.worm_speed
+        return "rolled", speed / model.point.ratio
+    if problem.drive.protocol == "held-wheel":
+        return "wheel_torque", problem.load
+    return "torque", model.worm_torque
+
+
 def _first_cycles(march: March, window: int, torque: float) -> Judgement:
     """March the first cycles alone; they are not a periodic state, whatever they look like."""
     march.go(window - march.rows.size)
     rows = march.rows
     spread = float(np.ptp(rows["torque"] / rows["time"])) / torque
-    balance = mean(rows, "wheel_torque") / march.system.load - 1.0
-    return Judgement(False, False, spread, balance, window)
+    return Judgement(False, False, spread, march.balance(rows), window)
 
 
 def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: Run) -> bool | None:
@@ -106,7 +111,7 @@ def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: R
         left[name] = 0.0
     after = March(model, still, left, march.committed.copy(), run)
     after.go(math.ceil(_AFTER_SECONDS * still.frequency))
-    end = after.rows[-max(1, after.rows.size // 4) :]
+    end = after.rows[after.rows.size // 2 :]
     return abs(mean(end, "rolled")) < _AT_REST * problem.worm_speed / model.point.ratio
 
 
@@ -114,12 +119,16 @@ def _summarise(
     problem: DriveProblem, model: ReducedModel, march: March, judged: Judgement
 ) -> DriveResult:
     rows, moving = march.rows, march.system
+    residual = float(rows["residual"].max())
+    if not residual <= _SOLVED:
+        raise ConvergenceError(
+            f"the equations of the mesh are left with {residual:.2g} of full friction: {_ADVICE}",
+            reached={"residual": residual, "torque_balance": judged.balance},
+        )
     last = rows[-judged.cycles :]
     time = float(last["time"].sum())
-    before = rows[-judged.cycles - 1]["stored"] if rows.size > judged.cycles else None
-    if before is None:
-        last, time = last[1:], float(last["time"][1:].sum())
-        before = rows[-judged.cycles]["stored"]
+    whole = rows.size == judged.cycles
+    before = march.stored if whole else float(rows[-judged.cycles - 1]["stored"])
     ledger = DriveLedger(
         drive=mean(last, "drive"),
         actuator=mean(last, "actuator"),
@@ -135,6 +144,8 @@ def _summarise(
     power = torque * problem.worm_speed
     put_in = ledger.drive + ledger.actuator
     taken = _demand(problem, moving, ledger)
+    touched = bool(np.isfinite(rows["advantage_min"]).any())
+    unit = torque / problem.load
     measured = mean(last, "torque") if driven else None
     ratio = None if measured is None else measured / torque
     if problem.drive.protocol == "held-wheel":
@@ -154,12 +165,14 @@ def _summarise(
         settled=judged.settled,
         spread=judged.spread if math.isfinite(judged.spread) else None,
         torque_ratio_window=mean(first, "torque") / torque if driven else None,
-        window_balance=mean(first, "wheel_torque") / problem.load - 1.0,
+        window_balance=march.balance(first),
         floor_reversed=model.reversed_torque / torque,
         open_share=mean(last, "open"),
         second_flank_share=mean(last, "second"),
         force_max=float(max(last["driving_max"].max(), last["back_max"].max())),
         force_static=model.normal_force,
+        advantage_min=float(rows["advantage_min"].min()) / unit if touched else None,
+        advantage_max=float(rows["advantage_max"].max()) / unit if touched else None,
         ledger=ledger,
         energy_ratio=put_in / power if driven else None,
         saved_per_actuator=saved / ledger.actuator if driven and ledger.actuator > 0.0 else None,
@@ -174,6 +187,7 @@ def _summarise(
             cycle_wheel=rows["wheel_torque"] / rows["time"],
         ),
         notes=(*_notes(problem, model, judged), *guarded),
+        residual=residual,
         steps=march.steps,
         seconds=march.seconds,
     )

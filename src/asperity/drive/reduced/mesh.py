@@ -21,7 +21,7 @@ from asperity.friction.loaded import STIFFNESS, relaxed_to_limit
 from asperity.friction.loaded_tangent import update_loaded
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
-_ITERATIONS = 30
+_ITERATIONS = 60
 _CLOSE = 1e-12
 
 
@@ -141,10 +141,16 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
 
 @kernel
 def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
-    """Asperities of any exponent on teeth that bend by ``more`` of their deflection."""
+    """Asperities of any exponent on teeth that bend by ``more`` of their deflection.
+
+    Where the tangent has a kink, as brittle asperities at their limit, steps are halved.
+    """
     one = 1.0 / (1.0 + more)
     wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    last = math.inf
     off = 0.0
+    stepx = 0.0
+    stepy = 0.0
     for _ in range(_ITERATIONS):
         (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
             (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
@@ -155,13 +161,22 @@ def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
         off = abs(ex) + abs(ey)
         if off <= _CLOSE * (1.0 + limit_1):
             break
+        if off >= last:
+            stepx *= 0.5
+            stepy *= 0.5
+            wx -= stepx
+            wy -= stepy
+            continue
+        last = off
         a = 1.0 + more * xx
         b = more * xy
         c = more * yx
         d = 1.0 + more * yy
         over = 1.0 / (a * d - b * c)
-        wx += over * (d * ex - b * ey)
-        wy += over * (a * ey - c * ex)
+        stepx = over * (d * ex - b * ey)
+        stepy = over * (a * ey - c * ex)
+        wx += stepx
+        wy += stepy
     return wx, wy, off
 
 

@@ -13,7 +13,7 @@ from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.motion.system import System
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.law import NormalLaw
+from asperity.drive.reduced.law import NormalLaw, force_and_energy
 from asperity.drive.reduced.march import march
 from asperity.drive.reduced.mesh import STATES, Mesh, settle_in
 from asperity.drive.reduced.reduction import Reduction
@@ -157,6 +157,14 @@ class ReducedModel:
         """March so many stretches as there are rows, see `asperity.drive.reduced.march.march`."""
         done: int = march(self.mesh, system, states, committed, stretch, rows, stop)
         return done
+
+    def stored(self, approach: float, share: float) -> float:
+        """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
+        mesh = self.mesh
+        force, energy = force_and_energy(mesh.cell, mesh.rows, approach)
+        bent = share * force / mesh.reference
+        unit = mesh.friction * mesh.reference * mesh.limit * (1.0 + mesh.yielding)
+        return float(energy + 0.5 * unit * bent * bent)
 
     def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
         """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""

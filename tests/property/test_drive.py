@@ -1,0 +1,59 @@
+"""At every instant with one flank in contact the worm's torque over the wheel's has bounds."""
+
+import numpy as np
+import pytest
+from apparatus.drives import all_solved
+
+MODES = ("axial", "torsional", "wheel-axial", "screw")
+
+
+def drawn(rng):
+    """Return the settings of a drive that is legal, of any kind of motion."""
+    frequency = 10 ** rng.uniform(2.9, 4.5)
+    mode = rng.choice(MODES)
+    amplitude = min(10 ** rng.uniform(-6.5, -3.8), 20.0 / (2 * np.pi * frequency))
+    return (
+        f"vibration.mode={mode}",
+        "vibration.applied_to=" + {"wheel-axial": "wheel"}.get(mode, "worm"),
+        f"vibration.frequency={frequency:.6g} Hz",
+        f"vibration.displacement_amplitude={amplitude:.6g} m",
+        f"friction.mu={rng.uniform(0.02, 0.2):.4g}",
+        f"friction.model={rng.choice(['dahl', 'coulomb'])}",
+        f"drive.load_inertia={10 ** rng.uniform(-3, -1):.4g} kg m**2",
+        f"operation.output_torque={rng.uniform(20, 600):.4g} N m",
+        f"operation.worm_speed={rng.uniform(100, 3000):.4g} rpm",
+        f"shaft.torsional_stiffness={10 ** rng.uniform(2.5, 4.5):.4g} N m/rad",
+        f"drive.flanks={rng.choice(['both', 'driving'])}",
+        f"solve.duration={6.0:.4g} ms",
+    )
+
+
+def check(count, seed):
+    rng = np.random.default_rng(seed)
+    settings = [drawn(rng) for _ in range(count)]
+    found = all_solved(settings)
+    touched = 0
+    for given, one in zip(settings, found, strict=True):
+        if one.advantage_min is None:
+            continue
+        touched += 1
+        point = one.problem.point(one.problem.drive.effective_radius)
+        aslant = point.friction_aslant(one.problem.friction.mu)
+        least, most = (
+            point.worm_torque(one.problem.load, sign * aslant) / one.torque_static
+            for sign in (-1.0, 1.0)
+        )
+        assert least - 1e-9 <= one.advantage_min <= one.advantage_max <= most + 1e-9, given
+        assert one.advantage_max <= 1.002, given
+        assert abs(least / one.floor_reversed - 1.0) < 0.01
+        assert one.closure < 1e-2, given
+    assert touched > 0.9 * count
+
+
+def test_the_worm_s_torque_stays_between_reversed_and_static_friction():
+    check(24, 7)
+
+
+@pytest.mark.slow
+def test_the_same_over_five_hundred_drives():
+    check(500, 11)

@@ -1,0 +1,171 @@
+"""The march of a reduced drive: its ledger, its symmetries, its periodic state, its refusals."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from apparatus.drives import ASPERITIES, all_solved, deflection, problem, solved
+
+from asperity.drive.reduced.law import NormalLaw, force_and_energy
+from asperity.errors import InputError
+from asperity.runs import Run
+
+RATTLING = (
+    "vibration.mode=axial",
+    "vibration.frequency=6 kHz",
+    "vibration.displacement_amplitude=40 um",
+)
+
+
+def test_the_powers_balance_and_halving_the_step_halves_what_is_missing():
+    wanted = ("drive.flanks=driving", "solve.duration=20 ms", "vibration.velocity_ratio=1.5")
+    coarse, fine = all_solved([(*wanted, f"solve.step={step} us") for step in (1.0, 0.5)])
+    assert coarse.closure < 1e-3
+    assert fine.closure <= 0.5 * coarse.closure + 1e-9
+    assert fine.torque_ratio == pytest.approx(coarse.torque_ratio, abs=1e-3)
+
+
+def test_the_powers_balance_while_both_flanks_hammer():
+    (one,) = all_solved([(*RATTLING, "vibration.displacement_amplitude=160 um")])
+    assert one.second_flank_share > 0.01
+    assert one.open_share > 0.2
+    assert one.closure < 3e-3
+
+
+def test_a_left_handed_drive_is_the_mirror_image():
+    one, other = (solved(f"gearset.hand={hand}") for hand in ("right", "left"))
+    for name in ("torque", "energy_ratio", "force_max", "k_w"):
+        assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9)
+
+
+@pytest.mark.parametrize("mode", ["axial", "screw"])
+def test_a_rigid_seat_shakes_as_the_worm_itself(mode):
+    settings = ("vibration.frequency=20 kHz", "vibration.displacement_amplitude=5 um")
+    one, other = all_solved(
+        [(f"vibration.mode={mode}", f"vibration.applied_to={place}", *settings)
+         for place in ("worm", "seat")]
+    )  # fmt: skip
+    assert one.torque == pytest.approx(other.torque, rel=1e-9)
+    assert one.ledger.actuator == pytest.approx(other.ledger.actuator, rel=1e-9)
+
+
+def test_a_stiff_seat_shakes_nearly_as_a_rigid_one_and_a_soft_one_hardly():
+    settings = (
+        "vibration.mode=axial", "vibration.applied_to=seat", "vibration.frequency=20 kHz",
+        "vibration.displacement_amplitude=2 um", "drive.worm_mass=0.3 kg",
+    )  # fmt: skip
+    rigid, stiff, soft = all_solved(
+        [settings, (*settings, "shaft.bearing_axial=1e5 kN/mm"),
+         (*settings, "shaft.bearing_axial=50 kN/mm")]
+    )  # fmt: skip
+    assert stiff.force_max == pytest.approx(rigid.force_max, rel=0.05)
+    assert soft.force_max - soft.force_static < 0.3 * (rigid.force_max - rigid.force_static)
+
+
+def test_without_vibration_to_speak_of_the_drive_runs_as_its_closed_form():
+    one = solved("vibration.displacement_amplitude=1e-6 um")
+    assert one.torque_ratio == pytest.approx(1.0, abs=1e-6)
+    assert one.energy_ratio == pytest.approx(1.0, abs=1e-6)
+    assert one.torque_balance == pytest.approx(0.0, abs=1e-7)
+
+
+def test_force_and_energy_of_the_mesh_belong_together():
+    law = NormalLaw(np.array([2e-6, 8e-6, 20e-6]), np.array([300.0, 2000.0, 7000.0]))
+    cell, rows = law.table(7000.0)
+    for at in (1e-7, 3e-6, 1.2e-5, 6e-5, 5e-4):
+        step = 1e-3 * at
+        (_, below), (force, _), (_, above) = (
+            force_and_energy(cell, rows, at + shift) for shift in (-step, 0.0, step)
+        )
+        assert force == pytest.approx((above - below) / (2.0 * step), rel=1e-4)
+        assert force == pytest.approx(float(law.exact(np.array([at]))[0][0]), rel=1e-3, abs=2.0)
+    assert force_and_energy(cell, rows, -1e-6) == (0.0, 0.0)
+    assert law.approach_at(2000.0) == pytest.approx(8e-6)
+
+
+def test_teeth_in_series_with_asperities_are_as_asperities_that_give_as_much():
+    # Of brittle asperities: springs in series with one limit.
+    brittle = ("friction.exponent=0", "drive.flanks=driving")
+    series, alone = all_solved(
+        [(*brittle, "friction.max_deflection=1 um", "drive.tangential_compliance=1 nm/N"),
+         (*brittle, "friction.max_deflection=1.958357 um", ASPERITIES)]
+    )  # fmt: skip
+    assert series.torque_ratio == pytest.approx(alone.torque_ratio, rel=1e-6)
+
+
+def test_a_window_tells_that_it_is_no_state_that_lasts():
+    one = solved("drive.protocol=window", "drive.window=2", *RATTLING)
+    assert not one.settled
+    assert one.torque_ratio == pytest.approx(one.torque_ratio_window)
+    assert any("no state that lasts" in note for note in one.notes)
+
+
+def test_the_part_along_the_flank_of_a_screw_is_the_screw():
+    one, other = all_solved([(), ("drive.protocol=tangential",)])
+    assert one.torque == pytest.approx(other.torque, rel=1e-9)
+
+
+def test_a_stalled_motor_presses_harder_on_a_held_wheel_while_it_is_shaken():
+    one = solved("drive.protocol=held-wheel", "vibration.frequency=20 kHz")
+    assert one.settled
+    assert one.torque_ratio < 0.95
+    assert one.closure < 1e-3
+
+
+def test_a_gearset_that_locks_holds_after_vibration_and_motor_are_off():
+    steep = solved("drive.protocol=on-demand")
+    assert steep.held_after is False
+    locking = solved("drive.protocol=on-demand", "friction.mu=0.5", "friction.exponent=0")
+    assert locking.held_after is True
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        (["vibration.displacement_amplitude=3 mm", "vibration.mode=axial"], "lifts the worm out"),
+        (["vibration.mode=wheel-axial", "vibration.displacement_amplitude=9 mm"], "face width"),
+        (["solve.step=10 us"], "too coarse for a vibration of 2000 Hz"),
+        (["solve.step=4.9 us", ASPERITIES], "too coarse for the mesh's own vibration"),
+        (["solve.step=1 us", *RATTLING], "flanks that approach at"),
+        (["vibration.applied_to=wheel"], "is applied to 'worm' or 'seat'"),
+        (["vibration.applied_to=base"], "of a sliding body"),
+        (["vibration.direction=3 deg"], "of a sliding body"),
+        (["friction.mu=5"], "cannot turn the wheel"),
+        (["friction.model=springs"], "between teeth it must be"),
+        (["friction.law=split"], "leave it out"),
+        (["friction.keeps=deflection"], "makes energy"),
+        (["drive.effective_radius=3 mm"], "threads reach from"),
+        (["solve.method=periodic"], "a gearset is marched"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line(settings, words):
+    with pytest.raises(InputError, match=words) as refused:
+        problem(*settings)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("key", ["load_inertia", "contact_damping"])
+def test_vibration_needs_the_numbers_that_every_answer_depends_on(key):
+    given = problem()
+    drive = given.drive.model_copy(update={key: None})
+    with pytest.raises(InputError, match=f"drive.{key} is missing"):
+        dataclasses.replace(given, drive=drive)
+
+
+def test_a_march_goes_on_from_where_it_was_interrupted(tmp_path):
+    from asperity.drive.protocols.march import March
+    from asperity.drive.protocols.setup import begin, system
+    from asperity.drive.reduced.model import ReducedModel
+    from asperity.drive.reduced.reduction import reduction
+
+    given = problem(deflection())
+    model = ReducedModel(given, reduction(given, Run()))
+    moving = system(given, model)
+    whole = March(model, moving, *begin(given, model, moving), Run())
+    whole.go(6)
+    first = March(model, moving, *begin(given, model, moving), Run())
+    first.go(2)
+    other = March(model, moving, *begin(given, model, moving), Run())
+    other.restore(first.tree())
+    other.go(4)
+    assert other.rows.tobytes() == whole.rows.tobytes()
