@@ -74,7 +74,6 @@ def life(
     given: Inputs,
     share: float = 0.0,
     path_ratio: float = 1.0,
-    friction_power: float | None = None,
     other_heat: float = 0.0,
 ) -> Life:
     """Return wear, heat and life of a gearset that is shaken for a share of its time.
@@ -87,9 +86,8 @@ def life(
         Of the time that it is shaken, 0..1.
     path_ratio : float
         Path that the flanks slide under vibration over that without, weighted by the normal force;
-        0 or more.
-    friction_power : float, optional
-        Lost between the teeth while it is shaken, W; that without vibration if left out.
+        with a constant coefficient of friction that is the ratio of the powers of friction as
+        well. 0 or more.
     other_heat : float
         Of damping and of what the actuator loses within the housing while it shakes, W.
 
@@ -101,7 +99,6 @@ def life(
     for name, value, high in (
         ("share of time", share, 1.0),
         ("path ratio", path_ratio, math.inf),
-        ("friction power", friction_power or 0.0, math.inf),
         ("other heat", other_heat, math.inf),
     ):
         if not 0.0 <= value <= high:
@@ -110,8 +107,8 @@ def life(
     plain = rated_efficiency(given)
     still = rated_capacity(given, plain)
     between = plain["loss_meshing_W"]
-    shaken = between if friction_power is None else friction_power
-    meshing = (1.0 - share) * between + share * shaken
+    path = 1.0 - share + share * path_ratio
+    meshing = between * path
     total = plain["loss_total_W"] + meshing - between + share * other_heat
     rise = still["theta_S_degC"] - given.ambient_temperature
     sump = given.ambient_temperature + rise * total / plain["loss_total_W"]
@@ -121,7 +118,6 @@ def life(
         operation = operation.model_copy(update={"oil_temperature": kelvin}, units="SI")
     warmer = dataclasses.replace(given, operation=operation)
     found = rated_capacity(warmer, plain | {"loss_meshing_W": meshing})
-    path = 1.0 - share + share * path_ratio
     safety = float(found["safety_wear"] / path) if path > 0.0 else math.inf
     return Life(
         safety_wear=safety,

@@ -158,9 +158,12 @@ def _motor() -> Finding:
     # No ratio of chapter 7 that is in balance is lower than that of friction reversed.
     balanced = {k: (1.0 - k) * mass for k in (0.57, 0.75)}
     diameters = [shape[0] for shape in shapes]
-    like = Motor(
-        name="thesis", power=1.0, speed=1.0, breakdown=2.0, mass=mass, diameter=0.1, length=0.18
-    )
+    like = Motor.model_validate(
+        {
+            "name": "thesis", "power": 1.0, "speed": 1.0, "breakdown": 2.0, "mass": mass,
+            "diameter": 0.1, "length": 0.18,
+        }
+    )  # fmt: skip
     half = scaled(like, 0.57)
     before, after = (lightest(Service(((torque, 1.0),))) for torque in (UNSHAKEN, SHAKEN))
     return Finding.judged(
