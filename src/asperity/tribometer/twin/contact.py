@@ -17,7 +17,7 @@ from asperity.errors import ConvergenceError
 from asperity.friction import LAWS
 from asperity.friction.loaded import STIFFNESS, advance_loaded
 
-_SLOWEST, _FASTEST, _SPEEDS = 2e-5, 1.0, 72
+_SLOWEST, _FASTEST, _SPEEDS, _NEAR = 2e-5, 1.0, 56, 32
 _TOLERANCE = 2e-3
 _FEW, _MANY = 4, 400
 
@@ -89,7 +89,8 @@ def cycle_mean(surface, rotor, velocity, shaken, along, across, period, least, m
     Returns
     -------
     mean, change : float
-        The mean of the last cycle, and how far it was from that before.
+        The mean of the last cycle, and how far it was from that before; where it does not become
+        periodic, the mean of the second half of the march.
     """
     step = period / shaken.size
     sx = 0.0
@@ -99,6 +100,7 @@ def cycle_mean(surface, rotor, velocity, shaken, along, across, period, least, m
     before = share_at(surface, abs(velocity))
     mean = 2.0
     change = 2.0
+    late = 0.0
     for cycle in range(most):
         total = 0.0
         for u in shaken:
@@ -120,8 +122,10 @@ def cycle_mean(surface, rotor, velocity, shaken, along, across, period, least, m
         change = abs(total - mean)
         mean = total
         if cycle + 1 >= least and change <= tolerance * max(abs(mean), 0.02):
-            break
-    return mean, change
+            return mean, change
+        if 2 * cycle >= most:
+            late += total
+    return late / (most // 2), change
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -171,7 +175,12 @@ def mean_friction(
     ConvergenceError
         The disc on its shaft does not settle.
     """
-    speeds = np.concatenate([[0.0], np.geomspace(_SLOWEST, _FASTEST, _SPEEDS)])
+    speeds = np.geomspace(_SLOWEST, _FASTEST, _SPEEDS)
+    if shaken is not None:
+        # Friction along a vibration goes as asin(v/v_a) up to its peak.
+        near = np.sin(0.5 * np.pi * np.arange(1, _NEAR + 1) / _NEAR)
+        speeds = np.union1d(speeds, np.abs(shaken).max() * near)
+    speeds = np.concatenate([[0.0], speeds])
     if shaken is None:
         force = surface.full * np.array([share_at(surface, v) for v in speeds])
         # At rest friction is what holds; the table rises to it within the slowest speed.
