@@ -98,13 +98,33 @@ class Option:
 
 
 @dataclasses.dataclass(frozen=True)
+class Argument:
+    """What a command takes in its place on the command line, before a case.
+
+    Attributes
+    ----------
+    name : str
+        The keyword of ``prepare``.
+    metavar, help : str
+        What stands for it, and what it is, in a line.
+    many : bool
+        Whether there may be several.
+    """
+
+    name: str
+    metavar: str
+    help: str
+    many: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
 class Command:
     """Something asperity can do with a case.
 
     Attributes
     ----------
     name : str
-        On the command line; the files of its answer are called so.
+        On the command line, behind the name of its group if it has one: ``rig reduce``.
     summary, files : str
         What it does, and what ``--out`` leaves, in a sentence each.
     prepare, solve : str
@@ -119,6 +139,15 @@ class Command:
         Tables that its case must have.
     brief : bool
         Whether a terminal shows a screen of it unless ``--full`` is given.
+    arguments : tuple of Argument
+        What it takes before the case.
+    case : str
+        What the case is called; empty: it takes none, and ``read`` finds it by what it takes.
+    out : str
+        What ``--out`` is: ``DIR``, a folder for files, or the name of the one file that its answer
+        is saved in.
+    into : str
+        The argument that names the folder its files go to where ``--out`` is left out.
     """
 
     name: str
@@ -131,6 +160,15 @@ class Command:
     read: str = ""
     needs: tuple[str, ...] = ()
     brief: bool = False
+    arguments: tuple[Argument, ...] = ()
+    case: str = "CASE"
+    out: str = "DIR"
+    into: str = ""
+
+    @property
+    def stem(self) -> str:
+        """What is kept of it on the way is called so."""
+        return self.name.replace(" ", "-")
 
     def prepared(self, case: "Case", **options: Any) -> Any:
         """Return the problem of a case, refused if it cannot be solved."""
@@ -151,6 +189,9 @@ def _load(place: str) -> Any:
     module, _, name = place.partition(":")
     return getattr(importlib.import_module(module), name)
 
+
+GROUPS = {"rig": "A disc-on-disc tribometer: recordings, their reduction and report."}
+"""Commands that have a name in common, and what they are about."""
 
 COMMANDS = (
     Command(
@@ -302,6 +343,22 @@ COMMANDS = (
         prepare="asperity.drive.locking:prepare",
         solve="asperity.drive.locking:answer",
         counts="amplitudes",
+    ),
+    Command(
+        "rig reduce",
+        "Reduce recordings: what vibration does to torque, power and efficiency.",
+        "With --out also reduce.json, reduce.nc, reduce.csv and reduce.png.",
+        prepare="asperity.tribometer.reduction.study:prepare",
+        solve="asperity.tribometer.reduction.study:answer",
+        read="asperity.tribometer.reduction.study:read",
+        counts="recordings",
+        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        case="",
+        options=(
+            Option(
+                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
+            ),
+        ),
     ),
 )
 """In the order of the help."""

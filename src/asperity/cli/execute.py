@@ -40,8 +40,11 @@ def execute(
         found = read(case, case_tables(), settings, **options)
     with told(found):
         problem = command.prepared(found, **options)
-    with _folder(out) as folder, show.progress_bar(command.counts) as progress:
-        run = Run(progress=progress, notify=show.note, folder=folder, stem=command.name)
+    if out is None and command.into:
+        out = Path(options[command.into])
+    file = out if command.out != "DIR" else None
+    with _folder(None if file else out) as folder, show.progress_bar(command.counts) as progress:
+        run = Run(progress=progress, notify=show.note, folder=folder, stem=command.stem)
         try:
             with told(found):
                 result = command.solved(problem, run)
@@ -54,6 +57,8 @@ def execute(
         names = result.write(folder)
         run.finished()
         show.note(f"written to {folder}: {', '.join(names)}")
+    if file is not None:
+        show.note(f"written to {result.save(file)}")
     if shown is not None:
         raise shown
     if result.failure is not None:

@@ -19,7 +19,7 @@ from asperity.cli.outcome import (
     unwritten,
     usage,
 )
-from asperity.commands import COMMANDS, Command, Option
+from asperity.commands import COMMANDS, GROUPS, Argument, Command, Option
 
 app = typer.Typer(
     add_completion=False,
@@ -28,9 +28,8 @@ app = typer.Typer(
     help="What imposed vibration does to friction between sliding surfaces.",
 )
 
-CaseArgument = Annotated[
-    str, typer.Argument(metavar="CASE", help="A case file, or the name of a case that ships.")
-]
+_CASE_HELP = "A case file, or the name of a case that ships."
+CaseArgument = Annotated[str, typer.Argument(metavar="CASE", help=_CASE_HELP)]
 SetOption = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Change the case; as often as needed."),
@@ -52,10 +51,13 @@ def _folder(given: str) -> Path:
     return Path(given)
 
 
-OutOption = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
-]
+def _out(metavar: str) -> Any:
+    what = "Folder to write files to." if metavar == "DIR" else "File to write."
+    said = typer.Option("--out", metavar=metavar, parser=_folder, help=what)
+    return Annotated[Path | None, said]
+
+
+OutOption = _out("DIR")
 
 
 @app.callback(invoke_without_command=True)
@@ -82,19 +84,24 @@ def _command(command: Command) -> None:
 
     @reported
     def run(
-        case: str, settings: list[str] | None, as_json: bool, out: Path | None, **options: Any
+        settings: list[str] | None, as_json: bool, out: Path | None, case: str = "", **options: Any
     ) -> None:
         from asperity.cli.execute import execute
 
         execute(command, case, settings or (), as_json=as_json, out=out, **options)
 
+    case = Annotated[str, typer.Argument(metavar=command.case, help=_CASE_HELP)]
     parameters = {
-        "case": (CaseArgument, inspect.Parameter.empty),
+        **{
+            argument.name: (_placed(argument), inspect.Parameter.empty)
+            for argument in command.arguments
+        },
+        **({"case": (case, inspect.Parameter.empty)} if command.case else {}),
         **{option.name: _typed(option) for option in command.options},
         **({"full": (FullOption, False)} if command.brief else {}),
         "settings": (SetOption, None),
         "as_json": (JsonOption, False),
-        "out": (OutOption, None),
+        "out": (_out(command.out), None),
     }
     keyword = inspect.Parameter.KEYWORD_ONLY
     run.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
@@ -106,7 +113,13 @@ def _command(command: Command) -> None:
     run.__doc__ = f"{command.summary}\n\n{command.files}"
     # Typer looks at the function behind a decorator.
     del run.__wrapped__  # type: ignore[attr-defined]
-    app.command(name=command.name)(run)
+    group, _, name = command.name.rpartition(" ")
+    (_groups[group] if group else app).command(name=name)(run)
+
+
+def _placed(argument: Argument) -> Any:
+    kind: Any = list[str] if argument.many else str
+    return Annotated[kind, typer.Argument(metavar=argument.metavar, help=argument.help)]
 
 
 def _typed(option: Option) -> tuple[Any, Any]:
@@ -117,6 +130,9 @@ def _typed(option: Option) -> tuple[Any, Any]:
     return Annotated[kind, said], default
 
 
+_groups = {name: typer.Typer(help=about) for name, about in GROUPS.items()}
+for _name, _group in _groups.items():
+    app.add_typer(_group, name=_name, no_args_is_help=True)
 for _listed in COMMANDS:
     _command(_listed)
 
@@ -298,7 +314,9 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     command: Any = typer.main.get_command(app)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}
-    no_help |= dict.fromkeys(command.commands, no_help.copy())
+    for name, one in command.commands.items():
+        within = dict.fromkeys(getattr(one, "commands", {}), no_help.copy())
+        no_help[name] = {"help": False, **within}
     try:
         code: int | None = command.main(
             arguments, prog_name="asperity", standalone_mode=False, default_map=no_help

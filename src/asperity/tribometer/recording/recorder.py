@@ -26,6 +26,8 @@ Counts = NDArray[np.int16]
 _ROWS = 128  # of a chunk of the tables of blocks and events
 _BLOCK_SECONDS = 0.1
 _COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+_END_AT = 40  # of the first version of an HDF5 file's head
+_RESERVE = 1 << 20
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,7 +101,8 @@ class Recorder:
             self._tables = {name: h5[name] for name in (*layout.BLOCKS, *layout.EVENTS)}
             self._rows = {name: np.zeros(_ROWS, self._tables[name].dtype) for name in layout.BLOCKS}
             self._clock = 0.0
-            self._file.flush()
+            self._ahead = _Ahead(path, 2 * self._waiting.nbytes + _RESERVE)
+            self._flush()
 
     def append(self, counts: Counts, clock: float, first: int | None = None) -> None:
         """Take samples that have come.
@@ -139,7 +142,7 @@ class Recorder:
                 self._tables[name].resize(self._events + 1, axis=0)
                 self._tables[name][self._events] = value
             self._events += 1
-            self._raw.file.flush()
+            self._flush()
 
     def close(self, *, compress: bool = True) -> None:
         """Write what is left; compress the file, whole or not at all."""
@@ -166,6 +169,11 @@ class Recorder:
         file, self._file = self._file, None
         if file is not None:
             file.close()
+            self._ahead.close()
+
+    def _flush(self) -> None:
+        self._raw.file.flush()
+        self._ahead.move()
 
     def _write_waiting(self, clock: float) -> None:
         if self._filled:
@@ -192,7 +200,7 @@ class Recorder:
                 table = self._tables[name].id
                 table.set_extent((self._blocks + 1,))
                 table.write_direct_chunk((self._blocks - self._blocks % _ROWS,), self._rows[name])
-            self._raw.file.flush()
+            self._flush()
         self._clock = clock
         self.samples += count
         self._first += count
@@ -200,6 +208,37 @@ class Recorder:
 
     def _trouble_told(self) -> "_Told":
         return _Told(self.path)
+
+
+class _Ahead:
+    """Keeps the end that a file states ahead of what is being written to it.
+
+    HDF5 states the end of the file last of all it flushes. A process that is killed before that
+    leaves a file that points beyond its end, which nothing opens. Stated further on than needed,
+    with nothing there, the end does no harm.
+    """
+
+    def __init__(self, path: Path, reserve: int) -> None:
+        self._descriptor = os.open(path, os.O_RDWR)
+        self._reserve = reserve
+        self._stated = b""
+
+    def move(self) -> None:
+        """State a new end, where HDF5 has just stated its own."""
+        stated = os.pread(self._descriptor, 8, _END_AT)
+        if stated == self._stated:
+            return
+        end = int.from_bytes(stated, "little") + self._reserve
+        os.ftruncate(self._descriptor, end)
+        self._stated = end.to_bytes(8, "little")
+        os.pwrite(self._descriptor, self._stated, _END_AT)
+
+    def close(self) -> None:
+        """Cut the file where HDF5 says it ends."""
+        stated = os.pread(self._descriptor, 8, _END_AT)
+        if stated != self._stated:
+            os.ftruncate(self._descriptor, int.from_bytes(stated, "little"))
+        os.close(self._descriptor)
 
 
 class _Told:
@@ -231,7 +270,7 @@ def _created(
     import h5netcdf
     import h5py
 
-    file: Any = h5netcdf.File(path, "w")
+    file: Any = h5netcdf.File(path, "w", libver="earliest")
     file.dimensions = {
         layout.SAMPLE: None, layout.CHANNEL: len(sources), layout.EVENT: None, layout.BLOCK: None,
     }  # fmt: skip

@@ -54,8 +54,7 @@ class Blocks:
     @property
     def time(self) -> FloatArray:
         """Middle of each, s."""
-        middles: FloatArray = self.length * (np.arange(self.count) + 0.5)
-        return middles
+        return np.asarray(self.length * (np.arange(self.count) + 0.5), dtype=np.float64)
 
 
 def unit_scale(units: str, signal: str, wanted: str, name: str) -> float:

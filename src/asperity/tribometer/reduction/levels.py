@@ -157,7 +157,7 @@ class _Fit:
             + (math.log(memory / _USUAL_MEMORY) / _MEMORY_SPREAD) ** 2
         )  # fmt: skip
         found: FloatArray = np.append(estimate, scale)
-        spread: FloatArray = scale * np.linalg.inv(information)
+        spread = np.asarray(scale * np.linalg.inv(information), dtype=np.float64)
         return float(likelihood), found, spread
 
 

@@ -1,4 +1,6 @@
-"""What the sensors of a rig would see, sample by sample, where torques and speeds are known.
+"""What the sensors of a rig would see, sample by sample, where torques and speeds are told.
+
+Simpler than the simulated rig that ships, and with known levels: what a reduction has to find.
 
 On the torques lie run-out of both discs by their angles, a slow drift, coloured noise and noise
 from sample to sample; speeds jump with the pulses that encoders count; every channel is rounded
@@ -6,14 +8,19 @@ to counts, and ends at its range. All of it follows from a seed.
 """
 
 import dataclasses
+import datetime
+import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.casefile import read_case
+from asperity.tribometer.recording import Recorder, Source
 from asperity.tribometer.recording.layout import BEYOND, LARGEST
 from asperity.tribometer.recording.recorder import Counts
+from asperity.tribometer.tables import TABLES
 
 _HOUR = 3600.0
 _MOST = 1 << 17  # samples at a time
@@ -144,7 +151,7 @@ def _stretch(
     state: _State,
 ) -> dict[str, FloatArray]:
     steps = interval * np.arange(count)
-    time: FloatArray = state.time + steps
+    time = np.asarray(state.time + steps, dtype=np.float64)
     speeds = (
         phase.speed_steel / rig.gear_ratio,
         phase.speed_bronze / rig.bronze_gear_ratio,
@@ -215,18 +222,66 @@ def counted(signals: Mapping[str, FloatArray], scales: Mapping[str, float]) -> C
     return np.column_stack(columns).astype(np.int16)
 
 
-def runs(levels: Sequence[tuple[float, float, Phase]], *, idle: float = 10.0) -> list[Phase]:
-    """Return the phases of a file: before, shaken, at rest, for each of some levels.
+VIBRATIONS = (250.0, 500.0, 750.0, 1000.0, 2000.0, 3000.0)
+RATIOS = (0.31, 0.22, 0.1434, 0.23, 0.18, 0.61)
+"""Of the torques at those frequencies, about what the thesis reports at 1 V."""
+TORQUE = 0.6448
+_HELD = 2.86e-3  # velocity of the bronze disc's rim, m/s
+_SLIDING = {1.0: (2.5e-3, 5.5e-3), 3.0: (42e-3, 43e-3), 5.5: (90e-3, 90.5e-3)}
+_RADII = 0.030, 0.0225
+NOISY = Imperfections(
+    white=4e-3,
+    coloured=4e-3,
+    runout_steel=0.01,
+    runout_bronze=0.01,
+    drift=0.1,
+    speed_noise=1.0,
+    current_noise=0.02,
+    drive_noise=0.05,
+)
+"""Of a rig as it may be."""
 
-    Parameters
-    ----------
-    levels : sequence of (float, float, Phase)
-        Torque and motor speed without vibration, and the phase with it.
-    idle : float
-        s at rest behind each.
-    """
-    made: list[Phase] = []
-    for torque, speed, shaken in levels:
-        quiet = dataclasses.replace(shaken, torque_steel=torque, speed_steel=speed, frequency=0.0)
-        made += [quiet, shaken, Phase(idle)]
-    return made
+
+def run_of(
+    volts=1.0, *, frequencies=VIBRATIONS, ratios=RATIOS, duration=10.0, waveform="sine", missed=()
+):
+    """Phases of a file at a supply; of the places in `missed` the vibration does not start."""
+    speeds = [30.0 * (velocity + _HELD) / _RADII[0] for velocity in _SLIDING[volts]]
+    bronze = 60.0 * _HELD / _RADII[1]
+    phases = []
+    for place, (frequency, ratio) in enumerate(zip(frequencies, ratios, strict=False)):
+        quiet = Phase(duration, TORQUE, -0.2, speeds[0], bronze, 2.0, 0.8)
+        shaken = dataclasses.replace(
+            quiet,
+            torque_steel=TORQUE * ratio,
+            speed_steel=speeds[1],
+            frequency=frequency,
+            waveform=waveform,
+        )
+        phases += [quiet, quiet if place in missed else shaken, Phase(duration)]
+    return phases
+
+
+def record(path, phases, rig=NOISY, *, rate=20e3, seed=0, settings=(), compress=False, coarse=1.0):
+    """Write phases as a recording of the rig `rig-final`."""
+    case = read_case("rig-final", TABLES, settings)
+    channels = case["channels"].mapped()
+    scales = dict.fromkeys(channels, coarse / 3000.0)
+    scales |= {"drive_voltage": coarse / 2000.0, "load_cell": 1e-5}
+    sources = [Source(name, "V", scale) for name, scale in scales.items()]
+    text = json.dumps(case.raw, default=str)
+    start = datetime.datetime(2026, 3, 1, 12, tzinfo=datetime.UTC)
+    recorder = Recorder(path, sources, 1.0 / rate, configuration=text, start=start, simulated=True)
+    recorder.event(0.0, "supply_steel", case.raw["drives"]["steel_supply"])
+    rng = np.random.default_rng(seed)
+    time = 0.0
+    for signals in stream(phases, rig, 1.0 / rate, rng):
+        volts = {
+            name: (signals[name] - channel.line().offset) / channel.line().gain
+            for name, channel in channels.items()
+        }
+        counts = counted(volts, scales)
+        time += len(counts) / rate
+        recorder.append(counts, time)
+    recorder.close(compress=compress)
+    return path

@@ -1,0 +1,248 @@
+"""The answer of ``asperity rig reduce``: what vibration did in each segment."""
+
+import csv
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from asperity.results import Quantities, Result, quantity
+from asperity.results.quantity import Entry, plain
+from asperity.results.table import Table
+from asperity.store import harmless_cell, write_text
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+GOOD, DOUBTFUL, REFUSED = "good", "doubtful", "refused"
+
+
+def _beside(symbol: str, unit: str, meaning: str) -> Any:
+    """Declare what files tell beside what JSON does."""
+    return quantity(symbol, unit, meaning, only="file", default=None)
+
+
+class SegmentResult(Quantities):
+    """A segment: numbers before and with vibration; none where it was refused."""
+
+    file: str = quantity("", "", "recording")
+    mode: str = quantity("", "", "direction of the vibration")
+    lubricant: str = quantity("", "", "lubricant")
+    waveform: str = quantity("", "", "waveform")
+    frequency: float | None = quantity("f", "Hz", "measured frequency", default=None)
+    commanded: float | None = quantity(
+        "f_c", "Hz", "commanded frequency", key="commanded_Hz", default=None
+    )
+    motor_voltage: float = quantity("V_ms", "V", "supply of the steel disc's motor")
+    torque_before: float | None = quantity(
+        "T_b", "N m", "torque before", key="torque_before_Nm", default=None
+    )
+    torque_with: float | None = quantity(
+        "T_w", "N m", "torque with vibration", key="torque_with_Nm", default=None
+    )
+    torque_change: float | None = quantity("dT", "%", "change of the torque", default=None)
+    torque_change_ci95: tuple[float, float] | None = quantity(
+        "", "%", "interval of the change", key="torque_change_ci95_percent", default=None,
+        only="json",
+    )  # fmt: skip
+    power_change: float | None = quantity("dP", "%", "change of the power", default=None)
+    efficiency_change: float | None = quantity(
+        "d eta_s", "%", "change of thesis (75), points", key="efficiency_change_points",
+        default=None,
+    )  # fmt: skip
+    sliding_velocity_before: float | None = quantity(
+        "v_sl", "mm/s", "sliding velocity before", key="sliding_velocity_before_mm_s", default=None
+    )
+    sliding_velocity_with: float | None = quantity(
+        "v_sl", "mm/s", "sliding velocity with vibration", key="sliding_velocity_with_mm_s",
+        default=None,
+    )  # fmt: skip
+    slide_roll_ratio: float | None = quantity(
+        "R", "", "slide-roll ratio, mean of before and with", default=None
+    )
+    k_v: float | None = quantity(
+        "k_v", "", "v_a over the mean of the sliding velocities before and with", default=None
+    )
+    model_ratio: float | None = quantity(
+        "", "", "torque with over torque before, by the friction model", default=None
+    )
+    turns_seen: float | None = quantity(
+        "", "", "turns of the steel disc in the window with vibration", default=None
+    )
+    quality: str = quantity("", "", "good, doubtful or refused")
+    flags: tuple[str, ...] = quantity("", "", "what to know of it", default=())
+
+    low: float | None = _beside("", "%", "lower end of the change's interval")
+    high: float | None = _beside("", "%", "upper end of the change's interval")
+    deviation: float | None = _beside("", "%", "standard deviation of the change")
+    full_efficiency_change: float | None = _beside(
+        "d eta", "%", "change of the efficiency in which motor and gear lose, points"
+    )
+    k_v_before: float | None = _beside("k_v", "", "v_a over the sliding velocity before")
+    k_v_with: float | None = _beside("k_v", "", "v_a over the sliding velocity with vibration")
+    velocity_amplitude: float | None = _beside("v_a", "mm/s", "peak velocity of the vibration")
+    velocity_deviation: float | None = _beside("", "mm/s", "standard deviation of v_a")
+    bronze_turns: float | None = _beside("", "", "turns of the bronze disc in the window")
+    film_parameter: float | None = _beside("lambda", "", "film over roughness before")
+    start: float | None = _beside("t", "s", "start of the vibration")
+
+    @property
+    def cell(self) -> tuple[Any, ...]:
+        """What two repeats of one measurement share."""
+        return self.mode, self.lubricant, self.waveform, self.commanded, self.motor_voltage
+
+    @property
+    def ratio(self) -> float | None:
+        """Torque with over torque before."""
+        if self.torque_with is None or self.torque_before is None:
+            return None
+        return self.torque_with / self.torque_before
+
+
+class FileResult(Quantities):
+    """What is told of a recording as a whole."""
+
+    file: str = quantity("", "", "recording")
+    simulated: bool = quantity("", "", "whether it comes from no rig", default=False)
+    runout_steel: float | None = quantity("", "%", "run-out over the steel disc", default=None)
+    runout_bronze: float | None = quantity("", "%", "run-out over the bronze disc", default=None)
+    noise: float | None = quantity("", "N m", "noise of a mean over 0.1 s", default=None)
+    drift: float | None = quantity("", "%", "drift over the recording", default=None)
+    distance: float = quantity("s", "m", "sliding distance")
+    path: float | None = quantity("", "m", "path of the discs on each other, vibration counted")
+    mass_loss_steel: float | None = quantity("", "mg", "mass lost by the steel disc", default=None)
+    mass_loss_bronze: float | None = quantity(
+        "", "mg", "mass lost by the bronze disc", default=None
+    )
+    wear_steel: float | None = quantity("K", "", "Archard's coefficient, steel", default=None)
+    wear_bronze: float | None = quantity("K", "", "Archard's coefficient, bronze", default=None)
+    gaps: tuple[dict[str, Any], ...] = quantity("", "", "what is missing", default=())
+
+
+class Reduced(Result):
+    """Recordings, reduced.
+
+    Attributes
+    ----------
+    segments : tuple of SegmentResult
+        In the order of recordings and time.
+    files : tuple of FileResult
+        In the order given.
+    """
+
+    title = "Recordings of a disc-on-disc rig, reduced"
+    stem = "reduce"
+    drawings: ClassVar[Mapping[str, str]] = {
+        "reduce": "asperity.tribometer.reduction.plots:plot_changes"
+    }
+
+    segments: tuple[SegmentResult, ...]
+    files: tuple[FileResult, ...]
+    repeat_deviation: float | None = quantity(
+        "", "%", "deviation between repeats of a cell, points", key="repeat_deviation_points",
+        default=None,
+    )  # fmt: skip
+    repeat_freedom: int = quantity("", "", "degrees of freedom of that", default=0)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the segments, and beside them what is told of each recording."""
+        beside: dict[str, Any] = {
+            "runout_percent": [
+                {"file": one.file, "steel": one.runout_steel, "bronze": one.runout_bronze}
+                for one in self.files
+            ],
+            "noise_Nm": [{"file": one.file, "noise": one.noise} for one in self.files],
+            "gaps": [{"file": one.file, **gap} for one in self.files for gap in one.gaps],
+            "wear": [
+                {entry.key: entry.value for entry in one.entries()
+                 if entry.name in ("file", "distance", "path") or entry.name.startswith(
+                     ("mass_loss", "wear"))}
+                for one in self.files
+            ],
+        }  # fmt: skip
+        segments = {"segments": [one.to_json() for one in self.segments]}
+        told: dict[str, Any] = plain(beside)
+        return segments | told | super().to_json()
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the segments along a dimension, and the recordings along another."""
+        dataset = super().to_dataset()
+        for dim, rows in (("segment", self.segments), ("recording", self.files)):
+            for place, entry in enumerate(_declared(rows)):
+                values = [list(row.entries())[place].value for row in rows]
+                name = "recording" if entry.name == "file" and dim == "recording" else entry.name
+                if entry.label.only == "json" or entry.name == "gaps":
+                    continue
+                dataset[name] = _variable(entry, values, dim)
+        return dataset
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return a row a segment, and a row a recording."""
+        rows = [
+            (
+                one.file, one.mode, one.lubricant, one.waveform, one.motor_voltage, one.commanded,
+                one.torque_before, one.torque_with, one.torque_change, one.low, one.high,
+                one.power_change, one.k_v, one.model_ratio, one.quality,
+            )
+            for one in self.segments
+        ]  # fmt: skip
+        headings = (
+            "file", "mode", "lubricant", "wave", "V_ms V", "f Hz", "T before N m", "T with N m",
+            "change %", "low", "high", "power %", "k_v", "model", "quality",
+        )  # fmt: skip
+        flags = [
+            f"{one.file} at {one.start or 0.0:.0f} s: {'; '.join(one.flags)}"
+            for one in self.segments
+            if one.flags
+        ]
+        files = [
+            (one.file, one.runout_steel, one.runout_bronze, one.noise, one.drift, one.distance,
+             len(one.gaps))
+            for one in self.files
+        ]  # fmt: skip
+        heads = (
+            "file", "run-out steel %", "bronze %", "noise N m", "drift %", "distance m", "gaps"
+        )  # fmt: skip
+        return (
+            Table.of(headings, rows, left=4, remarks=flags),
+            Table.of(heads, files, remarks=self.notes),
+        )
+
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write JSON, netCDF, CSV and the picture."""
+        write_text(folder / "reduce.csv", self.to_csv())
+        return [*super().write(folder, pictures=pictures), "reduce.csv"]
+
+    def to_csv(self) -> str:
+        """Return a row a segment; columns are named as in JSON, intervals by their ends."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        entries = [entry for entry in _declared(self.segments) if entry.label.only != "json"]
+        writer.writerow([entry.key for entry in entries])
+        for one in self.segments:
+            found = {entry.name: entry.value for entry in one.entries()}
+            writer.writerow([_cell(found[entry.name]) for entry in entries])
+        return text.getvalue()
+
+
+def _declared(rows: tuple[Quantities, ...]) -> list[Entry]:
+    return list(type(rows[0]).declared()) if rows else []
+
+
+def _cell(value: Any) -> Any:
+    if value is None:
+        return ""
+    if isinstance(value, tuple):
+        value = "; ".join(map(str, value))
+    return harmless_cell(value)
+
+
+def _variable(entry: Entry, values: list[Any], dim: str) -> Any:
+    import numpy as np
+
+    described = {"units": entry.label.unit or "1", "long_name": entry.label.meaning}
+    if any(isinstance(value, str | tuple) for value in values):
+        texts = ["; ".join(value) if isinstance(value, tuple) else value or "" for value in values]
+        return dim, np.array(texts, dtype=object), described
+    numbers = [np.nan if value is None else float(value) for value in values]
+    return dim, np.array(numbers), described

@@ -1,0 +1,178 @@
+"""The command ``asperity rig reduce``: recordings to what vibration did in each segment."""
+
+import dataclasses
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asperity.casefile import Case, read_case
+from asperity.errors import InputError
+from asperity.runs import Run
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.options import Plan, Reduction
+from asperity.tribometer.pair import Pair
+from asperity.tribometer.parameters import Rig, Sonotrode
+from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction.blocks import blocks_of
+from asperity.tribometer.reduction.file import reduce_file
+from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
+from asperity.tribometer.reduction.segments import segments_of
+
+_OFTEN = 0.01  # share of samples
+
+
+@dataclasses.dataclass(frozen=True)
+class Reducible:
+    """A recording with its configuration."""
+
+    recording: Recording
+    case: Case
+
+    @property
+    def reduction(self) -> Reduction:
+        """How it is reduced."""
+        return self.case.require(Reduction) if Reduction.table in self.case else Reduction()
+
+    @property
+    def plan(self) -> Plan:
+        """Which frequencies there are."""
+        return self.case.require(Plan) if Plan.table in self.case else Plan()
+
+    @property
+    def sonotrode(self) -> Sonotrode | None:
+        """How fast the disc is shaken."""
+        return self.case.require(Sonotrode) if Sonotrode.table in self.case else None
+
+
+@dataclasses.dataclass(frozen=True)
+class _Opened(Case):
+    """A case that brings its recordings along."""
+
+    reducible: tuple[Reducible, ...] = ()
+
+
+def read(
+    case: str,
+    known: Mapping[str, Any],
+    settings: Sequence[str],
+    *,
+    recordings: Sequence[str],
+    config: str = "",
+) -> Case:
+    """Open recordings; each is reduced by the configuration that is given, or by its own."""
+    given = read_case(config, known, settings) if config else None
+    opened = [Recording.open(Path(name)) for name in recordings]
+    found = []
+    for recording in opened:
+        own = given
+        if own is None:
+            if not recording.configuration:
+                raise InputError(
+                    f"{recording.name} holds no configuration; give one, as in --config rig-final"
+                )
+            own = recording.case(known).replace(settings)
+        found.append(Reducible(recording, own))
+    first = found[0].case
+    values = {field.name: getattr(first, field.name) for field in dataclasses.fields(Case)}
+    if len(found) > 1:
+        values["source"] = f"{len(found)} recordings"
+    return _Opened(**values, reducible=tuple(found))
+
+
+def prepare(case: Case, **_: Any) -> tuple[Reducible, ...]:
+    """Return the recordings, refused where a configuration lacks what is needed."""
+    found = case.reducible if isinstance(case, _Opened) else ()
+    for one in found:
+        Pair.from_case(one.case)
+        one.case.require(Channels)
+    return found
+
+
+def answer(problem: Sequence[Reducible], run: Run) -> Reduced:
+    """Reduce recordings, one after the other."""
+    segments: list[SegmentResult] = []
+    files: list[FileResult] = []
+    with run.going_on():
+        for done, one in enumerate(problem):
+            run.checkpoint(done, len(problem), what="recordings")
+            of_file, of_segments = reduce_recording(one)
+            files.append(of_file)
+            segments += of_segments
+            for segment in of_segments:
+                if segment.quality == REFUSED:
+                    run.notify(f"{segment.file}: {refusal(segment)}")
+    if not any(segment.quality != REFUSED for segment in segments):
+        raise InputError(_nothing(problem, segments))
+    deviation, freedom = repeats(segments)
+    return Reduced(
+        segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
+        repeat_freedom=freedom, notes=tuple(_notes(problem)),
+    )  # fmt: skip
+
+
+def reduce_recording(one: Reducible) -> tuple[FileResult, list[SegmentResult]]:
+    """Reduce one recording."""
+    blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
+    segments = segments_of(one.recording, blocks, one.plan, one.reduction)
+    return reduce_file(one.recording, one.case, blocks, segments, one.reduction, one.sonotrode)
+
+
+def refusal(segment: SegmentResult) -> str:
+    """Return why a segment is refused, with its time."""
+    return f"segment at {segment.start or 0.0:.1f} s is refused: {'; '.join(segment.flags)}"
+
+
+def _nothing(problem: Sequence[Reducible], segments: Sequence[SegmentResult]) -> str:
+    if segments:
+        return f"{segments[0].file}: {refusal(segments[0])}"
+    one = problem[0]
+    if told := beyond(one):
+        return f"{one.recording.name}: no vibration found: {told}"
+    return (
+        f"{one.recording.name}: no vibration found: its drive signal never varies by more than "
+        f"reduction.least_drive = {one.reduction.least_drive:g} V for long; look at the map of "
+        "[channels]"
+    )
+
+
+def beyond(one: Reducible) -> str:
+    """Return what is wrong with a drive signal that is past its range; nothing if it is not."""
+    share = float(np.isnan(one.recording.values("drive_voltage")).mean())
+    if share < _OFTEN:
+        return ""
+    return f"{share:.0%} of drive_voltage is missing or past its range; widen the channel's range"
+
+
+def repeats(segments: Sequence[SegmentResult]) -> tuple[float | None, int]:
+    """Return the deviation of repeats about the mean of their cell, pooled over cells.
+
+    Returns
+    -------
+    deviation : float or None
+        Points of the torque's change; None without repeats.
+    freedom : int
+        Its degrees of freedom.
+    """
+    cells: dict[tuple[Any, ...], list[float]] = defaultdict(list)
+    for one in segments:
+        if one.torque_change is not None:
+            cells[one.cell].append(one.torque_change)
+    freedom = sum(len(values) - 1 for values in cells.values())
+    if not freedom:
+        return None, 0
+    squares = sum(float(np.var(values)) * len(values) for values in cells.values())
+    return math.sqrt(squares / freedom), freedom
+
+
+def _notes(problem: Sequence[Reducible]) -> Iterator[str]:
+    if any(one.recording.simulated for one in problem):
+        yield "simulated recordings are among these: no rig stands behind their numbers"
+    if any(one.case.require(Rig).bearing_torque_steel == 0.0 for one in problem):
+        yield (
+            "the bearing torque is taken as zero: it stands in both torques, and the friction "
+            "falls by more than the torque does if it is not"
+        )

@@ -1,0 +1,61 @@
+"""Wear of a recording: how far the discs slid, on what path, and what they lost."""
+
+import math
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from asperity.tribometer.parameters import LONGITUDINAL, Disc
+from asperity.tribometer.recording import Event
+from asperity.units import to_si
+
+
+def path_share(velocity_ratio: float, mode: str) -> float:
+    """Return the path of a vibrating contact over the distance slid.
+
+    Along the sliding it is 1 up to k = 1, where the base never outruns the body: Archard's wear
+    on the path does not rise by such a vibration.
+
+    Examples
+    --------
+    >>> path_share(0.97, "longitudinal")
+    1.0
+    >>> round(path_share(2.0, "longitudinal"), 3)
+    1.436
+    """
+    k = velocity_ratio
+    if mode == LONGITUDINAL:
+        if k <= 1.0:
+            return 1.0
+        return 2.0 / math.pi * (math.asin(1.0 / k) + math.sqrt(k * k - 1.0))
+    from scipy.special import ellipe
+
+    return float(2.0 / math.pi * np.hypot(1.0, k) * ellipe(k * k / (1.0 + k * k)))
+
+
+def mass_loss(events: Sequence[Event], disc: str) -> float | None:
+    """Return what a disc lost between its first and its last weighing, kg; None without two.
+
+    Parameters
+    ----------
+    events : sequence of Event
+        Of kind ``mass_steel`` and ``mass_bronze``, their text a mass such as ``182.3140 g``.
+    disc : {'steel', 'bronze'}
+        Which one.
+    """
+    weighed = []
+    for event in events:
+        if event.kind == f"mass_{disc}" and re.match(r"\s*[0-9.]", event.text):
+            try:
+                weighed.append(to_si(event.text, "kg"))
+            except ValueError:
+                continue
+    return weighed[0] - weighed[-1] if len(weighed) > 1 else None
+
+
+def archard(loss: float | None, disc: Disc, load: float, path: float) -> float | None:
+    """Return Archard's coefficient of a mass loss in kg; None where something is not known."""
+    if loss is None or disc.density is None or disc.hardness is None or path <= 0.0:
+        return None
+    return loss / disc.density * disc.hardness / (load * path)

@@ -1,0 +1,188 @@
+"""A recording holds what was recorded, says what is missing, and survives being killed."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+import pytest
+import xarray as xr
+
+from asperity.errors import StorageError
+from asperity.store import read_dataset
+from asperity.tribometer.recording import Recorder, Recording, Source, layout
+
+SOURCES = [Source("torque_steel", "V", 1e-3, 0.5), Source("drive_voltage", "mV", 2.0)]
+BLOCK, INTERVAL = 100, 1e-3
+
+
+def counts(rows, seed=0):
+    return np.random.default_rng(seed).integers(-3000, 3000, (rows, 2), dtype=np.int16)
+
+
+def recorder(path, **options):
+    return Recorder(path, SOURCES, INTERVAL, block=BLOCK, **options)
+
+
+def stored(path):
+    return np.concatenate([part for _, part in Recording.open(path).stretches()])
+
+
+@pytest.mark.parametrize("compress", [True, False])
+@pytest.mark.parametrize("pieces", [[450], [30] * 15, [100, 100, 250]])
+def test_what_was_recorded_is_read_back(tmp_path, compress, pieces):
+    path, given = tmp_path / "run.nc", counts(450)
+    with recorder(path, configuration=json.dumps({"rig": {"name": "one"}})) as made:
+        done = 0
+        for piece in pieces:
+            done += piece
+            made.append(given[done - piece : done], done * INTERVAL)
+        made.event(0.2, "vibration", "750 Hz sine")
+        made.close(compress=compress)
+    found = Recording.open(path)
+    assert np.array_equal(stored(path), given)
+    assert found.gaps == ()
+    assert found.configuration == {"rig": {"name": "one"}}
+    assert found.sources == tuple(SOURCES)
+    assert [event.text for event in found.events] == ["750 Hz sine"]
+    assert found.values("torque_steel", 5, 9) == pytest.approx(0.5 + 1e-3 * given[5:9, 0])
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        assert dict(data.sizes) == {"sample": 450, "channel": 2, "event": 1, "block": 5}
+        assert data["raw"].dims == ("sample", "channel")
+        assert data["signal"].values.tolist() == ["torque_steel", "drive_voltage"]
+    assert all(one.attrs["units"] for one in read_dataset(path).data_vars.values())
+
+
+def test_lost_and_late_samples_are_gaps(tmp_path):
+    path = tmp_path / "run.nc"
+    with recorder(path) as made:
+        made.append(counts(200), 0.2, first=0)
+        made.append(counts(100), 0.35, first=250)
+        made.append(counts(100), 5.0, first=350)
+    lost, late = Recording.open(path).gaps
+    assert lost.reason == "50 samples lost"
+    assert (lost.time, lost.duration) == pytest.approx((0.2, 0.05))
+    assert "late" in late.reason
+
+
+def test_samples_that_are_no_values_are_not_numbers(tmp_path):
+    path, given = tmp_path / "run.nc", counts(100)
+    given[3, 0], given[4, 0], given[5, 0] = layout.MISSING, layout.BEYOND, -layout.BEYOND
+    with recorder(path) as made:
+        made.append(given, 0.1)
+    assert np.flatnonzero(np.isnan(Recording.open(path).values("torque_steel"))).tolist() == [
+        3,
+        4,
+        5,
+    ]
+
+
+def test_a_block_that_was_changed_is_told(tmp_path):
+    path = tmp_path / "run.nc"
+    with recorder(path) as made:
+        made.append(counts(300), 0.3)
+        made.close(compress=False)
+    with h5py.File(path, "r+") as file:
+        file["raw"][150, 0] += 1
+    (gap,) = Recording.open(path).gaps
+    assert "check sum" in gap.reason
+    assert (gap.time, gap.duration) == pytest.approx((0.1, 0.1))
+
+
+@pytest.mark.parametrize("content", [b"", b"x" * 100, b"\x89HDF\r\n\x1a\n" + b"\0" * 200])
+def test_what_is_no_recording_is_refused(tmp_path, content):
+    (tmp_path / "run.nc").write_bytes(content)
+    with pytest.raises(StorageError, match="cannot be read"):
+        Recording.open(tmp_path / "run.nc")
+
+
+def test_another_netcdf_is_refused_with_what_to_do(tmp_path):
+    xr.Dataset({"a": 1}).to_netcdf(tmp_path / "run.nc", engine="h5netcdf")
+    with pytest.raises(StorageError, match="asperity rig import"):
+        Recording.open(tmp_path / "run.nc")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs limits of a process")
+def test_a_full_disk_is_a_line(tmp_path):
+    limit = "import resource, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
+    limit += "resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, 300_000)); "
+    code = limit + WRITER.replace("while True:", "for n in range(1000):")
+    ended = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "run.nc"), "2000"],
+        capture_output=True,
+        text=True,
+    )
+    told = [line for line in ended.stderr.splitlines() if "StorageError" in line]
+    assert "cannot be written" in told[0]
+
+
+WRITER = """
+import sys
+import numpy as np
+from pathlib import Path
+from asperity.tribometer.recording import Recorder, Source
+names = ["torque_steel", "torque_bronze", "speed_steel", "speed_bronze", "drive_voltage",
+         "load_cell", "current_steel", "current_bronze"]
+block = int(sys.argv[2])
+rate = 10.0 * block
+made = Recorder(Path(sys.argv[1]), [Source(name, "V", 1e-3) for name in names], 1 / rate)
+print("begun", flush=True)
+n = 0
+while True:
+    values = np.full((block, 8), n % 30000 + 1, np.int16)
+    made.append(values, (n + 1) * 0.1)
+    n += 1
+    print(n, flush=True)
+"""
+
+
+def killed(folder, number, block, wait):
+    """Kill a recording after a time; returns its file and how many blocks it had reported."""
+    path = folder / f"run-{number}.nc"
+    process = subprocess.Popen(
+        [sys.executable, "-c", WRITER, str(path), str(block)], stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(wait)
+    process.send_signal(signal.SIGKILL)
+    reported = [int(line) for line in process.stdout.read().splitlines()]
+    process.wait()
+    return path, max(reported, default=0)
+
+
+def check_killed(path, block, reported):
+    """What must hold of a file whose recording was killed."""
+    found = Recording.open(path)
+    assert found.gaps == ()
+    assert found.samples >= block * reported
+    assert found.samples <= block * (reported + 1)
+    with xr.open_dataset(path, engine="h5netcdf", mask_and_scale=False) as data:
+        raw = data["raw"].values
+    for n in range(found.samples // block):
+        assert np.all(raw[n * block : (n + 1) * block] == n % 30000 + 1)
+    # What no block tells of is not invented: it is marked as missing, or was written whole.
+    rest = raw[found.samples :]
+    last = found.samples // block % 30000 + 1
+    assert np.all((rest == layout.MISSING) | (rest == last))
+    path.unlink()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs signals")
+def test_a_recording_that_is_killed_lacks_its_last_block_at_most(tmp_path):
+    for number, wait in enumerate((0.0, 0.05, 0.113)):
+        path, reported = killed(tmp_path, number, 2000, wait)
+        check_killed(path, 2000, reported)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="needs signals")
+def test_of_300_recordings_killed_at_random_each_lacks_its_last_block_at_most(tmp_path):
+    rng = random.Random(1)
+    for number in range(300):
+        path, reported = killed(tmp_path, number, 50_000, rng.uniform(0.0, 0.15))
+        check_killed(path, 50_000, reported)
