@@ -267,6 +267,14 @@ class Quantity:
         ]
         return f"it must be {' and '.join(texts)}"
 
+    def text(self, value: float) -> str:
+        """Return a value in SI as text in the example's unit, or in SI where that is not exact."""
+        unit = (split_unit(self.example) or ("", self.unit))[1]
+        zero, one = to_si(f"0 {unit}", self.unit), to_si(f"1 {unit}", self.unit)
+        written = f"{(value - zero) / (one - zero):.12g} {unit}"
+        exact = math.isfinite(value) and to_si(written, self.unit) == value
+        return written if exact else f"{value!r} {self.unit}"
+
     def named(self) -> str:
         """Return the ways to give a right value in Python, as the end of a message."""
         unit = (split_unit(self.example) or ("", self.unit))[1]

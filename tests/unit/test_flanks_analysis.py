@@ -26,7 +26,7 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
-from asperity.results.table import text_of
+from asperity.results.quantity import text_of
 from asperity.store import read_dataset, write_dataset
 
 CASE = read_case("gearset-3b", case_tables(), ())

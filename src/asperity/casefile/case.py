@@ -52,6 +52,9 @@ class Case:
     known: Mapping[str, type[Table]] = dataclasses.field(repr=False)
     settings: dict[str, str] = dataclasses.field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return f"Case({self.source!r}: {', '.join(f'[{name}]' for name in self.tables)})"
+
     def __contains__(self, name: object) -> bool:
         return name in self.tables
 

@@ -7,7 +7,6 @@ that forms of the same thing exclude each other.
 """
 
 import dataclasses
-import math
 import re
 import types
 import typing
@@ -21,7 +20,7 @@ from pydantic_core import PydanticUndefined
 
 from asperity.casefile.table import Table
 from asperity.errors import choices
-from asperity.units import Quantity, bounds_of, quantity_of, split_unit, to_si
+from asperity.units import Quantity, bounds_of, quantity_of
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -201,20 +200,8 @@ def _default(field: FieldInfo, quantity: Quantity | None) -> str:
     if value is None or value is PydanticUndefined or value == "":
         return ""
     if quantity is not None and quantity.unit and isinstance(value, float):
-        return in_unit(value, quantity)
+        return quantity.text(value)
     return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def in_unit(value: float, quantity: Quantity) -> str:
-    """Return a value in SI as text in the unit of the quantity's example."""
-    unit = (split_unit(quantity.example) or ("", quantity.unit))[1]
-    zero, one = to_si(f"0 {unit}", quantity.unit), to_si(f"1 {unit}", quantity.unit)
-    text = f"{(value - zero) / (one - zero):.12g} {unit}"
-    return (
-        text
-        if math.isfinite(value) and to_si(text, quantity.unit) == value
-        else (f"{value!r} {quantity.unit}")
-    )
 
 
 def _meanings(model: type[Table]) -> dict[str, str]:

@@ -87,6 +87,24 @@ class Table(pydantic.BaseModel):
         given = {key: value for key, value in (update or {}).items() if value is not None}
         return type(self)(units=units, **held, **given)
 
+    def __repr__(self) -> str:
+        """Return what was given, quantities as text: what would make the table again."""
+        given = (
+            f"{key}={self._written(key)}"
+            for key, field in type(self).model_fields.items()
+            if key in self.model_fields_set and not field.exclude
+        )
+        return f"{type(self).__name__}({', '.join(given)})"
+
+    __str__ = __repr__
+
+    def _written(self, key: str) -> str:
+        value, quantity = getattr(self, key), quantity_of(type(self), key)
+        if quantity is not None and quantity.unit and isinstance(value, float):
+            return repr(quantity.text(value))
+        name = getattr(value, "name", "")
+        return repr(name) if isinstance(value, Table) and name else shown(value)
+
     @pydantic.model_validator(mode="before")
     @classmethod
     def _harmless(cls, data: Any) -> Any:

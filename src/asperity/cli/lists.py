@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-from asperity.casefile.schema import in_unit
 from asperity.cli import show
 from asperity.gearset.library import Sourced, every
 from asperity.results.table import Column, Table
@@ -63,7 +62,7 @@ def _text(thing: Sourced, key: str) -> str:
         return "-"
     quantity = quantity_of(type(thing), key)
     if isinstance(value, float):
-        return in_unit(value, quantity) if quantity and quantity.unit else f"{value:g}"
+        return quantity.text(value) if quantity and quantity.unit else f"{value:g}"
     if isinstance(value, dict):
         return ", ".join(f"{name} {number:g}" for name, number in value.items())
     return str(value).lower() if isinstance(value, bool) else str(value)

@@ -14,7 +14,8 @@ from asperity.flanks.wheel.flank import RESOLVED
 from asperity.mesh import HexMesh
 from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.results.dataset import to_dataset
-from asperity.results.table import Column, Table, table_of, text_of
+from asperity.results.quantity import text_of
+from asperity.results.table import Column, Table, table_of
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,7 +17,7 @@ def _number(symbol: str, unit: str, meaning: str) -> Any:
     return dataclasses.field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
 class Geometry:
     r"""What follows from the numbers that define a worm gearset.
 
@@ -167,6 +167,11 @@ class Geometry:
             rim_width=b_2,
             rim_thickness=2.0 * m if rim_thickness is None else float(rim_thickness),
         )
+
+    def __repr__(self) -> str:
+        macro = dataclasses.fields(self)[:8]
+        shown = ", ".join(f"{field.name}={getattr(self, field.name):.6g}" for field in macro)
+        return f"Geometry({shown}, ... {len(dataclasses.fields(self)) - len(macro)} more)"
 
     def to_json(self) -> dict[str, float | int | None]:
         """Return the numbers by name and unit, such as ``lead_angle_deg``; angles in degrees."""

@@ -131,6 +131,9 @@ class Rated(Result):
         """Return the gearset's name."""
         return self.gearset.name or "worm gearset"
 
+    def __repr__(self) -> str:
+        return f"{self.heading()}\n{self.verdict!r}"
+
     def brief(self) -> str:
         """Return the verdict on one screen."""
         return screen(self.verdict, self.found, self.self_locking, len(self.assumed), self.notes)

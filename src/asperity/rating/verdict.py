@@ -79,6 +79,10 @@ class Verdict(NamedTuple):
             levers,
         )
 
+    def __repr__(self) -> str:
+        said = [line for sentence in self.sentences() for line in _wrapped(sentence)]
+        return "\n".join((*said, *self.bars()))
+
     @property
     def first(self) -> Safety | None:
         """The safety that fails first: the least over what is asked; None without any."""

@@ -21,6 +21,8 @@ import numpy as np
 F = TypeVar("F", bound=Callable[..., Any])
 
 _LABEL = "label"
+_DIGITS = 5
+_MOST_SHOWN = 8
 
 
 @dataclasses.dataclass(frozen=True)
@@ -188,6 +190,15 @@ class Quantities:
         """Return the scalars by key, each key with its unit."""
         return {entry.key: plain(entry.value) for entry in self.entries() if entry.in_json}
 
+    def __repr__(self) -> str:
+        shown = [
+            f"{entry.name}={text_of(entry.value, entry.resolution)} {entry.label.unit}".rstrip()
+            for entry in self.entries()
+            if entry.label.shown and not entry.label.dims and entry.value is not None
+        ]
+        more = f", ... {len(shown) - _MOST_SHOWN} more" if len(shown) > _MOST_SHOWN else ""
+        return f"{type(self).__name__}({', '.join(shown[:_MOST_SHOWN])}{more})"
+
     def resolution(self, name: str) -> float:
         """Return the size below which a quantity is rounding and shown as none, in its unit."""
         return 0.0
@@ -262,3 +273,26 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(entry) for entry in value]
     return value
+
+
+def text_of(value: Any, resolution: float = 0.0) -> str:
+    """Return a value as a table shows it.
+
+    Parameters
+    ----------
+    value : object
+        A number, text, truth, a list of them or None.
+    resolution : float
+        A number that is not larger is rounding: "none" is shown.
+    """
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        if value != value:
+            return "-"
+        return "none" if abs(value) <= resolution and value else f"{value + 0.0:.{_DIGITS}g}"
+    if isinstance(value, list | tuple):
+        return ", ".join(text_of(entry, resolution) for entry in value)
+    return str(value)

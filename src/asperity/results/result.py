@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from asperity.errors import AsperityError, InputError, StorageError
 from asperity.results import dataset as datasets
 from asperity.results.quantity import Entry, Label, Quantities
-from asperity.results.table import Table, table_of, text_of
+from asperity.results.table import Table, table_of
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
 _ANSWER, _OF = "answer", "answer_of"
-_MOST_SHOWN = 8
 
 _known: dict[str, "type[Result]"] = {}
 
@@ -156,15 +155,6 @@ class Result(Quantities):
         if not issubclass(saved.of, cls):
             raise InputError(f"{path} holds {_path_of(saved.of)}, not {_path_of(cls)}")
         return saved
-
-    def __repr__(self) -> str:
-        shown = [
-            f"{entry.name}={text_of(entry.value, entry.resolution)} {entry.label.unit}".rstrip()
-            for entry in self.entries()
-            if entry.label.shown and not entry.label.dims and entry.value is not None
-        ]
-        more = f", ... {len(shown) - _MOST_SHOWN} more" if len(shown) > _MOST_SHOWN else ""
-        return f"{type(self).__name__}({', '.join(shown[:_MOST_SHOWN])}{more})"
 
     def _repr_html_(self) -> str:
         from asperity.results.page import fragment

@@ -4,9 +4,7 @@ import dataclasses
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from asperity.results.quantity import Quantities
-
-_DIGITS = 5
+from asperity.results.quantity import Quantities, text_of
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,29 +60,6 @@ class Table:
         """Return a table whose first columns are words and whose others are numbers."""
         columns = tuple(Column(text, right=place >= left) for place, text in enumerate(headings))
         return cls(columns, tuple(tuple(map(text_of, row)) for row in rows), title, tuple(remarks))
-
-
-def text_of(value: Any, resolution: float = 0.0) -> str:
-    """Return a value as a table shows it.
-
-    Parameters
-    ----------
-    value : object
-        A number, text, truth, a list of them or None.
-    resolution : float
-        A number that is not larger is rounding: "none" is shown.
-    """
-    if value is None:
-        return "-"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        if value != value:
-            return "-"
-        return "none" if abs(value) <= resolution and value else f"{value + 0.0:.{_DIGITS}g}"
-    if isinstance(value, list | tuple):
-        return ", ".join(text_of(entry, resolution) for entry in value)
-    return str(value)
 
 
 def table_of(answer: Quantities, *, title: str = "", remarks: Iterable[str] = ()) -> Table:

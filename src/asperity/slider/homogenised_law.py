@@ -113,8 +113,8 @@ class HomogenisedLaw:
         What a reader should know of a pressed body's state at the drive velocity.
     """
 
-    velocity: FloatArray
-    table: FloatArray
+    velocity: FloatArray = dataclasses.field(repr=False)
+    table: FloatArray = dataclasses.field(repr=False)
     full_friction: float
     residual: float
     viscous: float = 0.0

@@ -70,7 +70,7 @@ class Model:
     friction: Friction
     vibration: Vibration | None = None
     solve: Solve = dataclasses.field(default_factory=Solve)
-    shape: Shape | None = None
+    shape: Shape | None = dataclasses.field(default=None, repr=False)
     normal: Normal | None = None
     wear: Wear | None = None
 

@@ -1,0 +1,185 @@
+"""What asperity can do, for Python: each command as a function of a case or of its tables.
+
+::
+
+    import asperity
+
+    asperity.rate("gearset-3").verdict.holds
+    asperity.rate("gearset-3", settings=["operation.output_torque=300 N m"])
+    asperity.slide(body, contact, shaking)
+
+A case is its name, a file, what :func:`read` gives, or tables in any order.
+"""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from asperity.casefile.case import Case, read_case
+from asperity.casefile.table import Table
+from asperity.commands import COMMANDS, case_tables
+from asperity.errors import InputError, shown
+from asperity.runs import Run
+
+if TYPE_CHECKING:
+    from asperity.casefile.check import Mistake
+    from asperity.flanks.result import FlankStudy
+    from asperity.rating.rate import Rated
+    from asperity.results import Result
+    from asperity.slider.result import SlideResult
+    from asperity.studies.optimise import Optimum
+    from asperity.studies.proposals import Proposals
+
+What = str | os.PathLike[str] | Case | Table
+
+
+def rate(*case: What, standard: str = "all", settings: Sequence[str] = ()) -> "Rated":
+    """Rate a worm gearset.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, or its tables: a gearset and its operation.
+    standard : {'all', 'iso14521', 'bs721', 'agma6034'}
+        Which to apply.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    Rated
+        Its ``verdict`` says whether it holds; ``iso14521["S_H"]`` is a number of a standard.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    """
+    return _answer("rate", case, settings, standard=standard)  # type: ignore[return-value]
+
+
+def slide(*case: What, settings: Sequence[str] = ()) -> "SlideResult":
+    """Pull a body over a vibrating base; the parameters are those of :func:`rate`."""
+    return _answer("slide", case, settings)  # type: ignore[return-value]
+
+
+def static(*case: What, settings: Sequence[str] = ()) -> "Result":
+    """Find the largest force under which a body on a vibrating base holds; as :func:`slide`."""
+    return _answer("static", case, settings)
+
+
+def sensitivity(*case: What, settings: Sequence[str] = ()) -> "Result":
+    """Raise each input of a worm gearset alone and follow its efficiency; as :func:`rate`."""
+    return _answer("sensitivity", case, settings)
+
+
+def methods(*case: What, settings: Sequence[str] = ()) -> "Result":
+    """Compare oils, additives, coatings and vibration by efficiency; as :func:`rate`."""
+    return _answer("methods", case, settings)
+
+
+def optimise(*case: What, settings: Sequence[str] = ()) -> "Optimum":
+    """Find the most efficient design that keeps its load capacity; as :func:`rate`."""
+    return _answer("optimise", case, settings)  # type: ignore[return-value]
+
+
+def flank(
+    *case: What, density: str | float = "intermediate", settings: Sequence[str] = ()
+) -> "FlankStudy":
+    """Cut a worm wheel exactly and let it mesh; as :func:`rate`."""
+    return _answer("flank", case, settings, density=density)  # type: ignore[return-value]
+
+
+def size(
+    ratio: float,
+    output_torque: Any,
+    worm_speed: Any,
+    *,
+    rank: str = "size",
+    settings: Sequence[str] = (),
+) -> "Proposals":
+    """Propose worm gearsets for a ratio, a torque and a speed.
+
+    Parameters
+    ----------
+    ratio : float
+        Of the speeds.
+    output_torque, worm_speed : str or quantity of pint
+        Of the wheel and of the worm: ``"300 N m"``, ``"1500 rpm"``.
+    rank : {'size', 'efficiency', 'margin'}
+        What the first one is best in.
+    settings : sequence of str
+        Of materials, lubricant and life, as with ``--set``.
+    """
+    from asperity.casefile.case import apply
+    from asperity.rating.parameters import Operation
+    from asperity.start.gear import begun, proposals, ratio_of
+    from asperity.units import Named, quantity_of
+
+    values = begun()
+    for key, value in (("output_torque", output_torque), ("worm_speed", worm_speed)):
+        quantity = quantity_of(Operation, key)
+        assert quantity is not None
+        try:
+            number = quantity.check(value, named=Named(), key=key)
+        except InputError as error:
+            raise InputError(f"{key} is {shown(value)}; {error}") from None
+        values["operation"][key] = f"{number!r} {quantity.unit}"
+    for setting in settings:
+        apply(values, setting, case_tables())
+    return proposals(values, ratio_of(ratio), rank)
+
+
+def check(case: str | os.PathLike[str], settings: Sequence[str] = ()) -> "tuple[Mistake, ...]":
+    """Return all mistakes of a case file, each with its line; none for one that can be used."""
+    from asperity.casefile.check import check_case
+
+    return check_case(case, case_tables(), settings)[1]
+
+
+def read(path: str | os.PathLike[str], settings: Sequence[str] = ()) -> "Case | Result":
+    """Read a case, by its file or the name of one that ships, or an answer that was written.
+
+    Parameters
+    ----------
+    path : path
+        ``.nc`` is an answer, which can be drawn and shown again; everything else a case.
+    settings : sequence of str
+        Changes of a case, as with ``--set``.
+    """
+    if Path(path).suffix == ".nc":
+        from asperity.results import read as read_answer
+
+        return read_answer(path)
+    return read_case(path, case_tables(), settings)
+
+
+def as_case(what: Sequence[What], settings: Sequence[str] = ()) -> Case:
+    """Return one case of what was given: its name, its file, itself, or its tables."""
+    if len(what) == 1 and isinstance(what[0], Case):
+        return what[0].replace(settings) if settings else what[0]
+    if len(what) == 1 and isinstance(what[0], str | os.PathLike):
+        return read_case(what[0], case_tables(), settings)
+    known = case_tables()
+    tables: dict[str, Table] = {}
+    for given in what:
+        if not isinstance(given, Table) or given.table not in known:
+            raise InputError(
+                f"{shown(given)} is neither the name of a case, nor its file, nor one of its tables"
+            )
+        if given.table in tables:
+            raise InputError(f"[{given.table}] is given twice; keep one of them")
+        tables[given.table] = given
+    if not tables:
+        raise InputError("nothing is given; name a case such as 'gearset-3', a file, or tables")
+    if settings:
+        raise InputError("settings change a case; change a table with its model_copy(update=...)")
+    return Case("the tables given", Path().absolute(), tables, {}, known)
+
+
+def _answer(name: str, what: Sequence[What], settings: Sequence[str], **options: Any) -> "Result":
+    command = next(command for command in COMMANDS if command.name == name)
+    defaults = {option.name: option.default for option in command.options}
+    problem = command.prepared(as_case(what, settings), **defaults | options)
+    return command.solved(problem, Run())
