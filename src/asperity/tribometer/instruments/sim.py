@@ -67,6 +67,7 @@ class SimulatedRig:
         self._sampled = 0
         self._begun = 0.0
         self._waiting: list[Counts] = []
+        self._sensing: dict[float, kernels.Sensing] = {}
         order = list(SIGNALS)
         self._columns = np.array([order.index(given.signal) for given in inputs])
         a_count = [volts_a_count(given) for given in inputs]
@@ -101,8 +102,10 @@ class SimulatedRig:
         )  # fmt: skip
         frequency = self.frequency if shaken else 0.0
         table = plant.friction(self.waveform, frequency, mode=self.mode)
+        if interval not in self._sensing:
+            self._sensing[interval] = plant.sensing(interval)
         return (
-            plant.steel, plant.bronze, plant.sensing(interval), drive, table.velocity, table.force
+            plant.steel, plant.bronze, self._sensing[interval], drive, table.velocity, table.force
         )  # fmt: skip
 
     def _samples(self, count: int) -> Counts:

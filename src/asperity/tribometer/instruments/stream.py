@@ -77,7 +77,8 @@ class Stream:
         return taken
 
     def _at_limits(self, taken: Counts, poll: Poll) -> None:
-        if not taken.size:
+        # One look at all of it first: nothing is mostly wrong.
+        if not taken.size or max(int(taken.max()), -int(taken.min())) < FULL_SCALE:
             return
         over = np.count_nonzero((taken >= FULL_SCALE) | (taken <= -FULL_SCALE), axis=0)
         for given, count, told in zip(self._scope.inputs, over, poll.overrange, strict=True):
