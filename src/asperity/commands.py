@@ -190,7 +190,7 @@ def _load(place: str) -> Any:
     return getattr(importlib.import_module(module), name)
 
 
-GROUPS = {"rig": "A disc-on-disc tribometer: recordings, their reduction and report."}
+GROUPS = {"rig": "A disc-on-disc tribometer: plan, procedure, recordings and their reduction."}
 """Commands that have a name in common, and what they are about."""
 
 COMMANDS = (
@@ -343,6 +343,33 @@ COMMANDS = (
         prepare="asperity.drive.locking:prepare",
         solve="asperity.drive.locking:answer",
         counts="amplitudes",
+    ),
+    Command(
+        "rig plan",
+        "Lay out a series of tests: cells, files, order, time, and what it will not tell.",
+        "With --out also plan.json, plan.nc and plan.png.",
+        prepare="asperity.tribometer.plan.study:prepare",
+        solve="asperity.tribometer.plan.study:answer",
+        case="CONFIG",
+    ),
+    Command(
+        "rig run",
+        "Carry out a plan by the procedure, on instruments or on the simulated rig.",
+        "Needs --out: the folder of its recordings and of journal.jsonl, from which --resume goes "
+        "on. Also writes run.json, run.nc and run.png.",
+        prepare="asperity.tribometer.procedure.study:prepare",
+        solve="asperity.tribometer.procedure.study:answer",
+        counts="cells",
+        case="CONFIG",
+        options=(
+            Option("backend", "sim, hardware or manual.", "NAME", default="sim"),
+            Option("resume", "Go on with the run in --out, at its cell.", default=False),
+            Option(
+                "acknowledge",
+                "Who has looked at the rig after an interlock latched, and what was done.",
+                "TEXT",
+            ),
+        ),
     ),
     Command(
         "rig reduce",

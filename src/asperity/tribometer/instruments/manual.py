@@ -28,8 +28,8 @@ class Operator:
     def __init__(self, ask: Callable[[str], str] | None = None) -> None:
         if ask is None and not (sys.stdin and sys.stdin.isatty() and sys.stderr.isatty()):
             raise InputError(
-                "backend 'manual' asks a person, and this is no terminal; start it in one, or "
-                "choose --backend sim"
+                "a person at the rig is asked, and this is no terminal; start it in one, or choose "
+                "--backend sim"
             )
         self._ask = ask or _typed
 

@@ -5,8 +5,11 @@ is what is left, so that a run goes on where it was killed. Whatever ends it, vi
 are switched off before anything else is tried.
 """
 
+import contextlib
 import json
-from collections.abc import Callable, Sequence
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -116,7 +119,7 @@ class Machine:
         done = self._journal.done
         try:
             self._remember(done)
-            with self._packer, self._run.going_on():
+            with self._packer, _terminable(), self._run.going_on():
                 for action in self._actions:
                     if action.key in done:
                         self._done_cells += action.act == "cell"
@@ -350,6 +353,23 @@ class Machine:
 
     def _beat(self) -> None:
         self._run.checkpoint(self._done_cells, self._cells, what="cells")
+
+
+@contextlib.contextmanager
+def _terminable() -> Iterator[None]:
+    """Let a request to end, as at a shutdown, be heard as Ctrl-C is: the rig is made safe."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def end(_number: int, _frame: object) -> None:
+        raise Interrupted("terminated")
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 _DISCS = "steel", "bronze"
