@@ -22,6 +22,7 @@ from asperity.runs.key import code_key, key
 _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
 _AFTER_SECONDS = 40e-3
 _AT_REST = 1e-3  # of the wheel's speed, in the second half of that time
+_POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
 _SOLVED = 1e-6  # of full friction, that the mesh's own equations may be off by
 
@@ -195,16 +196,18 @@ def _summarise(
 
 def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Demand | None:
     """What the actuator takes, tuned to its resonance with what it moves; None without a table."""
-    if problem.actuator is None:
+    if problem.actuator is None or moving.shake_wheel:
+        # Of a wheel that is shaken, nothing tells the mass.
         return None
+    # Amplitudes are of displacements: the rate of the waveform makes them velocities.
     unit = problem.velocity / problem.amplitude if problem.amplitude else 0.0
     energy = 0.0
     turn = moving.shake_worm_turn or moving.shake_motor
     shift = moving.shake_worm_shift or moving.shake_seat
     if turn:
         energy += elastic_energy(problem.worm_inertia, unit * turn, 1.0)
-    if shift or moving.shake_wheel:
-        energy += elastic_energy(problem.worm_mass, unit * (shift or moving.shake_wheel), 1.0)
+    if shift:
+        energy += elastic_energy(problem.worm_mass, unit * shift, 1.0)
     return demand(
         ledger.actuator,
         energy,
@@ -258,5 +261,7 @@ def check(problem: DriveProblem, model: ReducedModel) -> None:
     """Refuse what a march would stumble over, before it begins."""
     moving = system(problem, model, motor=problem.drive.protocol != "back-drive")
     _ = model.mesh
+    if problem.actuator is not None:
+        _demand(problem, moving, DriveLedger(**dict.fromkeys(_POWERS, 0.0)))
     if not math.isfinite(moving.longest) or moving.longest <= 0.0:
         raise ConvergenceError("there is no step that the march is stable with", reached={})

@@ -1,10 +1,14 @@
 """What the teeth are reduced to: radius, deflection under torque, compliance along the flank."""
 
 import dataclasses
+import json
 
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.reduction import teeth_reduced
+from asperity.drive.static.reduction import TeethReduced, teeth_reduced
 from asperity.runs import Run
+from asperity.runs.cache import Cache
+from asperity.runs.key import code_key, key
+from asperity.runs.tree import from_tree, to_tree
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,9 +51,35 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
     )
 
 
+# What of a drive bears on its teeth without vibration.
+_BEARS = ("model", "teeth", "density", "friction", "effective_radius")
+
+
+def _key(problem: DriveProblem) -> str:
+    """Return what the teeth of a problem are kept under, whatever shakes them."""
+    drive = problem.drive.model_dump(mode="json", include=set(_BEARS))
+    tables = (
+        problem.gearset, problem.operation, problem.friction, problem.hob, problem.mount,
+        problem.modification, problem.disc,
+    )  # fmt: skip
+    asked = [None if table is None else table.model_dump(mode="json") for table in tables]
+    return key(code_key("asperity.drive.static.reduction"), json.dumps([drive, asked]))
+
+
+def _teeth(problem: DriveProblem, run: Run) -> TeethReduced:
+    cache = Cache.of_this_user("reduced", run.notify)
+    name = _key(problem)
+    kept = cache.get(name)
+    if kept is not None:
+        return from_tree(TeethReduced, kept)
+    found = teeth_reduced(problem, run)
+    cache.put(name, to_tree(found))
+    return found
+
+
 def _of_teeth(problem: DriveProblem, run: Run) -> Reduction:
     """What the static solution says; what is given beside it stays."""
-    teeth = teeth_reduced(problem, run)
+    teeth = _teeth(problem, run)
     drive = problem.drive
     compliance = drive.tangential_compliance
     return Reduction(
