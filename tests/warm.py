@@ -33,6 +33,7 @@ ROOMS = (
     ("slide normal-pin", "slide normal-pin EARLY --set solve.method=march"),
     ("block block-longitudinal BLOCK", "block block-longitudinal BLOCK --set contact.normal=hard"),
     ("flank gearset-3b --density coarse",),
+    ("drive drive-screw TEETH --out OUT",),
 )
 
 

@@ -39,6 +39,12 @@ BLOCK = [
     "block.elements=[2, 1, 1]", "block.element=hex8", "solve.duration=1.2 ms",
     "vibration.start=0.2 ms", "solve.step=2 us",
 ]  # fmt: skip
+TEETH = [
+    'drive.deflection=[["22 N m", "50 urad"], ["366 N m", "365 urad"]]',
+    "drive.effective_radius=9.8 mm", "drive.tangential_compliance=2.9 nm/N",
+    "solve.duration=3 ms",
+]  # fmt: skip
+DRIVE = ["drive", "shaft", "vibration", "friction", "operation", "actuator", "mount", "solve"]
 # Command, cases, settings that make them small, how many inputs of a hundred.
 COMMANDS = {
     "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 30),
@@ -54,6 +60,9 @@ COMMANDS = {
     "sensitivity": (["gearset-2", "gearset-3"], [], 4),
     "block": (["block-longitudinal", "block-transverse"], BLOCK, 4),
     "flank": (["gearset-3", "gearset-3b"], [], 1),
+    "drive": (["drive-screw", "drive-thesis", "drive-actuator"], TEETH, 4),
+    "directions": (["drive-screw"], TEETH, 1),
+    "locking": (["drive-actuator"], TEETH, 1),
 }
 ROOMS = {
     "check": ["slider", "friction", "vibration", "solve", "gearset", "operation", "rating"],
@@ -69,6 +78,9 @@ ROOMS = {
     "block": ["slider", "friction", "vibration", "solve", "block", "contact"],
     "export": ["slider", "friction", "vibration", "solve", "block", "contact"],
     "flank": ["gearset", "hob", "disc", "modification", "mount"],
+    "drive": DRIVE,
+    "directions": DRIVE,
+    "locking": DRIVE,
 }
 AXES = [
     ("friction.mu", "0.1,0.2"),

@@ -91,3 +91,10 @@ def test_a_gearset_s_vibration_is_refused_of_a_sliding_body(setting):
     case = read_case("table-4.3", case_tables(), [setting])
     with pytest.raises(InputError, match="gearset"):
         prepare(case)
+
+
+def test_a_copy_keeps_the_quantities_of_a_list():
+    given = drive(deflection=[["23 N m", "47.6 urad"], ["366 N m", "365 urad"]])
+    copied = given.model_copy(update={"protocol": "window"})
+    assert copied.deflection == given.deflection
+    assert copied.protocol == "window"

@@ -14,6 +14,13 @@ from asperity.units import Held, Named, quantity_of
 _MOST_BITS = 1024  # of a whole number, as large as floats are
 
 
+def _held(value: Any) -> Any:
+    """Return a value with the numbers of a checked table marked as such, in lists too."""
+    if isinstance(value, tuple | list):
+        return tuple(_held(part) for part in value)
+    return Held(value) if isinstance(value, float) else value
+
+
 class Table(pydantic.BaseModel):
     """Base of the tables of a case file: frozen, no unknown keys, InputError in one line.
 
@@ -83,7 +90,7 @@ class Table(pydantic.BaseModel):
         for key, value in (update or {}).items():
             replaced |= same_thing(type(self), key) if value is not None else {key}
         kept = {key: getattr(self, key) for key in self.model_fields_set - replaced}
-        held = {k: Held(v) if isinstance(v, float) else v for k, v in kept.items()}
+        held = {key: _held(value) for key, value in kept.items()}
         given = {key: value for key, value in (update or {}).items() if value is not None}
         return type(self)(units=units, **held, **given)
 

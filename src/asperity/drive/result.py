@@ -157,7 +157,9 @@ class DriveResult(Result):
     course: Course | None = part(Course, default=None)
     bands: Bands | None = part(Bands, default=None)
     steps: int = quantity("", "", "time steps", shown=False, default=0)
-    seconds: float = quantity("", "s", "time it took", key="seconds", shown=False, default=0.0)
+    seconds: float = quantity(
+        "", "s", "time it took", key="seconds", only="json", shown=False, default=0.0
+    )
 
     @property
     @labelled("", "", "of the powers, what is missing over what is put in", swept=True)
