@@ -372,6 +372,16 @@ COMMANDS = (
         ),
     ),
     Command(
+        "rig import",
+        "Make a recording of an oscilloscope program's file: CSV, text, .mat, TDMS.",
+        "Without --out the file is looked at only.",
+        prepare="asperity.tribometer.importing.study:prepare",
+        solve="asperity.tribometer.importing.study:answer",
+        arguments=(Argument("file", "FILE", "What the oscilloscope's program exported."),),
+        case="CONFIG",
+        out="REC.nc",
+    ),
+    Command(
         "rig reduce",
         "Reduce recordings: what vibration does to torque, power and efficiency.",
         "With --out also reduce.json, reduce.nc, reduce.csv and reduce.png.",

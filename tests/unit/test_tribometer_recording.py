@@ -151,6 +151,7 @@ def killed(folder, number, block, wait):
     time.sleep(wait)
     process.send_signal(signal.SIGKILL)
     reported = [int(line) for line in process.stdout.read().splitlines()]
+    process.stdout.close()
     process.wait()
     return path, max(reported, default=0)
 

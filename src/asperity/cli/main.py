@@ -51,13 +51,17 @@ def _folder(given: str) -> Path:
     return Path(given)
 
 
-def _out(metavar: str) -> Any:
-    what = "Folder to write files to." if metavar == "DIR" else "File to write."
-    said = typer.Option("--out", metavar=metavar, parser=_folder, help=what)
+OutOption = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
+]
+
+
+def _out(command: Command) -> Any:
+    if command.out == "DIR":
+        return OutOption
+    said = typer.Option("--out", metavar=command.out, parser=_folder, help="File to write.")
     return Annotated[Path | None, said]
-
-
-OutOption = _out("DIR")
 
 
 @app.callback(invoke_without_command=True)
@@ -101,7 +105,7 @@ def _command(command: Command) -> None:
         **({"full": (FullOption, False)} if command.brief else {}),
         "settings": (SetOption, None),
         "as_json": (JsonOption, False),
-        "out": (_out(command.out), None),
+        "out": (_out(command), None),
     }
     keyword = inspect.Parameter.KEYWORD_ONLY
     run.__signature__ = inspect.Signature(  # type: ignore[attr-defined]

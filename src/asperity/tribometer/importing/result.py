@@ -1,0 +1,75 @@
+"""The answer of ``asperity rig import``."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+from asperity.results import Result, quantity
+from asperity.results.table import Table, table_of
+from asperity.tribometer.importing.columns import Sampled
+from asperity.tribometer.recording import Event, Recorder
+
+_BLOCK = 1 << 16
+
+
+class Imported(Result):
+    """A recording out of a file, to be saved as one.
+
+    Attributes
+    ----------
+    sampled : Sampled
+        Its counts.
+    configuration : str
+        Of the rig, as JSON.
+    events : tuple of Event
+        What is set.
+    """
+
+    title = "Recording imported"
+    stem = "import"
+
+    sampled: Sampled
+    configuration: str
+    events: tuple[Event, ...]
+    simulated: bool = False
+    source: str = quantity("", "", "file")
+    form: str = quantity("", "", "format", key="format")
+    samples: int = quantity("", "", "samples of each channel")
+    sample_interval: float = quantity("dt", "s", "time between samples")
+    duration: float = quantity("t", "s", "duration")
+    missing: int = quantity("", "", "samples missing, of all channels", default=0)
+    beyond: int = quantity("", "", "samples past a range, of all channels", default=0)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what was found, with the channels."""
+        channels = [
+            {"signal": one.signal, "units": one.units, "scale": one.scale}
+            for one in self.sampled.sources
+        ]
+        return super().to_json() | {"channels": channels}
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return what was found, and a row a channel."""
+        rows = [(one.signal, one.units, one.scale) for one in self.sampled.sources]
+        listed = Table.of(("signal", "unit", "a count is worth"), rows, left=2)
+        return table_of(self), Table(listed.columns, listed.rows, remarks=self.notes)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the recording, whole or not at all."""
+        from asperity.store import write_atomically
+
+        return write_atomically(path, self._record)
+
+    def _record(self, path: Path) -> None:
+        one = self.sampled
+        made = Recorder(
+            path, one.sources, one.interval, configuration=self.configuration, block=_BLOCK,
+            simulated=self.simulated,
+        )  # fmt: skip
+        with made:
+            for event in self.events:
+                made.event(event.time, event.kind, event.text)
+            for first in range(0, len(one.counts), _BLOCK):
+                part = one.counts[first : first + _BLOCK]
+                made.append(part, (first + len(part)) * one.interval)
+            made.close(compress=False)

@@ -1,0 +1,45 @@
+"""National Instruments' TDMS, by npTDMS, which is imported when such a file is read."""
+
+from pathlib import Path
+
+import numpy as np
+
+from asperity.errors import InputError, MissingExtraError, plain
+from asperity.tribometer.importing.columns import Columns, unit_in
+
+_INTERVAL, _UNIT = "wf_increment", "unit_string"
+
+
+def read_tdms(path: Path, name: str) -> Columns:
+    """Read the channels of all groups.
+
+    Raises
+    ------
+    MissingExtraError
+        npTDMS is not installed.
+    InputError
+        No interval, several that differ, or a damaged file.
+    """
+    try:
+        from nptdms import TdmsFile
+    except ImportError:
+        raise MissingExtraError(
+            "TDMS needs npTDMS; install it: pip install asperity[daq]"
+        ) from None
+    try:
+        file = TdmsFile.read(path)
+        channels = [channel for group in file.groups() for channel in group.channels()]
+        values = [np.asarray(channel[:]) for channel in channels]
+        properties = [dict(channel.properties) for channel in channels]
+    except Exception as error:
+        raise InputError(f"{name} cannot be read: not a TDMS file, or damaged") from error
+    kept = [n for n, one in enumerate(values) if one.dtype.kind in "fiu" and one.size > 1]
+    steps = {properties[n].get(_INTERVAL) for n in kept}
+    if len(steps) != 1 or not isinstance(step := steps.pop(), int | float):
+        raise InputError(
+            f"{name}: its channels must share one {_INTERVAL}, the time between samples in s"
+        )
+    units = tuple(unit_in(str(properties[n].get(_UNIT, ""))) for n in kept)
+    notes = () if all(units) else ("channels without a unit are taken as volts",)
+    names = tuple(plain(str(channels[n].name)) for n in kept)
+    return Columns(names, units, tuple(values[n] for n in kept), interval=float(step), notes=notes)

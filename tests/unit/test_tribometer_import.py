@@ -1,0 +1,193 @@
+"""Files of oscilloscope programs become recordings, or are refused with row and reason."""
+
+import importlib.util
+
+import h5py
+import numpy as np
+import pytest
+import scipy.io
+
+from asperity.casefile import read_case
+from asperity.errors import InputError
+from asperity.runs import Run
+from asperity.tribometer.importing.columns import matching
+from asperity.tribometer.importing.study import answer, prepare
+from asperity.tribometer.recording import Recording, layout
+from asperity.tribometer.tables import TABLES
+
+MAPPED = [
+    'channels.torque_steel={channel="A", points=[["0 V","0 N m"],["5 V","2 N m"]]}',
+    'channels.torque_bronze={channel="H"}',
+    'channels.speed_steel={channel="B", points=[["0 V","0 rpm"],["5 V","5000 rpm"]]}',
+    'channels.speed_bronze={channel="C", points=[["0 V","0 rpm"],["5 V","500 rpm"]]}',
+    'channels.drive_voltage={channel="D"}',
+]
+OTHERS = [
+    f'channels.{name}={{channel="{letter}"}}'
+    for name, letter in (("load_cell", "F"), ("current_steel", "G"), ("current_bronze", "Z"))
+]
+HEADS = {
+    "en": "Time,Channel A,Channel B,Channel C,Channel D",
+    "de": "Zeit;Kanal A;Kanal B;Kanal C;Kanal D",
+    "fr": "Temps\tCanal A\tCanal B\tCanal C\tCanal D",
+    "zh": "时间,通道 A,通道 B,通道 C,通道 D",
+}
+
+
+def case(*settings):
+    return read_case("rig-final", TABLES, [*MAPPED, *OTHERS, *settings])
+
+
+def imported(path, *settings):
+    return answer(prepare(case(*settings), file=str(path)), Run())
+
+
+def rows(count=50, seed=0):
+    values = np.random.default_rng(seed).normal(size=(count, 4))
+    return np.column_stack((0.05 * np.arange(count), np.round(values, 4)))
+
+
+def text(head, units, values, separator, decimal="."):
+    lines = [head, units, ""]
+    lines += [separator.join(f"{one:.8g}" for one in row) for row in values]
+    return "\n".join(lines).replace(".", decimal) + "\n"
+
+
+def seen(found, place):
+    source = found.sampled.sources[place]
+    return source.offset + source.scale * found.sampled.counts[:, place].astype(float)
+
+
+@pytest.mark.parametrize(
+    ("language", "separator", "decimal"),
+    [("en", ",", "."), ("de", ";", ","), ("fr", "\t", ","), ("zh", ",", ".")],
+)
+def test_text_is_read_in_any_language(tmp_path, language, separator, decimal):
+    units = separator.join(("(ms)", "(V)", "(mV)", "(V)", "(V)"))
+    path, given = tmp_path / "run.csv", rows()
+    path.write_text(text(HEADS[language], units, given, separator, decimal), "utf-8")
+    found = imported(path)
+    assert found.sample_interval == pytest.approx(50e-6)
+    names = [source.signal for source in found.sampled.sources]
+    assert names == ["torque_steel", "speed_steel", "speed_bronze", "drive_voltage"]
+    assert [source.units for source in found.sampled.sources] == ["V", "mV", "V", "V"]
+    for place in range(4):
+        assert seen(found, place) == pytest.approx(given[:, place + 1], abs=1e-4)
+    assert any("current_bronze is left out" in note for note in found.notes)
+
+
+def test_an_imported_recording_is_one(tmp_path):
+    path, given = tmp_path / "run.csv", rows()
+    path.write_text(text(HEADS["en"], "(ms),(V),(V),(V),(V)", given, ","))
+    imported(path).save(tmp_path / "run.nc")
+    found = Recording.open(tmp_path / "run.nc")
+    assert found.values("torque_steel") == pytest.approx(given[:, 1], abs=1e-4)
+    assert found.case(TABLES)["rig"].mode == "transverse"
+    assert [event.text for event in found.events] == ["1 V", "0.9 V"]
+    again = imported(tmp_path / "run.nc")
+    assert again.form == "recording"
+    assert np.array_equal(again.sampled.counts, np.concatenate([c for _, c in found.stretches()]))
+
+
+def test_marks_past_the_range_gaps_and_a_cut_end_are_told(tmp_path):
+    path = tmp_path / "run.csv"
+    lines = text(HEADS["en"], "(ms),(V),(V),(V),(V)", rows(20), ",").splitlines()
+    lines[5] = lines[5].replace(lines[5].split(",")[1], "∞", 1)
+    lines[6] = ",".join(("0.15", "-Infinity", *lines[6].split(",")[2:]))
+    del lines[10]
+    lines[-1] = lines[-1].rsplit(",", 2)[0]
+    path.write_text("\n".join(lines), "utf-8")
+    found = imported(path)
+    torque = found.sampled.counts[:, 0]
+    assert (torque[2], torque[3]) == (layout.BEYOND, -layout.BEYOND)
+    assert np.flatnonzero(torque == layout.MISSING).tolist() == [7]
+    assert found.beyond == 2
+    assert any("cut off" in note for note in found.notes)
+    assert found.samples == 19
+
+
+REFUSED = {
+    "empty": (lambda lines: [], ["is empty"]),
+    "no headings": (lambda lines: lines[3:], ["row 1", "headings"]),
+    "no units": (lambda lines: [lines[0], *lines[3:]], ["row 2", "units"]),
+    "no samples": (lambda lines: lines[:3], ["no samples"]),
+    "a word": (lambda lines: [*lines[:7], "0.2,x,1,1,1", *lines[8:]], ["row 8", "'x'"]),
+    "a long row": (
+        lambda lines: [*lines[:7], lines[7] + ",1,2,3", *lines[8:]], ["row 8", "8 cells"]
+    ),
+    "backwards": (lambda lines: [*lines[:7], lines[4], *lines[8:]], ["row 8", "backwards"]),
+    "a jump": (lambda lines: [*lines[:-1], "9e9,1,1,1,1"], ["row 53", "jumps"]),
+    "two times": (
+        lambda lines: [lines[0], lines[1].replace("(V)", "(s)", 1), *lines[2:]], ["unit of time"]
+    ),
+    "a wrong unit": (
+        lambda lines: [lines[0], lines[1].replace("(V)", "(kg)", 1), *lines[2:]],
+        ["torque_steel", "'kg'"],
+    ),
+    "no channel": (lambda lines: [lines[0].replace("A", "X"), *lines[1:]], ["torque_steel", "'A'"]),
+    "a channel twice": (
+        lambda lines: [lines[0].replace("Channel B", "Input A"), *lines[1:]],
+        ["torque_steel", "both"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_imported_is_refused_with_row_and_reason(tmp_path, name):
+    change, parts = REFUSED[name]
+    lines = text(HEADS["en"], "(ms),(V),(V),(V),(V)", rows(), ",").splitlines()
+    path = tmp_path / "run.csv"
+    path.write_text("\n".join(change(lines)), "utf-8")
+    with pytest.raises(InputError) as refused:
+        imported(path)
+    told = str(refused.value)
+    assert "\n" not in told
+    assert all(part in told for part in ("run.csv", *parts)), told
+
+
+@pytest.mark.parametrize("version", ["4", "5", "7.3"])
+def test_matlab_files_of_all_versions_are_read(tmp_path, version):
+    path, given = tmp_path / "run.mat", rows(100)
+    variables = {name: given[:, n + 1 : n + 2] for n, name in enumerate("ABCD")}
+    variables |= {"Tinterval": np.array([[5e-5]]), "Tstart": np.zeros((1, 1))}
+    if version == "7.3":
+        with h5py.File(path, "w", userblock_size=512) as file:
+            for name, value in variables.items():
+                file[name] = value
+    else:
+        scipy.io.savemat(path, variables, format=version)
+    found = imported(path)
+    assert found.sample_interval == pytest.approx(5e-5)
+    assert seen(found, 0) == pytest.approx(given[:, 1], abs=1e-4)
+
+
+@pytest.mark.parametrize("content", [b"", b"MATLAB 5.0 MAT-file" + b"\1" * 200, b"\0" * 300])
+def test_a_damaged_matlab_file_is_refused(tmp_path, content):
+    (tmp_path / "run.mat").write_bytes(content)
+    with pytest.raises(InputError, match=r"run\.mat"):
+        imported(tmp_path / "run.mat")
+
+
+@pytest.mark.skipif(importlib.util.find_spec("nptdms") is None, reason="npTDMS is not installed")
+def test_tdms_is_read(tmp_path):
+    from nptdms import ChannelObject, TdmsWriter
+
+    given = rows(100)
+    with TdmsWriter(tmp_path / "run.tdms") as writer:
+        writer.write_segment(
+            [
+                ChannelObject(
+                    "scope", name, given[:, n + 1], {"wf_increment": 5e-5, "unit_string": "V"}
+                )
+                for n, name in enumerate("ABCD")
+            ]
+        )
+    found = imported(tmp_path / "run.tdms")
+    assert found.sample_interval == pytest.approx(5e-5)
+    assert seen(found, 0) == pytest.approx(given[:, 1], abs=1e-4)
+
+
+def test_a_channel_is_its_heading_or_what_a_heading_ends_in():
+    assert matching("Drehmoment", ["Zeit", "Drehmoment", "Kanal B"]) == [1]
+    assert matching("b", ["Zeit", "Drehmoment", "Kanal B"]) == [2]
+    assert matching("C", ["Zeit", "Drehmoment"]) == []
