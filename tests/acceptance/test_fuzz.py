@@ -45,6 +45,12 @@ TEETH = [
     "solve.duration=3 ms",
 ]  # fmt: skip
 DRIVE = ["drive", "shaft", "vibration", "friction", "operation", "actuator", "mount", "solve"]
+RIG = [
+    'plan.modes=["transverse"]', 'plan.lubricants=["oil"]', "plan.excluded=[]",
+    'plan.waveforms=["sine"]', 'plan.steel_supplies=["1 V"]', "plan.repeats=1",
+    'plan.frequencies=["750 Hz"]', "plan.before=0.5 s", "plan.shaken=0.5 s", "plan.idle=0.1 s",
+    "plan.sample_rate=2 kHz",
+]  # fmt: skip
 # Command, cases, settings that make them small, how many inputs of a hundred.
 COMMANDS = {
     "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 30),
@@ -63,6 +69,8 @@ COMMANDS = {
     "drive": (["drive-screw", "drive-thesis", "drive-actuator"], TEETH, 4),
     "directions": (["drive-screw"], TEETH, 1),
     "locking": (["drive-actuator"], TEETH, 1),
+    "rig plan": (["rig-final"], [], 4),
+    "rig run": (["rig-final"], RIG, 4),
 }
 ROOMS = {
     "check": ["slider", "friction", "vibration", "solve", "gearset", "operation", "rating"],
@@ -81,6 +89,8 @@ ROOMS = {
     "drive": DRIVE,
     "directions": DRIVE,
     "locking": DRIVE,
+    "rig plan": ["plan", "limits", "twin", "drives", "rig"],
+    "rig run": ["plan", "limits", "twin", "drives", "rig", "sonotrode", "channels", "steel_disc"],
 }
 AXES = [
     ("friction.mu", "0.1,0.2"),
@@ -221,7 +231,9 @@ def arguments(rng, folder):
         given.append("--json")
     if rng.random() < 0.01:
         given.insert(rng.randrange(len(given)), rng.choice(["--x", "--out", "", "--set", *ODD]))
-    return [command, *given]
+    if command == "rig run":
+        given += ["--out", f"run-{rng.randrange(10**9)}"]
+    return [*command.split(), *given]
 
 
 def trouble(given):

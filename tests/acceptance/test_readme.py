@@ -10,7 +10,7 @@ import pytest
 from apparatus.grid import slow
 
 from asperity.casefile.schema import keys_of
-from asperity.commands import case_tables
+from asperity.commands import GROUPS, case_tables
 from asperity.store import read_dataset
 from asperity.units import quantity_of
 
@@ -80,7 +80,8 @@ def test_each_command_runs(asperity, folder, command):
         if arguments[0] == "export":
             assert (out / "block.inp").read_text("utf-8").startswith("*HEADING")
         else:
-            assert read_dataset(out / f"{arguments[0]}.nc").attrs
+            name = arguments[1] if arguments[0] in GROUPS else arguments[0]
+            assert read_dataset(out / f"{name}.nc").attrs
 
 
 def test_each_target_of_make_that_the_readme_names_exists():

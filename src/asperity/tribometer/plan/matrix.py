@@ -10,6 +10,7 @@ from asperity.tribometer.options import Plan, Waveform
 from asperity.tribometer.parameters import Limits
 
 _MOST = 20_000
+_LONGEST = 31.0 * 86400.0  # s
 
 
 @dataclasses.dataclass(frozen=True)
@@ -154,6 +155,12 @@ def planned_files(plan: Plan, limits: Limits) -> tuple[PlannedFile, ...]:
             made = tuple(Cell(next(cells), float(frequency)) for frequency in frequencies)
             number = len(files) + 1
             files.append(PlannedFile(number, mode, lubricant, waveform, volts, repeat, made))
+    seconds = len(files) * len(plan.frequencies) * (plan.before + plan.shaken + plan.idle)
+    if not seconds <= _LONGEST:
+        raise InputError(
+            f"the plan records for {seconds / 86400.0:.3g} days; at most {_LONGEST / 86400.0:g} "
+            "days may be planned: look at plan.before, plan.shaken and plan.idle"
+        )
     if not files:
         raise InputError("plan.excluded leaves out every cell; keep one")
     return tuple(files)

@@ -38,6 +38,7 @@ _REST = 1.0
 _TRIAL = 5.0  # An encoder's gate and filter, twice.
 _TRIAL_MEAN = 1.0
 _PRELOAD_TIME = 0.5
+_SIMULATED_SAMPLE, _SIMULATED_SECOND = 1e-6, 0.02  # s, for a sample and a second
 
 
 class Machine:
@@ -117,6 +118,7 @@ class Machine:
             Ctrl-C was pressed; what is done is kept.
         """
         done = self._journal.done
+        self._forecast(done)
         try:
             self._remember(done)
             with self._packer, _terminable(), self._run.going_on():
@@ -133,6 +135,15 @@ class Machine:
         except BaseException as error:
             return self._ended(error)
         return None
+
+    def _forecast(self, done: dict[str, dict[str, Any]]) -> None:
+        """Say how long it takes: as long as is recorded, or a part of that where simulated."""
+        left = sum(one.act == "cell" and one.key not in done for one in self._actions)
+        plan = self._plan
+        seconds = left * (plan.before + plan.shaken + plan.idle)
+        if self._bench.memory is not None:
+            seconds *= plan.sample_rate * _SIMULATED_SAMPLE + _SIMULATED_SECOND
+        self._run.forecast(seconds, f"{left} cells")
 
     def _remember(self, done: dict[str, dict[str, Any]]) -> None:
         """Let a simulated rig stand where it stood when the last action was done."""

@@ -19,7 +19,7 @@ from asperity.tribometer.options import Plan
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
-from asperity.tribometer.procedure.journal import Journal
+from asperity.tribometer.procedure.journal import NAME, Journal
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
@@ -123,6 +123,8 @@ def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult
             "look at the instruments",
             kind="not safe",
         )
+    if problem.resume and not (folder / NAME).exists():
+        raise InputError(f"{folder} holds no run to go on with; leave --resume out")
     journal = Journal(folder)
     latch: AsperityError | None = None
     try:
