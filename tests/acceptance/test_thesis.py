@@ -128,6 +128,7 @@ VERDICTS = {
     "7.2": "differs",
     "7.3": "differs",
     "7.4": "differs",
+    "7.5": "differs",
     "7.6": "differs",
     "7.7": "differs",
     "7.8": "differs",

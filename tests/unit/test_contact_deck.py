@@ -6,12 +6,12 @@ from scipy.linalg import null_space
 
 from asperity.block.deck import BlockSetup, abaqus_files, calculix_files, fric_subroutine
 from asperity.block.deck.calculix import overclosure
-from asperity.block.deck.setup import numbers
 from asperity.block.problem import held_coordinates
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.interface.normal import pressure
 from asperity.errors import InputError
+from asperity.mesh.inp import numbers
 
 SMALL = ["block.elements=[3,2,2]"]
 CASES = {

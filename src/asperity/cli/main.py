@@ -158,7 +158,7 @@ def export(
         ),
     ] = None,
 ) -> None:
-    """Write an elastic block on its base as an input deck: block.inp.
+    """Write an elastic block, or a gearset's loaded teeth, as an input deck: block.inp, teeth.inp.
 
     For Abaqus also user.f, the friction law as user subroutine FRIC.
     """

@@ -89,6 +89,19 @@ def write_inp(
     return write_text(path, "\n".join(lines))
 
 
+def numbers(*values: float) -> str:
+    """Return numbers with commas between them (one alone: behind it) as both programs read them.
+
+    From a number of more than 20 characters they lose the end, be it the exponent.
+    """
+    texts = (repr(float(value)) for value in values)
+    short = [
+        text if len(text) <= _LONGEST_NUMBER else f"{value:.12e}"
+        for text, value in zip(texts, values, strict=True)
+    ]
+    return ", ".join(short) + ("," if len(short) == 1 else "")
+
+
 def _number(value: float) -> str:
     # The solvers read no more than 20 characters of a number.
     text = repr(value)

@@ -79,7 +79,7 @@ _MADE_IN = {
         "contact.derivatives": "7.14",
         "drive.claims": "7.4 7.11 7.12 7.13 7.16 7.18",
         "drive.laws": "7.6",
-        "drive.claims_shaken": "7.2 7.3 7.7 7.10 7.15 7.17",
+        "drive.claims_shaken": "7.2 7.3 7.5 7.7 7.10 7.15 7.17",
     },
 }
 

@@ -20,11 +20,11 @@ from asperity.block.deck.fric import (
     fric_subroutine,
     needs_disp,
 )
-from asperity.block.deck.setup import DRIVE_FACE, BlockSetup, numbers
+from asperity.block.deck.setup import DRIVE_FACE, BlockSetup
 from asperity.block.deck.whole import nodal_masses
 from asperity.block.problem import STANDARD_GRAVITY
 from asperity.contact.motion.hht import ALPHA
-from asperity.mesh.inp import mesh_lines
+from asperity.mesh.inp import mesh_lines, numbers
 from asperity.slider.model import Model
 
 DECK = "block.inp"

@@ -12,12 +12,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from asperity.block.deck.setup import DRIVE_FACE, BlockSetup, numbers
+from asperity.block.deck.setup import DRIVE_FACE, BlockSetup
 from asperity.block.deck.whole import equation_lines, equations
 from asperity.block.problem import STANDARD_GRAVITY
 from asperity.contact.elastic.loads import Traction
 from asperity.mesh import HexMesh, box
-from asperity.mesh.inp import mesh_lines
+from asperity.mesh.inp import mesh_lines, numbers
 
 DECK = "block.inp"
 

@@ -17,20 +17,6 @@ DRIVE_FACE = "right"
 _BASE_OVER_BLOCK = 2.5
 _POINTS_OF_RISE = 33
 _MOST_OVER_MEAN = 100.0
-_LONGEST_NUMBER = 20
-
-
-def numbers(*values: float) -> str:
-    """Return numbers with commas between them (one alone: behind it) as both programs read them.
-
-    From a number of more than 20 characters they lose the end, be it the exponent.
-    """
-    texts = (repr(float(value)) for value in values)
-    short = [
-        text if len(text) <= _LONGEST_NUMBER else f"{value:.12e}"
-        for text, value in zip(texts, values, strict=True)
-    ]
-    return ", ".join(short) + ("," if len(short) == 1 else "")
 
 
 @dataclasses.dataclass(frozen=True)

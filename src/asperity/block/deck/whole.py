@@ -14,7 +14,8 @@ import numpy.typing as npt
 from scipy.linalg import qr
 
 from asperity.arrays import FloatArray
-from asperity.block.deck.setup import BlockSetup, numbers
+from asperity.block.deck.setup import BlockSetup
+from asperity.mesh.inp import numbers
 
 _TERMS_A_LINE = 4
 # Freedoms of the contact are taken out of the unknowns where no other will do.

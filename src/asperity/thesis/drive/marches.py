@@ -15,6 +15,7 @@ from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.solve import prepare
+from asperity.drive.static.solve import solve_static
 from asperity.runs import Run
 
 _KEPT = 200
@@ -70,6 +71,58 @@ class Shaken:
     cycle_wheel: FloatArray
     electrical: float | None
     apparent: float | None
+
+
+@dataclasses.dataclass(frozen=True)
+class Loaded:
+    """What is shown of elastic teeth under load, means over a pitch.
+
+    Attributes
+    ----------
+    torque, frictionless, turned_round : float
+        Of the worm as it is, without friction, and with friction turned round, N m.
+    efficiency : float
+        Of the mesh.
+    deflection, error : float
+        Turn of the wheel under load, and transmission error from peak to peak, rad.
+    radius : float
+        On the worm, mean by force, m.
+    sliding_speed : float
+        Mean by force, m/s.
+    pressure : float
+        Greatest at a node, Pa.
+    nodes : int
+        Of a flank.
+    """
+
+    torque: float
+    frictionless: float
+    turned_round: float
+    efficiency: float
+    deflection: float
+    error: float
+    radius: float
+    sliding_speed: float
+    pressure: float
+    nodes: int
+
+
+def load(case: str, settings: Sequence[str]) -> Loaded:
+    """Solve a shipped gearset's teeth under load, as ``asperity drive --static`` does."""
+    problem = prepare(read_case(case, case_tables(), settings), static=True)
+    found = solve_static(problem, Run())
+    return Loaded(
+        torque=found.input_torque,
+        frictionless=found.input_torque_frictionless,
+        turned_round=found.input_torque_reversed,
+        efficiency=found.efficiency,
+        deflection=found.deflection,
+        error=found.transmission_error,
+        radius=1e-3 * found.friction_radius,
+        sliding_speed=found.sliding_speed,
+        pressure=1e6 * found.pressure_nodal,
+        nodes=found.teeth_nodes,
+    )
 
 
 def _model(case: str, settings: Sequence[str]) -> tuple[DriveProblem, ReducedModel]:

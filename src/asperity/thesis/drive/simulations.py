@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING
 from asperity.runs.workers import Task
 from asperity.thesis.cases import Shipped
 from asperity.thesis.drive.sets import Condition, conditions
+from asperity.thesis.exhibits import Part
 from asperity.thesis.kept import once
 
 if TYPE_CHECKING:
-    from asperity.thesis.drive.marches import Shaken
+    from asperity.thesis.drive.marches import Loaded, Shaken
 
 _ROOM = "asperity.thesis.drive"
 _SOLVED_BY = f"{_ROOM}.marches"
-_MARCHING = 1.5  # s, about
+_MARCHING, _LOADING = 1.5, 150.0  # s, about
 
 BASE = "drive-screw"
 """Gearset 3 with its shaft and load; what is set of it is the vibration."""
@@ -48,6 +49,36 @@ class Simulation(Shipped):
         return Task(f"march {self.name}", self.shaken, _ROOM, _MARCHING)
 
 
+class LoadedTeeth(Shipped):
+    """A gearset's elastic teeth under load, without vibration."""
+
+    verb = "drive"
+
+    def loaded(self) -> "Loaded":
+        """What they come to, solved once for all runs."""
+        from asperity.thesis.drive.marches import Loaded, load
+
+        return once(self, Loaded, _SOLVED_BY, functools.partial(load, self.case, self.settings))
+
+    @property
+    def task(self) -> Task:
+        """To solve them, for those that ask later."""
+        return Task(f"load {self.name}", self.loaded, _ROOM, _LOADING)
+
+    def command(self, verb: str = "", **options: tuple[str, ...]) -> str:
+        """How to come by it on the command line."""
+        return f"{Shipped.command(self, verb, **options)} --static"
+
+
+def meshes(full: bool = True) -> list[LoadedTeeth]:
+    """Return the teeth of gearset 3 on the meshes of a claim, from coarse to finer."""
+    del full
+    return [
+        LoadedTeeth(BASE, ("drive.phases=12", f"drive.density={name}"))
+        for name in ("coarse", "intermediate")
+    ]
+
+
 def simulation(condition: Condition, *settings: str) -> Simulation:
     """Return the simulation of a row of Table 7.2, with more settings."""
     return Simulation(
@@ -74,7 +105,7 @@ ACTUATOR = (
 )  # fmt: skip
 """An ultrasonic actuator, tuned to each frequency, and the worm that it moves."""
 
-Parts = Callable[[bool], Sequence[Simulation]]
+Parts = Callable[[bool], Sequence[Part]]
 
 
 def _kept(*settings: tuple[int, tuple[str, ...]]) -> Parts:
@@ -87,7 +118,9 @@ PARTS: Mapping[str, Parts] = {
     "figure 7.13": _kept((1, ()), (2, ())),
     "figure 7.14": _kept((3, ()), (3, (COULOMB,))),
     "figure 7.15": _kept((3, ACTUATOR)),
+    "claim 7.2": lambda full: meshes()[:1],
     "claim 7.3": _kept((3, ())),
+    "claim 7.5": meshes,
     "claim 7.7": _kept((3, ACTUATOR)),
     "claim 7.10": _kept((1, ()), (2, ())),
     "claim 7.15": _kept((3, ())),

@@ -1,0 +1,88 @@
+"""Loaded teeth as an input deck for CalculiX, in statics.
+
+The worm is a layer of elements whose nodes all move as they are told, the rim's nodes likewise: a
+straight way for each from before a step to after it, which is off the arc by nanometres. Friction
+is Coulomb's.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from asperity.arrays import FloatArray, IntArray
+from asperity.drive.deck.setup import FLANK, WHEEL, WORM, TeethSetup, turned_about
+from asperity.drive.teeth.sector import RIM
+from asperity.mesh.inp import mesh_lines, numbers
+
+DECK = "teeth.inp"
+_STICK = 0.2
+"""Friction's slope before it slides over the contact's stiffness."""
+
+_INCREMENTS = (4, 3)
+
+
+def calculix_files(setup: TeethSetup) -> dict[str, str]:
+    """Return the files a CalculiX user needs, by name."""
+    return {DECK: "\n".join([*_deck(setup), ""])}
+
+
+def _deck(setup: TeethSetup) -> Iterator[str]:
+    wheel, worm = setup.wheel, setup.worm
+    nodes, cells = len(wheel.points), len(wheel.cells)
+    material = setup.problem.gearset.wheel_material
+    yield "*HEADING"
+    yield f"Loaded teeth: {setup.name.replace(',', ' ')}"
+    yield from (f"** {line}" for line in setup.notes())
+    yield "** Run: ccx teeth"
+    yield from mesh_lines(wheel, "C3D8I", element_set=WHEEL)
+    yield from mesh_lines(
+        worm, "C3D8", element_set="threads", first_node=nodes + 1, first_element=cells + 1
+    )
+    yield from ("*MATERIAL, NAME=wheel", "*ELASTIC")
+    yield numbers(material.youngs_modulus, material.poisson_ratio)
+    for name in (WHEEL, "threads"):
+        yield f"*SOLID SECTION, ELSET={name}, MATERIAL=wheel"
+    yield "*SURFACE INTERACTION, NAME=flanks"
+    yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
+    yield numbers(setup.stiffness)
+    if setup.model.friction > 0.0:
+        yield from ("*FRICTION", numbers(setup.model.friction, _STICK * setup.stiffness))
+    yield "*CONTACT PAIR, INTERACTION=flanks, TYPE=SURFACE TO SURFACE"
+    yield f"{FLANK}, {WORM}"
+    begun = setup.wheel_angles[0], setup.worm_angles[0]
+    rim = wheel.node_set(RIM)
+    z = np.array([0.0, 0.0, 1.0])
+    for step, most in enumerate(_INCREMENTS, start=1):
+        yield f"*STEP, NLGEOM, INC={100 * most}"
+        yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
+        yield "*BOUNDARY"
+        turn = setup.wheel_angles[step] - begun[0]
+        yield from _moved(rim + 1, wheel.points[rim], z, np.zeros(3), turn)
+        turn = setup.worm_angles[step] - begun[1]
+        there = np.arange(len(worm.points)) + nodes + 1
+        yield from _moved(there, worm.points, setup.axis, setup.origin, turn)
+        yield from ("*NODE FILE", "U", "*CONTACT FILE", "CDIS, CSTR")
+        yield from (f"*CONTACT PRINT, SLAVE={FLANK}, MASTER={WORM}", "CF", "*END STEP")
+
+
+def _moved(
+    names: IntArray, points: FloatArray, axis: FloatArray, origin: FloatArray, turn: float
+) -> Iterator[str]:
+    way = turned_about(points, axis, origin, turn) - points
+    for name, shift in zip(names.tolist(), way, strict=True):
+        for freedom, amount in enumerate(shift, start=1):
+            yield f"{name}, {freedom}, {freedom}, {numbers(float(amount))[:-1]}"
+
+
+def torques(setup: TeethSetup, force: FloatArray, moment: FloatArray) -> tuple[float, float]:
+    """Return wheel and worm torque of a force on the wheel's flanks and its moment, N m.
+
+    Parameters
+    ----------
+    setup : TeethSetup
+        What was written.
+    force, moment : ndarray, shape (3,)
+        On the wheel, N, and about the origin, N m, as CONTACT PRINT gives them for the slave.
+    """
+    about_worm = moment - np.cross(setup.origin, force)
+    return abs(float(moment[2])), abs(float(about_worm @ setup.axis))

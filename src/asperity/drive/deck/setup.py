@@ -1,0 +1,205 @@
+"""What a deck of loaded teeth says, whichever program reads it; SI throughout.
+
+The sector of teeth of `asperity.drive.teeth`, held at its rim, and the flanks of the worm's threads
+in its spaces as a rigid surface. Both are moved from where they hardly touch: first the rim turns
+back against the worm, by as much as the load turns it, then both turn on as the gearset runs, far
+enough that friction is that of sliding. What the program finds at the end stands beside
+`TeethSetup.balance`: the wheel's moment about the origin is the load, and the worm's about its axis
+is its torque. Faces between nodes lie micrometres off the exact flanks that the package goes by, so
+that torques at the same turn differ, and their ratio hardly.
+"""
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.drive.problem import DriveProblem
+from asperity.drive.solve import prepare
+from asperity.drive.static.equilibrium import Balance, Equilibrium
+from asperity.drive.static.solve import StaticModel
+from asperity.drive.teeth.contact import CONTACT_STIFFNESS
+from asperity.drive.teeth.sector import RIM
+from asperity.flanks.worm.setting import Pair
+from asperity.mesh import HexMesh
+from asperity.runs import Run
+
+_MILLIMETRES = 1e3
+SLID = 5e-3
+"""Turn of the worm in the second step, rad: some fifty micrometres, many times the elastic slip."""
+
+_APART = 15e-6  # m, of the flanks at the start
+_SWEPT = math.radians(55.0)  # to both sides of the line of centres
+_PER_TURN, _ON_FLANK = 240, 12
+_THICK = 0.3  # mm, of the layer that stands for a rigid thread
+FLANK, WORM, WHEEL = "wheel_flanks", "worm_flanks", "wheel"
+
+
+@dataclasses.dataclass(frozen=True)
+class TeethSetup:
+    """Teeth under load, ready to be written.
+
+    Attributes
+    ----------
+    name : str
+        Of the case.
+    problem : DriveProblem
+        The drive.
+    model : StaticModel
+        Its loaded contact, as the package itself solves it.
+    """
+
+    name: str
+    problem: DriveProblem
+    model: StaticModel
+
+    @classmethod
+    def from_case(cls, case: Case, run: Run | None = None) -> "TeethSetup":
+        """Gather the tables of a case; its teeth are condensed if none are kept.
+
+        Raises
+        ------
+        InputError
+            The case makes no drive, or its teeth cannot carry the torque.
+        """
+        problem = prepare(case, static=True)
+        return cls(case.source, problem, StaticModel(problem, run or Run(), phases=1))
+
+    @property
+    def pair(self) -> Pair:
+        """Worm and wheel, right-handed: a left-handed gearset is its mirror image."""
+        return dataclasses.replace(self.model.sector.wheel.pair, hand="right")
+
+    @functools.cached_property
+    def balance(self) -> Balance:
+        """The package's own balance at the end of the deck's last step, the shaft rigid."""
+        return Equilibrium(self.model.contact).balance(0.0, self.problem.load)
+
+    @functools.cached_property
+    def touching(self) -> float:
+        """Angle of the wheel that touches the worm at its angle 0, rad."""
+        return self.model.contact.touching_angle(0.0, np.zeros(3))
+
+    @property
+    def wheel_angles(self) -> tuple[float, float, float]:
+        """Of the wheel before, after the first and after the second step, rad."""
+        end = self.balance.wheel_angle
+        back = SLID / self.pair.ratio
+        radius = 0.5e-3 * self.pair.geometry.wheel_mean_diameter
+        return self.touching - back + _APART / radius, end - back, end
+
+    @property
+    def worm_angles(self) -> tuple[float, float, float]:
+        """Of the worm before and after both steps, rad."""
+        return -SLID, -SLID, 0.0
+
+    @property
+    def axis(self) -> FloatArray:
+        """Unit vector of the worm's axis, about which it turns in the positive sense."""
+        return np.asarray(self.model.contact.stand.axes[2])
+
+    @property
+    def origin(self) -> FloatArray:
+        """A place on the worm's axis, m."""
+        return np.asarray(self.model.contact.stand.origin)
+
+    @functools.cached_property
+    def wheel(self) -> HexMesh:
+        """The sector before the first step, m: sets `RIM` of nodes and `FLANK` of faces."""
+        mesh = self.model.sector.mesh
+        teeth = self.model.sector.teeth
+        names = ["flank_plus"] if teeth == 1 else [f"flank_plus_{k}" for k in range(teeth)]
+        faces = np.concatenate([mesh.face_sets[name] for name in names])
+        points = turned_about(
+            mesh.points / _MILLIMETRES, np.array([0.0, 0.0, 1.0]), np.zeros(3),
+            self.wheel_angles[0],
+        )  # fmt: skip
+        rim = mesh.node_set(RIM)
+        return HexMesh(points, mesh.cells, node_sets={RIM: rim}, face_sets={FLANK: faces})
+
+    @functools.cached_property
+    def worm(self) -> HexMesh:
+        """Layers of hexahedra under the worm's flanks before the first step, m; faces `WORM`."""
+        layers = [self._layer(space) for space in self._spaces]
+        sizes = np.cumsum([0, *(len(layer.points) for layer in layers)])
+        cells = [layer.cells + first for layer, first in zip(layers, sizes, strict=False)]
+        points = np.concatenate([layer.points for layer in layers])
+        moved = turned_about(points, self.axis, self.origin, self.worm_angles[0])
+        count = sum(len(layer.cells) for layer in layers)
+        # The lower side of every cell is on the flank.
+        faces = np.stack([np.arange(count), np.full(count, 4)], axis=1)
+        return HexMesh(
+            moved,
+            np.concatenate(cells),
+            node_sets={"worm": np.arange(len(moved))},
+            face_sets={WORM: faces},
+        )
+
+    @property
+    def _spaces(self) -> range:
+        half = self.model.sector.teeth // 2
+        return range(-half, half + 1)
+
+    def _layer(self, space: int) -> HexMesh:
+        """The thread beside a space of the worm, under the flank that drives."""
+        worm = self.pair.worm
+        rho, axial = worm.curve(np.linspace(0.0, 1.0, _ON_FLANK))[:2]
+        count = 1 + math.ceil(2.0 * _SWEPT * _PER_TURN / (2.0 * math.pi))
+        turn = np.linspace(-_SWEPT, _SWEPT, count)
+        place = 2.0 * worm.half_pitch * space
+        z = axial[:, None] + worm.reduced_lead * turn + place
+        points = np.stack(
+            [
+                np.stack(np.broadcast_arrays(
+                    rho[:, None] * np.cos(turn), rho[:, None] * np.sin(turn), z + depth,
+                ), axis=-1)
+                for depth in (0.0, _THICK)
+            ], axis=2,
+        )  # fmt: skip
+        number = np.arange(points[..., 0].size).reshape(points.shape[:3])
+        corners = [
+            number[i : i + len(rho) - 1, j : j + count - 1, k]
+            for k in (0, 1)
+            for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))
+        ]
+        cells = np.stack(corners, axis=-1).reshape(-1, 8)
+        there = self.pair.mounting.to_wheel(points.reshape(-1, 3)) / _MILLIMETRES
+        return HexMesh(there, cells)
+
+    @property
+    def stiffness(self) -> float:
+        """Pressure per overclosure of the flanks, Pa/m."""
+        return CONTACT_STIFFNESS
+
+    def notes(self) -> list[str]:
+        """Return what stands at the head of a deck."""
+        end = self.balance
+        return [
+            "SI units: m, kg, s, N, Pa. The wheel's axis is Z through the origin, its middle tooth "
+            "about +Y.",
+            f"The worm's axis goes through ({', '.join(f'{x:.6g}' for x in self.origin)}) along "
+            f"({', '.join(f'{x:.6g}' for x in self.axis)}).",
+            "Step 1: the rim turns back against the worm. Step 2: both turn on as the gearset "
+            "runs, until friction is that of sliding.",
+            f"asperity itself, on exact flanks, shaft rigid: {self.problem.load:.6g} N m on the "
+            f"wheel, {end.worm_torque:.6g} N m on the worm, ratio "
+            f"{self.problem.load / end.worm_torque:.5g}.",
+        ]
+
+
+def turned_about(
+    points: FloatArray, axis: FloatArray, origin: FloatArray, angle: float
+) -> FloatArray:
+    """Return places turned about an axis through a place, m."""
+    away = points - origin
+    cosine, sine = math.cos(angle), math.sin(angle)
+    along = (away @ axis)[:, None] * axis
+    return np.asarray(
+        origin
+        + along
+        + cosine * (away - along)
+        + sine * np.cross(np.broadcast_to(axis, away.shape), away)
+    )
