@@ -1,18 +1,22 @@
 """Simulated rigs for tests: small plans, faults, and runs that are killed."""
 
+import importlib
 import json
 import os
 import signal
+import sys
 import traceback
 
 import numpy as np
+import pytest
 
+from apparatus.fake_picoscope import FakeDriver
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.runs import Run
 from asperity.tribometer.instruments.inputs import inputs_of, lines_of
 from asperity.tribometer.instruments.protocols import FULL_SCALE, InstrumentError, Poll, Reading
-from asperity.tribometer.instruments.sim import simulated_bench
+from asperity.tribometer.instruments.sim import SimulatedClock, simulated_bench
 from asperity.tribometer.procedure import study
 from asperity.tribometer.twin.plant import Plant
 
@@ -45,6 +49,70 @@ def run(case, folder, *, bench=None, resume=False, acknowledge=""):
     if bench is None:
         return study.answer(problem, work)
     return study._run(problem, bench, work, folder)
+
+
+def picoscope_on(rig, monkeypatch):
+    """Return a PicoScope whose library in C is a fake, behind which a simulated rig is measured."""
+    library = pytest.importorskip("picosdk.library", reason="picosdk (extra daq) is missing")
+    from asperity.tribometer.instruments.picoscope import LETTERS, PicoScope
+
+    class Driver(FakeDriver):
+        def _RunStreaming(self, handle, interval, *rest):
+            super()._RunStreaming(handle, interval, *rest)
+            rig.begin(interval._obj.value * 1e-9)
+
+        def _GetStreamingLatestValues(self, handle, ready, parameter):
+            counts = rig.taken()
+            if not len(counts):
+                return 0x27
+            for column, given in enumerate(rig.inputs):
+                self.buffers[LETTERS.index(given.channel)][: len(counts)] = counts[:, column]
+            ready(handle.value, len(counts), 0, 0, 0, 0, 0, parameter)
+            return 0
+
+        def _Stop(self, handle):
+            super()._Stop(handle)
+            rig.end()
+
+    fake = Driver()
+    monkeypatch.setattr(library.Library, "_load", lambda self: fake)
+    monkeypatch.delitem(sys.modules, "picosdk.ps4000a", raising=False)
+    # Not left behind for those that come later, who would meet this rig.
+    monkeypatch.setitem(sys.modules, "picosdk.ps4000a", importlib.import_module("picosdk.ps4000a"))
+    return PicoScope(rig.inputs, clock=SimulatedClock(rig))
+
+
+def serial_controller(rig=None):
+    """Return a controller on a pseudo-terminal that moves a rig, and what is at its other end."""
+    from apparatus.pty_controller import DIALECT, PtyController
+    from asperity.tribometer.instruments.parameters import Controller
+    from asperity.tribometer.instruments.serial_vibration import SerialVibration
+
+    class Moving(PtyController):
+        breaks = ""
+
+        def break_when_it_vibrates(self, fault):
+            self.breaks = fault
+
+        def _answer(self, line):
+            said = super()._answer(line)
+            if rig is None:
+                return said
+            rig.change()
+            rig.waveform = "triangle" if self.waveform == "TRI" else "sine"
+            rig.frequency = self.frequency
+            if self.vibrates != ("vibration" in rig.on):
+                rig.on ^= {"vibration"}
+            if line == "HERE" and self.vibrates and self.breaks:
+                if self.breaks == "pulled":
+                    self.pull()
+                self.fault = "silent"
+                self.vibrates = True
+                self._answer = lambda line: "OK"
+            return said
+
+    fake = Moving()
+    return SerialVibration(Controller(port=fake.port, timeout="100 ms", **DIALECT)), fake
 
 
 def cells(folder):
