@@ -11,12 +11,14 @@ import math
 
 from asperity.compiled import kernel
 from asperity.drive.interface import AT
+from asperity.uncounted import uncounted
 from asperity.waveform import displacement_at
 
 _GROWTH = 2.0  # of a step over the last
 _WHOLE = 1.5  # rest of a stretch, in steps, that is left for a last one or two
 
 
+@uncounted
 @kernel(inline="always")
 def next_step(system, state, end):
     """Length of the next step: bounded, not far past a landing, and on the end of the stretch."""
@@ -29,6 +31,7 @@ def next_step(system, state, end):
     return 0.5 * left if left < _WHOLE * dt else dt
 
 
+@uncounted
 @kernel(inline="always")
 def move(system, state, dt, q, v):
     """Fill in poses and rates at the end of a step; what is imposed is added to what is free."""
@@ -68,6 +71,7 @@ def move(system, state, dt, q, v):
     v[3] = system.shake_wheel * rate
 
 
+@uncounted
 @kernel(inline="always")
 def arrive(system, state, dt, q, v, out, sums):
     """Take over a step whose mesh has answered: rates, forces, and what is summed up."""
@@ -195,6 +199,7 @@ def arrive(system, state, dt, q, v, out, sums):
     state.approach = out[AT.approach]
 
 
+@uncounted
 @kernel(inline="always")
 def clear(sums):
     """Begin a stretch."""

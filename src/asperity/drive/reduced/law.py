@@ -9,6 +9,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.drive.point import MeshPoint
+from asperity.uncounted import uncounted
 
 _CELLS = 2048
 _REACH = 100.0  # of the force at the reference load, up to which the law is tabulated
@@ -101,6 +102,7 @@ class NormalLaw:
         return cell, rows
 
 
+@uncounted
 @kernel(inline="always")
 def force_and_energy(cell, rows, d):
     """Force and stored energy at an approach; beyond the table the force goes on straight."""

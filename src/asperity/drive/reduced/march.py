@@ -1,15 +1,16 @@
 """The march of the reduced mesh: the loop over steps, compiled with its mesh."""
 
-import numpy as np
+import math
 
 from asperity.compiled import kernel
-from asperity.drive.interface import OUTS, POSES
 from asperity.drive.motion.kernels import arrive, clear, move, next_step
 from asperity.drive.reduced.mesh import advance
+from asperity.uncounted import uncounted
 
 
+@uncounted
 @kernel
-def march(mesh, system, states, committed, stretch, rows, stop):
+def march(mesh, system, states, committed, trial, poses, out, stretch, rows, stop):
     """March so many stretches of equal length, each summed up in a row.
 
     Parameters
@@ -18,8 +19,12 @@ def march(mesh, system, states, committed, stretch, rows, stop):
         `asperity.drive.reduced.mesh.Mesh` and `asperity.drive.motion.system.System`.
     states : record array of one `STATE`
         Where it stands; walks on.
-    committed : ndarray
-        What the mesh remembers; walks on.
+    committed, trial : ndarray
+        What the mesh remembers; walks on. Room for as much.
+    poses : ndarray, shape (2, POSES)
+        Room for poses and rates.
+    out : ndarray, shape (OUTS,)
+        Room for what the mesh answers.
     stretch : float
         Length, s.
     rows : record array of `SUMS`
@@ -33,11 +38,9 @@ def march(mesh, system, states, committed, stretch, rows, stop):
         Stretches that were marched.
     """
     state = states[0]
-    q = np.zeros(POSES)
-    v = np.zeros(POSES)
-    out = np.zeros(OUTS)
-    here = committed.copy()
-    trial = committed.copy()
+    q = poses[0]
+    v = poses[1]
+    here = committed
     began = state.time
     done = 0
     for row in range(rows.size):
@@ -53,7 +56,8 @@ def march(mesh, system, states, committed, stretch, rows, stop):
             if state.time + 1e-12 * stretch >= end:
                 state.time = end
         done += 1
-        if stop[0] != 0 or not np.isfinite(state.torque):
+        if stop[0] != 0 or not math.isfinite(state.torque):
             break
-    committed[:] = here
+    for place in range(committed.size):
+        committed[place] = here[place]
     return done

@@ -17,12 +17,13 @@ from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import AT
 from asperity.drive.reduced.law import force_and_energy
 from asperity.friction.dahl import TINY, VECTOR, relaxation
-from asperity.friction.loaded import STIFFNESS, relaxed_to_limit
+from asperity.friction.loaded import STIFFNESS, relaxed_to_limit, slip_back
 from asperity.friction.loaded_tangent import update_loaded
+from asperity.uncounted import uncounted
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
 _ITERATIONS = 60
-_CLOSE = 1e-12
+_CLOSE = 1e-9
 
 
 class Mesh(NamedTuple):
@@ -82,6 +83,7 @@ _WAYS, _FLANK = 2, 5
 STATES = _WAYS + 2 * _FLANK
 
 
+@uncounted
 @kernel(inline="always")
 def _brittle(sx, sy, dx, dy, limit):
     """Deflection of asperities that stick until they slip (`friction.return_mapping`)."""
@@ -92,6 +94,7 @@ def _brittle(sx, sy, dx, dy, limit):
     return back * wx, back * wy
 
 
+@uncounted
 @kernel
 def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     """Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
@@ -106,14 +109,10 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     for _ in range(_ITERATIONS):
         tx = dx - more * (wx - sx)
         ty = dy - more * (wy - sy)
-        ux, uy = relaxed_to_limit(sx, sy, tx, ty, limit_0, limit_1)
-        ex = ux - wx
-        ey = uy - wy
-        off = abs(ex) + abs(ey)
-        if off <= _CLOSE * (1.0 + limit_1):
-            break
         way = math.sqrt(tx * tx + ty * ty) + 1e-280
         decay, gain = relaxation(way / limit)
+        ux = sx * decay + tx * gain
+        uy = sy * decay + ty * gain
         cx = tx / way
         cy = ty / way
         bx = decay * (cx - sx / limit) - gain * cx
@@ -122,13 +121,19 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
         xy = bx * cy
         yx = by * cx
         yy = gain + by * cy
-        if limit_1 < limit_0 and ux * ux + uy * uy >= limit_1 * limit_1 * (1.0 - _CLOSE):
+        if limit_1 < limit_0 and ux * ux + uy * uy > limit_1 * limit_1:
+            ux, uy = slip_back(ux, uy, sx, sy, tx, ty, limit_0, limit_1, 1.0, VECTOR)
             # Back on the limit, only what lies across the deflection still counts.
             nx = -uy / limit_1
             ny = ux / limit_1
             px = nx * xx + ny * yx
             py = nx * xy + ny * yy
             xx, xy, yx, yy = nx * px, nx * py, ny * px, ny * py
+        ex = ux - wx
+        ey = uy - wy
+        off = abs(ex) + abs(ey)
+        if off <= _CLOSE * (1.0 + limit_1):
+            break
         a = 1.0 + more * xx
         b = more * xy
         c = more * yx
@@ -139,6 +144,7 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     return wx, wy, off
 
 
+@uncounted
 @kernel
 def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
     """Asperities of any exponent on teeth that bend by ``more`` of their deflection.
@@ -180,6 +186,7 @@ def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
     return wx, wy, off
 
 
+@uncounted
 @kernel(inline="always")
 def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
     """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
@@ -199,6 +206,7 @@ def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
     return wx, wy, off
 
 
+@uncounted
 @kernel(inline="always")
 def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     """One flank: normal force, friction along and across; energies are added to ``out``."""
@@ -241,6 +249,7 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     return load, full * wx, full * wy
 
 
+@uncounted
 @kernel(inline="always")
 def advance(mesh, committed, trial, q, v, dt, out):
     """Advance the mesh over a step, see `asperity.drive.interface`."""
@@ -277,6 +286,7 @@ def advance(mesh, committed, trial, q, v, dt, out):
     out[AT.back] = back
 
 
+@uncounted
 @kernel(inline="always")
 def settle_in(mesh, state, q, share):
     """Set a state as if the worm had slid at pose ``q`` to a share of full friction under the load.
@@ -287,7 +297,8 @@ def settle_in(mesh, state, q, share):
     p = mesh.lead / mesh.length
     turned = mesh.radius * q[0] - q[3]
     shifted = q[1] - mesh.arm * q[2]
-    state[:] = 0.0
+    for place in range(STATES):
+        state[place] = 0.0
     state[0] = r * turned - p * shifted
     state[1] = p * turned + r * shifted
     d = mesh.across * state[1]

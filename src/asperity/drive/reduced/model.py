@@ -10,6 +10,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import FrictionCurve, friction_at
+from asperity.drive.interface import OUTS, POSES
 from asperity.drive.motion.system import System
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
@@ -155,7 +156,8 @@ class ReducedModel:
         stop: npt.NDArray[np.int64],
     ) -> int:
         """March so many stretches as there are rows, see `asperity.drive.reduced.march.march`."""
-        done: int = march(self.mesh, system, states, committed, stretch, rows, stop)
+        room = np.empty_like(committed), np.empty((2, POSES)), np.empty(OUTS)
+        done: int = march(self.mesh, system, states, committed, *room, stretch, rows, stop)
         return done
 
     def stored(self, approach: float, share: float) -> float:
