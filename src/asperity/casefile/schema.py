@@ -29,7 +29,8 @@ _PARAMETER = re.compile(r"^([A-Za-z_]\w*(?:, [A-Za-z_]\w*)*) : ")
 _MATHS = re.compile(r":math:`([^`]*)`")
 _WORD = re.compile(r"'(\w+)' or ")
 _ROLE = re.compile(r":\w+:`~?([^`]*)`")
-_LIMITS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum"}
+_LIMITS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum",
+           "min_length": "minItems"}  # fmt: skip
 
 
 class Key(NamedTuple):
@@ -124,7 +125,9 @@ def _schema(annotation: Any, metadata: Iterable[Any] = ()) -> dict[str, Any]:
             return _of_quantity(extra)
         if isinstance(extra, BeforeValidator):
             written = extra.json_schema_input_type
-            return {} if written is PydanticUndefined else _schema(written)
+            if written is not PydanticUndefined:
+                return _schema(written)
+            return {"type": "object"} if _holds_table(annotation) else {}
         if isinstance(extra, FieldInfo):
             return _schema(annotation, extra.metadata)
         for name, keyword in _LIMITS.items():
@@ -136,12 +139,17 @@ def _schema(annotation: Any, metadata: Iterable[Any] = ()) -> dict[str, Any]:
     return _plain(annotation, origin, arguments) | made
 
 
+def _holds_table(annotation: Any) -> bool:
+    parts = get_args(annotation) or (annotation,)
+    return any(isinstance(part, type) and issubclass(part, Table) for part in parts)
+
+
 def _plain(annotation: Any, origin: Any, arguments: tuple[Any, ...]) -> dict[str, Any]:
     if origin is Literal:
         return {"enum": list(arguments)}
     if origin is tuple:
         if arguments[-1] is Ellipsis:
-            return {"type": "array", "items": _schema(arguments[0]), "minItems": 1}
+            return {"type": "array", "items": _schema(arguments[0])}
         fixed = {"prefixItems": [_schema(part) for part in arguments], "items": False}
         return {"type": "array", "minItems": len(arguments)} | fixed
     if origin is not None and issubclass(origin, Mapping):

@@ -259,7 +259,10 @@ def size(
     ] = "size",
     settings: SetOption = None,
     as_json: JsonOption = False,
-    out: OutOption = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
+    ] = None,
 ) -> None:
     """Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.
 

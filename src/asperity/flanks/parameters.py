@@ -37,7 +37,7 @@ def _size(value: object) -> str:
     expected = "it must be a number of modules such as '0.25', or a length such as '0.5 mm'"
     parts = split_unit(value) if isinstance(value, str) else None
     try:
-        if parts is not None and parts[1]:
+        if parts is not None and parts[1] not in ("", "%"):
             size, text = to_si(value, "m"), "{!r} m"
         else:
             size, text = to_si(value, ""), "{!r}"
@@ -48,7 +48,11 @@ def _size(value: object) -> str:
     return text.format(size)
 
 
-Size = Annotated[str, BeforeValidator(_size, json_schema_input_type=str | float)]
+_InModules = Annotated[
+    float, Quantity("", what="a number", example="0.25", ge=_LEAST_ROUNDING, le=1.0)
+]
+_AsLength = Annotated[float, Quantity("m", what="a length", example="0.5 mm", gt=0)]
+Size = Annotated[str, BeforeValidator(_size, json_schema_input_type=_InModules | _AsLength)]
 
 
 def size_in_mm(size: str, module: float) -> float:

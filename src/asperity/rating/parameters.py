@@ -129,7 +129,7 @@ class Operation(Table):
         Annotated[float, Quantity("", what="a number of turns", example="500000", gt=0)] | None
     ) = None
     life: Time | None = None
-    duty_cycle: tuple[LoadStep, ...] | None = None
+    duty_cycle: Annotated[tuple[LoadStep, ...], Field(min_length=1)] | None = None
     lubricant: Lubricant
     lubrication: Literal["bath", "spray"] = "bath"
     oil_temperature: Temperature | None = None
