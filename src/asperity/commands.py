@@ -345,6 +345,23 @@ COMMANDS = (
         counts="amplitudes",
     ),
     Command(
+        "fit",
+        "Fit a friction law to measured ratios or forces: intervals, and what data cannot tell.",
+        "With --out also fit.json, fit.nc and fit.png.",
+        prepare="asperity.tribometer.fit.study:prepare",
+        solve="asperity.tribometer.fit.study:answer",
+        counts="fits and ends",
+        arguments=(
+            Argument("data", "DATA.csv", "Columns ratio or force [N], sd, and keys with units."),
+        ),
+        options=(
+            Option("free", "Keys to fit, separated by commas.", "KEYS", default=None),
+            Option("law", "split, unsplit, vector or all; left out: the case's.", "LAW"),
+            Option("next", "Also name so many measurements to make.", "N", default="0"),
+            Option("model", "slide, block or drive: whose answer it is.", "NAME", default="slide"),
+        ),
+    ),
+    Command(
         "rig plan",
         "Lay out a series of tests: cells, files, order, time, and what it will not tell.",
         "With --out also plan.json, plan.nc and plan.png.",

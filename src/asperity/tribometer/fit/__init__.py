@@ -1,0 +1,1 @@
+"""Parameters of a friction law from measured ratios or forces, and what the data cannot tell."""

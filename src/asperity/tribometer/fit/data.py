@@ -1,0 +1,192 @@
+"""Measured ratios or forces, a row each, with the conditions they were measured under."""
+
+import csv
+import dataclasses
+import io
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+
+from asperity import store
+from asperity.arrays import FloatArray
+from asperity.casefile import Case, told
+from asperity.errors import InputError, nearest, plain, shown
+from asperity.units import Quantity, quantity_of, to_si
+
+RATIO, FORCE, DEVIATION = "ratio", "force", "sd"
+_HEAD = re.compile(r"\s*(?:(sd)\s+)?([A-Za-z_][\w-]*(?:\.[A-Za-z_][\w-]*)?)\s*(?:\[([^\]]*)\])?\s*")
+
+Value = float | str
+
+
+@dataclasses.dataclass(frozen=True)
+class Measurements:
+    """A table of measurements.
+
+    Attributes
+    ----------
+    name : str
+        The file.
+    forces : bool
+        Whether forces were measured, in N, or ratios.
+    values, deviations : ndarray
+        What was measured, and its standard deviation.
+    conditions : tuple of dict
+        Of each row: values in SI and words by ``table.key``.
+    uncertain : mapping of str to ndarray
+        Standard deviations of conditions, in SI.
+    rows : tuple of int
+        Numbers of the file's rows.
+    """
+
+    name: str
+    forces: bool
+    values: FloatArray
+    deviations: FloatArray
+    conditions: tuple[dict[str, Value], ...]
+    uncertain: dict[str, FloatArray]
+    rows: tuple[int, ...]
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Conditions that the table has columns of."""
+        return tuple(self.conditions[0])
+
+
+@dataclasses.dataclass(frozen=True)
+class _Column:
+    place: int
+    deviation: bool  # of the key, rather than the key itself
+    key: str
+    unit: str
+    quantity: Quantity | None
+
+    def read(self, cell: str, name: str, row: int) -> Value:
+        """Return a cell in SI."""
+        text = cell.strip()
+        where = f"{name}: row {row}: {self.key}"
+        if self.quantity is None:
+            if not text:
+                raise InputError(f"{where} is empty")
+            return text
+        try:
+            # An interval of temperature, say, has no zero of its own.
+            value = to_si(f"{text} {self.unit}".strip(), self.quantity.unit)
+            if self.deviation and self.unit:
+                value -= to_si(f"0 {self.unit}", self.quantity.unit)
+            return value if self.deviation else self.quantity.check(value)
+        except InputError as error:
+            raise InputError(f"{where} is {shown(text)}; {error}") from None
+
+
+def read_measurements(path: Path, case: Case) -> Measurements:
+    """Read a CSV file of measurements.
+
+    Raises
+    ------
+    InputError
+        With the row or the column: an unknown key, a cell that is no number, sd not above zero.
+    """
+    name = plain(str(path))
+    text = store.read_text(path, name)
+    try:
+        lines = [
+            (number, row)
+            for number, row in enumerate(csv.reader(io.StringIO(text, newline="")), start=1)
+            if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
+        ]
+    except csv.Error as error:
+        raise InputError(f"{name} cannot be read: {error}") from None
+    if len(lines) < 2:
+        raise InputError(f"{name} holds no rows below its headings; it must hold measurements")
+    columns = [_column(place, cell, case, name) for place, cell in enumerate(lines[0][1])]
+    seen = [(one.key, one.deviation) for one in columns]
+    if again := next((one for one in seen if seen.count(one) > 1), None):
+        raise InputError(f"{name}: the column {again[0]} is there twice; keep one of them")
+    measured = [one for one in columns if one.key in (RATIO, FORCE)]
+    if len(measured) != 1 or (DEVIATION, False) not in seen:
+        raise InputError(
+            f"{name}: the columns must hold 'ratio' or 'force [N]', and 'sd', its standard "
+            "deviation"
+        )
+    table = [_row(columns, cells, name, number) for number, cells in lines[1:]]
+    values = np.array([row[measured[0].key, False] for row in table], dtype=float)
+    conditions = [
+        {key: value for (key, deviation), value in row.items()
+         if "." in key and not deviation}
+        for row in table
+    ]  # fmt: skip
+    uncertain = {
+        key: np.array([row[key, True] for row in table], dtype=float)
+        for key, deviation in seen
+        if deviation
+    }
+    for key in uncertain:
+        if (key, False) not in seen:
+            raise InputError(f"{name}: 'sd {key}' is there without a column {key}")
+    deviations = np.array([row[DEVIATION, False] for row in table], dtype=float)
+    return Measurements(
+        name, measured[0].key == FORCE, values, deviations, tuple(conditions), uncertain,
+        tuple(number for number, _ in lines[1:]),
+    )  # fmt: skip
+
+
+def _row(
+    columns: list[_Column], cells: list[str], name: str, number: int
+) -> dict[tuple[str, bool], Value]:
+    if len(cells) != len(columns):
+        raise InputError(f"{name}: row {number} has {len(cells)} cells for {len(columns)} columns")
+    row = {(one.key, one.deviation): one.read(cells[one.place], name, number) for one in columns}
+    for (key, deviation), value in row.items():
+        if key == DEVIATION and not (isinstance(value, float) and value > 0.0):
+            raise InputError(f"{name}: row {number}: sd is {value:g}; it must be above zero")
+        if deviation and not (isinstance(value, float) and value >= 0.0):
+            raise InputError(f"{name}: row {number}: 'sd {key}' must be zero or above")
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(f"{name}: row {number}: {key} is not finite")
+    return row
+
+
+def _column(place: int, text: str, case: Case, name: str) -> _Column:
+    head = _HEAD.fullmatch(text)
+    if head is None or ("." not in head[2] and head[2] not in (RATIO, FORCE, DEVIATION)):
+        raise InputError(
+            f"{name}: the column {shown(text)} must be 'ratio', 'force [N]', 'sd' or a key of the "
+            "case such as 'vibration.frequency [Hz]'"
+        )
+    deviation, key, unit = bool(head[1]), head[2], (head[3] or "").strip()
+    if "." not in key:
+        wanted = {RATIO: "", FORCE: "N", DEVIATION: unit}[key]
+        if unit and key == RATIO:
+            raise InputError(f"{name}: the column ratio has a unit, {unit!r}; leave it out")
+        return _Column(
+            place, False, key, unit or wanted, Quantity(wanted and "N", "a number", "1 N")
+        )
+    table, _, own = key.partition(".")
+    with told(case):
+        if table not in case.known:
+            raise InputError(f"{name}: [{table}] is not a table{nearest(table, case.known)}")
+    model = case.known[table]
+    if own not in model.model_fields:
+        raise InputError(f"{name}: {key} is not a key{nearest(own, model.model_fields)}")
+    quantity = quantity_of(model, own)
+    if quantity is not None and quantity.unit and not unit:
+        raise InputError(
+            f"{name}: the column {key} has no unit; write it behind, as in '{key} "
+            f"[{quantity.example.split()[-1]}]'"
+        )
+    if quantity is None and (unit or deviation):
+        raise InputError(f"{name}: {key} is a word; its column has neither unit nor sd")
+    return _Column(place, deviation, key, unit, quantity)
+
+
+def numeric(measurements: Measurements) -> list[str]:
+    """Return the conditions that are numbers and differ between rows."""
+    return [
+        key
+        for key in measurements.keys
+        if len({row[key] for row in measurements.conditions}) > 1
+        and all(isinstance(row[key], float) for row in measurements.conditions)
+    ]

@@ -1,0 +1,96 @@
+"""What to measure next: conditions that would narrow the intervals most."""
+
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.errors import InputError
+from asperity.tribometer.fit.data import Measurements, Value, numeric
+from asperity.tribometer.fit.estimate import Estimate
+from asperity.tribometer.fit.forward import Predictor
+from asperity.tribometer.fit.result import Proposed
+
+_VALUES = 17  # along a condition that differs between the measurements
+_STEP = 2e-3
+_MOST = 4000
+_FAINT = 1e-8  # information that stands in where there is none
+
+
+def proposals(
+    data: Measurements,
+    predict: Predictor,
+    best: Estimate,
+    given: Callable[[FloatArray], dict[str, Value]],
+    keys: Sequence[str],
+    deviation: float,
+    count: int,
+) -> list[Proposed]:
+    """Return measurements, one after the other that which lowers the product of variances most.
+
+    Parameters
+    ----------
+    data : Measurements
+        Whose conditions span those that are looked at: each number between its least and its
+        largest value, each word as it occurs.
+    predict : Predictor
+        The model.
+    best : Estimate
+        The fit.
+    given : callable
+        Parameters of the model at a point.
+    keys : sequence of str
+        Of the parameters.
+    deviation : float
+        Of a measurement to come.
+    count : int
+        How many.
+    """
+    candidates = list(_candidates(data))
+    here, _ = predict(candidates, given(best.point))
+    slopes = np.empty((len(candidates), best.point.size))
+    for place in range(best.point.size):
+        moved = best.point.copy()
+        moved[place] -= _STEP
+        slopes[:, place] = (here - predict(candidates, given(moved))[0]) / (_STEP * deviation)
+    slopes[~np.isfinite(slopes).all(axis=1)] = 0.0
+    information = best.slopes.T @ best.slopes
+    information += _FAINT * np.eye(len(information))
+    found = []
+    for _ in range(count):
+        # Of each candidate the variances that would be left, by one more row of slopes.
+        inverse = np.linalg.inv(information)
+        turned = slopes @ inverse
+        gain = turned**2 / (1.0 + np.einsum("ij,ij->i", turned, slopes))[:, None]
+        left = np.log(np.maximum(np.diag(inverse) - gain, 1e-300)).sum(axis=1)
+        place = int(np.argmin(left))
+        information += np.outer(slopes[place], slopes[place])
+        deviations = np.sqrt(np.diag(np.linalg.inv(information)))
+        found.append(Proposed(candidates[place], dict(zip(keys, deviations.tolist(), strict=True))))
+    return found
+
+
+def _candidates(data: Measurements) -> Iterator[dict[str, Value]]:
+    """Yield conditions: of each set of words and fixed numbers, a grid of those that differ."""
+    varied = [key for key in numeric(data) if len({row[key] for row in data.conditions}) > 2]
+    groups: dict[tuple[Value, ...], list[dict[str, Value]]] = {}
+    for row in data.conditions:
+        groups.setdefault(tuple(row[key] for key in row if key not in varied), []).append(row)
+    axes = []
+    for key in varied:
+        values = np.array([float(row[key]) for row in data.conditions])
+        low, high = float(values.min()), float(values.max())
+        axes.append(
+            np.geomspace(low, high, _VALUES) if low > 0.0 else np.linspace(low, high, _VALUES)
+        )
+    grid = list(itertools.product(*axes))
+    if len(grid) * len(groups) > _MOST:
+        raise InputError(
+            f"--next: {', '.join(varied)} all differ between the measurements, which makes "
+            f"{len(grid) * len(groups)} conditions to look at, more than {_MOST}: give fewer "
+            "columns that differ"
+        )
+    for rows in groups.values():
+        for point in grid:
+            yield {**rows[0], **dict(zip(varied, map(float, point), strict=True))}

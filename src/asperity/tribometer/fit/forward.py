@@ -1,0 +1,109 @@
+"""What a model says of every measurement, for values of the free parameters."""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.errors import AsperityError, ConvergenceError, InputError
+from asperity.runs import Run
+from asperity.slider.batch import solve_many
+from asperity.slider.model import Model
+from asperity.tribometer.fit.data import Value
+
+SLIDE, BLOCK, DRIVE = "slide", "block", "drive"
+_MARCHED = "this is a march"
+
+
+@dataclasses.dataclass
+class Predictor:
+    """A case's model at the conditions of measurements.
+
+    Attributes
+    ----------
+    case : Case
+        With the keys that no column and no parameter gives.
+    by : {'slide', 'block', 'drive'}
+        The command whose model it is.
+    forces : bool
+        Whether forces are predicted, in N, or ratios.
+    solves, marched : int
+        Bodies solved so far; those of them without a periodic state, which were marched.
+    """
+
+    case: Case
+    by: str
+    forces: bool
+    solves: int = 0
+    marched: int = 0
+
+    def __call__(
+        self, conditions: Sequence[Mapping[str, Value]], given: Mapping[str, Value]
+    ) -> tuple[FloatArray, dict[int, str]]:
+        """Return what is predicted of each row, not a number where there is no answer, and why."""
+        cases = [self.case.replace_values({**one, **given}) for one in conditions]
+        self.solves += len(cases)
+        answers = _slid(cases) if self.by == SLIDE else [_solved(one, self.by) for one in cases]
+        values = np.full(len(cases), math.nan)
+        why: dict[int, str] = {}
+        for place, answer in enumerate(answers):
+            if isinstance(answer, AsperityError):
+                why[place] = str(answer)
+                continue
+            self.marched += any(_MARCHED in note for note in answer.notes)
+            values[place] = _force_of(answer) if self.forces else _ratio_of(answer)
+        return values, why
+
+
+def prepared(case: Case, by: str) -> Case:
+    """Return a case whose body is solved for its periodic state, where that is the model."""
+    if by != SLIDE:
+        return case
+    method = case.raw.get("solve", {}).get("method", "march")
+    chosen = "homogenised" if method == "homogenised" else "periodic"
+    return case.replace_values({"solve.method": chosen, "solve.scheme": "exponential"})
+
+
+def _slid(cases: Sequence[Case]) -> list[Any]:
+    models: list[Model | AsperityError] = []
+    for case in cases:
+        try:
+            models.append(Model.from_case(case))
+        except AsperityError as error:
+            models.append(error)
+    answers = iter(solve_many([one for one in models if isinstance(one, Model)]))
+    return [next(answers) if isinstance(one, Model) else one for one in models]
+
+
+def _solved(case: Case, by: str) -> Any:
+    """Answer a case by another room's command."""
+    from asperity.block import solve as block
+    from asperity.drive import solve as drive
+
+    room: Any = {BLOCK: block, DRIVE: drive}[by]
+    try:
+        return room.answer(room.prepare(case), Run())
+    except (ConvergenceError, InputError) as error:
+        return error
+
+
+def _ratio_of(answer: Any) -> float:
+    return _first(answer, ("ratio", "torque_ratio"), "ratio")
+
+
+def _force_of(answer: Any) -> float:
+    return _first(answer, ("drive_force",), "force")
+
+
+def _first(answer: Any, names: Sequence[str], what: str) -> float:
+    found = [value for name in names if (value := getattr(answer, name, None)) is not None]
+    if not found:
+        raise InputError(
+            f"an answer of this model has no {what}; choose another --model, or measure "
+            "something else"
+        )
+    return float(found[0])

@@ -1,0 +1,152 @@
+"""The answer of ``asperity fit``: parameters with their intervals, laws, what to measure next."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.results import Result, quantity
+from asperity.results.quantity import plain
+from asperity.results.table import Table
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """A fitted parameter.
+
+    Attributes
+    ----------
+    key, units : str
+        ``table.key``, and the unit of the numbers.
+    value : float
+        SI.
+    ci95 : tuple
+        Ends of its interval; None where it is open.
+    identifiable : bool
+        Whether both ends are closed.
+    why : str
+        What the data do not tell of it, or what it goes with; may be empty.
+    """
+
+    key: str
+    value: float
+    units: str
+    ci95: tuple[float | None, float | None]
+    identifiable: bool
+    why: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Law:
+    """How well a friction law meets the data."""
+
+    law: str
+    chi2: float
+    dof: int
+    delta_chi2: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Proposed:
+    """A measurement that would narrow the intervals, and to what deviations it would bring them."""
+
+    conditions: Mapping[str, float | str]
+    relative_deviations: Mapping[str, float]
+
+
+class FitResult(Result):
+    """Parameters of a law, fitted to measurements."""
+
+    title = "Friction law fitted to measurements"
+    stem = "fit"
+    drawings: ClassVar[Mapping[str, str]] = {"fit": "asperity.tribometer.fit.plots:plot_fit"}
+
+    parameters: tuple[Parameter, ...]
+    correlation: FloatArray
+    laws: tuple[Law, ...]
+    proposed: tuple[Proposed, ...]
+    failed: tuple[dict[str, Any], ...]
+    law: str = quantity("", "", "friction law")
+    points: int = quantity("", "", "measurements that were fitted")
+    chi2: float = quantity("chi2", "", "sum of squared residuals over their deviations")
+    dof: int = quantity("", "", "degrees of freedom")
+    solves: int = quantity("", "", "bodies solved")
+    evaluations: int = quantity("", "", "evaluations of the data set")
+    marched: int = quantity("", "", "bodies marched, for lack of a periodic state")
+    measured: FloatArray = quantity("", "", "measured", dims=("row",))
+    deviation: FloatArray = quantity("", "", "standard deviation of it", dims=("row",))
+    predicted: FloatArray = quantity("", "", "by the fitted law", dims=("row",))
+    residuals: FloatArray = quantity(
+        "", "", "measured less predicted, over the deviation", dims=("row",)
+    )
+
+    def to_json(self) -> dict[str, Any]:
+        """Return parameters, their correlation, laws, residuals and what to measure next."""
+        own = {
+            "parameters": [dataclasses.asdict(one) for one in self.parameters],
+            "correlation": self.correlation,
+            "laws": [dataclasses.asdict(one) for one in self.laws],
+            "residuals": self.residuals,
+            "next": [
+                {"conditions": dict(one.conditions),
+                 "relative_deviations": dict(one.relative_deviations)}
+                for one in self.proposed
+            ],
+            "failed": list(self.failed),
+        }  # fmt: skip
+        told: dict[str, Any] = plain(own)
+        return super().to_json() | told
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return measured and predicted values, and the parameters along a dimension."""
+        dataset = super().to_dataset()
+        names = np.array([one.key for one in self.parameters], dtype=object)
+        dataset = dataset.assign_coords(
+            parameter=("parameter", names, {"units": "1", "long_name": "parameter, in SI"})
+        )
+        for name, values in (
+            ("value", [one.value for one in self.parameters]),
+            ("low", [_or_nan(one.ci95[0]) for one in self.parameters]),
+            ("high", [_or_nan(one.ci95[1]) for one in self.parameters]),
+        ):
+            meaning = {"value": "value", "low": "lower end", "high": "upper end"}[name]
+            described = {"units": "1", "long_name": f"{meaning} of a parameter, in its SI unit"}
+            dataset[name] = ("parameter", np.array(values), described)
+        return dataset
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return parameters, laws, and what to measure next."""
+        rows = [
+            (one.key, one.value, *(_end(end) for end in one.ci95), one.units, one.why)
+            for one in self.parameters
+        ]
+        headings = "parameter", "value", "from", "to", "unit", ""
+        found = Table.of(headings, rows, title=f"Law {self.law}", remarks=self.notes)
+        laws = Table.of(
+            ("law", "chi2", "degrees of freedom", "more than the best"),
+            [(one.law, one.chi2, str(one.dof), one.delta_chi2) for one in self.laws],
+        )
+        if not self.proposed:
+            return found, laws
+        keys = list(self.proposed[0].conditions)
+        further = [
+            (*(one.conditions[key] for key in keys),
+             *(100.0 * value for value in one.relative_deviations.values()))
+            for one in self.proposed
+        ]  # fmt: skip
+        heads = (*keys, *(f"{key} %" for key in self.proposed[0].relative_deviations))
+        title = "What to measure next, and the deviations then"
+        return found, laws, Table.of(heads, further, title=title, left=0)
+
+
+def _end(value: float | None) -> float | str:
+    return "open" if value is None else value
+
+
+def _or_nan(value: float | None) -> float:
+    return float("nan") if value is None else value

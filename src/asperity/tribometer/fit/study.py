@@ -1,0 +1,369 @@
+"""The command ``asperity fit``: measurements and a case to parameters with intervals."""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from asperity.arrays import BoolArray, FloatArray
+from asperity.casefile import Case, told
+from asperity.errors import ConvergenceError, InputError, choices, nearest
+from asperity.friction.dahl import LAWS
+from asperity.runs import Run
+from asperity.tribometer.fit.data import Measurements, Value, read_measurements
+from asperity.tribometer.fit.design import proposals
+from asperity.tribometer.fit.estimate import WIDEST, Estimate, Fit
+from asperity.tribometer.fit.forward import BLOCK, DRIVE, SLIDE, Predictor, prepared
+from asperity.tribometer.fit.result import FitResult, Law, Parameter, Proposed
+from asperity.units import Quantity, quantity_of
+
+_LAW = "friction.law"
+_STEP = 1e-3  # of an uncertain condition, for its slope
+_MOST_NEXT = 100
+_CORRELATED, _AS_ONE = 0.95, 0.999
+_ALIKE = 0.01  # of chi-square, by which laws do not differ
+_POOR = 2.0  # chi-square a degree of freedom
+
+
+@dataclasses.dataclass(frozen=True)
+class Free:
+    """A parameter that is fitted.
+
+    Attributes
+    ----------
+    key : str
+        ``table.key``.
+    quantity : Quantity
+        Its unit and bounds.
+    start : float
+        SI.
+    """
+
+    key: str
+    quantity: Quantity
+    start: float
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Logarithms of the least and the largest value."""
+        lower = self.quantity.ge if self.quantity.gt is None else self.quantity.gt
+        upper = self.quantity.le if self.quantity.lt is None else self.quantity.lt
+        middle = math.log(self.start)
+        low = math.log(lower) if lower is not None and lower > 0.0 else middle - 2.0 * WIDEST
+        return low, math.log(upper) if upper is not None else middle + 2.0 * WIDEST
+
+
+@dataclasses.dataclass(frozen=True)
+class FitProblem:
+    """Measurements, a case, and what is free in it."""
+
+    data: Measurements
+    case: Case
+    free: tuple[Free, ...]
+    laws: tuple[str, ...]
+    further: int
+    by: str
+
+
+def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
+    """Read the measurements and look whether they go with the case; refuses at no cost.
+
+    Parameters
+    ----------
+    case : Case
+        With what neither a column nor a free key gives.
+    data : str
+        A CSV file.
+    free : str
+        Keys, separated by commas.
+    **options : str
+        ``law``, ``next`` and ``model``, as the command line has them.
+    """
+    law, model = options.get("law", ""), options.get("model", SLIDE)
+    if model not in (SLIDE, BLOCK, DRIVE):
+        raise InputError(
+            f"--model {model}: it must be one of {choices((SLIDE, BLOCK, DRIVE))}"
+            f"{nearest(model, (SLIDE, BLOCK, DRIVE))}"
+        )
+    measured = read_measurements(Path(data), case)
+    ready = prepared(case, model)
+    keys = [key.strip() for key in free.split(",") if key.strip()]
+    if not keys:
+        raise InputError("--free is empty; name keys, as in --free friction.max_deflection")
+    found = tuple(_free(key, ready, measured) for key in keys)
+    if len({one.key for one in found}) < len(found):
+        raise InputError(f"--free {free}: a key is there twice; name each once")
+    points = len(measured.values)
+    if points < len(found):
+        raise InputError(
+            f"{measured.name} holds {points} measurements, fewer than the {len(found)} free "
+            "parameters; free fewer, or measure more"
+        )
+    return FitProblem(
+        measured, ready, found, _laws(law, ready), _count(options.get("next", "0")), model
+    )
+
+
+def _free(key: str, case: Case, data: Measurements) -> Free:
+    table, _, own = key.partition(".")
+    with told(case):
+        if table not in case.known or not own:
+            raise InputError(f"--free {key}: it must be table.key, as in friction.max_deflection")
+        fields = case.known[table].model_fields
+        if own not in fields:
+            raise InputError(f"--free {key} is not a key of [{table}]{nearest(own, fields)}")
+    quantity = quantity_of(case.known[table], own)
+    if quantity is None:
+        raise InputError(f"--free {key}: it is no number, which alone can be fitted")
+    if key in data.keys:
+        raise InputError(f"--free {key}: it is a column of {data.name}, and so given for each row")
+    start = getattr(case.require(table), own)
+    if start is None or not start > 0.0:
+        raise InputError(
+            f"--free {key}: the case must have a value above zero to start from, such as "
+            f"'{quantity.example}'"
+        )
+    return Free(key, quantity, float(start))
+
+
+def _laws(given: str, case: Case) -> tuple[str, ...]:
+    if given == "all":
+        return tuple(LAWS)
+    if given and given not in LAWS:
+        raise InputError(f"--law {given}: it must be 'all' or one of {choices(LAWS)}")
+    if given:
+        return (given,)
+    own = case.raw.get("friction", {}).get("law", "vector")
+    return (str(own),)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) > _MOST_NEXT:
+        raise InputError(f"--next {text}: it must be a whole number, at most {_MOST_NEXT}")
+    return int(text)
+
+
+class _Data:
+    """The rows that have an answer, and what is left of each at some parameters."""
+
+    def __init__(self, problem: FitProblem, predict: Predictor, law: str) -> None:
+        self.problem, self._predict, self.law = problem, predict, law
+        self.deviations = problem.data.deviations
+        values, why = predict(problem.data.conditions, self.given(self.start))
+        self.answered: BoolArray = np.isfinite(values)
+        self.failed = tuple(
+            {"row": problem.data.rows[place], "law": law, "why": reason}
+            for place, reason in why.items()
+        )
+        if self.answered.sum() < len(problem.free):
+            raise ConvergenceError(
+                f"the model answers {int(self.answered.sum())} of {len(values)} measurements, "
+                f"fewer than there are free parameters: {next(iter(why.values()))}"
+            )
+
+    @property
+    def start(self) -> FloatArray:
+        """Logarithms of the parameters that the case has."""
+        return np.log([one.start for one in self.problem.free])
+
+    def given(self, point: FloatArray) -> dict[str, Value]:
+        """Return the parameters' values, with the law."""
+        values: dict[str, Value] = {
+            one.key: float(min(math.exp(value), math.exp(one.bounds[1])))
+            for one, value in zip(self.problem.free, point, strict=True)
+        }
+        if "friction" in self.problem.case and self._has_law():
+            values[_LAW] = self.law
+        return values
+
+    def _has_law(self) -> bool:
+        return self.problem.case.raw.get("friction", {}).get("model", "dahl") in ("dahl", "lugre")
+
+    def predicted(self, point: FloatArray) -> FloatArray:
+        """Return what the model says of the rows that have an answer."""
+        rows = [
+            row for row, kept in zip(self.problem.data.conditions, self.answered, strict=True)
+            if kept
+        ]  # fmt: skip
+        values, why = self._predict(rows, self.given(point))
+        if why:
+            raise ConvergenceError(next(iter(why.values())))
+        return values
+
+    def residuals(self, point: FloatArray) -> FloatArray:
+        """Return measured less predicted, over the deviations."""
+        left = self.problem.data.values[self.answered] - self.predicted(point)
+        weighed: FloatArray = left / self.deviations[self.answered]
+        return weighed
+
+    def carry(self, point: FloatArray) -> None:
+        """Add to the deviations what uncertain conditions do at a point."""
+        data = self.problem.data
+        variance = data.deviations**2
+        rows = [row for row, kept in zip(data.conditions, self.answered, strict=True) if kept]
+        here = self.predicted(point)
+        for key, deviation in data.uncertain.items():
+            moved = [{**row, key: _moved(row[key])} for row in rows]
+            values, why = self._predict(moved, self.given(point))
+            if why:
+                raise ConvergenceError(next(iter(why.values())))
+            steps = np.array([_moved(row[key]) - float(row[key]) for row in rows])
+            slope = (values - here) / steps
+            variance[self.answered] += (slope * deviation[self.answered]) ** 2
+        self.deviations = np.sqrt(variance)
+
+
+def _moved(value: Value) -> float:
+    return float(value) * (1.0 + _STEP) if value else _STEP
+
+
+@dataclasses.dataclass(frozen=True)
+class _Fitted:
+    data: _Data
+    fit: Fit
+    best: Estimate
+
+
+def answer(problem: FitProblem, run: Run) -> FitResult:
+    """Fit the parameters under each law, and follow their profiles under the best.
+
+    Raises
+    ------
+    ConvergenceError
+        No fit converges, or the model answers fewer measurements than there are parameters.
+    """
+    predict = Predictor(problem.case, problem.by, problem.data.forces)
+    fitted: dict[str, _Fitted] = {}
+    total = len(problem.laws) + 2 * len(problem.free)
+    with run.going_on():
+        for done, law in enumerate(problem.laws):
+            run.checkpoint(done, total, what="fits and ends of intervals")
+            start = next(iter(fitted.values())).best.point if fitted else None
+            fitted[law] = _fit(problem, predict, law, start)
+        law = _chosen(problem, fitted)
+        chosen = fitted[law]
+        ends = []
+        for place in range(len(problem.free)):
+            both = []
+            for number, side in enumerate((-1, 1)):
+                run.checkpoint(
+                    len(problem.laws) + 2 * place + number, total, what="fits and ends of intervals"
+                )
+                both.append(chosen.fit.end(chosen.best, place, side))
+            ends.append((both[0], both[1]))
+    evaluations = sum(one.fit.evaluations for one in fitted.values())
+    return _result(problem, predict, fitted, law, ends, evaluations)
+
+
+def _chosen(problem: FitProblem, fitted: Mapping[str, _Fitted]) -> str:
+    """Return the law that meets the data best; the case's own of equals."""
+    best = min(fitted, key=lambda one: fitted[one].best.chi2)
+    (own,) = _laws("", problem.case)
+    if own in fitted and fitted[own].best.chi2 - fitted[best].best.chi2 < _ALIKE:
+        return own
+    return best
+
+
+def _freedom(one: _Fitted) -> int:
+    return int(one.data.answered.sum()) - one.best.point.size
+
+
+def _fit(problem: FitProblem, predict: Predictor, law: str, start: FloatArray | None) -> _Fitted:
+    data = _Data(problem, predict, law)
+    lower, upper = np.array([one.bounds for one in problem.free]).T
+    fit = Fit(data.residuals, lower, upper)
+    best = fit.least(data.start if start is None else start)
+    if problem.data.uncertain:
+        data.carry(best.point)
+        best = fit.least(best.point)
+    return _Fitted(data, fit, best)
+
+
+def _result(
+    problem: FitProblem,
+    predict: Predictor,
+    fitted: Mapping[str, _Fitted],
+    law: str,
+    ends: Sequence[tuple[float | None, float | None]],
+    evaluations: int,
+) -> FitResult:
+    chosen = fitted[law]
+    data, best = chosen.data, chosen.best
+    least = min(one.best.chi2 for one in fitted.values())
+    correlation = best.correlation
+    values = problem.data.values[data.answered]
+    deviations = data.deviations[data.answered]
+    proposed: list[Proposed] = []
+    if problem.further:
+        proposed = proposals(
+            problem.data, predict, best, data.given, [one.key for one in problem.free],
+            float(np.median(deviations)), problem.further,
+        )  # fmt: skip
+    return FitResult(
+        parameters=tuple(
+            _parameter(problem, best, correlation, place, both) for place, both in enumerate(ends)
+        ),
+        correlation=correlation,
+        laws=tuple(
+            Law(name, one.best.chi2, _freedom(one), one.best.chi2 - least)
+            for name, one in fitted.items()
+        ),
+        proposed=tuple(proposed),
+        failed=tuple(row for one in fitted.values() for row in one.data.failed),
+        law=law, points=len(values), chi2=best.chi2, dof=_freedom(chosen), solves=predict.solves,
+        evaluations=evaluations, marched=predict.marched, measured=values, deviation=deviations,
+        predicted=values - best.residuals * deviations, residuals=best.residuals,
+        notes=tuple(_notes(predict, chosen)),
+    )  # fmt: skip
+
+
+def _parameter(
+    problem: FitProblem,
+    best: Estimate,
+    correlation: FloatArray,
+    place: int,
+    ends: tuple[float | None, float | None],
+) -> Parameter:
+    one = problem.free[place]
+    low, high = (None if end is None else math.exp(end) for end in ends)
+    others = np.abs(correlation[place])
+    others[place] = 0.0
+    partner = int(np.argmax(others)) if len(others) > 1 else place
+    with_it = float(correlation[place, partner]) if partner != place else 0.0
+    why = ""
+    if float(np.abs(best.slopes[:, place]).max()) <= 1e-9:
+        why = "the data do not depend on it at all"
+        if one.key == "friction.mu" and not problem.data.forces:
+            why += ": a ratio of a rigid drive has no mu in it, forces have"
+    elif abs(with_it) > _AS_ONE:
+        why = f"only together with {problem.free[partner].key}: the data see one number of both"
+    elif low is None and high is None:
+        why = "chi-square does not rise by 3.84 on either side"
+    elif low is None or high is None:
+        side = "below" if low is None else "above"
+        why = f"the data do not bound it {side}"
+    elif abs(with_it) > _CORRELATED:
+        why = f"goes with {problem.free[partner].key}: correlation {with_it:+.2f}"
+    closed = low is not None and high is not None and abs(with_it) <= _AS_ONE
+    return Parameter(
+        one.key, math.exp(float(best.point[place])), one.quantity.unit, (low, high), closed, why
+    )
+
+
+def _notes(predict: Predictor, chosen: _Fitted) -> list[str]:
+    notes = []
+    if predict.marched:
+        notes.append(
+            f"{predict.marched} of {predict.solves} bodies had no periodic state and were marched"
+        )
+    if chosen.data.failed:
+        notes.append(f"{len(chosen.data.failed)} measurements have no answer and are left out")
+    freedom = _freedom(chosen)
+    if freedom > 0 and chosen.best.chi2 > _POOR * freedom:
+        notes.append(
+            f"chi-square is {chosen.best.chi2 / freedom:.2g} a degree of freedom: the law does not "
+            "meet the data within their deviations, and the intervals are too narrow"
+        )
+    return notes
