@@ -262,3 +262,50 @@ def test_every_parameter_says_what_it_rests_on(plant):
     assert found["drift"] == "placeholder"
     assert figure_standing("transverse", "sine", 750.0) == "fitted"
     assert figure_standing("longitudinal", "sine", 750.0) == "placeholder"
+
+
+def test_a_rig_is_found_again_from_its_torques_and_speeds():
+    from asperity.tribometer.twin.fit import Measured, fit_states
+
+    truth = {"twin.mu": 0.21, "twin.mu_drop": 0.4, "twin.motor_drag": 0.085}
+    case = rig_case()
+    other = Plant.from_case(case.replace_values(truth))
+    rows = []
+    for volts in (1.0, 3.0):
+        for frequency in (500.0, 750.0):
+            states = [
+                other.steady(volts, 0.9, other.friction("sine", one)) for one in (0.0, frequency)
+            ]
+            rows.append(
+                Measured(
+                    "transverse", "sine", frequency, volts,
+                    tuple(one.torque for one in states), tuple(one.sliding for one in states),
+                )
+            )  # fmt: skip
+    fit = fit_states(case, rows)
+    for key, value in truth.items():
+        name = key.removeprefix("twin.")
+        assert fit.values[name] == pytest.approx(value, rel=0.01)
+        assert fit.deviations[name] < 0.2
+    assert fit.misfit < 0.1
+    assert fit.applied(case)["twin"].mu == pytest.approx(0.21, rel=0.01)
+    # At one point of one direction the asperities' deflection is not told.
+    assert fit_states(case, rows[:1], ("mu", "max_deflection")).deviations["max_deflection"] is None
+    with pytest.raises(InputError, match="cannot be fitted"):
+        fit_states(case, rows, ("drift",))
+    with pytest.raises(InputError, match="too few numbers"):
+        fit_states(case, rows[:1], (*fit.values, "gear_efficiency"))
+
+
+@pytest.mark.slow
+def test_a_rig_is_fitted_to_its_recordings_in_one_call(tmp_path):
+    from asperity.tribometer.twin.fit import fit_twin
+
+    case = rig_case(*rigs.SMALL[:5], "plan.repeats=1", 'plan.frequencies=["500 Hz", "750 Hz"]',
+                    'plan.sample_rate="4 kHz"', 'plan.steel_supplies=["1 V", "3 V"]')  # fmt: skip
+    made = case.replace_values({"twin.mu": 0.21, "twin.motor_drag": 0.085})
+    rigs.run(made, tmp_path)
+    fit = fit_twin(case, sorted(tmp_path.glob("*.nc")))
+    assert fit.values["mu"] == pytest.approx(0.21, rel=0.1)
+    assert fit.values["motor_drag"] == pytest.approx(0.085, rel=0.1)
+    assert fit.misfit < 3.0

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+from collections.abc import Callable
 from typing import Any, Self
 
 import numpy as np
@@ -152,8 +153,10 @@ class Plant:
             self.surface, self.rotor, shaken=shaken, along=along, frequency=frequency
         )
 
-    def steady(self, steel: float, bronze: float, friction: MeanFriction) -> SteadyState:
-        """Return where the rig settles at voltages of its motors, V.
+    def steady(
+        self, steel: float, bronze: float, friction: Callable[[float], float]
+    ) -> SteadyState:
+        """Return where the rig settles at voltages of its motors, V, and a mean friction, N.
 
         Raises
         ------
