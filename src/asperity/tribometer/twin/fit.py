@@ -83,7 +83,7 @@ class TwinFit:
         return case.replace_values({f"twin.{key}": value for key, value in self.values.items()})
 
 
-def fit_twin(case: Case, recordings: Sequence[Path], free: Sequence[str] = USUAL) -> TwinFit:
+def fit_twin(case: Case, recordings: Sequence[str | Path], free: Sequence[str] = USUAL) -> TwinFit:
     """Fit the simulated rig of a case to recordings.
 
     Parameters
@@ -102,7 +102,7 @@ def fit_twin(case: Case, recordings: Sequence[Path], free: Sequence[str] = USUAL
     StorageError
         A recording cannot be read.
     """
-    opened = map(Recording.open, recordings)
+    opened = map(Recording.open, map(Path, recordings))
     segments = [
         segment
         for recording in opened
