@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.drives import GIVEN
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -19,7 +20,8 @@ from asperity.results import read
 
 
 def case(*settings, name="drive-screw"):
-    return read_case(name, case_tables(), settings)
+    given = GIVEN if name.startswith("drive") else ()
+    return read_case(name, case_tables(), [*given, *settings])
 
 
 @pytest.fixture(scope="module")

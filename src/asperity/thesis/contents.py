@@ -89,7 +89,7 @@ _CASES = {
     "rating": ("gearset-2", "gearset-3"),
     "flanks": ("gearset-3b",),
     "contact": ("table-4.3", "table-4.4", LONGITUDINAL, TRANSVERSE),
-    "drive": ("gearset-2", "gearset-3b", "drive-screw"),
+    "drive": ("gearset-2", "gearset-3b", "drive-thesis"),
 }
 
 _over_ratio, _from_rest = elastic.over_ratio, elastic.from_rest

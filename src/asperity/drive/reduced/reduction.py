@@ -59,10 +59,12 @@ def _key(problem: DriveProblem) -> str:
     """Return what the teeth of a problem are kept under, whatever shakes them."""
     drive = problem.drive.model_dump(mode="json", include=set(_BEARS))
     tables = (
-        problem.gearset, problem.operation, problem.friction, problem.hob, problem.mount,
-        problem.modification, problem.disc,
+        problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc,
+        # Where friction is one number, neither its law nor the speed bears on the teeth.
+        *(() if drive["friction"] == "constant" else (problem.operation,)),
     )  # fmt: skip
-    asked = [None if table is None else table.model_dump(mode="json") for table in tables]
+    given = [None if table is None else table.model_dump(mode="json") for table in tables]
+    asked = [*given, problem.load, problem.friction.mu]
     return key(code_key("asperity.drive.static.reduction"), json.dumps([drive, asked]))
 
 

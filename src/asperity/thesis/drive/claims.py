@@ -14,8 +14,8 @@ from asperity.thesis.products import Finding
 
 GEAR = Gear("gearset-3b")
 FRICTION = 0.1344
-RADIUS = 9.81e-3
-"""Where the loaded teeth of gearset 3 touch the worm, weighted by force, m."""
+RADIUS = 9.76e-3
+"""At which one point on the worm of gearset 3 has the torque of its loaded teeth, m."""
 
 _TORQUE = "asperity.drive.point.MeshPoint.worm_torque"
 _SAVED_MASS, _SAVED_DIAMETER, _SAVED_LENGTH, _SAVED_COST = 6.0, 0.05, 0.03, 23.0

@@ -6,7 +6,7 @@ from asperity.slider.closed_forms import transverse_ratio
 from asperity.thesis.drive.figures import floor, system_efficiencies
 from asperity.thesis.drive.marches import Shaken
 from asperity.thesis.drive.sets import LOAD, RATIOS, SHAKEN, UNSHAKEN
-from asperity.thesis.drive.simulations import ACTUATOR, Simulation, meshes, of_set
+from asperity.thesis.drive.simulations import ACTUATOR, BASE, Simulation, meshes, of_set
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
 
@@ -217,7 +217,13 @@ def _locking() -> Finding:
         "gearset-2",
         (*LOCKING, "drive.protocol=back-drive", "vibration.displacement_amplitude=5 um"),
     )
-    other = Simulation("drive-screw", ("drive.protocol=on-demand", "friction.exponent=0"))
+    other = Simulation(
+        BASE,
+        (
+            "drive.protocol=on-demand", "friction.exponent=0", "vibration.mode=screw",
+            "vibration.frequency=2 kHz", "vibration.velocity_ratio=1.5",
+        ),
+    )  # fmt: skip
     _, held = holding(on_demand.case, on_demand.settings)
     creep, _ = holding(creeping.case, creeping.settings)
     _, never = holding(other.case, other.settings)

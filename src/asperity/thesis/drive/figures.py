@@ -29,9 +29,9 @@ _READINGS = (
     "flank in contact can give."
 )
 _REDUCED = (
-    "One point for the mesh, with the deflection of the teeth under load (365 urad at 366 N m); "
-    "load inertia 3.2e-3 kg m2, contact damping 0.01 s/m, backlash 0.28 mm: the thesis states none "
-    "of them. "
+    "One point for the mesh, with the deflection that a sector of five elastic teeth has under "
+    "load; load inertia 3.2e-3 kg m2, contact damping 0.01 s/m, backlash 0.28 mm: the thesis "
+    "states none of them. "
 )
 
 
@@ -79,8 +79,8 @@ def _read(groups: dict[str, Sequence[Simulation]]) -> Computed:
 @figure(
     "7.12", "Input torque over k_w, set 3, by what the teeth are taken as",
     f"{_REDUCED}Torque without vibration is the same for every mesh to 0.1 %; how soft the teeth "
-    "are decides under vibration: those of a sector, and a tooth cut out of the wheel, two "
-    f"thirds as stiff. {_READINGS} The thesis's one surviving point is 0.22 at 20.",
+    "are decides under vibration: those of a sector, and a tooth cut out of the wheel, "
+    f"much softer. {_READINGS} The thesis's one surviving point is 0.22 at 20.",
     drawings.ratios,
 )  # fmt: skip
 def _meshes() -> Computed:
