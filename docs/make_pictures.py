@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.casefile import read_case
+from asperity.commands import COMMANDS, case_tables
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve, solve_many
 from asperity.slider.closed_forms import (
@@ -91,6 +92,15 @@ def two_states() -> "Figure":
     return answer(prepare(case, over=[over]), Run()).figure()
 
 
+def of_drive(name: str, shipped: str, *settings: str) -> "Figure":
+    """First picture of a command's answer to a shipped drive."""
+    command = next(each for each in COMMANDS if each.name == name)
+    run = Run()
+    run.detailed = True
+    problem = command.prepared(read_case(shipped, case_tables(), settings))
+    return command.solved(problem, run).figure()
+
+
 if __name__ == "__main__":
     drawn = {
         "directions": FIGURES["4.23"].make().figure,
@@ -98,7 +108,13 @@ if __name__ == "__main__":
         "in_space": in_space(),
         "in_flight": in_flight(),
         "two_states": two_states(),
-    }
+        "drive": of_drive("drive", "drive-thesis"),
+        "drive_directions": of_drive(
+            "directions", "drive-screw", "vibration.frequency=20 kHz",
+            "vibration.displacement_amplitude=20 um",
+        ),
+        "drive_locking": of_drive("locking", "drive-actuator"),
+    }  # fmt: skip
     for name, figure in drawn.items():
         write_atomically(
             PICTURES / f"{name}.png", lambda path, figure=figure: figure.savefig(path, dpi=120)

@@ -68,7 +68,10 @@ def test_the_readme_has_the_commands_below():
 
 @pytest.mark.parametrize(
     "command",
-    [slow(line) if re.match("block|optimise|flank", line) else line for line in COMMANDS],
+    [
+        slow(line) if re.match("block|optimise|flank|drive|directions|locking", line) else line
+        for line in COMMANDS
+    ],
 )
 def test_each_command_runs(asperity, folder, command):
     arguments = shlex.split(command)

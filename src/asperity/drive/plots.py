@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LOST = "#BBBBBB"
+_FORCES = 10.0  # over the static one, beyond which a scale is logarithmic
 _POWERS = (
     ("power_drive", "motor", BLUE),
     ("power_actuator", "actuator", ORANGE),
@@ -97,6 +98,8 @@ def plot_powers(dataset: "xr.Dataset") -> "Figure":
     """Draw the power ledger: what is put in to the right of zero, and where it goes."""
     figure, (axes,) = panels(height=3.4)
     values = [float(dataset[name]) for name, _, _ in _POWERS]
+    # What is a millionth of the largest is none to speak of.
+    values = [value if abs(value) > 1e-6 * max(map(abs, values)) else 0.0 for value in values]
     bars = axes.barh(
         [name for _, name, _ in _POWERS], values, color=[colour for *_, colour in _POWERS],
         height=0.6,
@@ -107,16 +110,13 @@ def plot_powers(dataset: "xr.Dataset") -> "Figure":
     axes.margins(x=0.15)
     axes.axvline(0.0, color=BLACK, linewidth=0.8)
     axes.set_xlabel("mean power (W); above the line put in, below it where it goes")
-    axes.set_title(
-        f"Closes to {float(dataset['closure']):.1g} of what is put in; {_state(dataset)}",
-        loc="left",
-    )
+    axes.set_title(f"Closes to {float(dataset['closure']):.1g};\n{_state(dataset)}", loc="left")
     return figure
 
 
 def plot_directions(dataset: "xr.Dataset") -> "Figure":
     """Draw each way of shaking: ratio, what it saves per watt, the greatest force."""
-    figure, axes = panels(1, 3, width=9.0, height=3.4)
+    figure, axes = panels(1, 3, width=9.0, height=3.6)
     modes = [str(mode) for mode in dataset["mode"].values]
     settled = dataset["settled"].values.astype(bool)
     balance = dataset["torque_balance"].values
@@ -124,8 +124,8 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
     per_watt = np.where(actuator > 0.0, dataset["saved"] / np.where(actuator, actuator, 1.0), 0.0)
     columns = (
         (dataset["torque_ratio"].values, "torque over static"),
-        (per_watt, "drive power saved per actuator power"),
-        (dataset["force_ratio"].values, "greatest normal force over static"),
+        (per_watt, "drive power saved,\nper actuator power"),
+        (dataset["force_ratio"].values, "greatest normal force\nover static"),
     )
     labels = [
         f"{mode}\n{'settled' if sure else 'not settled'}, {100.0 * off:.2g} %"
@@ -137,8 +137,8 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
         panel.set_yticks(range(len(modes)), labels if not place else [""] * len(modes))
         panel.invert_yaxis()
         panel.set_xlabel(label)
-    axes[2].set_xscale("log")
-    axes[2].set_xlim(left=0.9)
+    if dataset["force_ratio"].max() > _FORCES:
+        axes[2].set_xscale("log")
     return figure
 
 
@@ -165,6 +165,8 @@ def plot_locking(dataset: "xr.Dataset") -> "Figure":
     axes.set_yscale(
         "symlog", linthresh=max(1e-3 * float(np.abs(dataset["creep_over"]).max()), 1e-9)
     )
+    if dataset["creep_over"].min() >= -1e-3 * fastest:
+        axes.set_ylim(bottom=-1e-3 * max(fastest, 1e-6))
     axes.set_xlabel("amplitude of the vibration (um)")
     axes.set_ylabel("creep of the wheel (rad/s)")
     word = "holds" if dataset.attrs["locked"] else "does not hold"

@@ -5,7 +5,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import check, solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.static.solve import solve_static
+from asperity.errors import InputError
 from asperity.results import Result
 from asperity.runs import Run
 
@@ -19,6 +19,11 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
         Whether its vibration is left out.
     """
     problem = DriveProblem.from_case(case, shaken=not static)
+    if problem.vibration is not None and problem.drive.model == "teeth":
+        raise InputError(
+            "drive.model is 'teeth', which is solved without vibration (--static); under vibration "
+            "take 'reduced', which is made from them"
+        )
     if problem.vibration is not None and problem.drive.deflection is not None:
         check(problem, ReducedModel(problem, reduction(problem, Run())))
     return problem
@@ -27,5 +32,7 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
 def answer(problem: DriveProblem, run: Run) -> Result:
     """Solve a drive: its loaded teeth without vibration, its protocol with one."""
     if problem.vibration is None:
+        from asperity.drive.static.solve import solve_static
+
         return solve_static(problem, run)
     return solve_shaken(problem, ReducedModel(problem, reduction(problem, run)), run)

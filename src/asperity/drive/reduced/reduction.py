@@ -2,13 +2,16 @@
 
 import dataclasses
 import json
+from typing import TYPE_CHECKING
 
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.reduction import TeethReduced, teeth_reduced
 from asperity.runs import Run
 from asperity.runs.cache import Cache
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import from_tree, to_tree
+
+if TYPE_CHECKING:
+    from asperity.drive.static.reduction import TeethReduced
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,7 +71,10 @@ def _key(problem: DriveProblem) -> str:
     return key(code_key("asperity.drive.static.reduction"), json.dumps([drive, asked]))
 
 
-def _teeth(problem: DriveProblem, run: Run) -> TeethReduced:
+def _teeth(problem: DriveProblem, run: Run) -> "TeethReduced":
+    # Flanks and finite elements take a second to load, which drives whose teeth are given do not.
+    from asperity.drive.static.reduction import TeethReduced, teeth_reduced
+
     cache = Cache.of_this_user("reduced", run.notify)
     name = _key(problem)
     kept = cache.get(name)
