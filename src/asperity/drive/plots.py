@@ -162,9 +162,8 @@ def plot_locking(dataset: "xr.Dataset") -> "Figure":
                 1e6 * float(dataset[name]), color=colour, dashes=(2, 2), linewidth=1.2, label=words
             )
     axes.set_xscale("log")
-    axes.set_yscale(
-        "symlog", linthresh=max(1e-3 * float(np.abs(dataset["creep_over"]).max()), 1e-9)
-    )
+    fastest = float(np.abs(dataset["creep_over"]).max())
+    axes.set_yscale("symlog", linthresh=max(1e-3 * fastest, 1e-9))
     if dataset["creep_over"].min() >= -1e-3 * fastest:
         axes.set_ylim(bottom=-1e-3 * max(fastest, 1e-6))
     axes.set_xlabel("amplitude of the vibration (um)")
