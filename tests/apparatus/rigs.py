@@ -112,7 +112,7 @@ def serial_controller(rig=None):
             return said
 
     fake = Moving()
-    return SerialVibration(Controller(port=fake.port, timeout="100 ms", **DIALECT)), fake
+    return SerialVibration(Controller(port=fake.port, timeout="1 s", **DIALECT)), fake
 
 
 def cells(folder):

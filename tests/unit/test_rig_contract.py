@@ -213,3 +213,53 @@ def test_the_whole_procedure_runs_on_makers_drivers(fault, tmp_path, monkeypatch
     assert "vibration" in inside.on
     assert "amplifier" not in inside.on
     assert rigs.journal(tmp_path)[-1]["still_on"]
+
+
+def test_a_person_may_take_time_while_the_recording_goes_on(tmp_path):
+    # Somebody who does what is asked at the simulated rig, two seconds of whose time it takes.
+    import time
+
+    case = rigs.small_case('plan.frequencies=["750 Hz"]')
+    bench, inside = rigs.made_bench(case)
+    volts = {"Set the supply of steel": "steel", "Set the supply of bronze": "bronze"}
+
+    def asked(text):
+        began = inside.now
+        deadline = time.monotonic() + 5.0
+        # Outside a recording time stands still here, and nobody waits.
+        while inside.streams and inside.now < began + 2.0 and time.monotonic() < deadline:
+            time.sleep(0.001)
+        for start, name in volts.items():
+            if text.startswith(start):
+                inside.volts[name] = float(text.split(" to ")[1].split()[0])
+        for name in ("steel", "bronze"):
+            if text.startswith(f"Switch the supply of {name} on"):
+                inside.on |= {name}
+            if text.lower().startswith(f"switch the supply of {name} off"):
+                inside.on -= {name}
+            if text.startswith(f"Speed of the {name}"):
+                return repr(float(inside._state[f"motor_{name}"][0]))
+            if text.startswith("Voltage") and name in text:
+                return repr(inside.volts[name])
+            if text.startswith("Current") and name in text:
+                return repr(float(inside._state[f"current_{name}"][0]))
+        if text.startswith("Set the vibration"):
+            inside.waveform, inside.frequency = "sine", 750.0
+        if text.startswith("Start the vibration"):
+            inside.on |= {"vibration"}
+        if text.lower().startswith("stop the vibration"):
+            inside.on -= {"vibration"}
+        return "0.1" if "Weight" in text else ""
+
+    person = manual.Operator(asked)
+    by_hand = dataclasses.replace(
+        bench, person=person, vibration=manual.ManualVibration(person),
+        motors={name: manual.ManualSupply(person, f"supply of {name}")
+                for name in ("steel", "bronze")},
+        tachometer=manual.ManualTachometer(person), memory=None,
+    )  # fmt: skip
+    answer = rigs.run(case, tmp_path, bench=by_hand)
+    assert answer.failure is None
+    # Later than elsewhere, and so at other places of the discs, whose run-out is 1 %.
+    assert answer.torque_with[0] == pytest.approx(0.0925, rel=0.1)
+    assert answer.torque_before[0] == pytest.approx(0.6448, rel=0.05)

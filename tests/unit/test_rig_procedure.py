@@ -1,7 +1,9 @@
 """A run keeps what is done, goes on at its cell, and latches with vibration and motors off."""
 
 import dataclasses
+import os
 import random
+import signal
 
 import numpy as np
 import pytest
@@ -278,6 +280,20 @@ def test_an_interrupt_switches_everything_off_and_is_gone_on_from(undisturbed, t
     assert not rig.on & {"steel", "bronze", "vibration"}
     rigs.run(case, tmp_path, resume=True)
     assert rigs.cells(tmp_path) == rigs.cells(undisturbed[0])
+
+
+def test_a_request_to_end_makes_everything_safe(tmp_path):
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+    before = signal.getsignal(signal.SIGTERM)
+    scope = rigs.FaultyScope(
+        bench.scope, rig, lambda *_: os.kill(os.getpid(), signal.SIGTERM), VIBRATES
+    )
+    with pytest.raises(KeyboardInterrupt, match="terminated; --resume goes on"):
+        rigs.run(case, tmp_path, bench=dataclasses.replace(bench, scope=scope))
+    assert not rig.on & {"steel", "bronze", "vibration"}
+    assert rigs.journal(tmp_path)[-1]["kind"] == "interrupted"
+    assert signal.getsignal(signal.SIGTERM) == before
 
 
 @pytest.mark.parametrize(

@@ -65,6 +65,8 @@ def _typed(text: str) -> str:
 class _Manual:
     """What a person does in an instrument's place."""
 
+    by_hand = True
+
     def __init__(self, person: Person, name: str) -> None:
         self.name = name
         self._person = person

@@ -79,6 +79,8 @@ class PicoScope:
         No device answers.
     """
 
+    by_hand = False
+
     def __init__(
         self, inputs: tuple[Input, ...], serial: str = "", clock: Clock | None = None
     ) -> None:

@@ -87,9 +87,18 @@ class Reading:
 
 @runtime_checkable
 class Instrument(Protocol):
-    """What every instrument can do."""
+    """What every instrument can do.
+
+    Attributes
+    ----------
+    name : str
+        What messages call it.
+    by_hand : bool
+        Whether a person does it, who takes time.
+    """
 
     name: str
+    by_hand: bool
 
     def identify(self) -> str:
         """Return what the device says it is; raises InstrumentError where nothing answers."""

@@ -29,6 +29,8 @@ class PyMeasureSupply:
         A.
     """
 
+    by_hand = False
+
     def __init__(self, output: Any, name: str, current_limit: float | None = None) -> None:
         self.name = name
         self._output = output

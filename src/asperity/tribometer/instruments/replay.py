@@ -31,6 +31,8 @@ class ReplayScope:
         Which time passes.
     """
 
+    by_hand = False
+
     def __init__(self, recording: Recording, clock: Clock) -> None:
         self.name = f"replay of {recording.name}"
         self.inputs = tuple(

@@ -34,6 +34,8 @@ class SerialVibration:
         The port cannot be opened.
     """
 
+    by_hand = False
+
     def __init__(self, controller: Controller) -> None:
         self.name = f"vibration controller at {controller.port}"
         self._says = controller

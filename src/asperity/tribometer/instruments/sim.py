@@ -190,6 +190,8 @@ class SimulatedClock:
 class _Simulated:
     """What the simulated instruments share."""
 
+    by_hand = False
+
     def __init__(self, rig: SimulatedRig, name: str) -> None:
         self.name = f"simulated {name}"
         self._rig = rig

@@ -148,6 +148,8 @@ class Interlock:
     def supplies(motors: Mapping[str, Supply], expected: Expected) -> None:
         """Compare what supplies give with what they were told; raises InstrumentError."""
         for name, told in expected.volts.items():
+            if motors[name].by_hand:
+                continue
             given = motors[name].reading().voltage
             if abs(given - told) > _SUPPLY_VOLTS + _SUPPLY_SHARE * told:
                 raise InstrumentError(

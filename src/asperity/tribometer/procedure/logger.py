@@ -2,14 +2,17 @@
 
 import contextlib
 import datetime
+import queue
+import threading
 import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.tribometer.instruments.protocols import Bench, Counts
+from asperity.tribometer.instruments.protocols import Bench, Counts, Instrument
 from asperity.tribometer.instruments.stream import Stream
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.recording import Recorder, Source
@@ -18,6 +21,8 @@ BLOCK = 0.1  #: s; vibration and motors are off so long after something trips at
 _POLLS_A_BLOCK = 2
 _SETTLING = 0.3  # s, until a change that was told must be seen.
 _SUPPLIES_EVERY = 1.0  # s
+
+T = TypeVar("T")
 
 
 class Window:
@@ -88,6 +93,7 @@ class Logger:
         self._begun = bench.clock.now()
         self._told = self._begun
         self._looked = self._begun
+        self._changing = False
         simulated = bench.memory is not None
         start = datetime.datetime.now(datetime.UTC)
         self._stream = Stream(bench.scope, interval, BLOCK, self._begun)
@@ -145,7 +151,7 @@ class Logger:
             bench.vibration.keep_alive()
             now = bench.clock.now()
             counts = stream.take()
-            settled = now - self._told > _SETTLING
+            settled = not self._changing and now - self._told > _SETTLING
             self._interlock.look(counts, self.interval, self.expected, settled=settled)
             if now - self._looked >= _SUPPLIES_EVERY:
                 self._looked = now
@@ -154,6 +160,30 @@ class Logger:
                 self._recorder.append(counts, now - self._begun)
             window.add(counts)
         return window
+
+    def during(self, instrument: Instrument, act: Callable[[], T]) -> T:
+        """Do something with an instrument; while a person does it, go on recording and watching."""
+        if not instrument.by_hand:
+            return act()
+        done: queue.SimpleQueue[T | BaseException] = queue.SimpleQueue()
+
+        def do() -> None:
+            try:
+                done.put(act())
+            except BaseException as error:
+                done.put(error)
+
+        # When somebody is asked and something trips, the question is left behind.
+        threading.Thread(target=do, daemon=True).start()
+        self._changing = True
+        while done.empty():
+            self.watch(BLOCK)
+        self._changing = False
+        self._told = self._bench.clock.now()
+        found = done.get()
+        if isinstance(found, BaseException):
+            raise found
+        return found
 
     def levels(self, window: Window) -> Mapping[str, float]:
         """Return mean signals of a window in SI."""

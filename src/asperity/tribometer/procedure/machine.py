@@ -5,11 +5,9 @@ is what is left, so that a run goes on where it was killed. Whatever ends it, vi
 are switched off before anything else is tried.
 """
 
-import contextlib
+import functools
 import json
-import signal
-import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +16,7 @@ import numpy as np
 from asperity.casefile import Case
 from asperity.errors import AsperityError, StorageError
 from asperity.runs import Run
-from asperity.runs.interrupt import Interrupted
+from asperity.runs.interrupt import Interrupted, terminable
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
 from asperity.tribometer.instruments.protocols import Bench, InstrumentError
@@ -121,7 +119,7 @@ class Machine:
         self._forecast(done)
         try:
             self._remember(done)
-            with self._packer, _terminable(), self._run.going_on():
+            with self._packer, terminable(), self._run.going_on():
                 for action in self._actions:
                     if action.key in done:
                         self._done_cells += action.act == "cell"
@@ -231,14 +229,20 @@ class Machine:
             checks.check_zeros(rest)
             self._energise(logger, one)
             running = logger.levels(logger.watch(_TRIAL, skip=_TRIAL - _TRIAL_MEAN))
-            given = {name: supply.reading() for name, supply in self._bench.motors.items()}
+            given = {
+                name: logger.during(supply, supply.reading)
+                for name, supply in self._bench.motors.items()
+            }
             checks.check_changes(rest, running)
             checks.check_map(
                 running,
                 given,
                 {"steel": self._pair.steel.radius, "bronze": self._pair.bronze.radius},
             )
-            measured = {name: self._bench.tachometer.speed(name) for name in _DISCS}
+            meter = self._bench.tachometer
+            measured = {
+                name: logger.during(meter, functools.partial(meter.speed, name)) for name in _DISCS
+            }
             pulses = self._pair.drives.encoder_pulses
             checks.check_speeds(running, measured, 2.0 * np.pi / pulses)
             self._still(logger)
@@ -279,13 +283,14 @@ class Machine:
             raise AssertionError
         logger, plan = self._recording(one), self._plan
         logger.event("cell", str(cell.number))
-        self._bench.vibration.configure(one.waveform, cell.frequency)
+        drive = self._bench.vibration
+        logger.during(drive, lambda: drive.configure(one.waveform, cell.frequency))
         self._energise(logger, one)
         before = logger.watch(plan.before, skip=min(self._settling, 0.5 * plan.before))
         if self._bench.amplifier is not None:
             # Made safe, it is off.
             self._bench.amplifier.on()
-        self._bench.vibration.on()
+        logger.during(drive, drive.on)
         volts = logger.expected.volts
         logger.expect(Expected(cell.frequency, one.waveform, volts))
         logger.event("vibration", f"{one.waveform} {cell.frequency:g} Hz")
@@ -319,20 +324,20 @@ class Machine:
     def _energise(self, logger: Logger, one: PlannedFile) -> None:
         volts = {"steel": one.steel_supply, "bronze": self._plan.bronze_supply}
         for name, supply in self._bench.motors.items():
-            supply.set(volts[name])
+            logger.during(supply, functools.partial(supply.set, volts[name]))
         for name, supply in self._bench.motors.items():
-            supply.on()
+            logger.during(supply, supply.on)
             logger.event(f"{name}_supply", f"{volts[name]:g} V")
         logger.expect(Expected(volts=volts))
 
     def _still(self, logger: Logger) -> None:
         """Vibration off, then motors off."""
         if logger.expected.frequency:
-            self._bench.vibration.off()
+            logger.during(self._bench.vibration, self._bench.vibration.off)
             logger.event("vibration", "off")
         if logger.expected.volts:
             for name, supply in self._bench.motors.items():
-                supply.off()
+                logger.during(supply, supply.off)
                 logger.event(f"{name}_supply", "off")
         logger.expect(Expected())
 
@@ -364,23 +369,6 @@ class Machine:
 
     def _beat(self) -> None:
         self._run.checkpoint(self._done_cells, self._cells, what="cells")
-
-
-@contextlib.contextmanager
-def _terminable() -> Iterator[None]:
-    """Let a request to end, as at a shutdown, be heard as Ctrl-C is: the rig is made safe."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def end(_number: int, _frame: object) -> None:
-        raise Interrupted("terminated")
-
-    before = signal.signal(signal.SIGTERM, end)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 _DISCS = "steel", "bronze"
