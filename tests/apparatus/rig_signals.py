@@ -272,7 +272,7 @@ def record(path, phases, rig=NOISY, *, rate=20e3, seed=0, settings=(), compress=
     text = json.dumps(case.raw, default=str)
     start = datetime.datetime(2026, 3, 1, 12, tzinfo=datetime.UTC)
     recorder = Recorder(path, sources, 1.0 / rate, configuration=text, start=start, simulated=True)
-    recorder.event(0.0, "supply_steel", case.raw["drives"]["steel_supply"])
+    recorder.event(0.0, "steel_supply", case.raw["drives"]["steel_supply"])
     rng = np.random.default_rng(seed)
     time = 0.0
     for signals in stream(phases, rig, 1.0 / rate, rng):

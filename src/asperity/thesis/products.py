@@ -22,7 +22,7 @@ Cell = str | float | int
 Plain = dict[str, Any]
 """Words and numbers as they stand in JSON."""
 
-Verdict = Literal["reproduced", "differs"]
+Verdict = Literal["reproduced", "fitted", "differs"]
 
 _DOTS_PER_INCH = 150
 
@@ -118,7 +118,7 @@ class Finding:
     """What the computation of a claim gave, and the commands and functions that give it."""
 
     ours: str  # the numbers in a phrase
-    verdict: Verdict  # whether every part of the claim holds
+    verdict: Verdict  # whether every part of the claim holds, and of itself
     reason: str  # why it differs, or how closely it agrees
     numbers: Mapping[str, float]  # each named with its unit
     how: Sequence[str]
@@ -131,8 +131,12 @@ class Finding:
         reason: str,
         numbers: Mapping[str, float],
         how: Iterable[How],
+        *,
+        fitted: bool = False,
     ) -> "Finding":
         """Judge by the parts of a claim; if one fails, the reason begins with what holds or not.
+
+        What holds because a model was fitted to it is "fitted".
 
         Numbers are named in words or symbols, which underscores join.
         """
@@ -142,7 +146,8 @@ class Finding:
             reason = f"Does not hold: {'; '.join(failed)}. {reason}"
         if failed and held:
             reason = f"Holds: {'; '.join(held)}. {reason}"
-        verdict: Verdict = "differs" if failed else "reproduced"
+        holds: Verdict = "fitted" if fitted else "reproduced"
+        verdict: Verdict = "differs" if failed else holds
         named = {re.sub(r"[ ,-]+", "_", name): value for name, value in numbers.items()}
         return cls(ours, verdict, reason, named, _lines(how))
 

@@ -48,7 +48,15 @@ class Part:
     @property
     def differ(self) -> int:
         """How many of its claims do not hold."""
-        return sum(claim.plain["verdict"] == "differs" for claim in self.shown[CLAIM])
+        return self._count("differs")
+
+    @property
+    def fitted(self) -> int:
+        """How many of them hold because a model was fitted to them."""
+        return self._count("fitted")
+
+    def _count(self, verdict: str) -> int:
+        return sum(claim.plain["verdict"] == verdict for claim in self.shown[CLAIM])
 
 
 def render(
@@ -86,7 +94,8 @@ def render(
     return template.render(
         parts=[part for part in parts if not part.empty],
         claimed=claimed,
-        reproduced=claimed - sum(part.differ for part in parts),
+        different=sum(part.differ for part in parts),
+        fitted=sum(part.fitted for part in parts),
         to_come=len(to_come),
         failed=len(failed),
         versions=versions,

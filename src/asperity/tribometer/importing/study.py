@@ -77,8 +77,8 @@ def answer(problem: Importable, run: Run) -> Imported:
         found = sampled(columns, case.require(Channels), problem.name)
     drives = Pair.from_case(case).drives
     set_values = (
-        Event(0.0, "supply_steel", f"{drives.steel_supply:g} V"),
-        Event(0.0, "supply_bronze", f"{drives.bronze_supply:g} V"),
+        Event(0.0, "steel_supply", f"{drives.steel_supply:g} V"),
+        Event(0.0, "bronze_supply", f"{drives.bronze_supply:g} V"),
     )
     raw = {name: entries for name, entries in case.raw.items() if name in (*TABLES, "friction")}
     rows, _ = found.counts.shape

@@ -114,7 +114,8 @@ def _common(recording: Recording, case: Case, segment: Segment) -> dict[str, Any
     pair = Pair.from_case(case)
     told = [
         event.text for event in recording.events
-        if event.kind == "supply_steel" and event.time <= segment.start
+        if event.kind == "steel_supply" and event.time <= segment.start
+        and event.text != "off"
     ]  # fmt: skip
     voltage = pair.drives.steel_supply
     if told:

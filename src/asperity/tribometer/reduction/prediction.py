@@ -48,9 +48,9 @@ def model_ratios(case: Case, load: float, asked: Sequence[Asked | None]) -> list
             continue
         vibration = Vibration(
             waveform=waveform, frequency=frequency, velocity_amplitude=peak,
-            direction=0.5 * math.pi if mode == TRANSVERSE else 0.0,
+            direction=0.5 * math.pi if mode == TRANSVERSE else 0.0, units="SI",
         )  # fmt: skip
-        slider = Slider(drive_velocity=sliding, normal_force=load)
+        slider = Slider(drive_velocity=sliding, normal_force=load, units="SI")
         models[place] = Model(slider, friction, vibration, Solve(method="periodic"))
     for place, answer in zip(models, solve_many(list(models.values())), strict=True):
         found[place] = None if isinstance(answer, AsperityError) else answer.ratio

@@ -15,7 +15,7 @@ from asperity.tribometer.reduction.drive_signal import Stretch, Tone
 from asperity.units import split_unit, to_si
 
 _NEEDED = ("torque_steel", "speed_steel", "speed_bronze")
-_COMMAND = re.compile(r"\s*([0-9.]+\s*\w+)\s*(sine|triangle)?\s*", re.ASCII)
+_COMMAND = re.compile(r"\s*(?:(sine|triangle)\s+)?([0-9.]+\s*\w+)\s*", re.ASCII)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -157,9 +157,9 @@ def _command(events: Sequence[Event], time: float) -> tuple[float, str] | None:
     """Return the frequency and waveform of the last command before a time."""
     told = [event for event in events if event.kind == "vibration" and event.time <= time]
     match = _COMMAND.fullmatch(told[-1].text) if told else None
-    if match is None or split_unit(match[1]) is None:
+    if match is None or split_unit(match[2]) is None:
         return None
     try:
-        return to_si(match[1], "Hz"), match[2] or ""
+        return to_si(match[2], "Hz"), match[1] or ""
     except ValueError:
         return None

@@ -1,0 +1,68 @@
+"""Figures 6.8, 6.9 and 6.24: the measured table that survives, and two waveforms."""
+
+import numpy as np
+
+from asperity.thesis.exhibits import Computed, figure
+from asperity.thesis.products import labelled
+from asperity.thesis.rig import drawings
+from asperity.thesis.rig import measured as m
+from asperity.thesis.rig.readings import velocities
+from asperity.vibration import Vibration
+
+_LOADS = m.LOADS_LB * m.POUND_FORCE
+_TABLE = "Table 6.3, measured; its loads, printed in N, are kilograms and are drawn in N here."
+
+
+@figure("6.8", "Speeds and currents over the load, dry", _TABLE, drawings.speeds)
+def _speeds() -> Computed:
+    dataset = labelled(
+        load=(("load",), _LOADS, "N", "normal load"),
+        steel=(("load",), m.STEEL_RPM, "rpm", "speed of the steel disc"),
+        bronze=(("load",), m.BRONZE_RPM, "rpm", "speed of the bronze disc"),
+        steel_current=(("load",), m.STEEL_CURRENT, "A", "current of the steel disc's motor"),
+        bronze_current=(("load",), m.BRONZE_CURRENT, "A", "current of the bronze disc's motor"),
+    )
+    return dataset, ["Table 6.3"]
+
+
+@figure(
+    "6.9", "Sliding, rolling and their ratio over the load, dry",
+    f"{_TABLE} Crosses: as printed.", drawings.sliding,
+)  # fmt: skip
+def _sliding() -> Computed:
+    sliding, rolling, ratio = velocities()
+    dataset = labelled(
+        load=(("load",), _LOADS, "N", "normal load"),
+        sliding=(("load",), sliding, "m/s", "sliding velocity"),
+        rolling=(("load",), rolling, "m/s", "rolling velocity"),
+        ratio=(("load",), ratio, "1", "slide-roll ratio"),
+        printed_sliding=(("load",), 1e-3 * m.PRINTED_SLIDING, "m/s", "sliding velocity, printed"),
+        printed_rolling=(("load",), 1e-3 * m.PRINTED_ROLLING, "m/s", "rolling velocity, printed"),
+        printed_ratio=(("load",), m.PRINTED_RATIO, "1", "slide-roll ratio, printed"),
+    )
+    return dataset, ["asperity.tribometer.discs, on the speeds of Table 6.3"]
+
+
+@figure(
+    "6.24", "Waveforms of the vibration at 750 Hz, u_a = 16 um",
+    "Displacement, and the velocity that follows: that of the triangle is 2/pi of the sine's peak, "
+    "and the same all the time.", drawings.waveforms,
+)  # fmt: skip
+def _waveforms() -> Computed:
+    steps = 2000
+    time = np.arange(steps + 1) / steps * 2.0 / 750.0
+    curves, speeds = [], []
+    for waveform in ("sine", "triangle"):
+        shape = Vibration(
+            waveform=waveform, frequency=750.0, displacement_amplitude=16e-6, units="SI"
+        ).shape()
+        moved = np.concatenate(([0.0], np.cumsum(shape.increments(0.0, 2.0 / steps, steps))))
+        curves.append(16e-6 * moved)
+        speeds.append(np.gradient(16e-6 * moved, time))
+    dataset = labelled(
+        time=(("time",), time, "s", "time"),
+        waveform=(("waveform",), np.array(["sine", "triangle"], dtype=object), "1", "waveform"),
+        displacement=(("waveform", "time"), np.array(curves), "m", "displacement"),
+        velocity=(("waveform", "time"), np.array(speeds), "m/s", "velocity"),
+    )
+    return dataset, ["asperity.vibration.Vibration.shape"]
