@@ -46,11 +46,12 @@ def model_ratios(case: Case, load: float, asked: Sequence[Asked | None]) -> list
             share = friction.transfer if friction is not None and mode == TRANSVERSE else 1.0
             found[place] = float(_RIGID[mode, waveform](share * peak / sliding))
             continue
-        vibration = Vibration(
-            waveform=waveform, frequency=frequency, velocity_amplitude=peak,
-            direction=0.5 * math.pi if mode == TRANSVERSE else 0.0, units="SI",
-        )  # fmt: skip
-        slider = Slider(drive_velocity=sliding, normal_force=load, units="SI")
+        shaken = {
+            "waveform": waveform, "frequency": frequency, "velocity_amplitude": peak,
+            "direction": 0.5 * math.pi if mode == TRANSVERSE else 0.0,
+        }  # fmt: skip
+        slider = Slider.model_validate({"drive_velocity": sliding, "normal_force": load})
+        vibration = Vibration.model_validate(shaken)
         models[place] = Model(slider, friction, vibration, Solve(method="periodic"))
     for place, answer in zip(models, solve_many(list(models.values())), strict=True):
         found[place] = None if isinstance(answer, AsperityError) else answer.ratio
