@@ -414,5 +414,17 @@ COMMANDS = (
             ),
         ),
     ),
+    Command(
+        "rig report",
+        "Put the recordings of a folder on one page: cells, pictures, what was left out.",
+        "Writes report.html, reduce.json, reduce.nc and reduce.csv into DIR, or into --out.",
+        prepare="asperity.tribometer.report.study:prepare",
+        solve="asperity.tribometer.report.study:answer",
+        read="asperity.tribometer.report.study:read",
+        counts="recordings",
+        arguments=(Argument("folder", "DIR", "A folder of recordings."),),
+        case="",
+        into="folder",
+    ),
 )
 """In the order of the help."""

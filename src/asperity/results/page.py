@@ -1,11 +1,15 @@
 """Tables as HTML: a fragment for a notebook, or a page of its own."""
 
+import base64
+import dataclasses
 import functools
+import io
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
+    from matplotlib.figure import Figure
 
     from asperity.results.table import Table
 
@@ -19,6 +23,8 @@ main table.asperity { width: 100%; }
   border-top: 1px solid #ddd; }
 .asperity .number { text-align: right; font-variant-numeric: tabular-nums; }
 ul { max-width: 56rem; }
+figure { margin: 2rem 0; }
+figure img { max-width: 100%; }
 """
 
 _FRAGMENT = """\
@@ -67,6 +73,12 @@ _PAGE = """\
 </ul>
 {% endif %}
 {{ body|safe }}
+{% for picture in pictures %}
+<figure>
+<img alt="{{ picture.title }}" src="data:image/svg+xml;base64,{{ picture.encoded }}">
+<figcaption><b>{{ picture.title }}.</b> {{ picture.caption }}</figcaption>
+</figure>
+{% endfor %}
 </main>
 </body>
 </html>
@@ -92,8 +104,38 @@ def fragment(tables: "Iterable[Table]") -> str:
     return _template(_FRAGMENT).render(tables=list(tables))
 
 
-def page(title: str, tables: "Iterable[Table]", remarks: Iterable[str] = ()) -> str:
-    """Return a page of its own with tables, and remarks above them."""
+@dataclasses.dataclass(frozen=True)
+class Picture:
+    """A picture within a page, which needs no file beside it.
+
+    Attributes
+    ----------
+    title, caption : str
+        Below it.
+    figure : Figure
+        The picture.
+    """
+
+    title: str
+    figure: "Figure"
+    caption: str = ""
+
+    @property
+    def encoded(self) -> str:
+        """It as SVG in letters."""
+        drawn = io.BytesIO()
+        self.figure.savefig(drawn, format="svg", metadata={"Date": None})
+        return base64.b64encode(drawn.getvalue()).decode("ascii")
+
+
+def page(
+    title: str,
+    tables: "Iterable[Table]",
+    remarks: Iterable[str] = (),
+    pictures: Iterable[Picture] = (),
+) -> str:
+    """Return a page of its own with tables, remarks above them and pictures below."""
     return _template(_PAGE).render(
-        title=title, style=STYLE, remarks=list(remarks), body=fragment(tables)
-    )
+        title=title, style=STYLE, remarks=list(remarks), body=fragment(tables),
+        pictures=list(pictures),
+    )  # fmt: skip

@@ -53,9 +53,8 @@ def _waveforms() -> Computed:
     time = np.arange(steps + 1) / steps * 2.0 / 750.0
     curves, speeds = [], []
     for waveform in ("sine", "triangle"):
-        shape = Vibration(
-            waveform=waveform, frequency=750.0, displacement_amplitude=16e-6, units="SI"
-        ).shape()
+        given = {"waveform": waveform, "frequency": 750.0, "displacement_amplitude": 16e-6}
+        shape = Vibration.model_validate(given).shape()
         moved = np.concatenate(([0.0], np.cumsum(shape.increments(0.0, 2.0 / steps, steps))))
         curves.append(16e-6 * moved)
         speeds.append(np.gradient(16e-6 * moved, time))

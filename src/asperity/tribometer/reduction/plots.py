@@ -31,13 +31,18 @@ def changes(dataset: "xr.Dataset", name: str, label: str) -> "Figure":
         panel.set(xlabel="frequency (Hz)", ylabel=label, title=f"{mode}, {lubricant}")
         panel.axhline(0.0, color=BLACK, linewidth=0.8)
         legend(panel)
-    if "simulated" in dataset and np.any(dataset["simulated"].values):
-        for panel in axes:
-            panel.text(
-                0.5, 0.5, "simulated", transform=panel.transAxes, fontsize=34, color="#999999",
-                alpha=0.35, ha="center", va="center", rotation=20,
-            )  # fmt: skip
+    for panel in axes:
+        mark_simulated(dataset, panel)
     return figure
+
+
+def mark_simulated(dataset: "xr.Dataset", axes: Any) -> None:
+    """Write across a picture of simulated recordings that no rig stands behind it."""
+    if "simulated" in dataset and np.any(dataset["simulated"].values):
+        axes.text(
+            0.5, 0.5, "simulated", transform=axes.transAxes, fontsize=34, color="#999999",
+            alpha=0.35, ha="center", va="center", rotation=20,
+        )  # fmt: skip
 
 
 def _lines(panel: Any, dataset: "xr.Dataset", waveforms: Any, here: Any, name: str) -> None:

@@ -1,0 +1,110 @@
+"""The answer of ``asperity rig report``: a page that stands by itself."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from asperity.results import Result, quantity
+from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
+from asperity.results.page import Picture, page
+from asperity.results.table import Table
+from asperity.store import write_text
+from asperity.tribometer.reduction.plots import changes, mark_simulated
+from asperity.tribometer.reduction.result import REFUSED, Reduced
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_CHANGES = {
+    "torque_change": ("Change of the torque over the frequency", "change of the torque (%)",
+                      "As figures 6.32 to 6.34, 6.42 and 6.43. Bars: 95 %."),
+    "power_change": ("Change of the power over the frequency", "change of the power (%)",
+                     "As figures 6.38, 6.39, 6.47 and 6.48."),
+    "efficiency_change": ("Change of the efficiency over the frequency",
+                          "change of thesis (75), points",
+                          "As figures 6.40, 6.41, 6.49 and 6.50: losses of motor and gear count as "
+                          "useful there."),
+}  # fmt: skip
+
+
+class Report(Result):
+    """A series of tests on one page.
+
+    Attributes
+    ----------
+    reduced : Reduced
+        The recordings, reduced.
+    conditions : tuple of (str, str)
+        What they were made under, in words.
+    planned : dict
+        Cells of the plan, and how many of them were measured.
+    refused : tuple of (str, str)
+        Files and segments that were left out, and why.
+    """
+
+    title = "Tests on a disc-on-disc rig"
+    stem = "report"
+
+    reduced: Reduced
+    conditions: tuple[tuple[str, str], ...]
+    refused: tuple[tuple[str, str], ...]
+    recordings: int = quantity("", "", "recordings")
+    measured: int = quantity("", "", "segments that were reduced")
+    left_out: int = quantity("", "", "files and segments that were left out")
+    planned: int = quantity("", "", "cells of the plan, repeats counted")
+    simulated: bool = quantity("", "", "whether simulated recordings are among them")
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what there is, and why something is not."""
+        refused = [{"what": what, "why": why} for what, why in self.refused]
+        return super().to_json() | {"refused": refused}
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return conditions, cells, and what was left out."""
+        cells, files = self.reduced.tables()
+        conditions = Table.of(("", ""), self.conditions, title="Conditions", left=2)
+        refused = Table.of(("what", "why"), self.refused, title="Left out", left=2)
+        named = Table(cells.columns, cells.rows, "Cells", cells.remarks)
+        recorded = Table(files.columns, files.rows, "Recordings", files.remarks)
+        return conditions, named, recorded, *((refused,) if self.refused else ())
+
+    def pictures(self) -> list[Picture]:
+        """Return the pictures, simulated ones marked."""
+        dataset = self.reduced.to_dataset()
+        made = [
+            Picture(title, changes(dataset, name, label), caption)
+            for name, (title, label, caption) in _CHANGES.items()
+        ]
+        return [*made, Picture(
+            "Torque ratio over the velocity ratio", over_velocity(dataset),
+            "As figures 6.37, 6.46 and 6.51, measured against the model: k_v counts v_a over the "
+            "mean of the sliding velocities before and with vibration.",
+        )]  # fmt: skip
+
+    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+        """Write the page, and beside it the reduced recordings."""
+        text = page(self.title, self.tables(), self.notes, self.pictures() if pictures else ())
+        write_text(folder / "report.html", text)
+        return ["report.html", *self.reduced.write(folder, pictures=False)]
+
+
+def over_velocity(dataset: "xr.Dataset") -> "Figure":
+    """Draw torque with over torque before against k_v, measured and by the model."""
+    figure, (axes,) = panels()
+    usable = dataset["quality"].values.astype(str) != REFUSED
+    for place, mode in enumerate(("transverse", "longitudinal")):
+        here = usable & (dataset["mode"].values.astype(str) == mode)
+        if not here.any() or "k_v" not in dataset:
+            continue
+        colour, marker = (BLUE, VERMILION)[place], "os"[place]
+        k = dataset["k_v"].values[here]
+        ratio = 1.0 + dataset["torque_change"].values[here] / 100.0
+        axes.plot(k, ratio, color=colour, marker=marker, linestyle="none",
+                  markerfacecolor="none", label=f"{mode}, measured")  # fmt: skip
+        axes.plot(k, dataset["model_ratio"].values[here], color=colour, marker="x",
+                  linestyle="none", label=f"{mode}, model")  # fmt: skip
+    axes.axhline(1.0, color=BLACK, linewidth=0.8)
+    axes.set(xlabel=r"velocity ratio $k_v$", ylabel="torque with over torque before")
+    legend(axes)
+    mark_simulated(dataset, axes)
+    return figure

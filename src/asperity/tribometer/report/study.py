@@ -1,0 +1,109 @@
+"""The command ``asperity rig report``: the recordings of a folder on one page."""
+
+import dataclasses
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity.casefile import Case
+from asperity.errors import AsperityError, InputError, plain
+from asperity.runs import Run
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.options import Plan
+from asperity.tribometer.pair import BOUNDARY, Pair
+from asperity.tribometer.parameters import Lubricant
+from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction import study as reduction
+from asperity.tribometer.reduction.result import REFUSED, Reduced, SegmentResult
+from asperity.tribometer.reduction.study import Reducible
+from asperity.tribometer.report.result import Report
+
+
+@dataclasses.dataclass(frozen=True)
+class Gathered(Case):
+    """The configuration of a folder's first recording, with all of them, and what was left out."""
+
+    reducible: tuple[Reducible, ...] = ()
+    refused: tuple[tuple[str, str], ...] = ()
+
+
+def read(case: str, known: Mapping[str, Any], settings: Sequence[str], *, folder: str) -> Case:
+    """Open every recording in a folder; what is none is left out and named."""
+    place = Path(folder)
+    if not place.is_dir():
+        raise InputError(f"{plain(folder)} is not a folder; give the one that holds recordings")
+    found: list[Reducible] = []
+    refused: list[tuple[str, str]] = []
+    for path in sorted(place.glob("*.nc")):
+        if path.stem in (Reduced.stem, "run", "plan"):
+            continue
+        try:
+            recording = Recording.open(path)
+            found.append(Reducible(recording, recording.case(known).replace(settings)))
+            Pair.from_case(found[-1].case)
+            found[-1].case.require(Channels)
+        except AsperityError as error:
+            refused.append((plain(path.name), str(error)))
+            found = [one for one in found if one.recording.path != path]
+    if not found:
+        why = f": {refused[0][0]}: {refused[0][1]}" if refused else ""
+        raise InputError(f"{plain(folder)} holds no recording that can be reduced{why}")
+    first = found[0].case
+    values = {field.name: getattr(first, field.name) for field in dataclasses.fields(Case)}
+    return Gathered(
+        **(values | {"source": plain(folder)}), reducible=tuple(found), refused=tuple(refused)
+    )
+
+
+def prepare(case: Case, **_: Any) -> Gathered:
+    """Return what was gathered."""
+    if not isinstance(case, Gathered):
+        raise InputError("a report is made of a folder of recordings")
+    return case
+
+
+def answer(problem: Gathered, run: Run) -> Report:
+    """Reduce the recordings and gather what the page says."""
+    reduced = reduction.answer(problem.reducible, run)
+    left = [
+        (f"{one.file}, segment at {one.start or 0.0:.0f} s", "; ".join(one.flags))
+        for one in reduced.segments
+        if one.quality == REFUSED
+    ]
+    plan = problem.require(Plan) if Plan.table in problem else Plan()
+    return Report(
+        reduced=reduced, conditions=tuple(_conditions(problem, reduced.segments)),
+        refused=(*problem.refused, *left), recordings=len(problem.reducible),
+        measured=sum(one.quality != REFUSED for one in reduced.segments),
+        left_out=len(problem.refused) + len(left), planned=_cells(plan),
+        simulated=any(one.recording.simulated for one in problem.reducible), notes=reduced.notes,
+    )  # fmt: skip
+
+
+def _cells(plan: Plan) -> int:
+    from asperity.tribometer.parameters import Limits
+    from asperity.tribometer.plan.matrix import planned_files
+
+    if not plan.frequencies or not plan.steel_supplies:
+        return 0
+    return sum(len(one.cells) for one in planned_files(plan, Limits()))
+
+
+def _conditions(problem: Gathered, segments: Sequence[SegmentResult]) -> Iterator[tuple[str, str]]:
+    """Yield what the tests were made under, in words."""
+    pair = Pair.from_case(problem)
+    rig, steel, bronze = pair.rig, pair.steel, pair.bronze
+    yield "rig", rig.name
+    yield "steel disc", f"{steel.material}, {1e3 * steel.diameter:g} mm"
+    yield "bronze disc", f"{bronze.material}, {1e3 * bronze.diameter:g} mm"
+    yield "normal force", f"{rig.load:.1f} N"
+    yield "largest Hertz pressure", f"{1e-6 * pair.pressure:.1f} N/mm2"
+    if Lubricant.table in problem:
+        oil = problem.require(Lubricant)
+        yield "lubricant", f"{oil.kind} {oil.name}".strip()
+    films = [one.film_parameter for one in segments if one.film_parameter is not None]
+    if films:
+        regime = "boundary lubrication" if max(films) < BOUNDARY else "not boundary lubrication"
+        yield "film over roughness", f"{min(films):.2g} to {max(films):.2g}: {regime}"
+    begun = min(one.recording.start for one in problem.reducible)
+    yield "first recording", begun.strftime("%Y-%m-%d %H:%M UTC")
