@@ -2,7 +2,7 @@ r"""Pressures of a loaded flank: what the mesh has, and what a Hertzian line of 
 
 Contact lines are narrower than the elements of any mesh of a whole tooth. What the mesh gives at
 its nodes grows as it is refined; what is honest is the load on a length of the line with the
-relative curvature across it,
+relative curvature across it, where the worm bears with its flank and not with its tip,
 
 .. math:: p_H = \sqrt{\frac{w' E^*}{\pi \rho}}, \qquad b = \sqrt{\frac{4 w' \rho}{\pi E^*}} .
 """
@@ -24,7 +24,8 @@ from asperity.rating.iso14521.hertz import contact_modulus
 _MILLIMETRES = 1e3
 # Half-widths of the line over the distance of points across it, from where the mesh resolves it.
 _RESOLVED = 3.0
-_LEAST_SHARE = 1e-3
+# Of the line, over which its load is counted, in elements.
+_STRETCH = 1.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -44,12 +45,16 @@ class FlankPressure:
         return cls(sector, 1e6 * float(modulus))
 
     @cached_property
-    def _curvature(self) -> tuple[FloatArray, FloatArray]:
-        """Relative curvature across the line, 1/m, and the line's direction, at all points."""
+    def _lines(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Relative curvature across the line, 1/m, where there is one, the line's direction.
+
+        Where the worm bears with the rounding of its tip there is no line: 0 in the third.
+        """
         grid, row, column = self.sector.exact_grid
         met = kinematics(self.sector.wheel.pair, grid, 1)
         along = met.along[row, column]
-        return _MILLIMETRES * np.abs(met.line_curvature[row, column]), along
+        curvature = _MILLIMETRES * np.abs(met.line_curvature[row, column])
+        return curvature, along, met.on_flank[row, column].astype(np.float64)
 
     def field(self, contact: TeethContact, k: int) -> FloatArray:
         """Return the pressure at all points of a tooth, the k-th of those in mesh, (4k,), Pa."""
@@ -67,34 +72,33 @@ class FlankPressure:
     def hertz(self, pressure: FloatArray) -> tuple[float, bool]:
         """Return the greatest Hertzian pressure of a tooth's line, Pa, and if the mesh resolves it.
 
-        The load is counted by columns of points over the face; each has a length of the line that
-        leans with its direction there.
+        The load is counted by stretches along the line, each longer than an element, so that it
+        does not matter where the points lie.
         """
         if not pressure.any():
             return 0.0, True
-        body = self.sector.body
+        body, surface = self.sector.body, self.sector.surface
         force = pressure * body.weights
-        curvature, along = self._curvature
-        z = np.round(body.places[:, 2], 9)
-        columns, column = np.unique(z, return_inverse=True)
-        load = np.asarray(np.bincount(column, force), dtype=np.float64)
-        edges = np.concatenate([[columns[0]], 0.5 * (columns[1:] + columns[:-1]), [columns[-1]]])
-        # The first and last points lie inside the face by as much as they stand for.
-        edges[0] -= edges[1] - columns[0]
-        edges[-1] += columns[-1] - edges[-2]
-        lean = np.bincount(column, force * np.abs(along[:, 2])) / np.maximum(load, 1e-300)
-        bent = np.bincount(column, force * curvature) / np.maximum(load, 1e-300)
-        counted = load > _LEAST_SHARE * load.sum()
-        length = np.diff(edges) / np.maximum(lean, 0.05)
-        line = _smoothed(load)[counted] / length[counted]
-        values = np.sqrt(line * self.modulus * bent[counted] / np.pi)
+        curvature, along, on_flank = self._lines
+        element = float(np.sqrt(surface.area / len(surface.faces)))
+        loaded = force > 0.0
+        direction = along[int(np.argmax(force))]
+        aligned = along * np.sign(along @ direction)[:, None]
+        mean = force @ aligned
+        place = body.places @ (mean / np.linalg.norm(mean))
+        ends = float(place[loaded].min()) - 0.25 * element, float(place[loaded].max())
+        count = max(1, int((ends[1] + 0.25 * element - ends[0]) / (_STRETCH * element)))
+        length = (ends[1] + 0.25 * element - ends[0]) / count
+        stretch = ((place[loaded] - ends[0]) / length).astype(np.int64)
+        load = np.bincount(stretch, force[loaded], count)
+        weight = force * on_flank
+        if not weight.any():
+            return 0.0, True
+        rolling = np.bincount(stretch, weight[loaded], count)
+        bent = np.bincount(stretch, (weight * curvature)[loaded], count)
+        bent = np.where(rolling > 0.0, bent / np.maximum(rolling, 1e-300), 0.0)
+        line = load / length
+        values = np.sqrt(line * self.modulus * bent / np.pi)
         worst = int(np.argmax(values))
-        half_width = np.sqrt(4.0 * line[worst] / (np.pi * self.modulus * bent[counted][worst]))
-        spacing = 0.5 * float(np.sqrt(self.sector.surface.area / len(self.sector.surface.faces)))
-        return float(values[worst]), bool(half_width >= _RESOLVED * spacing)
-
-
-def _smoothed(load: FloatArray) -> FloatArray:
-    """Loads of columns without the swing between the two points of an element."""
-    pairs = load.reshape(-1, 2).mean(axis=1)
-    return np.repeat(pairs, 2)
+        half_width = 2.0 * line[worst] / (np.pi * values[worst])
+        return float(values[worst]), bool(half_width >= _RESOLVED * 0.5 * element)
