@@ -1,0 +1,1 @@
+"""The elastic teeth in motion: the mesh that a march advances, tooth by tooth."""
