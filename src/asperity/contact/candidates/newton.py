@@ -22,6 +22,8 @@ FULL = -1.0
 """Residual of a solve for which there was no room."""
 
 _LEAST_STEP = 1.0 / 32.0
+# Of what is missing: an old matrix that leaves more of it is made anew.
+_QUICK = 0.2
 
 
 @kernel
@@ -74,7 +76,7 @@ def respond(body, candidates, force, free, nodal, u):
 
 
 @kernel
-def _evaluate(body, candidates, laws, motion, history, answer, work):
+def evaluate(body, candidates, laws, motion, history, answer, work, with_tangent):
     """Write the contact that the forces lead to; squared norms of what is missing and of both."""
     faces = candidates.counts[0]
     points = faces * body.shapes.shape[0]
@@ -94,8 +96,9 @@ def _evaluate(body, candidates, laws, motion, history, answer, work):
     )  # fmt: skip
     respond(body, candidates, answer.force, answer.free, work.nodal, answer.u)
     tractions(
-        answer.u, committed, interface, motion, work.nodal, part, answer.stiffness[:points], True
-    )
+        answer.u, committed, interface, motion, work.nodal, part, answer.stiffness[:points],
+        with_tangent,
+    )  # fmt: skip
     missing = 0.0
     made = 0.0
     assumed = 0.0
@@ -186,24 +189,62 @@ def assemble(body, candidates, count, nodes, answer, work):
 
 
 @kernel
-def _newton_change(candidates, count, matrix, answer, work):
-    """Write Newton's change of the forces."""
+def _missing(candidates, count, answer, work):
+    """Write what is missing of the forces at the active points; their forces are noted."""
     right = work.right[: 3 * count]
     for i in range(count):
         q = work.active[i]
         for c in range(3):
             right[3 * i + c] = candidates.weights[q] * answer.traction[q, c] - answer.force[q, c]
-    change = np.linalg.solve(matrix, right)
-    for i in range(count):
-        q = work.active[i]
-        for c in range(3):
-            work.change[q, c] = change[3 * i + c]
             work.trial[q, c] = answer.force[q, c]
+    return right
 
 
 @kernel
-def solve(body, candidates, laws, motion, history, answer, work):
+def _move(count, share, answer, work):
+    """Move the forces of the active points by a share of their change."""
+    for i in range(count):
+        q = work.active[i]
+        for c in range(3):
+            answer.force[q, c] = work.trial[q, c] + share * work.change[3 * i + c]
+
+
+@kernel
+def _fits(candidates, count, kept, work):
+    """Whether the inverse that was kept is of the points that are active now."""
+    if kept.count[0] != count:
+        return False
+    for i in range(count):
+        q = work.active[i]
+        if kept.points[i] != 4 * candidates.face[q // 4] + q % 4:
+            return False
+    return True
+
+
+@kernel
+def _invert(body, candidates, count, nodes, answer, kept, work):
+    """Keep the inverse of Newton's matrix, and write the change by it."""
+    n = 3 * count
+    matrix = assemble(body, candidates, count, nodes, answer, work)
+    if count > kept.points.shape[0]:
+        kept.count[0] = 0
+        work.change[:n] = np.linalg.solve(matrix, work.right[:n])
+        return
+    inverse = np.linalg.inv(matrix)
+    kept.count[0] = count
+    for i in range(count):
+        q = work.active[i]
+        kept.points[i] = 4 * candidates.face[q // 4] + q % 4
+    kept.inverse[: n * n].reshape(n, n)[:] = inverse
+    np.dot(kept.inverse[: n * n].reshape(n, n), work.right[:n], work.change[:n])
+
+
+@kernel
+def solve(body, candidates, laws, motion, history, answer, kept, work):
     """Solve the contact of a body with its counter-surface.
+
+    While the same points touch, the inverse of an earlier step serves; where it does not lead on
+    quickly, Newton's matrix is made anew.
 
     Parameters
     ----------
@@ -216,6 +257,8 @@ def solve(body, candidates, laws, motion, history, answer, work):
     history : History
     answer : Answer
         Has the displacement ``free``, and ``force`` to begin with; written.
+    kept : Kept
+        What earlier steps left.
     work : Work
 
     Returns
@@ -224,9 +267,10 @@ def solve(body, candidates, laws, motion, history, answer, work):
         What is missing of the forces, over them; 0 where the surfaces only touch. `FULL`: more
         points touch than there is room for.
     """
-    missing, whole = _evaluate(body, candidates, laws, motion, history, answer, work)
+    missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
     floor = laws.floor * laws.floor
     iterations = 1
+    anew = False
     for _ in range(laws.most):
         if whole <= floor:
             return 0.0, iterations
@@ -235,15 +279,34 @@ def solve(body, candidates, laws, motion, history, answer, work):
         count, nodes = gather(body, candidates, answer, work)
         if 9 * count * count > work.matrix.size:
             return FULL, iterations
-        matrix = assemble(body, candidates, count, nodes, answer, work)
-        _newton_change(candidates, count, matrix, answer, work)
+        n = 3 * count
+        if not anew and _fits(candidates, count, kept, work):
+            right = _missing(candidates, count, answer, work)
+            np.dot(kept.inverse[: n * n].reshape(n, n), right, work.change[:n])
+            _move(count, 1.0, answer, work)
+            now, whole = evaluate(
+                body, candidates, laws, motion, history, answer, work, False
+            )
+            iterations += 1
+            anew = now > _QUICK * _QUICK * missing
+            if now > missing:
+                # Where the old matrix leads astray.
+                _move(count, 0.0, answer, work)
+                continue
+            missing = now
+            continue
+        evaluate(body, candidates, laws, motion, history, answer, work, True)
+        iterations += 1
+        count, nodes = gather(body, candidates, answer, work)
+        _missing(candidates, count, answer, work)
+        _invert(body, candidates, count, nodes, answer, kept, work)
+        anew = False
         share = 1.0
         while True:
-            for i in range(count):
-                q = work.active[i]
-                for c in range(3):
-                    answer.force[q, c] = work.trial[q, c] + share * work.change[q, c]
-            now, whole = _evaluate(body, candidates, laws, motion, history, answer, work)
+            _move(count, share, answer, work)
+            now, whole = evaluate(
+                body, candidates, laws, motion, history, answer, work, False
+            )
             iterations += 1
             if now <= (1.0 - 1e-4 * share) * missing or share <= _LEAST_STEP or whole <= floor:
                 break

@@ -120,7 +120,7 @@ class Work(NamedTuple):
 
     nodal: FloatArray  #: (3n,): Nodal forces
     trial: FloatArray  #: (4k, 3): Forces at the start of a search
-    change: FloatArray  #: (4k, 3): Newton's change of them
+    change: FloatArray  #: (3m,): Newton's change of the active ones
     active: IntArray  #: (4k,): Points in contact, or with a force still
     local: IntArray  #: (n,): Place of a node among those of the active points
     nodes: IntArray  #: (n,): These nodes
@@ -137,13 +137,31 @@ class Work(NamedTuple):
         return cls(
             np.zeros(3 * n),
             np.zeros((q, 3)),
-            np.zeros((q, 3)),
+            np.zeros(3 * most),
             np.zeros(q, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
             np.zeros(9 * most * n),
             np.zeros(9 * most * most),
             np.zeros(18 * most),
+        )
+
+
+class Kept(NamedTuple):
+    """The inverse of Newton's matrix that a body was solved with; with several as `Candidates`."""
+
+    count: IntArray  #: (1,): Points it is of; 0: there is none
+    points: IntArray  #: (m,): These points, as the body counts them
+    inverse: FloatArray  #: (9mm,): Without gaps
+
+    @classmethod
+    def room(cls, body: Body, slots: int, most: int) -> Kept:
+        """Return room for inverses of so many points at most."""
+        most = min(most, len(body.weights))
+        return cls(
+            np.zeros((slots, 1), dtype=np.int64),
+            np.zeros((slots, most), dtype=np.int64),
+            np.zeros((slots, 9 * most * most)),
         )
 
 
@@ -174,3 +192,9 @@ def answer_of(all_, k):
         all_.normal[k], all_.traction[k], all_.slip_1[k], all_.slip_2[k], all_.deflection[k],
         all_.size[k], all_.stiffness[k],
     )  # fmt: skip
+
+
+@kernel
+def kept_of(all_, k):
+    """What was kept of one body of several."""
+    return Kept(all_.count[k], all_.points[k], all_.inverse[k])

@@ -3,8 +3,8 @@
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.candidates.newton import solve, spread
-from asperity.contact.candidates.records import answer_of, candidates_of
+from asperity.contact.candidates.newton import evaluate, solve, spread
+from asperity.contact.candidates.records import answer_of, candidates_of, kept_of
 from asperity.contact.interface.counter_motion import MotionNumbers
 
 _SWEEPS = 30
@@ -78,7 +78,8 @@ def _norm(force, points):
 
 @kernel
 def solve_all(
-    body, number, blocks, candidates, surfaces, laws, history, answer, work, tolerance
+    body, number, blocks, candidates, surfaces, laws, history, answer, kept, work, tolerance,
+    with_tangent,
 ):  # fmt: skip
     """Solve the contact of all bodies, in turns where they give way to each other.
 
@@ -93,10 +94,14 @@ def solve_all(
     surfaces : tuple of 4 ndarrays
         Rotation (K, 3, 3), translation (K, 3), and slip ``shift + turn @ x``, (K, 3) and (K, 3, 3),
         of the counter-surface as each body sees it.
+    kept : Kept
+        Of all, as the candidates.
     laws, history, work : Laws, History, Work
         Shared by all.
     tolerance : float
         Relative change of the forces from turn to turn that is small enough.
+    with_tangent : bool
+        Whether the derivative of the tractions is written for the solution.
 
     Returns
     -------
@@ -124,7 +129,7 @@ def solve_all(
             points = body.shapes.shape[0] * candidates.counts[k, 0]
             before = answer.force[k, :points].copy()
             missing, took = solve(
-                body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k),
+                body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k), kept_of(kept, k),
                 work,
             )  # fmt: skip
             iterations += took
@@ -136,4 +141,14 @@ def solve_all(
             whole += _norm(answer.force[k], points)
         if blocks.shape[0] == 0 or changed <= tolerance * tolerance * whole:
             break
+    for k in range(bodies):
+        if with_tangent and candidates.counts[k, 0] > 0:
+            motion = MotionNumbers(
+                rotation[k], translation[k], shift[k], turn[k], none, nothing, nothing, nothing,
+                False,
+            )  # fmt: skip
+            evaluate(
+                body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k),
+                work, True,
+            )  # fmt: skip
     return residual, iterations

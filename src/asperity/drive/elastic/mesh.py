@@ -25,10 +25,12 @@ from asperity.contact.candidates.records import (
     Body,
     Candidates,
     History,
+    Kept,
     Laws,
     Work,
     answer_of,
     candidates_of,
+    kept_of,
 )
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
@@ -37,6 +39,7 @@ from asperity.drive.teeth.placing import Stand, place_worm, to_space
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
 _NEAR = 6e-6  # from the worm, of faces that are looked at, m
+_STRAYED = 1e-4  # residual of a solve that is begun anew
 _LOST = 1.0  # residual of a tooth of which too much touches
 
 
@@ -59,7 +62,9 @@ class Mesh(NamedTuple):
     stiffness: float  #: Of the flanks' surfaces, Pa/m
     candidates: Candidates
     answer: Answer
+    kept: Kept
     history: History
+    earlier: FloatArray  #: (4k, 3): Committed forces, N
     work: Work
     #: (2K, 8): Where candidates were gathered: tooth, poses, least distance, reach, elastic way
     gathered: FloatArray
@@ -79,9 +84,10 @@ class Mesh(NamedTuple):
 
 
 # Poses and generalised forces of the damping; then for each tooth its number, how many points
-# touch, and of each: number, deflection (3), pressure over the reference, force (3).
+# touch, and of each: number, deflection (3), pressure over the reference, force (3), the force a
+# step before (3).
 _HEAD = 2 * POSES
-_RECORD = 8
+_RECORD = 11
 
 
 @kernel
@@ -106,6 +112,7 @@ def _committed(mesh, k, committed, at, tooth):
         for c in range(3):
             history.deflection[q, c] = 0.0
             force[q, c] = 0.0
+            mesh.earlier[q, c] = 0.0
     count = int(committed[at + 1]) if committed[at] == tooth else 0
     for i in range(count):
         entry = at + 2 + _RECORD * i
@@ -117,7 +124,9 @@ def _committed(mesh, k, committed, at, tooth):
         history.size[q] = committed[entry + 4]
         for c in range(3):
             history.deflection[q, c] = committed[entry + 1 + c]
-            force[q, c] = committed[entry + 5 + c]
+            # Continued as from the step before.
+            force[q, c] = 2.0 * committed[entry + 5 + c] - committed[entry + 8 + c]
+            mesh.earlier[q, c] = committed[entry + 5 + c]
     return count
 
 
@@ -274,6 +283,7 @@ def _write(mesh, k, trial, at, tooth, side, v, dt, out):
             answer.force[q, c] = f
             trial[entry + 1 + c] = s1[c]
             trial[entry + 5 + c] = f
+            trial[entry + 8 + c] = mesh.earlier[q, c]
             u = 0.0
             for b in range(4):
                 u += shapes[q % 4, b] * answer.u[3 * own.faces[face, b] + c]
@@ -365,7 +375,18 @@ def advance(mesh, committed, trial, q, v, dt, out):
             mesh.rotation[1], mesh.translation[1], mesh.shift, mesh.drift, mesh.still,
             mesh.nothing, mesh.one, mesh.nothing, False,
         )  # fmt: skip
-        residual, took = solve(mesh.body, own, laws, motion, mesh.history, answer, mesh.work)
+        residual, took = solve(
+            mesh.body, own, laws, motion, mesh.history, answer, kept_of(mesh.kept, place),
+            mesh.work,
+        )  # fmt: skip
+        if residual == FULL or residual > _STRAYED:
+            # The way from before led astray: begin with nothing.
+            answer.force[:] = 0.0
+            residual, more = solve(
+                mesh.body, own, laws, motion, mesh.history, answer, kept_of(mesh.kept, place),
+                mesh.work,
+            )  # fmt: skip
+            took += more
         if residual == FULL:
             residual = _LOST
         mesh.counted[0] += took

@@ -16,6 +16,7 @@ from asperity.contact.candidates.records import (
     Answer,
     Candidates,
     History,
+    Kept,
     Laws,
     Work,
     answer_of,
@@ -36,6 +37,9 @@ CONTACT_STIFFNESS = 5e14
 
 NEAR = 30e-6
 """Faces this near to the worm are looked at, m."""
+
+KEPT = 160
+"""Points that an inverse is kept of at most."""
 
 _TOLERANCE = 1e-9
 _STEPS = 60
@@ -124,6 +128,7 @@ class TeethContact:
         body = sector.body
         self.candidates = Candidates.room(body, self.slots)
         self.answer = Answer.room(body, self.slots)
+        self.kept = Kept.room(body, self.slots, KEPT)
         self.work = Work.room(body, len(body.weights) // 2)
         size = len(body.flexibility)
         self.blocks = (
@@ -236,8 +241,8 @@ class TeethContact:
         laws = self.laws(self._friction if sense else 0.0)
         residual, iterations = solve_all(
             body, np.array(numbers), self.blocks, self.candidates,
-            (rotation, translation, slip, turn), laws, self._history, self.answer, self.work,
-            _TOLERANCE,
+            (rotation, translation, slip, turn), laws, self._history, self.answer, self.kept,
+            self.work, _TOLERANCE, with_slope,
         )  # fmt: skip
         if residual == newton.FULL or residual > 1e3 * _TOLERANCE:
             raise ConvergenceError(

@@ -1,0 +1,207 @@
+"""A drive's mesh as elastic teeth: what the protocols march in place of the reduced mesh."""
+
+import dataclasses
+import functools
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.contact.candidates.records import Answer, Candidates, History, Kept, Laws, Work
+from asperity.contact.interface.friction import DAHL, PointFriction
+from asperity.contact.interface.rigid import RigidSurface
+from asperity.drive.elastic.march import march
+from asperity.drive.elastic.mesh import Mesh, advance, states
+from asperity.drive.interface import AT, OUTS, POSES
+from asperity.drive.motion.system import System
+from asperity.drive.problem import DriveProblem
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import Reduction
+from asperity.drive.static.equilibrium import Equilibrium
+from asperity.drive.static.solve import condensed, friction_of
+from asperity.drive.static.sweep import FORWARD, REVERSED, Course, phases_of, sweep, touching_angles
+from asperity.drive.teeth.contact import CONTACT_STIFFNESS, KEPT, TeethContact
+from asperity.drive.teeth.sector import Sector
+from asperity.errors import InputError
+from asperity.flanks.meshing.backlash import set_backlash
+from asperity.flanks.meshing.transmission import transmission
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.friction.dahl import VECTOR
+from asperity.runs import Run
+
+_MILLIMETRES = 1e3
+_PHASES = 8
+# Asperities of Coulomb's friction: a deflection far below what the teeth bend.
+_BRITTLE = 2e-8
+# Turn of the worm that slides all asperities through, rad.
+_SLIDE = 1e-3
+_TOLERANCE = 2e-7
+_STEPS = 40
+
+
+@dataclasses.dataclass(frozen=True)
+class TeethModel(ReducedModel):
+    """Elastic teeth, each by itself, in place of the reduced mesh.
+
+    What the protocols ask of the mesh beside its march (stiffness for the step, approach under the
+    load) is that of the teeth reduced.
+
+    Attributes
+    ----------
+    sector : Sector
+        The condensed teeth, the worm's threads as thick as the backlash asks for.
+    """
+
+    sector: Sector
+
+    @classmethod
+    def of(cls, problem: DriveProblem, reduction: Reduction, run: Run) -> "TeethModel":
+        """Return the model of a problem; ``reduction`` is that of the same teeth."""
+        if problem.drive.friction != "constant":
+            raise InputError(
+                "drive.friction is 'iso14521', which drive.model 'reduced' takes; with 'teeth' it "
+                "must be 'constant'"
+            )
+        sector = condensed(problem, run)
+        if problem.drive.flanks == "both":
+            sector = _with_backlash(sector, problem)
+        return cls(problem, reduction, sector)
+
+    @functools.cached_property
+    def contact(self) -> TeethContact:
+        """The teeth held against the worm, each by itself."""
+        return TeethContact(self.sector, friction_of(self.problem), coupled=False)
+
+    @functools.cached_property
+    def courses(self) -> tuple[Course, Course, float]:
+        """Forward and reversed without vibration, and the mean pressure where it touches, Pa."""
+        contact = self.contact
+        phases = phases_of(contact, _PHASES)
+        touching = touching_angles(contact, phases)
+        equilibrium = Equilibrium(contact)
+        sums = np.zeros(2)
+
+        def look(_number: int, _balance: object) -> None:
+            for k in range(contact.slots):
+                n = 4 * int(contact.candidates.counts[k, 0])
+                pressure, area = contact.answer.pressure[k, :n], contact.candidates.weights[k, :n]
+                sums[:] += pressure @ area, area[pressure > 0.0].sum()
+
+        load = self.problem.load
+        forward = sweep(equilibrium, phases, touching, load, sense=FORWARD, look=look)
+        back = sweep(equilibrium, phases, touching, load, sense=REVERSED)
+        return forward, back, float(sums[0] / sums[1])
+
+    @property
+    def worm_torque(self) -> float:
+        """Without vibration, mean over a pitch, N m."""
+        return float(self.courses[0].worm_torque.mean())
+
+    @property
+    def reversed_torque(self) -> float:
+        """Of the worm if all friction were turned round, mean over a pitch, N m."""
+        return float(self.courses[1].worm_torque.mean())
+
+    @functools.cached_property
+    def teeth(self) -> Mesh:
+        """The mesh as the march takes it."""
+        contact, body, problem = self.contact, self.sector.body, self.problem
+        count = contact.slots
+        flanks = 2 if problem.drive.flanks == "both" else 1
+        places = flanks * count
+        pressure = self.courses[2]
+        table = problem.friction
+        limit, exponent = _BRITTLE, 0.0
+        if table.model == "dahl":
+            limit, exponent = table.deflection_limit(self.normal_force), table.exponent
+        point = PointFriction(
+            DAHL, self.friction, limit, VECTOR, exponent, reference=pressure
+        ).numbers(0.0)
+        forward = contact.laws(self.friction)
+        interface = forward.interface._replace(friction=point)
+        laws = Laws(interface, _TOLERANCE, forward.floor, _STEPS)
+        other = RigidSurface.worm(self.sector.wheel.pair.worm, side=-1).numbers
+        gathered = np.zeros((places, 8))
+        gathered[:, 0] = np.inf
+        return Mesh(
+            body=body,
+            stand=contact.stand,
+            laws=laws,
+            back=laws._replace(interface=interface._replace(counter=other)),
+            teeth=count,
+            flanks=flanks,
+            ahead=contact.touching_angle(0.0, np.zeros(3)),
+            damping=problem.drive.contact_damping or 0.0,
+            friction_stiffness=self.friction * pressure / limit,
+            stiffness=CONTACT_STIFFNESS,
+            candidates=Candidates.room(body, places),
+            answer=Answer.room(body, places),
+            kept=Kept.room(body, places, KEPT),
+            history=History.none(body),
+            earlier=np.zeros((len(body.weights), 3)),
+            work=Work.room(body, len(body.weights)),
+            gathered=gathered,
+            shape=np.zeros((places, 3 * body.nodes)),
+            rotation=np.zeros((2, 3, 3)),
+            translation=np.zeros((2, 3)),
+            vectors=np.zeros((2, 3)),
+            wrench=np.zeros(6),
+            drift=np.zeros((3, 3)),
+            shift=np.zeros(3),
+            nothing=np.zeros((3, 3)),
+            still=np.zeros(3),
+            moved=np.zeros(3),
+            one=np.eye(3),
+            damped=np.zeros(POSES),
+            counted=np.zeros(1, np.int64),
+        )
+
+    def march(
+        self,
+        system: System,
+        states: npt.NDArray[np.void],
+        committed: FloatArray,
+        stretch: float,
+        rows: npt.NDArray[np.void],
+        stop: npt.NDArray[np.int64],
+    ) -> int:
+        """March so many stretches as there are rows, see `asperity.drive.reduced.march.march`."""
+        done: int = march(self.teeth, system, states, committed, stretch, rows, stop)
+        return done
+
+    def _slid(self, pose: FloatArray, sense: float) -> tuple[FloatArray, FloatArray]:
+        """What the mesh remembers at a pose after sliding, and its answer."""
+        before = np.zeros(states(self.teeth))
+        after = np.zeros_like(before)
+        out = np.zeros(OUTS)
+        turn = sense * _SLIDE
+        # Asperities that only just touch are slid through by a second step.
+        for _ in range(2):
+            before[:POSES] = pose - np.array([turn, 0.0, turn / self.point.ratio, 0.0])
+            advance(self.teeth, before, after, pose, np.zeros(POSES), 1.0, out)
+            before = after.copy()
+        return after, out
+
+    def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
+        """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
+        return self._slid(pose, 1.0 if share >= 0.0 else -1.0)[0]
+
+    def stored(self, approach: float, share: float) -> float:
+        """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
+        roll = -approach / (self.point.normal_z * self.point.arm)
+        out = self._slid(np.array([0.0, 0.0, roll, 0.0]), 1.0 if share >= 0.0 else -1.0)[1]
+        return float(out[AT.stored])
+
+
+def _with_backlash(sector: Sector, problem: DriveProblem) -> Sector:
+    """The teeth under a worm whose threads leave the backlash."""
+    mount = problem.mount
+    if mount is None or mount.backlash is None:
+        raise InputError(
+            "mount.backlash is missing; both flanks may touch, and how far they are apart is not "
+            "known: give it, or drive.flanks = 'driving'"
+        )
+    wheel = sector.wheel
+    meshes = {side: transmission(wheel.pair, wheel.flank(side)) for side in (1, -1)}
+    thinned = set_backlash(meshes, _MILLIMETRES * mount.backlash)[1].search.pair
+    return dataclasses.replace(sector, wheel=Wheel(thinned))
