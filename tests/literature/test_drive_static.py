@@ -160,9 +160,7 @@ def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_sta
     on_flank = model.course(LOAD)
     sector = model.sector
     faces = Body.of(sector.surface, sector.body.flexibility)
-    contact = TeethContact(
-        dataclasses.replace(sector, body=faces), model.friction, coupled=False
-    )
+    contact = TeethContact(dataclasses.replace(sector, body=faces), model.friction, coupled=False)
     phases = phases_of(contact, 24)
     course = sweep(Equilibrium(contact), phases, touching_angles(contact, phases), LOAD)
     pair = sector.wheel.pair

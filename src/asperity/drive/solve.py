@@ -5,7 +5,6 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import check, solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
-from asperity.errors import InputError
 from asperity.results import Result
 from asperity.runs import Run
 
@@ -19,11 +18,6 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
         Whether its vibration is left out.
     """
     problem = DriveProblem.from_case(case, shaken=not static)
-    if problem.vibration is not None and problem.drive.model == "teeth":
-        raise InputError(
-            "drive.model is 'teeth', which is solved without vibration (--static); under vibration "
-            "take 'reduced', which is made from them"
-        )
     if problem.vibration is not None and problem.drive.deflection is not None:
         check(problem, ReducedModel(problem, reduction(problem, Run())))
     return problem
@@ -35,4 +29,14 @@ def answer(problem: DriveProblem, run: Run) -> Result:
         from asperity.drive.static.solve import solve_static
 
         return solve_static(problem, run)
-    return solve_shaken(problem, ReducedModel(problem, reduction(problem, run)), run)
+    return solve_shaken(problem, _model(problem, run), run)
+
+
+def _model(problem: DriveProblem, run: Run) -> ReducedModel:
+    """The mesh that is marched."""
+    reduced = reduction(problem, run)
+    if problem.drive.model == "teeth":
+        from asperity.drive.elastic.model import TeethModel
+
+        return TeethModel.of(problem, reduced, run)
+    return ReducedModel(problem, reduced)

@@ -212,7 +212,7 @@ def _move(count, share, answer, work):
 @kernel
 def _fits(candidates, count, kept, work):
     """Whether the inverse that was kept is of the points that are active now."""
-    if kept.count[0] != count:
+    if kept.size[0] != count:
         return False
     for i in range(count):
         q = work.active[i]
@@ -227,11 +227,11 @@ def _invert(body, candidates, count, nodes, answer, kept, work):
     n = 3 * count
     matrix = assemble(body, candidates, count, nodes, answer, work)
     if count > kept.points.shape[0]:
-        kept.count[0] = 0
+        kept.size[0] = 0
         work.change[:n] = np.linalg.solve(matrix, work.right[:n])
         return
     inverse = np.linalg.inv(matrix)
-    kept.count[0] = count
+    kept.size[0] = count
     for i in range(count):
         q = work.active[i]
         kept.points[i] = 4 * candidates.face[q // 4] + q % 4
@@ -284,9 +284,7 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
             right = _missing(candidates, count, answer, work)
             np.dot(kept.inverse[: n * n].reshape(n, n), right, work.change[:n])
             _move(count, 1.0, answer, work)
-            now, whole = evaluate(
-                body, candidates, laws, motion, history, answer, work, False
-            )
+            now, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
             iterations += 1
             anew = now > _QUICK * _QUICK * missing
             if now > missing:
@@ -304,9 +302,7 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
         share = 1.0
         while True:
             _move(count, share, answer, work)
-            now, whole = evaluate(
-                body, candidates, laws, motion, history, answer, work, False
-            )
+            now, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
             iterations += 1
             if now <= (1.0 - 1e-4 * share) * missing or share <= _LEAST_STEP or whole <= floor:
                 break

@@ -150,7 +150,7 @@ class Work(NamedTuple):
 class Kept(NamedTuple):
     """The inverse of Newton's matrix that a body was solved with; with several as `Candidates`."""
 
-    count: IntArray  #: (1,): Points it is of; 0: there is none
+    size: IntArray  #: (1,): Points it is of; 0: there is none
     points: IntArray  #: (m,): These points, as the body counts them
     inverse: FloatArray  #: (9mm,): Without gaps
 
@@ -197,4 +197,4 @@ def answer_of(all_, k):
 @kernel
 def kept_of(all_, k):
     """What was kept of one body of several."""
-    return Kept(all_.count[k], all_.points[k], all_.inverse[k])
+    return Kept(all_.size[k], all_.points[k], all_.inverse[k])

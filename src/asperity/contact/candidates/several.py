@@ -129,8 +129,8 @@ def solve_all(
             points = body.shapes.shape[0] * candidates.counts[k, 0]
             before = answer.force[k, :points].copy()
             missing, took = solve(
-                body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k), kept_of(kept, k),
-                work,
+                body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k),
+                kept_of(kept, k), work,
             )  # fmt: skip
             iterations += took
             if missing < 0.0:

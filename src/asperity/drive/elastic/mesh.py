@@ -6,15 +6,14 @@ asperities and force, in the tooth's own frame; a tooth that leaves the mesh tou
 more, and its place is taken by one that enters. So nothing has to be handed over at a pitch.
 
 The contact's damping stands beside teeth and contact together, as in the reduced mesh: a force
-:math:`c\,p\,\dot d` at each point with the rate at which worm and wheel, both rigid, approach there.
+:math:`c\,p\,\dot d` at each point, with the rate at which worm and wheel, both rigid, approach
+each other there.
 
 Which faces are near is looked up anew before worm and tooth have come as close as it reached.
 """
 
 import math
 from typing import NamedTuple
-
-import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.compiled import kernel
@@ -259,8 +258,8 @@ def _write(mesh, k, trial, at, tooth, side, v, dt, out):
         if bristle > 0.0 and (p > 0.0 or history.size[q] > 0.0):
             slip = answer.slip_1[q]
             for c in range(3):
-                out[AT.friction] += 0.5 * w * bristle * (s0[c] + s1[c]) * (
-                    slip[c] - (s1[c] - s0[c])
+                out[AT.friction] += (
+                    0.5 * w * bristle * (s0[c] + s1[c]) * (slip[c] - (s1[c] - s0[c]))
                 )
                 out[AT.stored] += 0.5 * w * bristle * s1[c] * s1[c]
         gap = answer.distance[q]
@@ -353,9 +352,7 @@ def advance(mesh, committed, trial, q, v, dt, out):
         trial[at] = tooth
         trial[at + 1] = 0.0
         shift[2] = -q[1]
-        place_worm(
-            stand, q[0], shift, angle, q[3], side, mesh.rotation[1], mesh.translation[1]
-        )
+        place_worm(stand, q[0], shift, angle, q[3], side, mesh.rotation[1], mesh.translation[1])
         touched = committed[at] == tooth and committed[at + 1] > 0.0
         near = _gather(mesh, place, laws, committed, at, tooth, q)
         if not near and not touched:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Callable, Mapping
 
@@ -67,7 +68,7 @@ def friction_of(problem: DriveProblem) -> float:
     return float(friction_at(friction_curve(rating_inputs(problem.case), 3.0 * speed), speed))
 
 
-def carried(problem: DriveProblem, torque: float, error: TooDeepError) -> InputError:
+def too_much(problem: DriveProblem, torque: float) -> InputError:
     """Return the line that refuses a torque."""
     module = problem.geometry.axial_module
     return InputError(
@@ -129,8 +130,8 @@ class StaticModel:
                 self.equilibrium, self.phases[::every], self.touching[::every], torque,
                 sense=sense, look=look,
             )  # fmt: skip
-        except TooDeepError as error:
-            raise carried(self.problem, torque, error) from None
+        except TooDeepError:
+            raise too_much(self.problem, torque) from None
 
 
 @dataclasses.dataclass
@@ -217,21 +218,26 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     load, sector_, contact = problem.load, model.sector, model.contact
     gearset = problem.gearset
     pressure = FlankPressure.of(sector_, gearset.wheel_material, gearset.worm_material)
-    steps = 5 + len(PATTERNS) - 1
     seen = _Seen(model, pressure)
-    forward = model.course(load, look=seen.whole)
-    run.checkpoint(1, steps, what="sweeps")
-    frictionless = model.course(load, FRICTIONLESS)
-    run.checkpoint(2, steps, what="sweeps")
-    reversed_ = model.course(load, REVERSED)
-    run.checkpoint(3, steps, what="sweeps")
-    patterns = []
-    for share in PATTERNS[:-1]:
-        part = _Seen(model, pressure)
-        model.course(share * load, look=part.pattern)
-        patterns.append(part.nodal)
-        run.checkpoint(4 + len(patterns), steps, what="sweeps")
-    more, less = (model.course((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0))
+    steps = 3 + len(PATTERNS)
+    done = itertools.count(1)
+    with run.going_on():
+        forward = model.course(load, look=seen.whole)
+        run.checkpoint(next(done), steps, what="sweeps")
+        frictionless = model.course(load, FRICTIONLESS)
+        run.checkpoint(next(done), steps, what="sweeps")
+        reversed_ = model.course(load, REVERSED)
+        run.checkpoint(next(done), steps, what="sweeps")
+        patterns = []
+        for share in PATTERNS[:-1]:
+            part = _Seen(model, pressure)
+            model.course(share * load, look=part.pattern)
+            patterns.append(part.nodal)
+            run.checkpoint(next(done), steps, what="sweeps")
+        more, less = (
+            model.course((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0)
+        )
+        run.checkpoint(next(done), steps, what="sweeps")
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, tangent, radius)
