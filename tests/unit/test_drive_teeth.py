@@ -63,8 +63,8 @@ def marched(model, q, v):
 def swung(amplitude, frequency=20e3):
     angle = 2.0 * math.pi * frequency
     return lambda t: (
-        amplitude * (np.cos(angle * t) - 1.0),
-        -amplitude * angle * np.sin(angle * t),
+        amplitude * (1.0 - np.cos(angle * t)),
+        amplitude * angle * np.sin(angle * t),
     )
 
 
