@@ -296,10 +296,31 @@ COMMANDS = (
     Command(
         "optimise",
         "Find a worm gearset's most efficient design that keeps its load capacity.",
-        "Pressure angle, diameter factor, module and roughness are free. Also what a higher "
-        "permissible torque costs. With --out also optimise.nc, optimise.png and optimise.json.",
+        "Pressure angle, diameter factor, module and roughness are free; every safety that "
+        "holds goes on to. Also what a higher permissible torque costs. With --out also "
+        "optimise.nc, optimise.png and optimise.json.",
         prepare="asperity.studies.optimise:prepare",
         solve="asperity.studies.optimise:answer",
+        options=(
+            Option(
+                "free",
+                "What may change: pressure_angle, diameter_factor, axial_module, "
+                "worm_roughness; all if left out.",
+                "NAME,NAME",
+            ),
+            Option(
+                "bounds",
+                "How far, as pressure_angle='20:25 deg'; again for another.",
+                "NAME=LOW:HIGH",
+                many=True,
+            ),
+            Option(
+                "keep",
+                "A safety that may not fall, as S_delta, agma6034 or all; again for another.",
+                "SAFETY",
+                many=True,
+            ),
+        ),
         needs=("gearset", "operation"),
     ),
     Command(

@@ -130,7 +130,9 @@ def _typed(option: Option) -> tuple[Any, Any]:
     kind: Any = list[str] if option.many else str if option.metavar else bool
     metavar = option.metavar or None
     said = typer.Option(f"--{option.name}", metavar=metavar, help=option.help)
-    default = inspect.Parameter.empty if option.default is None else option.default
+    default: Any = inspect.Parameter.empty if option.default is None else option.default
+    if option.many and default == "":
+        kind, default = list[str] | None, None
     return Annotated[kind, said], default
 
 

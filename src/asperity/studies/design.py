@@ -17,7 +17,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import rate
+from asperity.rating.rate import STANDARDS, rate
 from asperity.rating.variants import variants
 from asperity.sources import Source
 from asperity.studies.climb import spread
@@ -100,6 +100,8 @@ class Space:
         How far the design may be changed.
     folder : path, optional
         Where a relative file name among the options starts.
+    least : mapping of str to float, optional
+        Least safeties of every design, by ``standard.key``.
 
     Attributes
     ----------
@@ -118,9 +120,13 @@ class Space:
         options: RatingOptions | None = None,
         bounds: Bounds | None = None,
         folder: Path | None = None,
+        least: Mapping[str, float] | None = None,
     ) -> None:
         self.gearset, self.operation = gearset, operation
         self.options, self.folder = options or RatingOptions(), folder
+        self.least = dict(least or {})
+        asked = {path.partition(".")[0] for path in self.least}
+        self._standards = tuple(name for name in STANDARDS if name in {*NEEDED, *asked})
         for standard in NEEDED:
             # Alone, because then one that cannot be applied says why.
             rate(gearset, operation, self.options, (standard,), folder=folder)
@@ -168,19 +174,20 @@ class Space:
             self.gearset,
             self.operation,
             self.options,
-            NEEDED,
-            capacity=False,
+            self._standards,
+            capacity=any(path.startswith("iso14521.") for path in self.least),
             folder=self.folder,
             **self.values(points),
         )
         shift = np.broadcast_to(found.given.profile_shift, found.shape)
-        numbers = {key: found[path] for key, path in _NUMBERS.items()} | {"profile_shift": shift}
+        paths = _NUMBERS | {path: path for path in self.least}
+        numbers = {key: found[path] for key, path in paths.items()} | {"profile_shift": shift}
         return numbers | {"M_permissible_Nm": np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"])}
 
     def worth(self, points: FloatArray) -> FloatArray:
-        """Return efficiency, torques permitted by wear and strength, and profile shift, in rows."""
+        """Return efficiency, permitted torques, profile shift and asked safeties, in rows."""
         found = self.numbers(points)
-        return np.stack([found[key] for key in WORTH], axis=-1)
+        return np.stack([found[key] for key in (*WORTH, *self.least)], axis=-1)
 
     def merit(self, rows: FloatArray, least: Mapping[str, float]) -> FloatArray:
         """Return from rows of worth the efficiency, and the room of torques and profile shift.
@@ -192,16 +199,16 @@ class Space:
         least : mapping of str to float
             Least torques by key.
         """
-        found = dict(zip(WORTH, rows.T, strict=True))
+        found = dict(zip((*WORTH, *self.least), rows.T, strict=True))
         room = [found[key] / bound - 1.0 for key, bound in least.items()]
-        return np.stack([rows[:, 0], *room, *self.room(found["profile_shift"])], axis=-1)
+        return np.stack([rows[:, 0], *room, *self.room(found)], axis=-1)
 
     @functools.cached_property
     def sample(self) -> tuple[FloatArray, dict[str, FloatArray]]:
         """Points all over the cube that keep the bounds of the profile shift, and their worth."""
         points = spread(self.dimensions, _SAMPLE)
         found = self.numbers(points)
-        inside = np.all(np.stack(self.room(found["profile_shift"])) >= 0.0, axis=0)
+        inside = np.all(np.stack(self.room(found)) >= 0.0, axis=0)
         return points[inside], {key: values[inside] for key, values in found.items()}
 
     def best_of_sample(self, height: str, **least: float) -> list[FloatArray]:
@@ -219,9 +226,17 @@ class Space:
         worth = np.where(allowed & ~np.isnan(found[height]), found[height], -np.inf)
         return [points[int(np.argmax(worth))]] if np.any(worth > -np.inf) else []
 
-    def room(self, shift: FloatArray) -> list[FloatArray]:
-        """Return by how much the profile shift keeps its bounds, two numbers not below zero."""
-        return [shift - self.profile_shift[0], self.profile_shift[1] - shift]
+    def room(self, found: Mapping[str, FloatArray]) -> list[FloatArray]:
+        """Return by how much profile shift and safeties keep their bounds, none below zero."""
+        shift = found["profile_shift"]
+        safeties = [found[path] / bound - 1.0 for path, bound in self.least.items()]
+        return [shift - self.profile_shift[0], self.profile_shift[1] - shift, *safeties]
+
+    def points(self, designs: FloatArray) -> FloatArray:
+        """Return the points of designs that are rows of `VARIABLES` in SI."""
+        span = (self.upper - self.lower)[self._free]
+        shares: FloatArray = (designs[:, self._free] - self.lower[self._free]) / span
+        return np.clip(shares, 0.0, 1.0)
 
     def gearset_at(self, point: FloatArray) -> Gearset:
         """Return the design at a point as a gearset."""

@@ -6,11 +6,13 @@ for wear and strength.
 """
 
 import dataclasses
-import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
+import numpy as np
+
+from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
@@ -19,11 +21,21 @@ from asperity.rating.rate import Rated, rate
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
+from asperity.studies.asked import bounds_of, known_safeties, least_safeties
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
+from asperity.studies.designs import (
+    SHOWN,
+    design_numbers,
+    falls,
+    free_numbers,
+    safeties_json,
+    safety_rows,
+)
 from asperity.studies.gears import Gears
 from asperity.studies.layout import points
 from asperity.studies.quantities import varied_quantity
+from asperity.studies.rounding import rounded
 from asperity.studies.tradeoff import TradeOff, trade_off
 
 if TYPE_CHECKING:
@@ -32,12 +44,8 @@ if TYPE_CHECKING:
 STARTS = 8
 """Starts beside the gearset as it is."""
 
-SHOWN = {
-    "iso14521": ("h_star", "mu_zm", "eta_z1_2", "eta_ges", "sigma_Hm_MPa"),
-    "bs721": ("M_26k_Nm", "M_w_Nm", "M_s_Nm", "M_permissible_Nm"),
-    "agma6034": ("eta", "allowable_torque_Nm", "bending_stress_MPa"),
-}
-"""Numbers of a rating that are shown of a design, by standard."""
+TORQUES = {"M_w_Nm": "M_w", "M_s_Nm": "M_s"}
+"""Torques that BS 721 permits for wear and strength, with their symbols."""
 
 _ACTIVE = 1e-6
 
@@ -80,6 +88,8 @@ class Optimum(Result):
         How many starts there were, and how many came to this design's efficiency.
     curve : TradeOff or None
         What a higher permissible torque costs.
+    made : Rated or None
+        The design in numbers that can be made, rated again; None where none near keeps all limits.
     """
 
     title: ClassVar[str] = "Most efficient design"
@@ -93,6 +103,7 @@ class Optimum(Result):
     starts: int = quantity("", "", "starts")
     agreed: int = quantity("", "", "starts that agree")
     curve: TradeOff | None = None
+    made: Rated | None = None
 
     @property
     def gain(self) -> float:
@@ -107,7 +118,14 @@ class Optimum(Result):
     @property
     def settings(self) -> tuple[str, ...]:
         """What turns the case into the design, for ``--set``."""
-        design = self.gearset
+        return self._settings(self.gearset)
+
+    @property
+    def made_settings(self) -> tuple[str, ...]:
+        """What turns the case into the design that can be made."""
+        return () if self.made is None else self._settings(self.made.gearset)
+
+    def _settings(self, design: Gearset) -> tuple[str, ...]:
         settings = [
             f"gearset.{name}={varied_quantity(name).from_si(getattr(design, name)):.12g} "
             f"{varied_quantity(name).unit}".rstrip()
@@ -131,6 +149,9 @@ class Optimum(Result):
             "starts": self.starts,
             "agreed": self.agreed,
             "settings": list(self.settings),
+            "made": None if self.made is None else design_numbers(self.made),
+            "made_settings": list(self.made_settings),
+            "safeties": safeties_json(self.before, self.after, self.made),
             "notes": list(self.notes),
         }
         return answer if self.curve is None else {**answer, "trade_off": self.curve.to_json()}
@@ -151,14 +172,22 @@ class Optimum(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return the gearset and its best design side by side, and what holds the design back."""
-        before, after = design_numbers(self.before), design_numbers(self.after)
+        designs = [self.before, self.after, *([self.made] if self.made else [])]
+        before, *others = map(design_numbers, designs)
         rows = []
         for key, value in before.items():
             if isinstance(value, dict):
-                now = after[key] or {}
-                rows += [[f"{key}.{own}", value[own], now[own]] for own in value if own in now]
+                now = [other[key] or {} for other in others]
+                rows += [
+                    [f"{key}.{own}", value[own], *(n[own] for n in now)]
+                    for own in value
+                    if all(own in n for n in now)
+                ]
             elif value is not None:
-                rows.append([key, value, after[key]])
+                rows.append([key, value, *(other[key] for other in others)])
+        rows += [
+            [f"{path} (asked {asked:g})", *values] for path, asked, *values in safety_rows(*designs)
+        ]
         active = [[limit.key, limit.relation, limit.bound, limit.value] for limit in self.active]
         remarks = [
             f"eta_z {points(self.gain)} points; {self.agreed} of {self.starts} starts agree",
@@ -168,13 +197,15 @@ class Optimum(Result):
                 for limit in self.limits
                 if not limit.active
             ),
-            "rate it with " + " ".join(f'--set "{setting}"' for setting in self.settings),
+            "rate it with "
+            + " ".join(f'--set "{text}"' for text in self.made_settings or self.settings),
             *self.notes,
         ]
+        headings = "", "as it is", "best", *(["to be made"] if self.made else [])
         held = "Constraints that hold it back"
         tables = (
-            Table.of(("", "as it is", "self"), rows, title="Highest efficiency of the teeth"),
-            Table.of(("", "", "limit", "self"), active, title=held, left=2, remarks=remarks),
+            Table.of(headings, rows, title="Highest efficiency of the teeth"),
+            Table.of(("", "", "limit", "best"), active, title=held, left=2, remarks=remarks),
         )
         return tables if self.curve is None else (*tables, self.curve.table())
 
@@ -187,6 +218,8 @@ def optimise(
     *,
     starts: int = STARTS,
     folder: Path | None = None,
+    least: Mapping[str, float] | None = None,
+    begin: FloatArray | None = None,
 ) -> Optimum:
     """Find the design of the highest efficiency by ISO/TR 14521 that keeps its load capacity.
 
@@ -200,12 +233,18 @@ def optimise(
         How many starts beside the gearset as it is, a power of two.
     folder : path, optional
         Where a relative file name among the options starts.
+    least : mapping of str to float, optional
+        Least safeties by ``standard.key``. Where they are given the permissible torque of BS 721,
+        the lower of those for wear and strength, is kept; else each of the two is, as in the
+        thesis (3.3.5), and no other safety.
+    begin : ndarray, optional
+        Designs to begin from as well, rows of the variables in SI.
 
     Returns
     -------
     Optimum
-        The permissible torques for wear and strength by BS 721 are at least what they were, h* is
-        above zero, and the profile shift keeps its bounds.
+        Load capacity and safeties are at least what they must be, h* is above zero, and the profile
+        shift keeps its bounds.
 
     Raises
     ------
@@ -219,65 +258,81 @@ def optimise(
             f"rating.friction is {options.friction:g}, on which pressure angle and roughness have "
             "no say; leave it out, or use rating.base_friction or rating.friction_factor"
         )
-    space = Space(gearset, operation, options, bounds, folder)
+    space = Space(gearset, operation, options, bounds, folder, least)
     kept = space.numbers(space.start)
-    least = {key: float(kept[key]) for key in ("M_w_Nm", "M_s_Nm")}
-    begin = [space.start, *spread(space.dimensions, starts)]
-    begin += space.best_of_sample("eta_z1_2", **least)
-    top = climb(lambda points: space.merit(space.worth(points), least), begin)
+    torque = None if least is None else float(kept["M_permissible_Nm"])
+    capacity = {key: float(kept[key]) if torque is None else torque for key in TORQUES}
+    first = [space.start, *spread(space.dimensions, starts)]
+    first += space.best_of_sample("eta_z1_2", **capacity)
+    first += [] if begin is None else list(space.points(begin))
+    top = climb(lambda points: space.merit(space.worth(points), capacity), first)
     assert top is not None  # the gearset as it is keeps its own load capacity
     design = space.gearset_at(top.point)
+    near = None if least is None else rounded(space, top.point, capacity)
     before, after = (rate(g, operation, options, folder=folder) for g in (gearset, design))
+    made = None
+    if near is not None:
+        made = rate(space.gearset_at(near), operation, options, folder=folder)
     return Optimum(
         gearset=design,
         before=before,
         after=after,
-        limits=_limits(space, before, after),
-        starts=len(begin),
+        limits=_limits(space, capacity, after),
+        starts=len(first),
         agreed=top.agreed,
-        notes=_notes(before, bounds),
+        made=made,
+        notes=(*_notes(before, bounds), *(falls(before, made or after) if least else ())),
     )
 
 
-def prepare(case: Case) -> Gears:
-    """Return the gearset of a case and how it runs."""
-    return Gears.of(case)
+class Asked(NamedTuple):
+    """What is asked of the command.
+
+    Attributes
+    ----------
+    gears : Gears
+        The gearset and how it runs.
+    bounds : Bounds or None
+        How far it may be changed.
+    keep : tuple of str
+        Safeties that may not fall.
+    """
+
+    gears: Gears
+    bounds: Bounds | None
+    keep: tuple[str, ...]
 
 
-def answer(gears: Gears, _: Run) -> Optimum:
-    """Return the best design of a case's gearset, with the trade-off."""
-    best = optimise(gears.gearset, gears.operation, gears.options, folder=gears.folder)
-    curve = trade_off(gears.gearset, gears.operation, gears.options, folder=gears.folder)
+def prepare(
+    case: Case,
+    *,
+    free: str = "",
+    bounds: Sequence[str] | None = None,
+    keep: Sequence[str] | None = None,
+) -> Asked:
+    """Return the gearset of a case, how it runs, and what is asked of its best design."""
+    gears = Gears.of(case)
+    for name in keep or ():
+        known_safeties(name)
+    return Asked(gears, bounds_of(gears.gearset, free, bounds or ()), tuple(keep or ()))
+
+
+def answer(asked: Asked, _: Run) -> Optimum:
+    """Return the best design of a case's gearset, with the trade-off it lies on."""
+    gears = asked.gears
+    tables = gears.gearset, gears.operation, gears.options, asked.bounds
+    now = rate(*tables[:3], folder=gears.folder)
+    least = least_safeties(now, asked.keep)
+    curve = trade_off(*tables, folder=gears.folder, least=least)
+    begin = np.stack(
+        [
+            varied_quantity(name).to_si(curve.numbers[varied_quantity(name).key])
+            for name in VARIABLES
+        ],
+        axis=-1,
+    )
+    best = optimise(*tables, folder=gears.folder, least=least, begin=begin)
     return dataclasses.replace(best, curve=curve)
-
-
-def design_numbers(rated: Rated) -> dict[str, Any]:
-    """Return a design: what is free, what follows, and what it is worth by each standard."""
-    g = rated.geometry
-    return {
-        **{varied_quantity(name).key: value for name, value in _free(rated).items()},
-        "lead_angle_deg": math.degrees(g.lead_angle),
-        **{
-            standard: (
-                {key: rating[key] for key in keys if key in rating}
-                if (rating := rated.found.get(standard)) is not None
-                else None
-            )
-            for standard, keys in SHOWN.items()
-        },
-    }
-
-
-def _free(rated: Rated) -> dict[str, float]:
-    """Return what is free, and the profile shift that follows, in the units of results."""
-    g = rated.geometry
-    return {
-        "pressure_angle": varied_quantity("pressure_angle").shown(g.pressure_angle),
-        "diameter_factor": g.diameter_factor,
-        "axial_module": g.axial_module,
-        "worm_roughness": varied_quantity("worm_roughness").shown(rated.gearset.worm_roughness),
-        "profile_shift": g.profile_shift,
-    }
 
 
 def _number(rated: Rated, key: str) -> float:
@@ -285,18 +340,24 @@ def _number(rated: Rated, key: str) -> float:
     return float(rating[key])
 
 
-def _limits(space: Space, before: Rated, after: Rated) -> tuple[Limit, ...]:
+def _limits(space: Space, capacity: Mapping[str, float], after: Rated) -> tuple[Limit, ...]:
     limits = []
-    for key, symbol in (("M_w_Nm", "M_w"), ("M_s_Nm", "M_s")):
-        bound, value = _number(before, key), _number(after, key)
+    for key, symbol in TORQUES.items():
+        bound, value = capacity[key], _number(after, key)
         limits.append(Limit(key, symbol, ">=", bound, value, value - bound < _ACTIVE * bound))
+    for safety in after.verdict.safeties:
+        demand, value = safety.demand, safety.value
+        if demand.path in space.least:
+            bound = space.least[demand.path]
+            active = value - bound < _ACTIVE * bound
+            limits.append(Limit(demand.path, demand.symbol, ">=", bound, value, active))
     h_star = _number(after, "h_star")
     limits.append(Limit("h_star", "h*", ">", 0.0, h_star, h_star < _ACTIVE))
     spans = {
         name: (varied_quantity(name).shown(low), varied_quantity(name).shown(high))
         for name, low, high in zip(VARIABLES, space.lower, space.upper, strict=True)
     } | {"profile_shift": space.profile_shift}
-    values = _free(after)
+    values = free_numbers(after)
     for name, (low, high) in spans.items():
         what, value = varied_quantity(name), values[name]
         near = _ACTIVE * (high - low)

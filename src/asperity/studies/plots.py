@@ -121,7 +121,7 @@ def plot_trade_off(dataset: "xr.Dataset") -> "Figure":
     )  # fmt: skip
     for group, marker, colour, label in (
         ("given", "s", VERMILION, "as it is"),
-        ("optimum", "D", GREEN, r"optimum, $M_w$ and $M_s$ kept"),
+        ("optimum", "D", GREEN, "optimum, permissible torque kept"),
     ):
         if f"{group}.eta_z1_2" in attributes:
             axes.plot(

@@ -127,12 +127,13 @@ def trade_off(
     *,
     points: int = POINTS,
     folder: Path | None = None,
+    least: Mapping[str, float] | None = None,
 ) -> TradeOff:
     """Find the highest efficiency for each of several permissible torques.
 
     Parameters
     ----------
-    gearset, operation, options, bounds, folder
+    gearset, operation, options, bounds, folder, least
         As in `asperity.studies.optimise.optimise`.
     points : int
         Required torques on the curve, at least 2.
@@ -144,7 +145,7 @@ def trade_off(
     """
     if points < 2:
         raise InputError(f"points is {points}; a curve needs at least 2")
-    space = Space(gearset, operation, options, bounds, folder)
+    space = Space(gearset, operation, options, bounds, folder, least)
     now = space.numbers(space.start)
     unit = float(now["M_permissible_Nm"])
     begin = [space.start, *spread(space.dimensions, _STARTS)]
@@ -200,7 +201,7 @@ def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
         found = space.numbers(points[:, :-1])
         torque = _MOST * points[:, -1]
         rows = [torque, *(found[key] / unit - torque for key in ("M_w_Nm", "M_s_Nm"))]
-        return np.stack([*rows, *space.room(found["profile_shift"])], axis=-1)
+        return np.stack([*rows, *space.room(found)], axis=-1)
 
     begin = begin + space.best_of_sample("M_permissible_Nm", h_star=0.0)
     top = climb(
