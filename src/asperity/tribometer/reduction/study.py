@@ -78,8 +78,8 @@ def read(
         found.append(Reducible(recording, own))
     first = found[0].case
     values = {field.name: getattr(first, field.name) for field in dataclasses.fields(Case)}
-    if len(found) > 1:
-        values["source"] = f"{len(found)} recordings"
+    many = len(found) > 1
+    values["source"] = f"{len(found)} recordings" if many else found[0].recording.name
     return _Opened(**values, reducible=tuple(found))
 
 
@@ -102,11 +102,11 @@ def answer(problem: Sequence[Reducible], run: Run) -> Reduced:
             of_file, of_segments = reduce_recording(one)
             files.append(of_file)
             segments += of_segments
-            for segment in of_segments:
-                if segment.quality == REFUSED:
-                    run.notify(f"{segment.file}: {refusal(segment)}")
     if not any(segment.quality != REFUSED for segment in segments):
         raise InputError(_nothing(problem, segments))
+    for segment in segments:
+        if segment.quality == REFUSED:
+            run.notify(f"{segment.file}: {refusal(segment)}")
     deviation, freedom = repeats(segments)
     return Reduced(
         segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
