@@ -40,7 +40,7 @@ def test_a_run_is_resumed_acknowledged_and_reduced(asperity, tmp_path):
     answer = json.loads(output)
     assert answer["cells_done"] == 2
     assert answer["latched"] is None
-    assert answer["cells"][1]["level_with"]["torque_steel"] == pytest.approx(0.0925, rel=0.05)
+    assert answer["cells"][1]["level_with"]["torque_steel"] == pytest.approx(0.0925, rel=0.1)
     assert {"journal.jsonl", "run.json", "run.nc", "run.png", "file-01.nc"} <= {
         path.name for path in (tmp_path / "other").iterdir()
     }

@@ -206,7 +206,7 @@ def test_the_whole_procedure_runs_on_makers_drivers(fault, tmp_path, monkeypatch
     assert not inside.on & {"steel", "bronze"}
     if not fault:
         assert answer.failure is None
-        assert answer.torque_with[0] == pytest.approx(0.0925, rel=0.05)
+        assert answer.torque_with[0] == pytest.approx(0.0925, rel=0.1)
         return
     assert answer.failure.kind in ("no answer", "line lost")
     # The controller still vibrates and hears nothing; its amplifier has no power.

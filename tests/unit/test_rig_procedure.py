@@ -38,9 +38,9 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
                      25, 26, 27, 32}  # fmt: skip
     assert lines[-1]["kind"] == "finished"
     assert [cell["frequency_Hz"] for cell in answer.to_json()["cells"]] == [250.0, 750.0]
-    # What the twin was fitted to, but for a second of settling and the run-out.
-    assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.03)
-    assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.05)
+    # What the twin was fitted to, but for the run-out of both discs, which a second sees no mean of.
+    assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.05)
+    assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)
 
 
 def test_what_a_run_records_is_what_its_journal_says(undisturbed):
@@ -165,7 +165,7 @@ def test_a_supply_that_gives_something_else_latches(tmp_path):
         (("speed_steel", "speed_bronze"), "no change"),
         (("speed_steel", "current_steel"), "no change"),
         (("load_cell", "torque_steel"), "preload"),
-        (("drive_voltage", "torque_steel"), "no change"),
+        (("drive_voltage", "torque_steel"), "vibration"),
     ],
 )
 def test_exchanged_cables_are_found_before_the_first_recording(pair, kind, tmp_path):

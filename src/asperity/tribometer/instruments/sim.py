@@ -21,6 +21,7 @@ from asperity.tribometer.instruments.protocols import (
 from asperity.tribometer.signals import SIGNALS
 from asperity.tribometer.twin import plant_kernels as kernels
 from asperity.tribometer.twin.chain import POINTS, disc_velocity
+from asperity.tribometer.twin.noise import Noise
 from asperity.tribometer.twin.plant import STEP, Plant
 
 _OFF = -1.0
@@ -58,10 +59,9 @@ class SimulatedRig:
         self.waveform: Waveform = "sine"
         self.frequency = 0.0
         self._state = np.zeros(1, kernels.STATE)
-        self._rng = np.random.Generator(np.random.PCG64(plant.twin.seed))
-        self._state["angle_steel"], self._state["angle_bronze"] = self._rng.uniform(
-            0.0, 2.0 * math.pi, 2
-        )
+        self._noise = Noise(plant.twin.seed, kernels.NORMALS)
+        angles = np.random.default_rng(plant.twin.seed).uniform(0.0, 2.0 * math.pi, 2)
+        self._state["angle_steel"], self._state["angle_bronze"] = angles
         self._interval = 0.0
         self._reached = 0.0
         self._sampled = 0
@@ -110,7 +110,7 @@ class SimulatedRig:
 
     def _samples(self, count: int) -> Counts:
         counts = np.empty((count, len(self.inputs)), np.int16)
-        normals = self._rng.standard_normal((count, kernels.NORMALS), dtype=np.float32)
+        normals = self._noise.take(count)
         stride = max(1, round(STEP / self._interval))
         kernels.sample(
             *self._parts(self._interval), self._state[0], stride * self._interval, stride,
@@ -159,7 +159,7 @@ class SimulatedRig:
             "waveform": self.waveform,
             "frequency": self.frequency,
             "held": held,
-            "rng": self._rng.bit_generator.state,
+            "noise": self._noise.state(),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -169,7 +169,7 @@ class SimulatedRig:
         self.frequency = float(state["frequency"])
         for name, value in state["held"].items():
             self._state[name] = value
-        self._rng.bit_generator.state = state["rng"]
+        self._noise.restore(state["noise"])
 
 
 class SimulatedClock:

@@ -5,6 +5,7 @@ within a block of what happened.
 """
 
 import dataclasses
+import functools
 from collections.abc import Mapping
 
 import numpy as np
@@ -93,12 +94,16 @@ class Interlock:
         if self.limits.motor_current is not None:
             for name in ("current_steel", "current_bronze"):
                 bounds[name] = "limits.motor_current", self.limits.motor_current, "A", "current"
+        most_counts, least_counts = counts.max(axis=0), counts.min(axis=0)
         for column, given in enumerate(self.inputs):
             if given.signal not in bounds:
                 continue
             key, most, unit, kind = bounds[given.signal]
-            values = self.offsets[column] + self.gains[column] * counts[:, column]
-            size = np.abs(values)
+            gain, offset = self.gains[column], self.offsets[column]
+            ends = offset + gain * np.array([most_counts[column], least_counts[column]])
+            if np.abs(ends).max() <= most:
+                continue
+            size = np.abs(offset + gain * counts[:, column])
             if np.count_nonzero(size > most) > _SPIKES:
                 raise InstrumentError(
                     f"{given.signal} is {float(size.max()):.3g} {unit}; {key} is {most:g} {unit}",
@@ -113,15 +118,15 @@ class Interlock:
         )
         if column is None:
             return
-        volts = self.offsets[column] + self.gains[column] * counts[:, column]
-        still = float(volts.std()) < _STILL * self.swing
+        moved = int(counts[:, column].max()) - int(counts[:, column].min())
+        still = 0.5 * abs(self.gains[column]) * moved < _STILL * self.swing
         if not expected.frequency:
             if not still:
                 raise InstrumentError(
                     "the drive signal moves while no vibration is asked for", kind="vibration"
                 )
             return
-        cycles = expected.frequency * interval * volts.size
+        cycles = expected.frequency * interval * len(counts)
         if cycles < _FEWEST_CYCLES:
             return
         if still:
@@ -129,6 +134,7 @@ class Interlock:
                 f"no vibration is found where {expected.frequency:g} Hz is asked for",
                 kind="vibration",
             )
+        volts = self.offsets[column] + self.gains[column] * counts[:, column]
         found, third = tone(volts, interval)
         # A window of few cycles tells a frequency no better than to a part of a cycle.
         tolerance = max(self.frequency_tolerance, 0.2 / cycles) * expected.frequency
@@ -158,13 +164,17 @@ class Interlock:
                 )
 
 
+@functools.lru_cache(maxsize=8)
+def _window(size: int) -> FloatArray:
+    return np.hanning(size)
+
+
 def tone(volts: FloatArray, interval: float) -> tuple[float, float | None]:
     """Return frequency, Hz, of a signal's largest tone, and its third harmonic over it.
 
     The third is None where the samples are too far apart to tell it.
     """
-    window = np.hanning(volts.size)
-    spectrum = np.abs(np.fft.rfft((volts - volts.mean()) * window))
+    spectrum = np.abs(np.fft.rfft((volts - volts.mean()) * _window(volts.size)))
     spectrum[0] = 0.0
     place = int(spectrum.argmax())
     shift = 0.0

@@ -19,6 +19,7 @@ from asperity.tribometer.recording import Recorder, Source
 
 BLOCK = 0.1  #: s; vibration and motors are off so long after something trips at the latest.
 _POLLS_A_BLOCK = 2
+_WRITTEN = 0.5  # s that a killed process costs at most; its cell is run again anyway.
 _SETTLING = 0.3  # s, until a change that was told must be seen.
 _SUPPLIES_EVERY = 1.0  # s
 
@@ -103,7 +104,7 @@ class Logger:
             sources = [Source(one.signal, "V", one.range / 32767.0) for one in bench.scope.inputs]
             self._recorder = Recorder(
                 path, sources, self.interval, configuration=configuration, start=start,
-                block=max(1, round(BLOCK / self.interval)), simulated=simulated,
+                block=max(1, round(_WRITTEN / self.interval)), simulated=simulated,
             )  # fmt: skip
 
     @property
