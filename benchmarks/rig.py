@@ -3,8 +3,8 @@
 Run it with ``make bench``. A file of six cells is run at each of three speeds, at 20 kS/s on eight
 channels, by the whole procedure: interlocks, journal, recording, compression. The rest of the
 thesis's thirty files differ in nothing that takes time. Files are compressed and noise is drawn
-in threads beside; ``times_real_time`` counts the busier of the main thread and all others, so that
-it tells what two cores do that nobody else uses, and ``times_real_time_by_the_clock`` what they did.
+in threads beside; ``times_real_time`` counts the busier of the main thread and all others: what two
+cores do that nobody else uses. ``times_real_time_by_the_clock`` is what they did.
 """
 
 import tempfile

@@ -38,7 +38,7 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
                      25, 26, 27, 32}  # fmt: skip
     assert lines[-1]["kind"] == "finished"
     assert [cell["frequency_Hz"] for cell in answer.to_json()["cells"]] == [250.0, 750.0]
-    # What the twin was fitted to, but for the run-out of both discs, which a second sees no mean of.
+    # What it was fitted to, but for run-out, of whose mean a second sees little.
     assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.05)
     assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)
 
