@@ -1,5 +1,6 @@
 """Axes of a grid, from text such as ``vibration.direction=0:360:15``."""
 
+import contextlib
 import dataclasses
 import math
 import re
@@ -11,7 +12,8 @@ from typing import NoReturn
 from asperity import store
 from asperity.casefile import Case, Table, bare_unit, names_file, read_case, same_thing
 from asperity.errors import InputError, choices, nearest
-from asperity.slider.tables import TABLES as SWEPT
+from asperity.shipped import shipped_cases
+from asperity.sweep.subject import Subject, subject_of
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 MOST_POINTS = 1_000_000  # some 300 MB, and a quarter of an hour where each takes a millisecond
@@ -124,7 +126,8 @@ def read_grid(
     InputError
         One line that names the file, setting or axis, the key, the value and what is allowed.
     """
-    written = [_split(text, tables) for text in over]
+    subject = subject_of(_named_tables(name_or_path, settings))
+    written = [_split(text, tables, subject) for text in over]
     _distinct(written)
     first = [axis.first_setting() for axis in written]
     try:
@@ -159,12 +162,24 @@ def parse_axes(over: Sequence[str], case: Case) -> list[Axis]:
     case : Case
         Gives the tables, and the unit of a number without one.
     """
-    written = [_split(text, case.known) for text in over]
+    subject = subject_of(case)
+    written = [_split(text, case.known, subject) for text in over]
     _distinct(written)
     return _within_bounds([_axis(axis, case) for axis in written])
 
 
-def _split(text: str, tables: Mapping[str, type[Table]]) -> _Written:
+def _named_tables(name_or_path: str, settings: Sequence[str]) -> dict[str, object]:
+    """Return the names of a case's tables before it is whole; none where it cannot be read."""
+    named: dict[str, object] = {setting.partition(".")[0].strip(): 1 for setting in settings}
+    path = Path(name_or_path)
+    if not path.is_file():
+        path = shipped_cases().get(name_or_path, path)
+    with contextlib.suppress(InputError):
+        named |= store.read_toml(path, name_or_path)
+    return named
+
+
+def _split(text: str, tables: Mapping[str, type[Table]], subject: Subject) -> _Written:
     text = " ".join(text.split())
     path, equals, values = (part.strip() for part in text.partition("="))
     names = _PATH.fullmatch(path)
@@ -175,9 +190,10 @@ def _split(text: str, tables: Mapping[str, type[Table]]) -> _Written:
         raise InputError(
             f"--over {text}: [{name}] is not a table of a case file{nearest(name, tables)}"
         )
-    if name not in SWEPT:
+    if name not in subject.tables:
         raise InputError(
-            f"--over {text}: [{name}] has no part in a sliding body; take one of {choices(SWEPT)}"
+            f"--over {text}: [{name}] has no part in {subject.what}; take one of "
+            f"{choices(subject.tables)}"
         )
     model = tables[name]
     if key not in model.model_fields:

@@ -4,16 +4,15 @@ import dataclasses
 import functools
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from asperity.casefile import Case, Table
 from asperity.errors import AsperityError, InputError
 from asperity.runs.key import code_key, key
-from asperity.slider.model import Model
-from asperity.slider.tables import TABLES
-from asperity.slider.timetable import Timetable
 from asperity.sweep.axes import Axis
+from asperity.sweep.subject import subject_of
 
 # Enough for the inner axis of a large grid; more would let memory grow with the grid.
 _KEPT_TABLES = 4096
@@ -26,7 +25,7 @@ class Point:
     """One point of a grid, ready to be solved."""
 
     index: int
-    model: Model
+    model: Any  # the problem, of the kind that is swept
     key: str  # its result is kept under: of the tables and of the sources it follows from
     kind: tuple[object, ...]  # what two points must share to be marched in one batch
 
@@ -41,6 +40,7 @@ class Grid:
         if not axes:
             raise InputError("the sweep has no axis; give one, as in --over friction.mu=0.1,0.2")
         self.case = case
+        self.subject = subject_of(case)
         self.axes = tuple(axes)
         self.shape = tuple(len(axis.values) for axis in axes)
         self.size = math.prod(self.shape)
@@ -52,7 +52,7 @@ class Grid:
         self._fixed = {
             name: self._canonical(name, table)
             for name, table in case.tables.items()
-            if name in TABLES and name not in self._members
+            if name in self.subject.tables and name not in self._members
         }
 
     def describe(self, index: int) -> str:
@@ -80,9 +80,10 @@ class Grid:
         texts = dict(self._fixed)
         for name, members in self._members.items():
             tables[name], texts[name] = self._table(name, tuple(places[m] for m in members))
-        model = Model.from_case(dataclasses.replace(self.case, tables=tables))
-        name = key(code_key(_SOLVER), *(texts[name] for name in sorted(texts)))
-        return Point(index, model, name, _kind(model))
+        model = self.subject.prepare(dataclasses.replace(self.case, tables=tables))
+        solver = code_key(_SOLVER, self.subject.module)
+        name = key(solver, *(texts[name] for name in sorted(texts)))
+        return Point(index, model, name, self.subject.kind(model))
 
     def _make_table(self, name: str, places: tuple[int, ...]) -> tuple[Table, str]:
         axes = (self.axes[member] for member in self._members[name])
@@ -92,10 +93,3 @@ class Grid:
 
     def _canonical(self, name: str, table: Table) -> str:
         return dataclasses.replace(self.case, tables={name: table}).canonical()
-
-
-def _kind(model: Model) -> tuple[object, ...]:
-    # Makes the checks a solution begins with, before anything has been solved.
-    steps = Timetable(model).steps if model.solve.method == "march" else model.substeps
-    friction = model.friction
-    return model.solve.method, model.solve.scheme, friction.model, friction.law, steps

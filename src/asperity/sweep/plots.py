@@ -25,7 +25,7 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     InputError
         The sweep has more than two axes.
     """
-    ratio = dataset["ratio"]
+    ratio = dataset["ratio" if "ratio" in dataset else "torque_ratio"]
     axes = [dataset[dim] for dim in ratio.dims]
     if len(axes) > MOST_AXES:
         raise InputError(
@@ -44,7 +44,11 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
             legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
         _many_lines(panel, along, curves, across)
-    panel.set(xlabel=_label(along), ylabel=r"mean drive force over $\mu F_N$")
+    label = r"mean drive force over $\mu F_N$"
+    if "torque_balance" in dataset:
+        label = "mean torque over that without vibration"
+        _mark_unsettled(panel, along, dataset, ratio)
+    panel.set(xlabel=_label(along), ylabel=label)
     least = float(np.nanmin(ratio)) if np.isfinite(ratio).any() else 0.0
     if least < 0.0:
         # Below it the vibration drives the body.
@@ -79,6 +83,22 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
     legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     every[-1].set_xlabel(f"{name} ({unit})" if unit else name)
     return figure
+
+
+def _mark_unsettled(
+    panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset", ratio: "xr.DataArray"
+) -> None:
+    """Cross out what is no periodic state, and say how well the wheels of the rest balance."""
+    order = (along.name, ...)
+    loose = ~(dataset["settled"].transpose(*order).values.reshape(along.size, -1) > 0.0)
+    values = ratio.transpose(*order).values.reshape(along.size, -1)
+    places = along.values if _is_numeric(along) else np.arange(along.size)
+    for column, out in zip(values.T, loose.T, strict=True):
+        panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)
+    off = np.abs(dataset["torque_balance"].transpose(*order).values.reshape(along.size, -1))
+    worst = 100.0 * float(off[~loose].max()) if (~loose).any() else 0.0
+    crossed = f"{int(loose.sum())} crossed out have not settled; " if loose.any() else ""
+    panel.set_title(f"{crossed}wheel of the others in balance to {worst:.1g} %", loc="left")
 
 
 def _line(panel: "Axes", axis: "xr.DataArray", values: np.ndarray, **style: Any) -> None:

@@ -10,7 +10,6 @@ import numpy as np
 from asperity.errors import AsperityError, InputError, MissingExtraError, StorageError
 from asperity.runs.rows import Row
 from asperity.runs.workers import cores
-from asperity.slider.model import Model
 from asperity.sweep.tasks import solve_remote, solve_task, versions
 
 _CONNECT_SECONDS = 5
@@ -24,7 +23,7 @@ class Pool:
 
     room: int  # how many tasks to hand in ahead, so that nobody waits and memory stays small
 
-    def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
+    def submit(self, problems: Sequence[Any]) -> "cf.Future[list[Row]]":
         """Hand in a task."""
         raise NotImplementedError
 
@@ -47,13 +46,14 @@ class Pool:
 class _Cores(Pool):
     """The cores of this machine: threads, since the compiled loops leave the interpreter free."""
 
-    def __init__(self) -> None:
+    def __init__(self, subject: str) -> None:
         self.room = 2 * cores()
+        self._subject = subject
         self._threads = cf.ThreadPoolExecutor(cores(), thread_name_prefix="sweep")
         self._stop = np.zeros(1, dtype=np.int64)
 
-    def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
-        return self._threads.submit(solve_task, models, self._stop)
+    def submit(self, problems: Sequence[Any]) -> "cf.Future[list[Row]]":
+        return self._threads.submit(solve_task, problems, self._stop, self._subject)
 
     def stop(self) -> None:
         self._stop[0] = 1
@@ -69,7 +69,7 @@ class _Cluster(Pool):
     Its address is such as ``tcp://127.0.0.1:8786``; what is being waited for is told in one line.
     """
 
-    def __init__(self, address: str, notify: Callable[[str], None]) -> None:
+    def __init__(self, address: str, notify: Callable[[str], None], subject: str) -> None:
         try:
             import distributed
         except ImportError:
@@ -80,6 +80,7 @@ class _Cluster(Pool):
         for log in ("distributed", "distributed.client"):
             logging.getLogger(log).setLevel(logging.CRITICAL)
         self._address = address
+        self._subject = subject
         self._notify = notify
         self._waits = False
         try:
@@ -100,8 +101,10 @@ class _Cluster(Pool):
         threads = sum(self._client.nthreads().values())
         self.room = max(_LEAST_ROOM, _ROOM_PER_THREAD * threads)
 
-    def submit(self, models: Sequence[Model]) -> "cf.Future[list[Row]]":
-        future: cf.Future[list[Row]] = self._executor.submit(solve_remote, models, versions())
+    def submit(self, problems: Sequence[Any]) -> "cf.Future[list[Row]]":
+        future: cf.Future[list[Row]] = self._executor.submit(
+            solve_remote, problems, versions(self._subject), self._subject
+        )
         return future
 
     def check(self) -> None:
@@ -132,6 +135,9 @@ class _Cluster(Pool):
         self._client.close()
 
 
-def pool(cluster: str, notify: Callable[[str], None]) -> Pool:
-    """Return the workers of a scheduler at an address, or the cores of this machine."""
-    return _Cluster(cluster, notify) if cluster else _Cores()
+def pool(cluster: str, notify: Callable[[str], None], subject: str = "") -> Pool:
+    """Return the workers of a scheduler at an address, or the cores of this machine.
+
+    The subject is what they solve, by name; sliding bodies if left out.
+    """
+    return _Cluster(cluster, notify, subject) if cluster else _Cores(subject)

@@ -15,7 +15,7 @@ from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.slider.periodic import UNSTABLE
 from asperity.sweep.axes import Axis
-from asperity.sweep.tasks import VARIABLES
+from asperity.sweep.subject import Subject, named
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,8 +26,6 @@ _MOST_REASONS = 100
 MOST_AXES = 2
 _MOST_ROWS = 60
 _MOST_COLUMNS = 9
-# What a ratio of a body that is pressed is never shown without.
-_BESIDE = {"ratio_mean_load": "F/mu N", "open_share": "open", "period": "period"}
 
 
 class SweepResult(Result):
@@ -53,6 +51,8 @@ class SweepResult(Result):
         Time the sweep took.
     file : pathlib.Path or None
         Where it is written.
+    subject : str
+        What was swept, by name; sliding bodies if left out.
     """
 
     title: ClassVar[str] = "Sliding body over a grid"
@@ -68,6 +68,11 @@ class SweepResult(Result):
     cached: int = quantity("", "", "points known from before", shown=False)
     seconds: float = quantity("", "s", "time it took", key="seconds", shown=False)
     file: Path | None = None
+    subject: str = ""
+
+    @property
+    def _of(self) -> Subject:
+        return named(self.subject)
 
     @property
     def inputs(self) -> Mapping[str, Any]:
@@ -95,8 +100,8 @@ class SweepResult(Result):
 
     @property
     def beside(self) -> tuple[str, ...]:
-        """What of a body that is pressed stands beside the ratio."""
-        return tuple(name for name in _BESIDE if name in self.arrays)
+        """What the ratio is never shown without, as far as it is there."""
+        return tuple(name for name in self._of.beside if name in self.arrays)
 
     @property
     def aperiodic(self) -> int:
@@ -129,7 +134,7 @@ class SweepResult(Result):
                 self.arrays[variable.name],
                 {"units": variable.label.unit or "1", "long_name": variable.label.meaning},
             )
-            for variable in VARIABLES
+            for variable in self._of.variables
             if variable.name in self.arrays
         }
         flags = {
@@ -148,7 +153,7 @@ class SweepResult(Result):
             for dim, axis in zip(self.dims, self.axes, strict=True)
         }
         attributes = {
-            "title": self.title,
+            "title": self._of.title,
             "case": self.source,
             "failures": "; ".join(f"{point}: {why}" for point, why in self.failures.items()),
         }
@@ -160,7 +165,7 @@ class SweepResult(Result):
             "dims": [axis.path for axis in self.axes],
             "coords": {axis.path: list(axis.shown) for axis in self.axes},
             "units": {axis.path: axis.unit for axis in self.axes},
-            "ratio": _listed(self.arrays["ratio"]),
+            self._of.shown: _listed(self.arrays[self._of.shown]),
             **{name: _listed(self.arrays[name]) for name in self.beside},
             "points": self.points,
             "failed": self.failed,
@@ -171,7 +176,7 @@ class SweepResult(Result):
 
     def heading(self) -> str:
         """Return the case and what is shown of it."""
-        return "mean drive force over mu F_N"
+        return self._of.heading
 
     def tables(self) -> tuple[Table, ...]:
         """Return the ratio over the grid: a matrix where it fits, a list where not."""
@@ -183,8 +188,8 @@ class SweepResult(Result):
                 f"{self.aperiodic} points are marches, or states that are unstable: `slide` says "
                 "of each what is known",
             )
-        beside = {_BESIDE[name]: self.arrays[name] for name in self.beside}
-        return (_table(self.axes, self.arrays["ratio"], remarks, beside),)
+        beside = {self._of.beside[name]: self.arrays[name] for name in self.beside}
+        return (_table(self.axes, self.arrays[self._of.shown], remarks, beside),)
 
     def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
@@ -194,8 +199,9 @@ class SweepResult(Result):
 class Answers:
     """Room for the scalars of every point, filled as they come."""
 
-    def __init__(self, size: int) -> None:
+    def __init__(self, size: int, subject: str = "") -> None:
         self._size = size
+        self._subject = named(subject)
         self._arrays: dict[str, FloatArray] = {}
         self.status = np.zeros(size, dtype=np.int8)
         self.reasons: dict[int, str] = {}
@@ -216,8 +222,9 @@ class Answers:
     @property
     def arrays(self) -> dict[str, FloatArray]:
         """The scalars that any point has, in their order; the ratio at least."""
-        found = self._arrays or {"ratio": np.full(self._size, math.nan)}
-        return {entry.name: found[entry.name] for entry in VARIABLES if entry.name in found}
+        found = self._arrays or {self._subject.shown: np.full(self._size, math.nan)}
+        variables = self._subject.variables
+        return {entry.name: found[entry.name] for entry in variables if entry.name in found}
 
 
 def _listed(values: FloatArray) -> list[Any]:

@@ -5,6 +5,7 @@ import dataclasses
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -13,20 +14,15 @@ from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
 from asperity.runs.rows import Row, Rows
 from asperity.runs.workers import cores
-from asperity.slider.batch import fits_batch
-from asperity.slider.cost import estimate
-from asperity.slider.model import Model
-from asperity.slider.result import inputs
 from asperity.sweep.axes import Axis, parse_axes
 from asperity.sweep.grid import Grid, Point
 from asperity.sweep.pools import Pool, pool
 from asperity.sweep.result import Answers, SweepResult
-from asperity.sweep.tasks import FAILED, REFUSED, task_size
+from asperity.sweep.tasks import FAILED, REFUSED
 
 _CHUNK = 1024
 _LOOK_SECONDS = 5.0
 _LOOK = 3e-4  # to validate a point and look for it, s
-_BATCHED = 10.0  # bodies a batch marches in the time of one
 
 
 def run(
@@ -115,7 +111,10 @@ def answer(problem: Problem, doing: Run) -> SweepResult:
         arrays={name: array.reshape(grid.shape) for name, array in answers.arrays.items()},
         status=answers.status.reshape(grid.shape),
         failures={grid.describe(index): why for index, why in sorted(answers.reasons.items())},
-        shared={path: value for path, value in inputs(first).items() if path not in varied},
+        shared={
+            path: value for path, value in grid.subject.inputs(first).items() if path not in varied
+        },
+        subject=grid.subject.name,
         cached=grid.size - len(sweep.missing),
         seconds=time.perf_counter() - began,
         file=None if doing.folder is None else doing.folder / "sweep.nc",
@@ -129,7 +128,7 @@ class _Sweep:
         self.grid = grid
         self.kept = kept
         self.doing = doing
-        self.answers = Answers(grid.size)
+        self.answers = Answers(grid.size, grid.subject.name)
         self.missing: list[int] = []
         self._kinds: dict[tuple[object, ...], int] = {}
         self._kind_of = np.zeros(grid.size, dtype=np.int32)
@@ -159,7 +158,7 @@ class _Sweep:
 
     def solve(self, cluster: str) -> None:
         """Solve what is missing."""
-        workers = pool(cluster, self.doing.notify)
+        workers = pool(cluster, self.doing.notify, self.grid.subject.name)
         waiting: dict[cf.Future[list[Row]], list[Point]] = {}
         try:
             self._feed(workers, waiting)
@@ -200,7 +199,9 @@ class _Sweep:
         for group in np.split(missing, edges):
             if group.size == 0:
                 continue
-            size = task_size(next(iter(self.grid.points(group[:1].tolist()))).model)
+            size = self.grid.subject.task_size(
+                next(iter(self.grid.points(group[:1].tolist()))).model
+            )
             for first in range(0, len(group), size):
                 yield group[first : first + size].tolist()
 
@@ -224,12 +225,12 @@ class _Sweep:
         self.answers.put(index, row, None if failed is None else str(failed))
 
 
-def _seconds(grid: Grid, first: Model, distributed: bool) -> float:
+def _seconds(grid: Grid, first: Any, distributed: bool) -> float:
     """How long a grid may take, as if all points were like the first and none known, s.
 
     On a cluster, whose size is not known, that of one core.
     """
-    each = estimate(first) / (_BATCHED if fits_batch(first) else 1.0)
+    each = grid.subject.seconds(first)
     return grid.size * (_LOOK + each / (1 if distributed else cores()))
 
 

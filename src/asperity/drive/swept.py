@@ -1,0 +1,94 @@
+"""Shaken drives, swept."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from asperity.casefile import Case, Table
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.solve import solve_shaken
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
+from asperity.drive.result import DriveResult, inputs
+from asperity.drive.solve import prepare
+from asperity.drive.tables import TABLES
+from asperity.errors import AsperityError
+from asperity.flanks.tables import TABLES as FLANKS
+from asperity.friction import Friction
+from asperity.gearset import Gearset
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.results import Result
+from asperity.results.quantity import Entry, Label
+from asperity.runs import Run
+from asperity.slider.parameters import Solve
+from asperity.sweep.subject import Subject
+from asperity.vibration import Vibration
+
+_SECONDS = 0.1  # that a march takes, as a rule
+
+
+class Drives(Subject):
+    """Worm gearsets under vibration, one march each: the cores take them side by side."""
+
+    name = "drive"
+    what = "a drive"
+    title = "Worm gearset under vibration over a grid"
+    heading = "mean torque over that without vibration"
+    shown = "torque_ratio"
+    beside: ClassVar[Mapping[str, str]] = {
+        "torque_balance": "balance",
+        "settled": "settled",
+        "energy_ratio": "energy",
+    }
+    tables: ClassVar[Mapping[str, type[Table]]] = {
+        **TABLES,
+        **FLANKS,
+        **{
+            table.table: table
+            for table in (Gearset, Operation, RatingOptions, Friction, Vibration, Solve)
+        },
+    }
+    variables: ClassVar[tuple[Entry, ...]] = (
+        *DriveResult.scalars(),
+        Entry("settled", Label("", "", "1 where the state is periodic and balanced")),
+    )
+
+    def prepare(self, case: Case) -> DriveProblem:
+        """Return the problem of a point."""
+        problem = prepare(case)
+        _ = problem.vibrated
+        return problem
+
+    def kind(self, problem: DriveProblem) -> tuple[object, ...]:
+        """Return what they share; each marches by itself."""
+        return ()
+
+    def solve(
+        self, problems: Sequence[DriveProblem], stop: np.ndarray | None
+    ) -> Sequence[Result | AsperityError]:
+        """Solve drives one by one."""
+        found: list[Result | AsperityError] = []
+        for problem in problems:
+            try:
+                model = ReducedModel(problem, reduction(problem, Run()))
+                found.append(solve_shaken(problem, model, Run(), stop))
+            except AsperityError as error:
+                found.append(error)
+        return found
+
+    def scalars(self, answer: Result) -> dict[str, Any]:
+        """Return the scalars, whether it settled as a number."""
+        found = super().scalars(answer)
+        return found | {"settled": float(found["settled"])}
+
+    def seconds(self, problem: DriveProblem) -> float:
+        """Return what a march takes, about, s."""
+        return _SECONDS
+
+    def inputs(self, problem: DriveProblem) -> Mapping[str, Any]:
+        """Return the values of the problem's tables."""
+        return inputs(problem)
+
+
+DRIVE = Drives()
