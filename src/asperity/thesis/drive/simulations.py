@@ -103,21 +103,37 @@ ACTUATOR = (
 Parts = Callable[[bool], Sequence[Part]]
 
 
-def _kept(*settings: tuple[int, tuple[str, ...]]) -> Parts:
-    return lambda full: [one for number, given in settings for one in of_set(number, *given)]
+def _of_sets(given: tuple[tuple[int, tuple[str, ...]], ...], full: bool) -> list[Simulation]:
+    del full
+    return [one for number, settings in given for one in of_set(number, *settings)]
+
+
+def _kept(*given: tuple[int, tuple[str, ...]]) -> Parts:
+    # Functions of a module alone can be handed to other processes.
+    return functools.partial(_of_sets, given)
+
+
+def _last(full: bool) -> list[Simulation]:
+    del full
+    return of_set(3)[-1:]
+
+
+def _coarse(full: bool) -> list[LoadedTeeth]:
+    return meshes(full)[:1]
 
 
 PARTS: Mapping[str, Parts] = {
-    "figure 7.10": lambda full: of_set(3)[-1:],
+    "figure 7.10": _last,
     "figure 7.12": _kept((3, ()), (3, (CUT_OUT,))),
     "figure 7.13": _kept((1, ()), (2, ())),
     "figure 7.14": _kept((3, ()), (3, (COULOMB,))),
     "figure 7.15": _kept((3, ACTUATOR)),
-    "claim 7.2": lambda full: meshes()[:1],
+    "claim 7.2": _coarse,
     "claim 7.3": _kept((3, ())),
     "claim 7.5": meshes,
     "claim 7.7": _kept((3, ACTUATOR)),
     "claim 7.10": _kept((1, ()), (2, ())),
     "claim 7.15": _kept((3, ())),
+    "claim 7.17": _coarse,
 }
 """What each exhibit needs of them."""
