@@ -34,7 +34,7 @@ ROOMS = (
     ("block block-longitudinal BLOCK", "block block-longitudinal BLOCK --set contact.normal=hard"),
     ("flank gearset-3b --density coarse",),
     ("drive drive-screw TEETH --out OUT",),
-    ("rig run rig-final RIG --out OUT",),
+    ("rig run rig-final RIG --out OUT", "rig reduce RECORDING"),
 )
 
 

@@ -41,6 +41,7 @@ def arguments(line, out):
     """Arguments of a command line, with ``--json``."""
     short = tomllib.loads((HERE / "commands.toml").read_text("utf-8"))["short"]
     short |= {"OUT": out, "WAVE": HERE / "wave.csv", "RIGID": HERE / "rigid.toml"}
+    short |= {"RECORDING": HERE / "rig.nc", "RATIOS": HERE / "ratios.csv"}
     for name, meant in short.items():
         line = re.sub(rf"\b{name}\b", lambda _, meant=meant: str(meant), line)
     return [*shlex.split(line), "--json"]

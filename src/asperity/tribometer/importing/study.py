@@ -84,7 +84,7 @@ def answer(problem: Importable, run: Run) -> Imported:
     rows, _ = found.counts.shape
     return Imported(
         sampled=found, configuration=json.dumps(raw, default=str),
-        events=tuple(told) or set_values, simulated=simulated, source=problem.name,
+        events=tuple(told) or set_values, simulated=simulated, source=plain(problem.path.name),
         form=problem.form, samples=rows, sample_interval=found.interval,
         duration=rows * found.interval, missing=int(np.count_nonzero(found.counts == MISSING)),
         beyond=int(
