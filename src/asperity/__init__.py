@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from asperity.normal import Normal
     from asperity.python import (
         check,
+        compare,
         flank,
         methods,
         optimise,
@@ -41,6 +42,7 @@ _PLACES = {
     "asperity.normal": ("Normal",),
     "asperity.python": (
         "check",
+        "compare",
         "flank",
         "methods",
         "optimise",
@@ -79,6 +81,7 @@ __all__ = [
     "Vibration",
     "Wear",
     "check",
+    "compare",
     "flank",
     "homogenise",
     "methods",

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from asperity.casefile.case import Case, read_case
 from asperity.casefile.table import Table
-from asperity.commands import COMMANDS, case_tables
+from asperity.commands import COMMANDS, Command, case_tables
 from asperity.errors import InputError, shown
 from asperity.runs import Run
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from asperity.rating.rate import Rated
     from asperity.results import Result
     from asperity.slider.result import SlideResult
+    from asperity.start.compare import Comparison
     from asperity.studies.optimise import Optimum
     from asperity.studies.proposals import Proposals
 
@@ -129,6 +130,16 @@ def size(
     for setting in settings:
         apply(values, setting, case_tables())
     return proposals(values, ratio_of(ratio), rank)
+
+
+def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":
+    """Put cases side by side: what differs in what is asked and in what comes of it."""
+    from asperity.start.compare import compare as side_by_side
+
+    def answered(command: Command, case: Case) -> "Result":
+        return _answer(command.name, [case], ())
+
+    return side_by_side([as_case([case]) for case in cases], answered)
 
 
 def check(case: str | os.PathLike[str], settings: Sequence[str] = ()) -> "tuple[Mistake, ...]":

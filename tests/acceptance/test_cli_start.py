@@ -223,3 +223,39 @@ def test_what_cannot_be_sized_is_one_line(asperity, options, said):
     assert (code, output) == (2, "")
     assert said in errors
     assert errors.count("\n") == 1
+
+
+def test_cases_side_by_side_differ_in_what_they_ask_and_come_to(asperity, here):
+    code, output, errors = asperity("compare", "gearset-3", "gearset-3b", "--out", here / "out")
+    assert code == 0, errors
+    assert "gearset.centre_distance   74.93 mm           73.66 mm" in output
+    answer = json.loads(asperity("compare", "gearset-3", "gearset-3b", "--json")[1])
+    assert json.loads((here / "out" / "compare.json").read_text()) == answer
+    assert answer["inputs"].keys() == {
+        "gearset.name", "gearset.centre_distance", "gearset.axial_module",
+        "gearset.diameter_factor",
+    }  # fmt: skip
+    for place, case in enumerate(answer["cases"]):
+        rated = json.loads(asperity("rate", case, "--json")[1])
+        for key in ("safety_wear", "eta_ges"):
+            assert answer["results"][f"iso14521.{key}"][place] == rated["iso14521"][key]
+
+
+def test_a_case_compared_with_itself_differs_in_nothing(asperity):
+    answer = json.loads(asperity("compare", "gearset-2", "gearset-2", "--json")[1])
+    assert answer["inputs"] == answer["results"] == {}
+
+
+@pytest.mark.parametrize(
+    ("cases", "said"),
+    [
+        (["gearset-2"], "one case is given; name two or more to compare"),
+        (["gearset-2", "table-4.3"], "these cases are not of one kind"),
+        (["gearset-2", "gearset-22"], "did you mean 'gearset-2'"),
+    ],
+)
+def test_what_cannot_be_compared_is_one_line(asperity, cases, said):
+    code, output, errors = asperity("compare", *cases)
+    assert (code, output) == (2, "")
+    assert said in errors
+    assert errors.count("\n") == 1

@@ -57,6 +57,7 @@ COMMANDS = {
     "check": (["table-4.3", "gearset-3", "normal-pin", "block-longitudinal"], [], 10),
     "new": (["gear", "slide", "block"], [], 2),
     "size": (["gearset-3"], [], 2),
+    "compare": (["gearset-2", "gearset-3"], [], 2),
     "static": (["normal-pin", "table-4.4"], [], 2),
     "branches": (["normal-pin", "table-4.3"], [], 4),
     "rate": (["gearset-2", "gearset-3"], [], 24),
@@ -76,6 +77,7 @@ ROOMS = {
     "check": ["slider", "friction", "vibration", "solve", "gearset", "operation", "rating"],
     "new": ["gearset", "operation", "rating", "slider", "friction", "vibration"],
     "size": ["gearset", "operation", "rating"],
+    "compare": ["gearset", "operation", "rating"],
     "slide": ["slider", "friction", "vibration", "solve"],
     "static": ["slider", "friction", "vibration", "solve", "normal"],
     "branches": ["slider", "friction", "vibration", "solve", "normal"],
@@ -204,6 +206,7 @@ def arguments(rng, folder):
     elif rng.random() < 0.35:
         Path(folder / "broken.toml").write_bytes(broken(rng, text))
         given = ["broken.toml"]
+    given += ["gearset-3"] if command == "compare" else []
     given += [part for one in small for part in ("--set", one)]
     for _ in range(
         rng.choice([0, 1, 1, 1, 2, 3]) if given[0] == "broken.toml" else rng.randint(1, 3)

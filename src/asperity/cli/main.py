@@ -278,6 +278,28 @@ def size(
 
 @app.command()
 @reported
+def compare(
+    cases: Annotated[
+        list[str], typer.Argument(metavar="CASE CASE...", help="Case files, or names of cases.")
+    ],
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
+    ] = None,
+) -> None:
+    """Put gearsets or bodies side by side: what differs in what is asked and in what comes of it.
+
+    A --set changes all of them. With --out also compare.json and compare.nc.
+    """
+    from asperity.cli.compare import compare as run
+
+    run(cases, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
 def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
     """Find all mistakes of a case file, each with its line and what is allowed."""
     from asperity.cli.check import check as run

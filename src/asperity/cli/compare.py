@@ -1,0 +1,35 @@
+"""What ``asperity compare`` does."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from asperity.casefile.case import Case, read_case, told
+from asperity.cli import show
+from asperity.commands import Command, case_tables
+from asperity.results import Result
+from asperity.runs import Run
+from asperity.start.compare import compare as side_by_side
+from asperity.store import output_folder
+
+
+def compare(
+    names: Sequence[str], settings: Sequence[str], *, as_json: bool, out: Path | None
+) -> None:
+    """Answer cases, print what differs and write it."""
+    cases = [read_case(name, case_tables(), settings) for name in names]
+    found = side_by_side(cases, _answered)
+    if as_json:
+        show.print_json(found.to_json())
+    else:
+        show.print_tables(found.tables())
+    if out is not None:
+        folder = output_folder(out)
+        written = found.write(folder, pictures=False)
+        show.note(f"written to {folder}: {', '.join(written)}")
+
+
+def _answered(command: Command, case: Case) -> Result:
+    with told(case), show.progress_bar(command.counts) as progress:
+        options = {option.name: option.default for option in command.options}
+        problem = command.prepared(case, **options)
+        return command.solved(problem, Run(progress=progress, notify=show.note))

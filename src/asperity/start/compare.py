@@ -1,0 +1,190 @@
+"""Cases side by side: what differs in what they ask and in what they come to."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+from asperity.casefile.case import Case
+from asperity.commands import COMMANDS, Command
+from asperity.errors import InputError
+from asperity.results import Result
+from asperity.results.quantity import text_of
+from asperity.results.table import Table
+from asperity.units import quantity_of
+
+COMPARED = ("rate", "block", "slide")
+"""Commands whose answers are compared, the first that all cases have the tables of."""
+
+_SAME = 1e-9
+_LEFT_OUT = "-"
+
+
+class Comparison(Result):
+    """Cases side by side.
+
+    Attributes
+    ----------
+    command : str
+        What was done with each.
+    cases : tuple of str
+        Their names.
+    asked : tuple of (str, tuple)
+        Each ``table.key`` that is not the same in all, with its text in each; None where it is left
+        out and has no default.
+    numbers : tuple of (str, str, tuple)
+        Each number that differs: its key, what it is, and its value in each.
+    """
+
+    title: ClassVar[str] = "Cases side by side"
+    stem: ClassVar[str] = "compare"
+
+    command: str
+    cases: tuple[str, ...]
+    asked: tuple[tuple[str, tuple[str | None, ...]], ...]
+    numbers: tuple[tuple[str, str, tuple[float | None, ...]], ...]
+    said: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what differs by key."""
+        return {
+            "command": self.command,
+            "cases": list(self.cases),
+            "inputs": {key: list(values) for key, values in self.asked},
+            "results": {key: list(values) for key, _, values in self.numbers},
+            "notes": list(self.notes),
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return a table of inputs and one of results."""
+        inputs = [(key, *(value or _LEFT_OUT for value in values)) for key, values in self.asked]
+        shown = [row for row in self.numbers if row[1]] or list(self.numbers)
+        results = [(what or key, *map(text_of, values)) for key, what, values in shown]
+        remarks = list(self.said)
+        if len(shown) < len(self.numbers):
+            remarks.append(f"{len(self.numbers) - len(shown)} more numbers differ: --json")
+        alike = "They differ" if inputs else "They ask the same"
+        return (
+            Table.of(("asked", *self.cases), inputs, title=alike),
+            Table.of((f"asperity {self.command}", *self.cases), results, remarks=remarks),
+        )
+
+
+def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) -> Comparison:
+    """Answer cases and return what differs.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        Two or more.
+    answer : callable
+        Does what a command does with a case.
+
+    Raises
+    ------
+    InputError
+        Fewer than two, or cases that no command takes all of.
+    """
+    if len(cases) < 2:
+        raise InputError("one case is given; name two or more to compare")
+    command = _command(cases)
+    answers = [answer(command, case) for case in cases]
+    names = [case.source for case in cases]
+    if len(set(names)) < len(names):
+        names = [f"{place}: {name}" for place, name in enumerate(names, 1)]
+    flat = [dict(_numbers(result.to_json())) for result in answers]
+    meanings = {key: what for result in answers for key, what in _meanings(result)}
+    said = [
+        f"{name}: {sentence}"
+        for name, result in zip(names, answers, strict=True)
+        for sentence in _verdict(result)
+    ]
+    return Comparison(
+        command=command.name,
+        cases=tuple(names),
+        asked=tuple(_inputs(cases)),
+        numbers=tuple(_differing(flat, meanings)),
+        said=tuple(said),
+    )
+
+
+def _command(cases: Sequence[Case]) -> Command:
+    for name in COMPARED:
+        command = next(command for command in COMMANDS if command.name == name)
+        if all(table in case for case in cases for table in command.needs):
+            return command
+    listed = ", ".join(f"{case.source} has [{'], ['.join(case.tables)}]" for case in cases)
+    raise InputError(f"these cases are not of one kind: {listed}")
+
+
+def _inputs(cases: Sequence[Case]) -> Iterator[tuple[str, tuple[str | None, ...]]]:
+    for table, model in cases[0].known.items():
+        for key in model.model_fields if any(table in case for case in cases) else ():
+            texts = tuple(_text(case, table, key) for case in cases)
+            if len(set(texts)) > 1:
+                yield f"{table}.{key}", texts
+
+
+def _text(case: Case, table: str, key: str) -> str | None:
+    if table not in case:
+        return None
+    held = case.tables[table]
+    value, quantity = getattr(held, key), quantity_of(type(held), key)
+    if value is None:
+        return None
+    if isinstance(value, float) and quantity is not None:
+        return quantity.text(value) if quantity.unit else f"{value:.12g}"
+    return str(getattr(value, "name", "") or value)
+
+
+def _numbers(answer: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, float | None]]:
+    for key, value in answer.items():
+        if isinstance(value, Mapping):
+            yield from _numbers(value, f"{prefix}{key}.")
+        elif isinstance(value, int | float) and not isinstance(value, bool):
+            yield prefix + key, float(value)
+
+
+def _differing(
+    flat: Sequence[Mapping[str, float | None]], meanings: Mapping[str, str]
+) -> Iterator[tuple[str, str, tuple[float | None, ...]]]:
+    for key in dict.fromkeys(key for numbers in flat for key in numbers):
+        values = tuple(numbers.get(key) for numbers in flat)
+        known = [value for value in values if value is not None]
+        same = len(known) == len(values) and all(
+            math.isclose(value, known[0], rel_tol=_SAME) for value in known
+        )
+        if not same:
+            yield key, meanings.get(key, ""), values
+
+
+def _meanings(result: Result) -> Iterator[tuple[str, str]]:
+    """Yield what is shown of an answer, by key: of a rating what it comes to, of others all."""
+    verdict = getattr(result, "verdict", None)
+    if verdict is None:
+        for entry in result.entries():
+            if entry.in_json and entry.label.shown:
+                unit = f" ({entry.label.unit})" if entry.label.unit else ""
+                yield entry.key, f"{entry.label.meaning}{unit}"
+        return
+    for safety in verdict.safeties:
+        d = safety.demand
+        yield d.path, f"{d.path} {d.symbol} (asked {d.asked:g})"
+    yield from _OF_A_RATING.items()
+
+
+_OF_A_RATING = {
+    "geometry.centre_distance_mm": "centre distance (mm)",
+    "geometry.gear_ratio": "gear ratio",
+    "iso14521.eta_ges": "efficiency of the gearbox",
+    "iso14521.eta_z1_2": "efficiency of the teeth",
+    "iso14521.input_power_W": "input power (W)",
+    "iso14521.loss_total_W": "losses (W)",
+    "iso14521.theta_S_degC": "sump (degC)",
+    "bs721.M_permissible_Nm": "torque permitted by BS 721 (N m)",
+    "agma6034.allowable_torque_Nm": "torque allowed by AGMA 6034 (N m)",
+}
+
+
+def _verdict(result: Result) -> list[str]:
+    verdict = getattr(result, "verdict", None)
+    return [] if verdict is None else [next(verdict.sentences())]
