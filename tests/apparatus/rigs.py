@@ -13,6 +13,7 @@ import pytest
 from apparatus.fake_picoscope import FakeDriver
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.errors import StorageError
 from asperity.runs import Run
 from asperity.tribometer.instruments.inputs import inputs_of, lines_of
 from asperity.tribometer.instruments.protocols import FULL_SCALE, InstrumentError, Poll, Reading
@@ -254,18 +255,40 @@ class WrongSupply:
         return given
 
 
-def killed_run(case, folder, seconds, *, resume):
-    """Run in a process of its own that is ended at some moment; returns whether it was done."""
+def in_a_child(act):
+    """Do something in a process of its own; returns whether it came to its end and was true."""
     child = os.fork()
     if child:
         _, status = os.waitpid(child, 0)
         return os.WIFEXITED(status) and os.WEXITSTATUS(status) == 0
     try:
+        os._exit(0 if act() else 1)
+    except BaseException:
+        traceback.print_exc()
+        os._exit(2)
+
+
+def killed_run(case, folder, seconds, *, resume):
+    """Run in a process of its own that is ended at some moment; returns whether it was done."""
+
+    def killed():
         # Nothing hears this signal: it ends the process wherever it stands, as kill -9 does.
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
         signal.setitimer(signal.ITIMER_REAL, seconds)
         run(case, folder, resume=resume)
-        os._exit(0)
-    except BaseException:
-        traceback.print_exc()
-        os._exit(1)
+        return True
+
+    return in_a_child(killed)
+
+
+def run_on_a_full_disk(case, folder, most):
+    """Run where no file may have more bytes; returns whether everything is off then."""
+    import resource
+
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+    bench, rig = made_bench(case)
+    answer = run(case, folder, bench=bench)
+    return isinstance(answer.failure, StorageError) and not rig.on & {
+        "steel", "bronze", "vibration"
+    }  # fmt: skip

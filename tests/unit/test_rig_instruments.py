@@ -301,6 +301,8 @@ def test_a_person_without_a_terminal_is_refused(monkeypatch):
 class Switch:
     """An instrument that only notes that it was made safe."""
 
+    by_hand = False
+
     def __init__(self, name, order, broken=False):
         self.name, self.order, self.broken = name, order, broken
         self.inputs = ()

@@ -8,8 +8,9 @@ import signal
 import numpy as np
 import pytest
 from apparatus import rigs
+from apparatus.grid import slow
 
-from asperity.errors import InputError, StorageError
+from asperity.errors import InputError
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure import journal as journals
 from asperity.tribometer.procedure.journal import Journal
@@ -58,6 +59,7 @@ def test_what_a_run_records_is_what_its_journal_says(undisturbed):
         assert zlib.crc32(np.ascontiguousarray(raw[first : first + count]), crc) == cell["crc32"]
 
 
+@pytest.mark.slow
 def test_a_run_is_the_same_again(undisturbed, tmp_path):
     folder, _ = undisturbed
     rigs.run(rigs.small_case(), tmp_path / "again")
@@ -161,11 +163,11 @@ def test_a_supply_that_gives_something_else_latches(tmp_path):
     ("pair", "kind"),
     [
         (("torque_steel", "torque_bronze"), "wrong channel map"),
-        (("current_steel", "current_bronze"), "wrong channel map"),
+        slow(("current_steel", "current_bronze"), "wrong channel map"),
         (("speed_steel", "speed_bronze"), "no change"),
-        (("speed_steel", "current_steel"), "no change"),
+        slow(("speed_steel", "current_steel"), "no change"),
         (("load_cell", "torque_steel"), "preload"),
-        (("drive_voltage", "torque_steel"), "vibration"),
+        slow(("drive_voltage", "torque_steel"), "vibration"),
     ],
 )
 def test_exchanged_cables_are_found_before_the_first_recording(pair, kind, tmp_path):
@@ -198,26 +200,15 @@ def test_a_latched_run_waits_for_a_person(undisturbed, tmp_path):
         rigs.run(case, tmp_path, resume=True, acknowledge="again")
 
 
-def test_a_full_disk_latches_with_everything_off(undisturbed, tmp_path, monkeypatch):
-    from asperity.tribometer.recording import Recorder
-
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_full_disk_latches_with_everything_off(undisturbed, tmp_path):
     case = rigs.small_case()
-    bench, rig = rigs.made_bench(case)
-    real = Recorder.append
-
-    def full(self, counts, clock, first=None):
-        if rig.vibrates:
-            raise StorageError(f"{self.path} cannot be written: no space left on device")
-        real(self, counts, clock, first)
-
-    monkeypatch.setattr(Recorder, "append", full)
-    answer = rigs.run(case, tmp_path, bench=bench)
-    assert isinstance(answer.failure, StorageError)
-    assert not rig.on & {"steel", "bronze", "vibration"}
-    assert rigs.journal(tmp_path)[-1]["interlock"] == "disk"
-    monkeypatch.undo()
-    rigs.run(case, tmp_path, resume=True, acknowledge="space made")
-    assert rigs.cells(tmp_path) == rigs.cells(undisturbed[0])
+    assert rigs.in_a_child(lambda: rigs.run_on_a_full_disk(case, tmp_path / "run", 90_000))
+    latched = rigs.journal(tmp_path / "run")[-1]
+    assert (latched["kind"], latched["interlock"]) == ("latched", "disk")
+    answer = rigs.run(case, tmp_path / "run", resume=True, acknowledge="space made")
+    assert answer.failure is None
+    assert rigs.cells(tmp_path / "run") == rigs.cells(undisturbed[0])
 
 
 def test_a_journal_on_a_full_disk_writes_into_what_it_held_back(tmp_path, monkeypatch):
