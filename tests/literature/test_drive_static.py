@@ -25,7 +25,14 @@ from asperity.contact.candidates.records import Body
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import StaticModel, contact_means, solve_static
-from asperity.drive.static.sweep import FRICTIONLESS, REVERSED, phases_of, sweep, touching_angles
+from asperity.drive.static.sweep import (
+    FRICTIONLESS,
+    REVERSED,
+    Asked,
+    phases_of,
+    sweep,
+    touching_angles,
+)
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import InputError
 from asperity.flanks.meshing.transmission import transmission
@@ -53,7 +60,8 @@ def model_of(*settings, phases=PHASES):
 
 def test_one_tooth_takes_the_torque_of_another_implementation():
     model = model_of(*ONE_TOOTH)
-    found = [model.course(LOAD, sense).worm_torque.mean() for sense in (1, FRICTIONLESS, REVERSED)]
+    asked = [Asked(LOAD, sense) for sense in (1, FRICTIONLESS, REVERSED)]
+    found = [course.worm_torque.mean() for course in model.courses(asked)]
     assert found[0] == pytest.approx(34.73, abs=0.03)
     # Without friction no work is lost over a pitch.
     assert found[1] == pytest.approx(LOAD / 15.0, abs=0.005)
@@ -63,8 +71,8 @@ def test_one_tooth_takes_the_torque_of_another_implementation():
 def test_the_torque_is_that_of_an_involute_worm_at_the_radius_of_its_force():
     model = model_of(*ONE_TOOTH)
     means = []
-    course = model.course(
-        LOAD, look=lambda _, balance: means.append(contact_means(balance.contact, balance))
+    (course,) = model.courses(
+        [Asked(LOAD, look=lambda _, b: means.append(contact_means(b.contact, b)))]
     )
     force, radius, way = np.array(means).T
     point = model.problem.point(float(force @ radius / force.sum()))
@@ -159,12 +167,13 @@ def test_a_sector_of_five_takes_the_torque_of_another_implementation():
 @pytest.mark.slow
 def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_stand_off():
     model = model_of("drive.teeth=5", phases=24)
-    on_flank = model.course(LOAD)
+    (on_flank,) = model.courses([Asked(LOAD)])
     sector = model.sector
     faces = Body.of(sector.surface, sector.body.flexibility)
     contact = TeethContact(dataclasses.replace(sector, body=faces), model.friction, coupled=False)
     phases = phases_of(contact, 24)
-    course = sweep(Equilibrium(contact), phases, touching_angles(contact, phases), LOAD)
+    touching = touching_angles(contact, phases)
+    (course,) = sweep(Equilibrium(contact), phases, touching, [Asked(LOAD)])
     pair = sector.wheel.pair
     exact = transmission(pair, sector.wheel.flank(1)).mean
     assert exact - course.error.mean() == pytest.approx(365e-6, abs=20e-6)
@@ -175,7 +184,7 @@ def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_sta
 @pytest.mark.slow
 def test_torque_deflection_and_transmission_error_agree_on_two_meshes():
     coarse, finer = (model_of(f"drive.density={d}", phases=24) for d in ("coarse", "intermediate"))
-    one, other = (model.course(LOAD) for model in (coarse, finer))
+    one, other = (model.courses([Asked(LOAD)])[0] for model in (coarse, finer))
     assert one.worm_torque.mean() == pytest.approx(other.worm_torque.mean(), rel=1e-3)
     assert one.mean_deflection == pytest.approx(other.mean_deflection, rel=0.05)
     assert np.ptp(one.error) == pytest.approx(np.ptp(other.error), rel=0.15)

@@ -19,7 +19,7 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import condensed, friction_of
-from asperity.drive.static.sweep import FORWARD, REVERSED, Course, phases_of, sweep, touching_angles
+from asperity.drive.static.sweep import REVERSED, Asked, Course, phases_of, sweep, touching_angles
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, KEPT, TeethContact
 from asperity.drive.teeth.sector import Sector
 from asperity.errors import InputError
@@ -78,7 +78,6 @@ class TeethModel(ReducedModel):
         contact = self.contact
         phases = phases_of(contact, _PHASES)
         touching = touching_angles(contact, phases)
-        equilibrium = Equilibrium(contact)
         sums = np.zeros(2)
 
         def look(_number: int, _balance: object) -> None:
@@ -88,8 +87,8 @@ class TeethModel(ReducedModel):
                 sums[:] += pressure @ area, area[pressure > 0.0].sum()
 
         load = self.problem.load
-        forward = sweep(equilibrium, phases, touching, load, sense=FORWARD, look=look)
-        back = sweep(equilibrium, phases, touching, load, sense=REVERSED)
+        asked = [Asked(load, look=look), Asked(load, REVERSED)]
+        forward, back = sweep(Equilibrium(contact), phases, touching, asked)
         return forward, back, float(sums[0] / sums[1])
 
     @property

@@ -20,6 +20,8 @@ _STEPS = 40
 _CLOSE = 1e-7
 # Of the torque: a change this small tells of the slope, and not of its change.
 _SMALL = 0.05
+# Agreement of teeth that give way to each other: of what is missing, and its bounds.
+_AGREED, _LEAST, _MOST = 1e-2, 1e-8, 1e-4
 # Of a change of the wheel's angle in a step, as a part of the deflection so far.
 _FURTHEST = 0.7
 # Of the axial module: beyond it elastic flanks mean nothing.
@@ -61,7 +63,7 @@ class Equilibrium:
         self._twists = _twists(contact)
         module = contact.sector.wheel.pair.geometry.axial_module
         self._deepest = _DEEPEST * 1e-3 * module
-        self._last: tuple[float, FloatArray] | None = None
+        self._last: dict[int, tuple[float, FloatArray]] = {}
         # Change of the torque over what the slope says, which leaves out that teeth give way to
         # each other.
         self._softer = 1.0
@@ -96,7 +98,7 @@ class Equilibrium:
         """
         contact = self.contact
         free = contact.touching_angle(beta, np.zeros(3)) if touching is None else touching
-        behind, yielded = self._guess(torque)
+        behind, yielded = self._guess(torque, sense)
         size = float(np.abs(self.compliance).max()) or 1.0
         residual = np.inf
         before, promised = np.nan, np.nan
@@ -107,7 +109,11 @@ class Equilibrium:
                     "the load presses the worm further into the teeth than they can give",
                     reached={"deflection_rad": behind},
                 )
-            action = contact.act(beta + yielded[0], phi, self.shift(yielded), sense=sense)
+            # Far from the balance teeth need not agree well with each other.
+            tolerance = min(max(_AGREED * residual, _LEAST), _MOST)
+            action = contact.act(
+                beta + yielded[0], phi, self.shift(yielded), sense=sense, tolerance=tolerance
+            )
             on_worm = -self._twists @ action.wrench
             if abs(promised) < _SMALL * torque:
                 self._softer *= (action.wrench[5] - before) / promised
@@ -119,7 +125,7 @@ class Equilibrium:
                 float(np.abs(missing[1:]).max()) / (size * (1.0 + float(np.abs(on_worm).max()))),
             )
             if residual <= _CLOSE:
-                self._last = torque, np.concatenate([[behind], yielded])
+                self._last[sense] = torque, np.concatenate([[behind], yielded])
                 return Balance(beta, phi, -float(on_worm[0]), yielded, action, contact, residual)
             slope = self._slope(action)
             move = np.linalg.solve(slope, -missing)
@@ -137,9 +143,10 @@ class Equilibrium:
             reached={"residual": residual},
         )
 
-    def _guess(self, torque: float) -> tuple[float, FloatArray]:
-        if self._last is not None:
-            old, values = self._last
+    def _guess(self, torque: float, sense: int) -> tuple[float, FloatArray]:
+        last = self._last.get(sense) or next(iter(self._last.values()), None)
+        if last is not None:
+            old, values = last
             share = (torque / old) ** (2.0 / 3.0)
             return float(share * values[0]), (torque / old) * values[1:]
         sector = self.contact.sector

@@ -10,6 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.solve import StaticModel, contact_means
+from asperity.drive.static.sweep import Asked
 from asperity.drive.teeth.contact import TeethContact
 from asperity.runs import Run
 
@@ -43,24 +44,21 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
     rigid = dataclasses.replace(problem, shaft=type(problem.shaft)())
     model = StaticModel(rigid, run, phases)
     load = problem.load
-    deflections = []
     give: list[tuple[float, float, float, float]] = []
 
     def look(_number: int, balance: Balance) -> None:
         force, radius, _ = contact_means(balance.contact, balance)
         give.append((force, force * radius, *_along(balance.contact)))
 
-    torque = 0.0
-    for share in SHARES:
-        course = model.course(share * load, look=look if share == 1.0 else None)
-        deflections.append(course.mean_deflection)
-        if share == 1.0:
-            torque = float(course.worm_torque.mean())
+    courses = model.courses(
+        [Asked(share * load, look=look if share == 1.0 else None) for share in SHARES]
+    )
+    torque = float(courses[SHARES.index(1.0)].worm_torque.mean())
     whole, moment, work, friction = np.array(give).sum(axis=0)
     compliance = work / friction if friction > 0.0 else 0.0
     return TeethReduced(
         torque=load * np.array(SHARES),
-        deflection=np.array(deflections),
+        deflection=np.array([course.mean_deflection for course in courses]),
         radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
         force_radius=float(moment / whole),
         compliance=float(compliance),

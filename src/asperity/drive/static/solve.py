@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -20,9 +19,9 @@ from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
 from asperity.drive.static.pressure import FlankPressure
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.sweep import (
-    FORWARD,
     FRICTIONLESS,
     REVERSED,
+    Asked,
     Course,
     phases_of,
     sweep,
@@ -104,34 +103,17 @@ class StaticModel:
         self.phases = phases_of(self.contact, phases or problem.drive.phases)
         self.touching = touching_angles(self.contact, self.phases)
 
-    def course(
-        self,
-        torque: float,
-        sense: int = FORWARD,
-        *,
-        every: int = 1,
-        look: Callable[[int, Balance], None] | None = None,
-    ) -> Course:
-        """Return the balances over a pitch; refuses a torque that teeth cannot carry.
+    def courses(
+        self, asked: Sequence[Asked], step: Callable[[int], None] = lambda _number: None
+    ) -> list[Course]:
+        """Return the balances over a pitch; refuses torques that teeth cannot carry.
 
-        Parameters
-        ----------
-        torque : float
-            Of the wheel, N m.
-        sense : {1, 0, -1}
-            Forward, without friction, or with it turned round.
-        every : int
-            1: all phases; n: each n-th.
-        look : callable, optional
-            As in `asperity.drive.static.sweep.sweep`.
+        Parameters are as in `asperity.drive.static.sweep.sweep`.
         """
         try:
-            return sweep(
-                self.equilibrium, self.phases[::every], self.touching[::every], torque,
-                sense=sense, look=look,
-            )  # fmt: skip
+            return sweep(self.equilibrium, self.phases, self.touching, asked, step)
         except TooDeepError:
-            raise too_much(self.problem, torque) from None
+            raise too_much(self.problem, max(load.torque for load in asked)) from None
 
 
 @dataclasses.dataclass
@@ -219,25 +201,25 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     gearset = problem.gearset
     pressure = FlankPressure.of(sector_, gearset.wheel_material, gearset.worm_material)
     seen = _Seen(model, pressure)
-    steps = 3 + len(PATTERNS)
-    done = itertools.count(1)
+    less_loaded = [_Seen(model, pressure) for _ in PATTERNS[:-1]]
+    count = len(model.phases)
     with run.going_on():
-        forward = model.course(load, look=seen.whole)
-        run.checkpoint(next(done), steps, what="sweeps")
-        frictionless = model.course(load, FRICTIONLESS)
-        run.checkpoint(next(done), steps, what="sweeps")
-        reversed_ = model.course(load, REVERSED)
-        run.checkpoint(next(done), steps, what="sweeps")
-        patterns = []
-        for share in PATTERNS[:-1]:
-            part = _Seen(model, pressure)
-            model.course(share * load, look=part.pattern)
-            patterns.append(part.nodal)
-            run.checkpoint(next(done), steps, what="sweeps")
-        more, less = (
-            model.course((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0)
+        forward, more, less, frictionless, reversed_ = model.courses(
+            [
+                Asked(load, look=seen.whole),
+                *(Asked((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0)),
+                Asked(load, FRICTIONLESS),
+                Asked(load, REVERSED),
+            ],
+            lambda done: run.checkpoint(done, 2 * count, what="phases"),
         )
-        run.checkpoint(next(done), steps, what="sweeps")
+        model.courses(
+            [
+                Asked(share * load, look=part.pattern)
+                for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
+            ],
+            lambda done: run.checkpoint(count + done, 2 * count, what="phases"),
+        )
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, tangent, radius)
@@ -284,7 +266,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         part=tuple(parts),
         part_stiffness=np.array(list(parts.values())),
         pattern_torque=load * np.array(PATTERNS),
-        pattern=np.array([*patterns, seen.nodal]),
+        pattern=np.array([*(part.nodal for part in less_loaded), seen.nodal]),
         node_radius=np.hypot(surface.positions[:, 0], surface.positions[:, 1]),
         node_face=problem.gearset.hand_sign * surface.positions[:, 2],
         faces=surface.faces,

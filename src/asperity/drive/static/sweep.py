@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -50,16 +51,26 @@ def touching_angles(contact: TeethContact, phases: FloatArray) -> FloatArray:
     return np.array([contact.touching_angle(float(beta), still) for beta in phases])
 
 
+class Asked(NamedTuple):
+    """A torque to be solved for."""
+
+    torque: float  #: Of the wheel, N m
+    sense: int = FORWARD  #: `FORWARD`, `FRICTIONLESS` or `REVERSED`
+    every: int = 1  #: 1: at all phases; n: at each n-th
+    #: Takes the number of a phase and its balance while the fields of the contact are its own
+    look: Callable[[int, Balance], None] | None = None
+
+
 def sweep(
     equilibrium: Equilibrium,
     phases: FloatArray,
     touching: FloatArray,
-    torque: float,
-    *,
-    sense: int = FORWARD,
-    look: Callable[[int, Balance], None] | None = None,
-) -> Course:
-    """Solve for the balance at all phases.
+    asked: Sequence[Asked],
+    step: Callable[[int], None] = lambda _number: None,
+) -> list[Course]:
+    """Solve for the balance at all phases under some torques, one after the other at each phase.
+
+    Like torques beside each other begin with what the one before has found.
 
     Parameters
     ----------
@@ -67,30 +78,42 @@ def sweep(
         Of the drive.
     phases, touching : ndarray
         Angles of the worm, and of the wheel without load there, rad.
-    torque : float
-        Of the wheel, N m.
-    sense : {1, 0, -1}
-        `FORWARD`, `FRICTIONLESS` or `REVERSED`.
-    look : callable, optional
-        Takes the number of a phase and its balance while the fields of the contact are its own.
+    asked : sequence of Asked
+        Torques.
+    step : callable, optional
+        Called with the number of phases that are done.
     """
-    ratio = equilibrium.contact.stand.ratio
-    found = []
+    found: list[list[Balance]] = [[] for _ in asked]
     for number, (beta, free) in enumerate(zip(phases, touching, strict=True)):
-        balance = equilibrium.balance(float(beta), torque, sense=sense, touching=float(free))
-        if look is not None:
-            look(number, balance)
-        found.append(balance)
-    return Course(
-        torque=torque,
-        worm_angle=phases,
-        touching=touching - phases / ratio,
-        deflection=touching - np.array([b.wheel_angle for b in found]),
-        worm_torque=np.array([b.worm_torque for b in found]),
-        wrench=np.array([b.action.wrench for b in found]),
-        tooth_force=_in_one_row([b.action.teeth for b in found], [b.action.normal for b in found]),
-        residual=max(b.residual for b in found),
-    )
+        for load, balances in zip(asked, found, strict=True):
+            if number % load.every:
+                continue
+            balance = equilibrium.balance(
+                float(beta), load.torque, sense=load.sense, touching=float(free)
+            )
+            if load.look is not None:
+                load.look(number, balance)
+            balances.append(balance)
+        step(number + 1)
+    ratio = equilibrium.contact.stand.ratio
+    courses = []
+    for load, balances in zip(asked, found, strict=True):
+        some, free_angles = phases[:: load.every], touching[:: load.every]
+        courses.append(
+            Course(
+                torque=load.torque,
+                worm_angle=some,
+                touching=free_angles - some / ratio,
+                deflection=free_angles - np.array([b.wheel_angle for b in balances]),
+                worm_torque=np.array([b.worm_torque for b in balances]),
+                wrench=np.array([b.action.wrench for b in balances]),
+                tooth_force=_in_one_row(
+                    [b.action.teeth for b in balances], [b.action.normal for b in balances]
+                ),
+                residual=max(b.residual for b in balances),
+            )
+        )
+    return courses
 
 
 def _in_one_row(numbers: list[tuple[int, ...]], forces: list[FloatArray]) -> FloatArray:

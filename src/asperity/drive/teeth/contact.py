@@ -210,6 +210,7 @@ class TeethContact:
         *,
         sense: int = 1,
         with_slope: bool = True,
+        tolerance: float = _TOLERANCE,
     ) -> Action:
         """Return what a worm at a place does to the wheel.
 
@@ -223,6 +224,8 @@ class TeethContact:
             1: both turn forwards; -1 backwards; 0: without friction.
         with_slope : bool
             Whether to find how it changes with the worm's place.
+        tolerance : float
+            To which teeth that give way to each other agree, of the forces.
 
         Raises
         ------
@@ -242,7 +245,7 @@ class TeethContact:
         residual, iterations = solve_all(
             body, np.array(numbers), self.blocks, self.candidates,
             (rotation, translation, slip, turn), laws, self._history, self.answer, self.kept,
-            self.work, _TOLERANCE, with_slope,
+            self.work, tolerance, with_slope,
         )  # fmt: skip
         if residual == newton.FULL or residual > 1e3 * _TOLERANCE:
             raise ConvergenceError(
