@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 
 import numpy as np
@@ -12,10 +13,11 @@ from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.solve import StaticModel, contact_means
 from asperity.drive.static.sweep import Asked
 from asperity.drive.teeth.contact import TeethContact
+from asperity.errors import InputError
 from asperity.runs import Run
 
 SHARES = (1.0 / 16.0, 1.0 / 4.0, 1.0, 2.5)
-"""Torques that the table has, over the load."""
+"""Torques that the table has, over the load, which is the last but one."""
 
 _PHASES = 8
 
@@ -50,14 +52,17 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
         force, radius, _ = contact_means(balance.contact, balance)
         give.append((force, force * radius, *_along(balance.contact)))
 
-    courses = model.courses(
-        [Asked(share * load, look=look if share == 1.0 else None) for share in SHARES]
-    )
-    torque = float(courses[SHARES.index(1.0)].worm_torque.mean())
+    upto = [Asked(share * load) for share in SHARES[:-1]]
+    upto[-1] = upto[-1]._replace(look=look)
+    courses = model.courses(upto)
+    # Beyond the load as far as the teeth carry.
+    with contextlib.suppress(InputError):
+        courses += model.courses([Asked(SHARES[-1] * load)])
+    torque = float(courses[len(upto) - 1].worm_torque.mean())
     whole, moment, work, friction = np.array(give).sum(axis=0)
     compliance = work / friction if friction > 0.0 else 0.0
     return TeethReduced(
-        torque=load * np.array(SHARES),
+        torque=np.array([course.torque for course in courses]),
         deflection=np.array([course.mean_deflection for course in courses]),
         radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
         force_radius=float(moment / whole),

@@ -67,11 +67,11 @@ def friction_of(problem: DriveProblem) -> float:
     return float(friction_at(friction_curve(rating_inputs(problem.case), 3.0 * speed), speed))
 
 
-def too_much(problem: DriveProblem, torque: float) -> InputError:
-    """Return the line that refuses a torque."""
+def too_much(problem: DriveProblem) -> InputError:
+    """Return the line that refuses a drive's torque."""
     module = problem.geometry.axial_module
     return InputError(
-        f"operation.output_torque is {torque:.6g} N m; it would press the worm deeper than "
+        f"operation.output_torque is {problem.load:.6g} N m; it would press the worm deeper than "
         f"{0.1 * module:.3g} mm, a tenth of the module, into the teeth, which no elastic tooth "
         "carries: take a smaller torque"
     )
@@ -113,7 +113,7 @@ class StaticModel:
         try:
             return sweep(self.equilibrium, self.phases, self.touching, asked, step)
         except TooDeepError:
-            raise too_much(self.problem, max(load.torque for load in asked)) from None
+            raise too_much(self.problem) from None
 
 
 @dataclasses.dataclass
