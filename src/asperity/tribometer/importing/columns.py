@@ -176,6 +176,8 @@ def _grid(columns: Columns, rows: int, name: str) -> tuple[float, NDArray[np.int
     return interval, where, last + 1
 
 
+# Bytes that were changed may be numbers that signal when they are touched.
+@np.errstate(all="ignore")
 def _counted(values: NDArray[Any], out: NDArray[np.int16], where: NDArray[np.intp] | None) -> float:
     """Write values as counts; returns what a count is worth."""
     largest = 0.0
