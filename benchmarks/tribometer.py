@@ -1,7 +1,8 @@
 """Speed and memory of recording, importing and reducing, as ratios against plain bytes.
 
 Run it with ``make bench``. 8 channels of 16 bits: what a plain file takes against a recording,
-block by block; 3.6 million samples of each out of a MATLAB file, against reading its bytes, and reduced.
+block by block; 3.6 million samples of each out of a MATLAB file, against reading its bytes, and
+reduced.
 """
 
 import tempfile

@@ -97,6 +97,7 @@ class Recorder:
             self._file = _created(path, self._sources, attributes, self._block)
             # HDF5's own, which takes a chunk as it stands.
             h5 = self._file._h5file
+            self._h5 = h5
             self._raw = h5[layout.RAW]
             self._tables = {name: h5[name] for name in (*layout.BLOCKS, *layout.EVENTS)}
             self._rows = {name: np.zeros(_ROWS, self._tables[name].dtype) for name in layout.BLOCKS}
@@ -172,7 +173,7 @@ class Recorder:
             self._ahead.close()
 
     def _flush(self) -> None:
-        self._raw.file.flush()
+        self._h5.flush()
         self._ahead.move()
 
     def _write_waiting(self, clock: float) -> None:
