@@ -169,3 +169,13 @@ def test_a_march_goes_on_from_where_it_was_interrupted(tmp_path):
     other.restore(first.tree())
     other.go(4)
     assert other.rows.tobytes() == whole.rows.tobytes()
+
+
+def test_a_cycle_marched_in_parts_is_the_same_cycle(monkeypatch):
+    whole = solved("drive.protocol=window", "drive.window=2", "solve.step=0.5 us")
+    monkeypatch.setattr("asperity.drive.protocols.march._CALL_STEPS", 250)
+    parts = solved("drive.protocol=window", "drive.window=2", "solve.step=0.5 us")
+    assert parts.torque == pytest.approx(whole.torque, rel=1e-9)
+    assert parts.force_max == pytest.approx(whole.force_max, rel=1e-9)
+    assert parts.ledger.friction == pytest.approx(whole.ledger.friction, rel=1e-9)
+    assert parts.steps == whole.steps

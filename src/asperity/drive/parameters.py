@@ -18,14 +18,14 @@ STEEL_MODULUS, STEEL_POISSON = 209e9, 0.3
 
 _Inertia = Annotated[
     float,
-    Quantity("kg m**2", what="a moment of inertia", example="3.2e-3 kg m**2", gt=0, le=1e9),
+    Quantity("kg m**2", what="a moment of inertia", example="3.2e-3 kg m**2", ge=1e-12, le=1e9),
 ]
 _Stiffness = Annotated[
-    float, Quantity("N/m", what="a stiffness", example="200 kN/mm", gt=0, le=1e15)
+    float, Quantity("N/m", what="a stiffness", example="200 kN/mm", ge=1.0, le=1e15)
 ]
 _Length = Annotated[float, Quantity("m", what="a length", example="17 mm", gt=1e-6, le=1e3)]
-_LoadTorque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", gt=0, le=1e9)]
-_Turn = Annotated[float, Quantity("rad", what="an angle", example="365 urad", gt=0, le=1)]
+_LoadTorque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", ge=1e-6, le=1e9)]
+_Turn = Annotated[float, Quantity("rad", what="an angle", example="365 urad", ge=1e-12, le=1)]
 _LEAST_POINTS = 2
 
 
@@ -86,7 +86,7 @@ class Drive(Table):
     load_inertia: _Inertia | None = None
     worm_inertia: _Inertia | None = None
     worm_mass: (
-        Annotated[float, Quantity("kg", what="a mass", example="0.3 kg", gt=0, le=1e9)] | None
+        Annotated[float, Quantity("kg", what="a mass", example="0.3 kg", ge=1e-9, le=1e9)] | None
     ) = None
     contact_damping: (
         Annotated[float, Quantity("s/m", what="a damping", example="0.01 s/m", ge=0, le=1e3)] | None
@@ -165,7 +165,7 @@ class Shaft(Table):
     torsional_stiffness: (
         Annotated[
             float,
-            Quantity("N m/rad", what="a stiffness", example="4394 N m/rad", gt=0, le=1e12),
+            Quantity("N m/rad", what="a stiffness", example="4394 N m/rad", ge=1e-6, le=1e12),
         ]
         | None
     ) = None
@@ -222,11 +222,11 @@ class Actuator(Table):
     table: ClassVar[str] = "actuator"
 
     coupling: Annotated[
-        float, Quantity("", what="a coupling factor", example="0.3", gt=0, lt=1)
+        float, Quantity("", what="a coupling factor", example="0.3", ge=1e-3, lt=1)
     ] = 0.3
     quality_factor: Annotated[
-        float, Quantity("", what="a quality factor", example="500", gt=0, le=1e7)
+        float, Quantity("", what="a quality factor", example="500", ge=1, le=1e7)
     ] = 500.0
-    efficiency: Annotated[float, Quantity("", what="an efficiency", example="0.9", gt=0, le=1)] = (
-        0.9
-    )
+    efficiency: Annotated[
+        float, Quantity("", what="an efficiency", example="0.9", ge=1e-3, le=1)
+    ] = 0.9

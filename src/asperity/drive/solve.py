@@ -7,6 +7,7 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.results import Result
 from asperity.runs import Run
+from asperity.slider.parameters import in_proportion
 
 
 def prepare(case: Case, *, static: bool = False) -> DriveProblem:
@@ -19,7 +20,8 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
     """
     problem = DriveProblem.from_case(case, shaken=not static)
     if problem.vibration is not None and problem.drive.deflection is not None:
-        check(problem, ReducedModel(problem, reduction(problem, Run())))
+        with in_proportion():
+            check(problem, ReducedModel(problem, reduction(problem, Run())))
     return problem
 
 
@@ -29,7 +31,8 @@ def answer(problem: DriveProblem, run: Run) -> Result:
         from asperity.drive.static.solve import solve_static
 
         return solve_static(problem, run)
-    return solve_shaken(problem, _model(problem, run), run)
+    with in_proportion():
+        return solve_shaken(problem, _model(problem, run), run)
 
 
 def _model(problem: DriveProblem, run: Run) -> ReducedModel:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.march import STEP_SECONDS, block_of, longest_march
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
@@ -13,8 +14,17 @@ from asperity.drive.result import DriveResult
 from asperity.errors import AsperityError
 from asperity.runs import Run
 from asperity.runs.workers import cores
+from asperity.slider.parameters import in_proportion
 
 _LOOK_SECONDS = 0.1
+
+
+def _steps(problem: DriveProblem) -> float:
+    """Steps that a problem takes at most, about."""
+    frequency = problem.vibrated[1].frequency
+    block = block_of(problem.drive.window, frequency)
+    cycles = longest_march(block, frequency, problem.solve.duration)
+    return cycles / (frequency * problem.step)
 
 
 def solve_many(
@@ -37,10 +47,13 @@ def solve_many(
         One for each; the exception of one that could not be solved stands in its place.
     """
     stop = np.zeros(1, np.int64)
+    steps = sum(_steps(problem) for problem, _ in problems)
+    run.forecast(STEP_SECONDS * steps / cores(), f"{steps:.3g} steps")
 
     def one(problem: DriveProblem, reduced: Reduction) -> DriveResult | AsperityError:
         try:
-            return solve_shaken(problem, ReducedModel(problem, reduced), Run(), stop)
+            with in_proportion():
+                return solve_shaken(problem, ReducedModel(problem, reduced), Run(), stop)
         except AsperityError as error:
             return error
 

@@ -26,6 +26,8 @@ _BLOCK_SECONDS = 2e-3
 _BLOCK_CYCLES = 12
 _LONGEST_SECONDS, _FEWEST_CYCLES = 60e-3, 60
 _CALL_STEPS = 200_000
+STEP_SECONDS = 0.3e-6
+"""What a step of the reduced mesh takes, about."""
 
 
 class Marchable(Protocol):
@@ -117,12 +119,32 @@ class March:
     def go(self, cycles: int, *, of: int = 0) -> None:
         """March so many cycles more, of so many in all."""
         target = self.rows.size + cycles
-        at_once = max(1, int(_CALL_STEPS * self.system.longest / self.cycle))
+        calls = self.cycle / (_CALL_STEPS * self.system.longest)
         while self.rows.size < target:
-            self.rows = np.concatenate(
-                [self.rows, self.stretches(min(at_once, target - self.rows.size), self.cycle)]
-            )
+            if calls > 1.0:
+                found = self._slow_cycle(math.ceil(calls))
+            else:
+                count = min(max(1, int(1.0 / calls)), target - self.rows.size)
+                found = self.stretches(count, self.cycle)
+            self.rows = np.concatenate([self.rows, found])
             self._run.checkpoint(self.rows.size, max(of, target), self.tree, "cycles")
+
+    def _slow_cycle(self, calls: int) -> Records:
+        """March one cycle in so many calls, between which Ctrl-C is heard."""
+        whole = self.stretches(1, self.cycle / calls)
+        for _ in range(calls - 1):
+            self._run.checkpoint(self.rows.size, self.rows.size + 1, what="cycles")
+            part = self.stretches(1, self.cycle / calls)
+            for name in whole.dtype.names or ():
+                if name.endswith("_min"):
+                    whole[name] = np.minimum(whole[name], part[name])
+                elif name.endswith("_max") or name == "residual":
+                    whole[name] = np.maximum(whole[name], part[name])
+                elif name == "stored":
+                    whole[name] = part[name]
+                else:
+                    whole[name] += part[name]
+        return whole
 
     def stretches(self, count: int, length: float) -> Records:
         """March so many stretches of a length in s, and return their sums.
@@ -162,13 +184,12 @@ class March:
         duration : float, optional
             How long is waited, s.
         """
-        least = max(window, _BLOCK_SECONDS * self.system.frequency)
-        block = _BLOCK_CYCLES * math.ceil(least / _BLOCK_CYCLES)
-        if duration is None:
-            duration = max(_LONGEST_SECONDS, _FEWEST_CYCLES * self.cycle)
+        block = block_of(window, self.system.frequency)
         # Its ramp is no part of a periodic state.
         ramp = math.ceil(self.system.wave.ramp)
-        most = ramp + block * max(_BLOCKS, math.ceil(duration * self.system.frequency / block))
+        most = ramp + longest_march(block, self.system.frequency, duration)
+        steps = most * self.cycle / self.system.longest
+        self._run.forecast(STEP_SECONDS * steps, f"{steps:.3g} steps")
         if self.rows.size < ramp:
             self.go(ramp - self.rows.size, of=most)
         found = Judgement(False, False, math.inf, math.inf, 0)
@@ -211,6 +232,19 @@ class March:
         """Go back to where a march of the same drive stood when it gave its tree."""
         self.rows, self.states = tree["rows"], tree["states"]
         self.committed, self.seconds = tree["committed"], tree["seconds"]
+
+
+def block_of(window: int, frequency: float) -> int:
+    """Return the cycles of a block that a periodic state is judged by."""
+    least = max(window, _BLOCK_SECONDS * frequency)
+    return _BLOCK_CYCLES * math.ceil(least / _BLOCK_CYCLES)
+
+
+def longest_march(block: int, frequency: float, duration: float | None) -> int:
+    """Return the cycles after which a periodic state is waited for no longer."""
+    if duration is None:
+        duration = max(_LONGEST_SECONDS, _FEWEST_CYCLES / frequency)
+    return block * max(_BLOCKS, math.ceil(duration * frequency / block))
 
 
 def mean(rows: Records, name: str) -> float:
