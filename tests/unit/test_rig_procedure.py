@@ -38,7 +38,8 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
     assert steps == {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22,
                      25, 26, 27, 32}  # fmt: skip
     assert lines[-1]["kind"] == "finished"
-    assert [cell["frequency_Hz"] for cell in answer.to_json()["cells"]] == [250.0, 750.0]
+    told = [(one["frequency_Hz"], one["rests_on"]) for one in answer.to_json()["cells"]]
+    assert told == [(250.0, "placeholder"), (750.0, "fitted")]
     # What it was fitted to, but for run-out, of whose mean a second sees little.
     assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.05)
     assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)

@@ -11,6 +11,7 @@ from asperity.tribometer.options import Plan, Twin
 from asperity.tribometer.parameters import Limits
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.result import PlanResult
+from asperity.tribometer.twin.chain import peak_current
 from asperity.tribometer.twin.plant import Plant
 
 # Velocity ratios from which a friction law is identified best.
@@ -131,6 +132,14 @@ def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
             "turns and k are those of the simulated rig, whose motors and friction are fitted to a "
             "few published figures and whose other parameters are placeholders"
         )
+    if problem.plant is not None and problem.plant.sonotrode.current_limit is None:
+        fastest = max(plan.frequencies)
+        current = peak_current(problem.plant.sonotrode, fastest)
+        if current is not None:
+            notes.append(
+                f"a full sine of {fastest:g} Hz takes {current:.3g} A of the amplifier, and no "
+                "sonotrode.current_limit is given: what it caps is not seen"
+            )
     notes.append(
         "no run with the discs apart is planned: the bearings' torque stays in every torque"
     )

@@ -303,6 +303,8 @@ class Machine:
         return {
             "cell": cell.number,
             "frequency_Hz": cell.frequency,
+            "mode": one.mode,
+            "waveform": one.waveform,
             "file": one.name,
             "recording": _name(logger),
             "before": [before.first, before.samples],

@@ -7,6 +7,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
 from asperity.results import Result, quantity
 from asperity.results.table import Table, table_of
+from asperity.tribometer.twin.provenance import figure_standing
 
 
 class RunResult(Result):
@@ -39,10 +40,14 @@ class RunResult(Result):
     def to_json(self) -> dict[str, Any]:
         """Return the run with its cells, each with where it is recorded and its mean signals."""
         kept = (
-            "cell", "file", "recording", "frequency_Hz", "before", "shaken", "crc32",
-            "level_before", "level_with",
+            "cell", "file", "recording", "mode", "waveform", "frequency_Hz", "before",
+            "shaken", "crc32", "level_before", "level_with",
         )  # fmt: skip
         cells = [{key: line[key] for key in kept} for line in self.lines]
+        if self.backend == "sim":
+            for one in cells:
+                asked = one["mode"], one["waveform"], one["frequency_Hz"]
+                one["rests_on"] = figure_standing(*asked)
         latched = None if self.latch is None else str(self.latch)
         return super().to_json() | {"cells": cells, "latched": latched}
 
