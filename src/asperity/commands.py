@@ -346,6 +346,7 @@ COMMANDS = (
         "With --out also drive.json, drive.nc and pictures.",
         prepare="asperity.drive.solve:prepare",
         solve="asperity.drive.solve:answer",
+        needs=("gearset", "operation", "drive"),
         counts="cycles",
         options=(Option("static", "Leave the vibration out.", default=False),),
     ),
@@ -355,6 +356,7 @@ COMMANDS = (
         "With --out also directions.json, directions.nc and directions.png.",
         prepare="asperity.drive.directions:prepare",
         solve="asperity.drive.directions:answer",
+        needs=("gearset", "operation", "drive"),
         counts="ways",
     ),
     Command(
@@ -363,6 +365,7 @@ COMMANDS = (
         "With --out also locking.json, locking.nc and locking.png.",
         prepare="asperity.drive.locking:prepare",
         solve="asperity.drive.locking:answer",
+        needs=("gearset", "operation", "drive"),
         counts="amplitudes",
     ),
     Command(

@@ -225,7 +225,7 @@ def cases(as_json: JsonOption = False) -> None:
 @app.command()
 @reported
 def new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide or block.")],
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide, block or drive.")],
     file: Annotated[
         str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")
     ] = "",

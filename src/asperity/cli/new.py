@@ -37,7 +37,7 @@ def new(
             elif question.path not in given:
                 _ask(question, values)
     remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
-    if name == "gear":
+    if "gearset" in values:
         remarks += _sized(values, given, ratio_of(wanted))
     case = Case(path.name, path.parent.absolute(), {}, values, case_tables()).replace(())
     title = f"{kind.title}, begun by asperity new"

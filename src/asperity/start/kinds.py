@@ -82,34 +82,34 @@ _ASKED_OF_A_BODY = (
     Question("vibration.direction", "its direction; 0 deg along the drive, 90 deg across"),
 )
 
+_GEARS: Values = {
+    "gearset": {
+        "name": "my worm gear",
+        "worm_material": "case-hardened steel",
+        "wheel_material": "CuSn12Ni2-C-GZ",
+    },
+    "operation": {
+        "worm_speed": "1500 rpm",
+        "output_torque": "300 N m",
+        "life": "25000 h",
+        "lubricant": "ISO VG 220 polyglycol",
+    },
+}
+_ASKED_OF_GEARS = (
+    Question("ratio", "ratio of the speeds"),
+    Question("operation.output_torque", "rated torque of the wheel"),
+    Question("operation.worm_speed", "speed of the worm"),
+    Question("operation.life", "life that is required"),
+    Question("gearset.wheel_material", "material of the wheel (asperity materials lists)"),
+    Question("operation.lubricant", "lubricant (asperity lubricants lists)"),
+)
+
 KINDS: Mapping[str, Kind] = MappingProxyType(
     {
         "gear": Kind(
             "A worm gearset",
-            {
-                "gearset": {
-                    "name": "my worm gear",
-                    "worm_material": "case-hardened steel",
-                    "wheel_material": "CuSn12Ni2-C-GZ",
-                },
-                "operation": {
-                    "worm_speed": "1500 rpm",
-                    "output_torque": "300 N m",
-                    "life": "25000 h",
-                    "lubricant": "ISO VG 220 polyglycol",
-                },
-                "rating": {},
-            },
-            (
-                Question("ratio", "ratio of the speeds"),
-                Question("operation.output_torque", "rated torque of the wheel"),
-                Question("operation.worm_speed", "speed of the worm"),
-                Question("operation.life", "life that is required"),
-                Question(
-                    "gearset.wheel_material", "material of the wheel (asperity materials lists)"
-                ),
-                Question("operation.lubricant", "lubricant (asperity lubricants lists)"),
-            ),
+            {**_GEARS, "rating": {}},
+            _ASKED_OF_GEARS,
             ("gearset", "operation", "rating"),
             ("rate", "sensitivity", "optimise", "flank"),
         ),
@@ -136,6 +136,36 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             _ASKED_OF_A_BODY,
             ("slider", "friction", "vibration", "block", "contact", "solve"),
             ("block", "slide"),
+        ),
+        "drive": Kind(
+            "A worm gearset that is loaded and shaken",
+            {
+                **_GEARS,
+                "friction": {"model": "dahl", "mu": 0.05, "max_deflection": "70 nm"},
+                "drive": {
+                    "load_inertia": "0.01 kg m**2",
+                    "worm_inertia": "1e-5 kg m**2",
+                    "worm_mass": "0.5 kg",
+                    "contact_damping": "0.01 s/m",
+                },
+                "shaft": {"torsional_stiffness": "4000 N m/rad"},
+                "vibration": {
+                    "mode": "torsional",
+                    "frequency": "20 kHz",
+                    "displacement_amplitude": "10 um",
+                },
+            },
+            (
+                *_ASKED_OF_GEARS,
+                Question("drive.load_inertia", "inertia of the wheel and of what it drives"),
+                Question("drive.worm_inertia", "inertia of the worm and its shaft"),
+                Question("friction.mu", "friction of the teeth (asperity rate tells it)"),
+                Question("vibration.mode", "how it is shaken"),
+                Question("vibration.frequency", "frequency of the vibration"),
+                Question("vibration.displacement_amplitude", "its amplitude"),
+            ),
+            ("gearset", "operation", "friction", "drive", "shaft", "vibration", "actuator"),
+            ("drive", "directions", "locking", "rate"),
         ),
     }
 )
