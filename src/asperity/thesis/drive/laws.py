@@ -62,9 +62,9 @@ def _coulomb() -> Finding:
         "asperity is "
         + ", ".join(f"{more:+.3f} at {k:g}" for k, more in marched)
         + " where both are settled. In Appendix E an increment of more than 70 nm is plastic, and "
-        "then the asperity's root stays where it was: friction goes by the way slid since contact began, "
-        "not by the sliding, and drives the worm on for a part of each cycle. What comes out "
-        "depends on the increment as well, and works are gained.",
+        "then the asperity's root stays where it was: friction goes by the way slid since contact "
+        "began, not by the sliding, and drives the worm on for a part of each cycle. What comes "
+        "out depends on the increment as well, and works are gained.",
         {
             "apart_from_coulomb": apart,
             "subroutine_at_k_w_5": at_5.subroutine,
