@@ -32,6 +32,12 @@ def test_the_powers_balance_while_both_flanks_hammer():
     assert one.closure < 3e-3
 
 
+def test_the_powers_balance_while_damping_alone_unloads_flanks_that_touch():
+    for one in all_solved([(*RATTLING, f"drive.contact_damping={c} s/m") for c in (1, 10)]):
+        assert one.ledger.damping > one.ledger.friction
+        assert one.closure < 1e-3
+
+
 def test_a_left_handed_drive_is_the_mirror_image():
     one, other = (solved(f"gearset.hand={hand}") for hand in ("right", "left"))
     for name in ("torque", "energy_ratio", "force_max", "k_w"):
