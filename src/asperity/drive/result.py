@@ -158,8 +158,9 @@ class DriveResult(Result):
     bands: Bands | None = part(Bands, default=None)
     steps: int = quantity("", "", "time steps", shown=False, default=0)
     seconds: float = quantity(
-        "", "s", "time it took", key="seconds", only="json", shown=False, default=0.0
-    )
+        "", "s", "time it took", key="seconds", only="json", shown=False, swept=False,
+        default=0.0,
+    )  # fmt: skip
 
     @property
     @labelled("", "", "of the powers, what is missing over what is put in", swept=True)

@@ -1,6 +1,7 @@
 """The command `drive`: a gearset under load, and under vibration where there is one."""
 
 from asperity.casefile import Case
+from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import check, solve_shaken
 from asperity.drive.reduced.model import ReducedModel
@@ -32,14 +33,4 @@ def answer(problem: DriveProblem, run: Run) -> Result:
 
         return solve_static(problem, run)
     with in_proportion():
-        return solve_shaken(problem, _model(problem, run), run)
-
-
-def _model(problem: DriveProblem, run: Run) -> ReducedModel:
-    """The mesh that is marched."""
-    reduced = reduction(problem, run)
-    if problem.drive.model == "teeth":
-        from asperity.drive.elastic.model import TeethModel
-
-        return TeethModel.of(problem, reduced, run)
-    return ReducedModel(problem, reduced)
+        return solve_shaken(problem, model_of(problem, reduction(problem, run), run), run)

@@ -6,9 +6,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from asperity.casefile import Case, Table
+from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import solve_shaken
-from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.result import DriveResult, inputs
 from asperity.drive.solve import prepare
@@ -71,7 +71,7 @@ class Drives(Subject):
         found: list[Result | AsperityError] = []
         for problem in problems:
             try:
-                model = ReducedModel(problem, reduction(problem, Run()))
+                model = model_of(problem, reduction(problem, Run()), Run())
                 found.append(solve_shaken(problem, model, Run(), stop))
             except AsperityError as error:
                 found.append(error)

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import STEP_SECONDS, block_of, longest_march
 from asperity.drive.protocols.solve import solve_shaken
-from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.result import DriveResult
 from asperity.errors import AsperityError
@@ -53,7 +53,7 @@ def solve_many(
     def one(problem: DriveProblem, reduced: Reduction) -> DriveResult | AsperityError:
         try:
             with in_proportion():
-                return solve_shaken(problem, ReducedModel(problem, reduced), Run(), stop)
+                return solve_shaken(problem, model_of(problem, reduced, Run()), Run(), stop)
         except AsperityError as error:
             return error
 
