@@ -111,11 +111,14 @@ class Equilibrium:
                 )
             # Far from the balance teeth need not agree well with each other.
             tolerance = min(max(_AGREED * residual, _LEAST), _MOST)
-            action = contact.act(
-                beta + yielded[0], phi, self.shift(yielded), sense=sense, tolerance=tolerance
-            )
+            try:
+                action = contact.act(
+                    beta + yielded[0], phi, self.shift(yielded), sense=sense, tolerance=tolerance
+                )
+            except np.linalg.LinAlgError:
+                break
             on_worm = -self._twists @ action.wrench
-            if abs(promised) < _SMALL * torque:
+            if 0.0 < abs(promised) < _SMALL * torque:
                 self._softer *= (action.wrench[5] - before) / promised
             missing = np.concatenate(
                 [[action.wrench[5] - torque], yielded - self.compliance @ on_worm]
@@ -128,11 +131,10 @@ class Equilibrium:
                 self._last[sense] = torque, np.concatenate([[behind], yielded])
                 return Balance(beta, phi, -float(on_worm[0]), yielded, action, contact, residual)
             slope = self._slope(action)
-            move = np.linalg.solve(slope, -missing)
-            if not action.wrench[5] > 0.0:
-                # Out of touch there is no slope to go by.
-                move = np.zeros(5)
-                move[0] = -0.5 * max(behind, 1e-5)
+            try:
+                move = self._move(slope, missing, behind, touches=action.wrench[5] > 0.0)
+            except np.linalg.LinAlgError:
+                break
             bound = _FURTHEST * max(abs(behind), 1e-6)
             share = min(1.0, bound / max(abs(move[0]), 1e-300))
             before, promised = float(action.wrench[5]), share * float(slope[0] @ move)
@@ -142,6 +144,17 @@ class Equilibrium:
             f"worm and wheel found no balance at {np.degrees(beta):.4g} deg of the worm",
             reached={"residual": residual},
         )
+
+    @staticmethod
+    def _move(
+        slope: FloatArray, missing: FloatArray, behind: float, *, touches: bool
+    ) -> FloatArray:
+        """Return Newton's step; out of touch, where there is no slope to go by, one inwards."""
+        if touches:
+            return np.linalg.solve(slope, -missing)
+        move = np.zeros(5)
+        move[0] = -0.5 * max(behind, 1e-5)
+        return move
 
     def _guess(self, torque: float, sense: int) -> tuple[float, FloatArray]:
         last = self._last.get(sense) or next(iter(self._last.values()), None)
