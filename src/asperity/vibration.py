@@ -188,6 +188,12 @@ class Vibration(Table):
                     f"vibration.{key} is of a sliding body; a gearset is shaken by vibration.mode, "
                     f"one of {choices(MODES)}: leave it out"
                 )
+        if self.start:
+            raise InputError(
+                f"vibration.start is {self.start:g} s, of a sliding body; a gearset is followed "
+                "from where its vibration begins: leave it out (vibration.ramp has the amplitude "
+                "grow)"
+            )
         if self.mode is None:
             raise InputError(
                 f"vibration.mode is missing; a gearset is shaken one way of {choices(MODES)}"

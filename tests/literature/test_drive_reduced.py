@@ -127,6 +127,13 @@ def test_far_beyond_it_creeps_by_the_balance_of_friction():
     assert answer.creep == pytest.approx(answer.creep_closed_form, rel=0.02)
 
 
+def test_a_gearset_that_hardly_holds_has_a_threshold_all_the_same():
+    answer = locked("vibration.displacement_amplitude=15 um", "friction.mu=0.08604")
+    assert answer.holding_share == pytest.approx(0.974, abs=1e-3)
+    assert answer.threshold > 0.0
+    assert answer.threshold == pytest.approx(answer.threshold_closed_form, rel=0.1)
+
+
 def test_asperities_of_exponent_1_creep_at_any_amplitude():
     answer = locked("vibration.displacement_amplitude=0.1 um", "friction.exponent=1")
     assert answer.threshold == 0.0

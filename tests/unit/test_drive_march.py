@@ -4,9 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-from apparatus.drives import ASPERITIES, all_solved, deflection, problem, solved
+from apparatus.drives import ASPERITIES, all_solved, case, deflection, problem, solved
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
+from asperity.drive.solve import prepare
 from asperity.errors import InputError
 from asperity.runs import Run
 
@@ -36,12 +40,6 @@ def test_the_powers_balance_while_damping_alone_unloads_flanks_that_touch():
     for one in all_solved([(*RATTLING, f"drive.contact_damping={c} s/m") for c in (1, 10)]):
         assert one.ledger.damping > one.ledger.friction
         assert one.closure < 1e-3
-
-
-def test_a_left_handed_drive_is_the_mirror_image():
-    one, other = (solved(f"gearset.hand={hand}") for hand in ("right", "left"))
-    for name in ("torque", "energy_ratio", "force_max", "k_w"):
-        assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9)
 
 
 @pytest.mark.parametrize("mode", ["axial", "screw"])
@@ -125,6 +123,9 @@ def test_a_gearset_that_locks_holds_after_vibration_and_motor_are_off():
     assert locking.held_after is True
 
 
+OF_MOTOR = ("vibration.mode=torsional", "vibration.applied_to=motor")
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
@@ -142,12 +143,39 @@ def test_a_gearset_that_locks_holds_after_vibration_and_motor_are_off():
         (["friction.keeps=deflection"], "makes energy"),
         (["drive.effective_radius=3 mm"], "threads reach from"),
         (["solve.method=periodic"], "a gearset is marched"),
+        (["vibration.start=1 s"], "vibration.start is 1 s, of a sliding body"),
+        ([*OF_MOTOR, "drive.protocol=held-wheel"], "pushes with a torque alone"),
+        ([*OF_MOTOR, "drive.protocol=back-drive"], "the motor is off"),
+        ([*OF_MOTOR, "drive.protocol=tangential"], "moves the worm itself along its flank"),
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(settings, words):
     with pytest.raises(InputError, match=words) as refused:
         problem(*settings)
     assert "\n" not in str(refused.value)
+
+
+def test_what_does_not_shake_a_free_worm_is_no_answer_to_whether_it_holds():
+    with pytest.raises(InputError, match="the motor is off"):
+        prepare_locking(case(*OF_MOTOR))
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("actuator.coupling=0.3", "drive.worm_mass is missing"),
+        ("shaft.bearing_axial=50 kN/mm", "drive.worm_mass is missing"),
+        ("shaft.bearing_radial=50 kN/mm", "shaft.span is missing"),
+    ],
+)
+def test_what_is_missing_is_told_before_any_teeth_are_solved(setting, words):
+    with pytest.raises(InputError, match=words):
+        prepare(read_case("drive-screw", case_tables(), [setting]))
+
+
+def test_a_backlash_that_nobody_gave_is_asked_for_before_any_teeth_are_solved():
+    with pytest.raises(InputError, match="mount.backlash is missing"):
+        dataclasses.replace(problem(), mount=None)
 
 
 @pytest.mark.parametrize("key", ["load_inertia", "contact_damping"])

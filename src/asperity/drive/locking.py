@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
@@ -32,6 +33,8 @@ _AMPLITUDES = ("amplitude",)
 # Of the way from rest to full friction, what the chart shows.
 _CHART = np.geomspace(0.05, 20.0, 14)
 _ROUNDS, _AT_ONCE = 2, 4
+# Where the chart creeps from its first point on, so many times a 16th of the amplitude is tried.
+_LOWER, _DEEPEST = np.array([1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0]), 5
 # Creep below so much of the vibration's own speed is the rest of settling down.
 _CREEPS = 2e-4
 
@@ -122,7 +125,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         threshold = search.threshold(amplitudes, creeps[:-1])
         if threshold is None:
             notes.append("no amplitude up to 20 times its elastic slip sets it free")
-        if problem.friction.model == "dahl" and problem.friction.exponent >= 1.0:
+        if problem.friction.model == "dahl" and problem.friction.exponent > 0.0:
             notes.append(
                 f"friction.exponent is {problem.friction.exponent:g}: such asperities creep at any "
                 "amplitude; exponent 0 holds"
@@ -189,18 +192,35 @@ class _Search:
         return -np.array(speeds, float) + 0.0
 
     def threshold(self, amplitudes: FloatArray, creeps: FloatArray) -> float | None:
-        """Return the least amplitude that creeps; None where none does."""
-        moving = creeps > _CREEPS * self._unit * amplitudes
+        """Return the least amplitude that creeps; None where none does, 0 where every one does."""
+        moving = self._moving(amplitudes, creeps)
         if not moving.any():
             return None
         first = int(np.argmax(moving))
-        low = float(amplitudes[first - 1]) if first else 0.0
-        high = float(amplitudes[first])
+        bounds = (amplitudes[first - 1], amplitudes[first]) if first else self._below(amplitudes[0])
+        if bounds is None:
+            return 0.0
+        low, high = bounds
         for _ in range(_ROUNDS):
-            if low == 0.0:
-                return 0.0
             inside = np.geomspace(low, high, _AT_ONCE + 2)
-            creeping = self.creeps(inside[1:-1]) > _CREEPS * self._unit * inside[1:-1]
+            creeping = self._moving(inside[1:-1], self.creeps(inside[1:-1]))
             place = int(np.argmax(creeping)) if creeping.any() else _AT_ONCE
-            low, high = float(inside[place]), float(inside[place + 1])
+            low, high = inside[place], inside[place + 1]
         return math.sqrt(low * high)
+
+    def _below(self, creeping: float) -> tuple[float, float] | None:
+        """Return an amplitude that holds and one that creeps, below one that creeps; or None."""
+        friction = self._problem.friction
+        if friction.model == "dahl" and friction.exponent > 0.0:
+            return None
+        for _ in range(_DEEPEST):
+            tried = np.array([*(_LOWER * creeping), creeping])
+            moving = [*self._moving(tried[:-1], self.creeps(tried[:-1])), True]
+            place = moving.index(True)
+            if place:
+                return float(tried[place - 1]), float(tried[place])
+            creeping = float(tried[0])
+        return None
+
+    def _moving(self, amplitudes: FloatArray, creeps: FloatArray) -> npt.NDArray[np.bool_]:
+        return creeps > _CREEPS * self._unit * amplitudes

@@ -177,6 +177,15 @@ class Shaft(Table):
         float, Quantity("", what="a damping ratio", example="0.03", ge=0, le=1)
     ] = 0.03
 
+    @model_validator(mode="after")
+    def _consistent(self) -> "Shaft":
+        if self.bearing_radial is not None and self.span is None:
+            raise InputError(
+                "shaft.span is missing; radial bearings yield over the way between them: give it, "
+                "or leave shaft.bearing_radial out"
+            )
+        return self
+
     @property
     def torsion(self) -> float | None:
         """Torsional stiffness, N m/rad; None where it is rigid."""

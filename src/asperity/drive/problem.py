@@ -29,6 +29,12 @@ PLACES = {
 """What each way of shaking can be applied to, the first where nothing is said."""
 
 _ROUND = ("torsional", "screw")
+# Protocols in which the motor's end of the shaft does not hold the worm, ever or in the end.
+_FREE_WORM = {
+    "held-wheel": "the motor pushes with a torque alone",
+    "back-drive": "the motor is off",
+}
+_WORM_FREED = (*_FREE_WORM, "on-demand")
 
 T = TypeVar("T", bound=Table)
 
@@ -174,6 +180,16 @@ class DriveProblem:
         """Of worm and shaft, kg."""
         return self._of_worm(self.drive.worm_mass, self.shaft.mass, "worm_mass")
 
+    @property
+    def backlash(self) -> float:
+        """Normal play between the flanks, m; raises InputError where it is not known."""
+        if self.mount is None or self.mount.backlash is None:
+            raise InputError(
+                "mount.backlash is missing; both flanks may touch, and how far they are apart is "
+                "not known: give it, or drive.flanks = 'driving'"
+            )
+        return self.mount.backlash
+
     def _of_worm(self, given: float | None, cylinders: object, key: str) -> float:
         if given is not None:
             return given
@@ -248,9 +264,40 @@ class DriveProblem:
                 "vibration.applied_to is 'motor', but the shaft is rigid, so that the worm itself "
                 "is shaken: give shaft.torsional_stiffness, or apply it to 'worm'"
             )
-        _ = self.worm_inertia if self.shaft.torsion is not None else None
+        self._check_protocol(vibration)
         self._check_amplitude()
         self._check_step()
+        self._check_moved()
+        if self.drive.flanks == "both":
+            _ = self.backlash
+
+    def _check_protocol(self, vibration: Vibration) -> None:
+        protocol, place = self.drive.protocol, vibration.applied_to
+        if place == "motor" and protocol in _FREE_WORM:
+            raise InputError(
+                f"vibration.applied_to is 'motor', but with drive.protocol '{protocol}' "
+                f"{_FREE_WORM[protocol]}, so that nothing of it comes to the worm: apply it to "
+                "'worm'"
+            )
+        if protocol == "tangential" and place in ("seat", "motor"):
+            raise InputError(
+                f"vibration.applied_to is '{place}', but drive.protocol 'tangential' moves the "
+                "worm itself along its flank: apply it to 'worm'"
+            )
+
+    def _check_moved(self) -> None:
+        """Refuse a worm whose inertia or mass counts and is not known."""
+        turns = self.shaft.torsion is not None or self.drive.protocol in _WORM_FREED
+        shifts = self.shaft.bearing_axial is not None
+        if self.actuator is not None and self.amplitude > 0.0:
+            # What the actuator takes follows from what it moves; of a wheel nothing tells the mass.
+            both = self.drive.protocol == "tangential" or self.mode == "screw"
+            turns = turns or both or self.mode == "torsional"
+            shifts = shifts or both or self.mode == "axial"
+        if turns:
+            _ = self.worm_inertia
+        if shifts:
+            _ = self.worm_mass
 
     def _check_amplitude(self) -> None:
         g, amplitude = self.geometry, self.amplitude

@@ -194,13 +194,7 @@ class TeethModel(ReducedModel):
 
 def _with_backlash(sector: Sector, problem: DriveProblem) -> Sector:
     """The teeth under a worm whose threads leave the backlash."""
-    mount = problem.mount
-    if mount is None or mount.backlash is None:
-        raise InputError(
-            "mount.backlash is missing; both flanks may touch, and how far they are apart is not "
-            "known: give it, or drive.flanks = 'driving'"
-        )
     wheel = sector.wheel
     meshes = {side: transmission(wheel.pair, wheel.flank(side)) for side in (1, -1)}
-    thinned = set_backlash(meshes, _MILLIMETRES * mount.backlash)[1].search.pair
+    thinned = set_backlash(meshes, _MILLIMETRES * problem.backlash)[1].search.pair
     return dataclasses.replace(sector, wheel=Wheel(thinned))

@@ -178,13 +178,7 @@ class ReducedModel:
     def _backlash(self) -> float:
         if self.problem.drive.flanks == "driving":
             return math.inf
-        mount = self.problem.mount
-        if mount is None or mount.backlash is None:
-            raise InputError(
-                "mount.backlash is missing; both flanks may touch, and how far they are apart is "
-                "not known: give it, or drive.flanks = 'driving'"
-            )
-        return mount.backlash
+        return self.problem.backlash
 
     @property
     def stiffness(self) -> tuple[float, float]:

@@ -16,7 +16,7 @@ _STEPS = (
     ("1 to 3", "contact, load and rotation are brought on; their order is lost",
      "the worm turns from the start; the load is in balance with it"),
     ("4", "vibration of the worm along X is switched on (7.4.1)",
-     "vibration.start, its amplitude grown over vibration.ramp"),
+     "the march begins here, in steady sliding; the amplitude grows over vibration.ramp"),
     ("all", "bore of the wheel on its centre point, free about its axis, with a constant torque "
      "(7.2.2, 7.2.4)", "the wheel with drive.load_inertia, which the thesis does not state"),
     ("all", "the shaft's far end B turns steadily; a torsional spring to A (7.2.2)",
