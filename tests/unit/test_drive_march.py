@@ -1,6 +1,8 @@
 """The march of a reduced drive: its ledger, its symmetries, its periodic state, its refusals."""
 
 import dataclasses
+import os
+import signal
 
 import numpy as np
 import pytest
@@ -10,9 +12,9 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
-from asperity.drive.solve import prepare
+from asperity.drive.solve import answer, prepare
 from asperity.errors import InputError
-from asperity.runs import Run
+from asperity.runs import Interrupted, Run
 
 RATTLING = (
     "vibration.mode=axial",
@@ -174,7 +176,7 @@ def test_what_is_missing_is_told_before_any_teeth_are_solved(setting, words):
 
 
 def test_a_backlash_that_nobody_gave_is_asked_for_before_any_teeth_are_solved():
-    with pytest.raises(InputError, match="mount.backlash is missing"):
+    with pytest.raises(InputError, match="backlash is missing"):
         dataclasses.replace(problem(), mount=None)
 
 
@@ -184,6 +186,51 @@ def test_vibration_needs_the_numbers_that_every_answer_depends_on(key):
     drive = given.drive.model_copy(update={key: None})
     with pytest.raises(InputError, match=f"drive.{key} is missing"):
         dataclasses.replace(given, drive=drive)
+
+
+class Pressed(Run):
+    """A run in which Ctrl-C is pressed at its n-th checkpoint."""
+
+    def __init__(self, folder, at):
+        super().__init__(folder=folder)
+        self.left = at
+
+    def checkpoint(self, *args, **kwargs):
+        self.left -= 1
+        if self.left == 0:
+            os.kill(os.getpid(), signal.SIGINT)
+        super().checkpoint(*args, **kwargs)
+
+
+# Checkpoints of it: within the first block, one in a later one, and at the very last.
+@pytest.mark.parametrize("protocol", ["steady", "on-demand"])
+def test_a_drive_interrupted_anywhere_answers_as_if_it_had_not_been(tmp_path, protocol):
+    given = problem(
+        f"drive.protocol={protocol}", "vibration.frequency=4 kHz", "solve.duration=12 ms",
+        "vibration.velocity_ratio=1.2", "drive.flanks=driving", "solve.step=0.25 us",
+    )  # fmt: skip
+    counting = Pressed(tmp_path / "whole", 0)
+    wanted = answer(given, counting)
+    checkpoints = -counting.left
+    assert checkpoints > 4
+    for at in sorted({1, 2, checkpoints // 2, checkpoints - 1, checkpoints}):
+        folder = tmp_path / str(at)
+        with pytest.raises(Interrupted, match="goes on from"):
+            answer(given, Pressed(folder, at))
+        again = answer(given, Run(folder=folder))
+        for name in ("torque", "torque_balance", "spread", "settled", "force_max", "held_after"):
+            assert getattr(again, name) == getattr(wanted, name), (at, name)
+        assert again.course.cycle_torque.tobytes() == wanted.course.cycle_torque.tobytes()
+
+
+def test_a_drive_that_a_study_marches_otherwise_is_not_gone_on_from(tmp_path):
+    given = problem("vibration.frequency=20 kHz")
+    plain = given.drive.model_copy(update={"protocol": "on-demand"})
+    told = []
+    with pytest.raises(Interrupted):
+        answer(given, Pressed(tmp_path, 1))
+    answer(dataclasses.replace(given, drive=plain), Run(folder=tmp_path, notify=told.append))
+    assert any("begins anew" in line for line in told)
 
 
 def test_a_march_goes_on_from_where_it_was_interrupted(tmp_path):

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import time
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import numpy as np
@@ -85,6 +86,8 @@ class March:
         Who is told how far it is.
     stop : ndarray of int64, shape (1,), optional
         Set it to 1 from another thread to have the march raise `Stopped` soon.
+    kept : callable, optional
+        Gives what is kept on the way; that of this march if left out.
     """
 
     def __init__(
@@ -95,6 +98,7 @@ class March:
         committed: FloatArray,
         run: Run,
         stop: npt.NDArray[np.int64] | None = None,
+        kept: Callable[[], Tree] | None = None,
     ) -> None:
         self.mesh = mesh
         self.system = system
@@ -104,7 +108,8 @@ class March:
         self.seconds = 0.0
         self.stored = float(states[0]["stored"])
         self._run = run
-        self._stop = np.zeros(1, np.int64) if stop is None else stop
+        self.stop = np.zeros(1, np.int64) if stop is None else stop
+        self._kept = kept or self.tree
 
     @property
     def cycle(self) -> float:
@@ -127,7 +132,7 @@ class March:
                 count = min(max(1, int(1.0 / calls)), target - self.rows.size)
                 found = self.stretches(count, self.cycle)
             self.rows = np.concatenate([self.rows, found])
-            self._run.checkpoint(self.rows.size, max(of, target), self.tree, "cycles")
+            self._run.checkpoint(self.rows.size, max(of, target), self._kept, "cycles")
 
     def _slow_cycle(self, calls: int) -> Records:
         """March one cycle in so many calls, between which Ctrl-C is heard."""
@@ -156,9 +161,9 @@ class March:
         """
         began = time.perf_counter()
         rows = np.zeros(count, SUMS)
-        self.mesh.march(self.system, self.states, self.committed, length, rows, self._stop)
+        self.mesh.march(self.system, self.states, self.committed, length, rows, self.stop)
         self.seconds += time.perf_counter() - began
-        if self._stop[0]:
+        if self.stop[0]:
             raise Stopped
         at = float(self.states[0]["time"])
         if not np.isfinite(self.states[0]["torque"]) or not np.isfinite(rows["stored"]).all():
@@ -192,12 +197,14 @@ class March:
         self._run.forecast(STEP_SECONDS * steps, f"{steps:.3g} steps")
         if self.rows.size < ramp:
             self.go(ramp - self.rows.size, of=most)
-        found = Judgement(False, False, math.inf, math.inf, 0)
-        while self.rows.size < most and not found.surely:
-            self.go(min(block, most - self.rows.size), of=most)
-            if self.rows.size >= ramp + _BLOCKS * block:
+        # Gone on with anywhere, it is judged at the same ends of blocks.
+        while True:
+            marched = self.rows.size - ramp
+            if marched >= _BLOCKS * block and marched % block == 0:
                 found = self.judged(block, measure, scale)
-        return found
+                if found.surely or self.rows.size >= most:
+                    return found
+            self.go(block - marched % block, of=most)
 
     def judged(self, block: int, measure: str, scale: float) -> Judgement:
         """Judge the last three blocks of so many cycles; parameters as in `settle`."""

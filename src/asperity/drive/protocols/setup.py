@@ -13,7 +13,7 @@ from asperity.drive.motion.system import STATE, System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
 from asperity.errors import InputError
-from asperity.waveform import AT_REST
+from asperity.waveform import AT_REST, SAMPLED, Wave
 
 _STABLE = 0.25  # of a step, times the highest natural frequency
 _STIFFER = 3.0  # that the normal contact may be than without vibration
@@ -190,3 +190,35 @@ def begin(
     )
     pose = np.array([state["turn"], state["shift"], state["roll"], 0.0])
     return states, model.settled_in(pose, share)
+
+
+def switched_off(
+    problem: DriveProblem, model: ReducedModel, moving: System, states: npt.NDArray[np.void]
+) -> tuple[System, npt.NDArray[np.void]]:
+    """Return what moves once vibration and motor are off, and the state it begins in.
+
+    What was imposed stays where it is. Its speed is the own of a worm that is free from here on;
+    what is held goes on without.
+    """
+    still = system(problem, model, shaken=False, motor=False)
+    wave, rate = float(states[0]["wave"]), float(states[0]["wave_rate"])
+    places = {name: getattr(moving, name) for name in _SHAKES}
+    still = still._replace(wave=Wave(SAMPLED, 0.0, np.full(2, wave)), **places)
+    left = states.copy()
+    state = left[0]
+    if not moving.turns:
+        # A worm on a rigid shaft is told with what was imposed on it.
+        state["turn"] -= moving.shake_worm_turn * wave
+        state["turn_rate"] = moving.speed
+    state["turn_rate"] += moving.shake_worm_turn * rate
+    state["turn_push"] = state["worm_torque"] / still.worm_inertia
+    if still.shifts:
+        state["shift_rate"] += moving.shake_worm_shift * rate
+        held = still.seat * (moving.shake_seat * wave - state["shift"])
+        held -= still.seat_damping * state["shift_rate"]
+        state["seat_force"] = held
+        state["seat_loss"] = -still.seat_damping * state["shift_rate"]
+        state["shift_push"] = (held + state["worm_force"]) / still.worm_mass
+    for name in ("torque", "shaft_loss", "wave_rate"):
+        state[name] = 0.0
+    return still, left

@@ -11,7 +11,7 @@ from asperity.drive.actuator import Demand, demand, elastic_energy, system_effic
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import Judgement, March, Records, bands_of, mean
-from asperity.drive.protocols.setup import begin, system
+from asperity.drive.protocols.setup import begin, switched_off, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult
 from asperity.errors import ConvergenceError
@@ -52,7 +52,7 @@ def solve_shaken(
     locked = problem.drive.protocol == "back-drive"
     moving = system(problem, model, motor=not locked)
     march = March(model, moving, *begin(problem, model, moving), run, stop)
-    if kept := run.resume(_key(problem)):
+    if kept := run.resume(_key(problem, model)):
         march.restore(kept)
     window = problem.drive.window
     with run.going_on():
@@ -78,9 +78,11 @@ def solve_shaken(
     )
 
 
-def _key(problem: DriveProblem) -> str:
+def _key(problem: DriveProblem, model: ReducedModel) -> str:
+    """Return what a march is kept under; a study marches its case otherwise than the case says."""
     asked = problem.case.canonical() if problem.case is not None else repr(problem)
-    return key(code_key(__name__), asked)
+    changed = [table.model_dump_json() for table in (problem.drive, problem.vibrated[0])]
+    return key(code_key(__name__, type(model).__module__), asked, *changed)
 
 
 def _measured(problem: DriveProblem, model: ReducedModel) -> tuple[str, float]:
@@ -105,12 +107,8 @@ def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: R
     """Whether the gearset holds once vibration and motor are off; None where it is not asked."""
     if problem.drive.protocol != "on-demand":
         return None
-    still = system(problem, model, shaken=False, motor=False)
-    left = march.states.copy()
-    # What was imposed is the worm's own from here on, at the pose and speed that it has.
-    for name in ("wave", "wave_rate"):
-        left[name] = 0.0
-    after = March(model, still, left, march.committed.copy(), run)
+    still, left = switched_off(problem, model, march.system, march.states)
+    after = March(model, still, left, march.committed.copy(), run, march.stop, march.tree)
     after.go(math.ceil(_AFTER_SECONDS * still.frequency))
     end = after.rows[after.rows.size // 2 :]
     return abs(mean(end, "rolled")) < _AT_REST * problem.worm_speed / model.point.ratio
