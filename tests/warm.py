@@ -18,6 +18,11 @@ sys.path.insert(0, str(Path(__file__).parent / "answers"))
 # each. The dearest to compile stands first.
 ROOMS = (
     (
+        "drive drive-screw --static --set drive.teeth=1 --set drive.phases=1",
+        "drive drive-screw --set drive.model=teeth --set drive.teeth=1 --set drive.window=1 "
+        "--set drive.protocol=window --set vibration.frequency='20 kHz'",
+    ),
+    (
         "slide table-4.3 --set solve.method=periodic --out OUT",
         "slide table-4.4 LUGRE --set solve.method=periodic",
         "static table-4.3",

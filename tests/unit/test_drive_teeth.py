@@ -126,10 +126,14 @@ def closure(model, way, count=160):
     return (given - lost - stored) / turned, outs
 
 
-@pytest.mark.parametrize("amplitude", [0.0, 100e-6, 600e-6])
-def test_what_the_teeth_are_given_is_lost_or_stored(amplitude):
+@pytest.mark.parametrize(
+    ("amplitude", "limit"),
+    # Sliding, in contact throughout, and lifting off at 5 m/s, which is 2.5 um a step.
+    [(0.0, 1e-6), (100e-6, 1e-5), (600e-6, 1e-3)],
+)
+def test_what_the_teeth_are_given_is_lost_or_stored(amplitude, limit):
     left, outs = closure(model_of(), swung(amplitude))
-    assert abs(left) < 2e-4
+    assert abs(left) < limit
     assert (outs[:, AT.friction] >= -1e-12).all()
     assert (outs[:, AT.damping] >= -1e-9 * outs[:, AT.stored].max()).all()
     assert outs[:, AT.residual].max() < 1e-6

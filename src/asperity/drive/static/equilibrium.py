@@ -20,6 +20,8 @@ _STEPS = 40
 _CLOSE = 1e-7
 # Of the torque: a change this small tells of the slope, and not of its change.
 _SMALL = 0.05
+# By so much what is known of the slope may change at once.
+_CHANGED = 0.7, 1.4
 # Agreement of teeth that give way to each other: of what is missing, and its bounds.
 _AGREED, _LEAST, _MOST = 1e-2, 1e-8, 1e-4
 # Of a change of the wheel's angle in a step, as a part of the deflection so far.
@@ -40,6 +42,7 @@ class Balance:
     wheel_angle: float  #: rad
     worm_torque: float  #: Needed on the worm, N m
     yielded: FloatArray  #: (4,): How far the worm gave way, rad, m, m, m
+    turns: FloatArray  #: (4,): Turn of the wheel that makes up for a unit of the worm's yielding
     action: Action  #: Of the worm on the wheel
     contact: TeethContact  #: Holds the fields of this balance until it solves another
     residual: float  #: Of torque and of the worm's place, relative
@@ -63,6 +66,7 @@ class Equilibrium:
         self._twists = _twists(contact)
         module = contact.sector.wheel.pair.geometry.axial_module
         self._deepest = _DEEPEST * 1e-3 * module
+        self._arm = float(contact.sector.body.places[:, 1].max())
         self._last: dict[int, tuple[float, FloatArray]] = {}
         # Change of the torque over what the slope says, which leaves out that teeth give way to
         # each other.
@@ -72,6 +76,10 @@ class Equilibrium:
         """Return the worm's shift along the axes of its own frame, m."""
         _, axial, tangential, radial = yielded
         return np.array([radial, tangential, -axial])
+
+    def on_worm(self, wrench: FloatArray) -> FloatArray:
+        """Return what wrenches (..., 6) on the wheel are on the worm, (..., 4), N m and N."""
+        return -wrench @ self._twists.T
 
     def balance(
         self, beta: float, torque: float, *, sense: int = 1, touching: float | None = None
@@ -104,7 +112,7 @@ class Equilibrium:
         before, promised = np.nan, np.nan
         for _ in range(_STEPS):
             phi = free - behind
-            if self._depth(behind, yielded) > self._deepest:
+            if self._too_deep(beta, phi, yielded):
                 raise TooDeepError(
                     "the load presses the worm further into the teeth than they can give",
                     reached={"deflection_rad": behind},
@@ -117,9 +125,9 @@ class Equilibrium:
                 )
             except np.linalg.LinAlgError:
                 break
-            on_worm = -self._twists @ action.wrench
-            if 0.0 < abs(promised) < _SMALL * torque:
-                self._softer *= (action.wrench[5] - before) / promised
+            on_worm = self.on_worm(action.wrench)
+            if _LEAST * torque < abs(promised) < _SMALL * torque:
+                self._softer *= float(np.clip((action.wrench[5] - before) / promised, *_CHANGED))
             missing = np.concatenate(
                 [[action.wrench[5] - torque], yielded - self.compliance @ on_worm]
             )
@@ -128,11 +136,17 @@ class Equilibrium:
                 float(np.abs(missing[1:]).max()) / (size * (1.0 + float(np.abs(on_worm).max()))),
             )
             if residual <= _CLOSE:
-                self._last[sense] = torque, np.concatenate([[behind], yielded])
-                return Balance(beta, phi, -float(on_worm[0]), yielded, action, contact, residual)
+                # The wheel's turn by which the worm's yielding is made up for.
+                turns = self._twists @ action.slope[5] / action.slope[5, 5]
+                by_worm = -float(turns @ yielded)
+                self._last[sense] = torque, np.array([behind - by_worm, by_worm, *yielded])
+                return Balance(
+                    beta, phi, -float(on_worm[0]), yielded, turns, action, contact,
+                    residual,
+                )  # fmt: skip
             slope = self._slope(action)
             try:
-                move = self._move(slope, missing, behind, touches=action.wrench[5] > 0.0)
+                move = self._move(slope, missing, behind, yielded, action)
             except np.linalg.LinAlgError:
                 break
             bound = _FURTHEST * max(abs(behind), 1e-6)
@@ -147,30 +161,34 @@ class Equilibrium:
 
     @staticmethod
     def _move(
-        slope: FloatArray, missing: FloatArray, behind: float, *, touches: bool
+        slope: FloatArray,
+        missing: FloatArray,
+        behind: float,
+        yielded: FloatArray,
+        action: Action,
     ) -> FloatArray:
-        """Return Newton's step; out of touch, where there is no slope to go by, one inwards."""
-        if touches:
+        """Return Newton's step; out of touch, without a slope, the worm comes back and nearer."""
+        if action.wrench[5] > 0.0:
             return np.linalg.solve(slope, -missing)
-        move = np.zeros(5)
-        move[0] = -0.5 * max(behind, 1e-5)
-        return move
+        return np.concatenate([[-0.5 * max(behind, 1e-5)], -0.5 * yielded])
 
     def _guess(self, torque: float, sense: int) -> tuple[float, FloatArray]:
         last = self._last.get(sense) or next(iter(self._last.values()), None)
         if last is not None:
             old, values = last
-            share = (torque / old) ** (2.0 / 3.0)
-            return float(share * values[0]), (torque / old) * values[1:]
+            share = torque / old
+            teeth, worm = values[:2]
+            return float(teeth * share ** (2.0 / 3.0) + worm * share), share * values[2:]
         sector = self.contact.sector
         arm = float(sector.body.places[:, 1].min())
         return 2.0 * sector.mean_compliance * torque / arm**2, np.zeros(4)
 
-    def _depth(self, behind: float, yielded: FloatArray) -> float:
-        """How far worm and teeth overlap, m."""
-        arm = float(self.contact.sector.body.places[:, 1].max())
-        lead = self.contact.stand.lead
-        return arm * behind + lead * float(yielded[0]) + float(yielded[1])
+    def _too_deep(self, beta: float, phi: float, yielded: FloatArray) -> bool:
+        """Whether undeformed worm and teeth overlap too much."""
+        if self._deepest > self._arm * abs(beta / self.contact.stand.ratio - phi):
+            return False
+        shift = self.shift(yielded)
+        return self.contact.least_gap(beta + float(yielded[0]), phi, shift) < -self._deepest
 
     def _slope(self, action: Action) -> FloatArray:
         """Derivative of what is missing by the wheel's angle and the worm's yielding."""

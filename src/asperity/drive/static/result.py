@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.problem import DriveProblem
@@ -130,7 +131,9 @@ class StaticResult(Result):
     tooth_force: FloatArray = quantity(
         "N", "N", "normal force on each tooth", dims=(*_PHASE, "tooth")
     )
-    part: tuple[str, ...]
+    part: npt.NDArray[np.str_] = quantity(
+        "", "", "what gives way", dims=_PART, coordinate=True, only="file"
+    )
     part_stiffness: FloatArray = quantity(
         "", "N m/rad", "stiffness at the wheel by what gives way", dims=_PART
     )
@@ -168,9 +171,9 @@ class StaticResult(Result):
 
     def to_json(self) -> dict[str, Any]:
         """Return the scalars, and the stiffness by what gives way."""
-        parts = zip(self.part, np.asarray(self.part_stiffness), strict=True)
+        parts = zip(self.part.tolist(), self.part_stiffness.tolist(), strict=True)
         return super().to_json() | {
-            "stiffness_by_part_Nm_per_rad": {name: float(value) for name, value in parts},
+            "stiffness_by_part_Nm_per_rad": dict(parts),
         }
 
     def heading(self) -> str:

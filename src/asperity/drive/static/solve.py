@@ -14,7 +14,7 @@ from asperity.contact.candidates.wrench import place_of
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import friction_at
 from asperity.drive.problem import DriveProblem
-from asperity.drive.shafts import MeshAction, compliances_of, wheel_compliances
+from asperity.drive.shafts import compliances_of
 from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
 from asperity.drive.static.pressure import FlankPressure
 from asperity.drive.static.result import PATTERNS, StaticResult
@@ -40,8 +40,8 @@ _MEGA = 1e6
 _BESIDE = 0.01
 # A tooth with less of the normal force counts as unloaded.
 _LOADED = 1e-3
-# Of the phases, for the stiffness.
-_EVERY = 3
+# For the stiffness each third of the phases, where there are many.
+_EVERY, _MANY = 3, 12
 
 
 def condensed(problem: DriveProblem, run: Run) -> Sector:
@@ -128,6 +128,7 @@ class _Seen:
     nodal_max: float = 0.0
     hertz: float = 0.0
     resolved: bool = True
+    turns: list[FloatArray] = dataclasses.field(default_factory=list)
     nodal: FloatArray = dataclasses.field(init=False)
     forces: FloatArray = dataclasses.field(init=False)
 
@@ -156,6 +157,7 @@ class _Seen:
             value, resolved = self.pressure.hertz(field)
             if value > self.hertz:
                 self.hertz, self.resolved = value, resolved
+        self.turns.append(balance.turns)
         force, radius, speed = contact_means(contact, balance)
         self.weight += force
         self.radius += force * radius
@@ -203,11 +205,12 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     seen = _Seen(model, pressure)
     less_loaded = [_Seen(model, pressure) for _ in PATTERNS[:-1]]
     count = len(model.phases)
+    every = _EVERY if count >= _MANY else 1
     with run.going_on():
         forward, more, less, frictionless, reversed_ = model.courses(
             [
                 Asked(load, look=seen.whole),
-                *(Asked((1.0 + sign * _BESIDE) * load, every=_EVERY) for sign in (1.0, -1.0)),
+                *(Asked((1.0 + sign * _BESIDE) * load, every=every) for sign in (1.0, -1.0)),
                 Asked(load, FRICTIONLESS),
                 Asked(load, REVERSED),
             ],
@@ -222,7 +225,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         )
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
-    parts = _parts(model, tangent, radius)
+    parts = _parts(model, np.array(seen.turns[::every]), more, less)
     share = forward.tooth_force / forward.tooth_force.sum(axis=1, keepdims=True)
     loaded = (share > _LOADED).sum(axis=1)
     axes = contact.stand.axes
@@ -263,7 +266,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         error_loaded=forward.error,
         error_unloaded=forward.touching,
         tooth_force=forward.tooth_force,
-        part=tuple(parts),
+        part=np.array(list(parts)),
         part_stiffness=np.array(list(parts.values())),
         pattern_torque=load * np.array(PATTERNS),
         pattern=np.array([*(part.nodal for part in less_loaded), seen.nodal]),
@@ -274,11 +277,18 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     )
 
 
-def _parts(model: StaticModel, tangent: float, radius: float) -> dict[str, float]:
-    """Stiffness at the wheel by what gives way, N m/rad: what shafts leave is the teeth's."""
-    action = MeshAction.of(model.problem.point(radius), model.friction)
-    shafts = wheel_compliances(action, model.parts)
-    teeth = 1.0 / tangent - sum(shafts.values())
+def _parts(model: StaticModel, turns: FloatArray, more: Course, less: Course) -> dict[str, float]:
+    """Stiffness at the wheel by what gives way, N m/rad: what shafts leave is the teeth's.
+
+    ``turns`` (p, 4) are those of the wheel by which the worm's yielding is made up for.
+    """
+    torque = more.torque - less.torque
+    on_worm = model.equilibrium.on_worm(more.wrench - less.wrench) / torque
+    shafts = {
+        name: -float(np.einsum("pi,ij,pj->p", turns, part, on_worm).mean())
+        for name, part in model.parts.items()
+    }
+    teeth = (more.mean_deflection - less.mean_deflection) / torque - sum(shafts.values())
     return {"teeth": 1.0 / teeth} | {name: 1.0 / value for name, value in shafts.items()}
 
 
