@@ -169,7 +169,7 @@ class Equilibrium:
     ) -> FloatArray:
         """Return Newton's step; out of touch, without a slope, the worm comes back and nearer."""
         if action.wrench[5] > 0.0:
-            return np.linalg.solve(slope, -missing)
+            return np.asarray(np.linalg.solve(slope, -missing))
         return np.concatenate([[-0.5 * max(behind, 1e-5)], -0.5 * yielded])
 
     def _guess(self, torque: float, sense: int) -> tuple[float, FloatArray]:
