@@ -23,7 +23,10 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.candidates.records import Body
 from asperity.drive.problem import DriveProblem
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
+from asperity.drive.static.reduction import teeth_reduced
 from asperity.drive.static.solve import StaticModel, contact_means, solve_static
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
@@ -82,6 +85,32 @@ def test_the_torque_is_that_of_an_involute_worm_at_the_radius_of_its_force():
     # Forces of the teeth are not quite parallel.
     assert point.normal_force(LOAD, OWN_FRICTION) == pytest.approx(force.mean(), rel=5e-3)
     assert float(force @ way / force.sum()) == pytest.approx(point.length, rel=1e-2)
+
+
+def test_the_radius_of_the_force_is_that_of_a_worm_that_gave_way():
+    model = model_of(*ONE_TOOTH)
+    radially = np.zeros((4, 4))
+    radially[3, 3] = 1e-7
+    found = []
+    for compliance in (None, radially):
+        balance = Equilibrium(model.contact, compliance).balance(0.3, LOAD)
+        _, radius, way = contact_means(model.contact, balance)
+        found.append((radius, way))
+    assert abs(balance.shift[0]) > 50e-6
+    # The way that it slides, known without the radius, hardly changes.
+    (rigid, slid), (gave, slid_then) = found
+    assert gave - rigid == pytest.approx(slid_then - slid, abs=30e-6)
+
+
+def test_teeth_and_what_they_are_reduced_to_rub_at_one_speed():
+    problem = problem_of(*ONE_TOOTH, "drive.friction=iso14521")
+    found = StaticModel(problem, Run(), 4).friction
+    teeth = teeth_reduced(problem, Run(), phases=4)
+    reduced = ReducedModel(problem, Reduction(teeth.radius, (), 0.0))
+    assert found == pytest.approx(reduced.friction, rel=0.01)
+    given = problem_of(*ONE_TOOTH, "drive.friction=iso14521", "drive.effective_radius=9.81 mm")
+    at = ReducedModel(given, Reduction(9.81e-3, (), 0.0))
+    assert StaticModel(given, Run(), 4).friction == pytest.approx(at.friction, rel=1e-6)
 
 
 def test_a_pitch_further_the_teeth_are_as_before():

@@ -5,6 +5,8 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.parameters import Drive, Shaft
+from asperity.drive.problem import DriveProblem
+from asperity.drive.reduced.reduction import kept_under
 from asperity.errors import InputError
 from asperity.slider.methods import prepare
 from asperity.vibration import Vibration
@@ -98,3 +100,14 @@ def test_a_copy_keeps_the_quantities_of_a_list():
     copied = given.model_copy(update={"protocol": "window"})
     assert copied.deflection == given.deflection
     assert copied.protocol == "window"
+
+
+def test_teeth_rated_otherwise_are_kept_apart_where_friction_is_the_standard_s():
+    def kept(*settings):
+        return kept_under(
+            DriveProblem.from_case(read_case("gearset-3b", case_tables(), settings), shaken=False)
+        )
+
+    own = ("drive.friction=iso14521", "friction.model=coulomb", "friction.mu=0.1")
+    assert kept(*own) != kept(*own, "rating.friction_factor=0.5")
+    assert kept(*own[1:]) == kept(*own[1:], "rating.friction_factor=0.5")

@@ -18,7 +18,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
-from asperity.drive.static.solve import condensed, friction_of
+from asperity.drive.static.solve import condensed
 from asperity.drive.static.sweep import REVERSED, Asked, Course, phases_of, sweep, touching_angles
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, KEPT, TeethContact
 from asperity.drive.teeth.sector import Sector
@@ -70,7 +70,7 @@ class TeethModel(ReducedModel):
     @functools.cached_property
     def contact(self) -> TeethContact:
         """The teeth held against the worm, each by itself."""
-        return TeethContact(self.sector, friction_of(self.problem), coupled=False)
+        return TeethContact(self.sector, self.problem.friction.mu, coupled=False)
 
     @functools.cached_property
     def courses(self) -> tuple[Course, Course, float]:

@@ -5,6 +5,7 @@ import json
 from typing import TYPE_CHECKING
 
 from asperity.drive.problem import DriveProblem
+from asperity.rating import RatingOptions
 from asperity.runs import Run
 from asperity.runs.cache import Cache
 from asperity.runs.key import code_key, key
@@ -58,13 +59,15 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
 _BEARS = ("model", "teeth", "density", "friction", "effective_radius")
 
 
-def _key(problem: DriveProblem) -> str:
+def kept_under(problem: DriveProblem) -> str:
     """Return what the teeth of a problem are kept under, whatever shakes them."""
     drive = problem.drive.model_dump(mode="json", include=set(_BEARS))
+    case = problem.case
+    rating = case.require(RatingOptions) if case and RatingOptions.table in case else None
     tables = (
         problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc,
         # Where friction is one number, neither its law nor the speed bears on the teeth.
-        *(() if drive["friction"] == "constant" else (problem.operation,)),
+        *(() if drive["friction"] == "constant" else (problem.operation, rating)),
     )  # fmt: skip
     given = [None if table is None else table.model_dump(mode="json") for table in tables]
     asked = [*given, problem.load, problem.friction.mu]
@@ -76,7 +79,7 @@ def _teeth(problem: DriveProblem, run: Run) -> "TeethReduced":
     from asperity.drive.static.reduction import TeethReduced, teeth_reduced
 
     cache = Cache.of_this_user("reduced", run.notify)
-    name = _key(problem)
+    name = kept_under(problem)
     kept = cache.get(name)
     if kept is not None:
         return from_tree(TeethReduced, kept)

@@ -47,6 +47,11 @@ class Balance:
     contact: TeethContact  #: Holds the fields of this balance until it solves another
     residual: float  #: Of torque and of the worm's place, relative
 
+    @property
+    def shift(self) -> FloatArray:
+        """Of the worm along the axes of its own frame, (3,), m."""
+        return shift_of(self.yielded)
+
 
 class Equilibrium:
     """Finds the balance of a drive.
@@ -71,11 +76,6 @@ class Equilibrium:
         # Change of the torque over what the slope says, which leaves out that teeth give way to
         # each other.
         self._softer = 1.0
-
-    def shift(self, yielded: FloatArray) -> FloatArray:
-        """Return the worm's shift along the axes of its own frame, m."""
-        _, axial, tangential, radial = yielded
-        return np.array([radial, tangential, -axial])
 
     def on_worm(self, wrench: FloatArray) -> FloatArray:
         """Return what wrenches (..., 6) on the wheel are on the worm, (..., 4), N m and N."""
@@ -121,7 +121,7 @@ class Equilibrium:
             tolerance = min(max(_AGREED * residual, _LEAST), _MOST)
             try:
                 action = contact.act(
-                    beta + yielded[0], phi, self.shift(yielded), sense=sense, tolerance=tolerance
+                    beta + yielded[0], phi, shift_of(yielded), sense=sense, tolerance=tolerance
                 )
             except np.linalg.LinAlgError:
                 break
@@ -201,6 +201,12 @@ class Equilibrium:
         matrix[1:, 0] = self.compliance @ on_worm[:, 5]
         matrix[1:, 1:] = np.eye(4) - self.compliance @ on_worm @ twists.T
         return matrix
+
+
+def shift_of(yielded: FloatArray) -> FloatArray:
+    """Return the worm's shift along the axes of its own frame where it gave way, m."""
+    _, axial, tangential, radial = yielded
+    return np.array([radial, tangential, -axial])
 
 
 def _twists(contact: TeethContact) -> FloatArray:

@@ -57,13 +57,12 @@ def condensed(problem: DriveProblem, run: Run) -> Sector:
     )
 
 
-def friction_of(problem: DriveProblem) -> float:
-    """Return the coefficient of friction while the drive runs steadily."""
+def friction_of(problem: DriveProblem, speed: float) -> float:
+    """Return the coefficient of friction while the drive runs steadily and slides at a speed."""
     if problem.drive.friction == "constant":
         return problem.friction.mu
     if problem.case is None:
         raise InputError("drive.friction is 'iso14521', which needs a case with [operation]")
-    speed = problem.sliding_speed
     return float(friction_at(friction_curve(rating_inputs(problem.case), 3.0 * speed), speed))
 
 
@@ -94,14 +93,41 @@ class StaticModel:
         self.problem = problem
         self.run = run
         self.sector = condensed(problem, run)
-        self.friction = friction_of(problem)
-        self.contact = TeethContact(self.sector, self.friction)
         self.radius = problem.drive.effective_radius or problem.reference_radius
         self.parts: Mapping[str, FloatArray] = compliances_of(problem.shaft, self.radius)
         whole = sum(self.parts.values(), np.zeros((4, 4)))
-        self.equilibrium = Equilibrium(self.contact, whole)
+        self.contact = TeethContact(self.sector, 0.0)
         self.phases = phases_of(self.contact, phases or problem.drive.phases)
         self.touching = touching_angles(self.contact, self.phases)
+        self.equilibrium = Equilibrium(self.contact, whole)
+        self.friction = friction_of(problem, self._sliding_speed())
+        self.contact = TeethContact(self.sector, self.friction)
+        self.equilibrium = Equilibrium(self.contact, whole)
+
+    def _sliding_speed(self) -> float:
+        """Speed at which the flanks slide where they bear, m/s, which friction hardly moves."""
+        drive, speed = self.problem.drive, self.problem.worm_speed
+        if drive.friction == "constant":
+            return self.problem.sliding_speed
+        if drive.effective_radius is not None:
+            return self.problem.point(drive.effective_radius).sliding_speed(speed)
+        means: list[tuple[float, float, float]] = []
+
+        def look(_number: int, balance: Balance) -> None:
+            means.append(contact_means(balance.contact, balance))
+
+        every = max(1, len(self.phases) // 4)
+        phases, touching = self.phases[::every], self.touching[::every]
+        try:
+            sweep(
+                self.equilibrium, phases, touching,
+                [Asked(self.problem.load, FRICTIONLESS, look=look)],
+            )  # fmt: skip
+        except TooDeepError:
+            raise too_much(self.problem) from None
+        force, radius, _ = np.array(means).T
+        mean = float(force @ radius / force.sum())
+        return self.problem.point(mean).sliding_speed(speed)
 
     def courses(
         self, asked: Sequence[Asked], step: Callable[[int], None] = lambda _number: None
@@ -169,9 +195,8 @@ class _Seen:
 
 def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float, float]:
     """Return normal force, N, its mean radius on the worm, m, and sliding way, m/rad."""
-    shift = np.zeros(3)
     _, rotation, translation = contact.placed(
-        balance.worm_angle + float(balance.yielded[0]), balance.wheel_angle, shift
+        balance.worm_angle + float(balance.yielded[0]), balance.wheel_angle, balance.shift
     )
     forces, radii, ways = [], [], []
     shapes = contact.sector.body.shapes
