@@ -1,6 +1,7 @@
 """MATLAB files as PicoScope writes them: a variable a channel, and the interval."""
 
 import math
+import struct
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,11 @@ from asperity.errors import InputError, plain
 from asperity.tribometer.importing.columns import Columns
 
 _INTERVAL = "Tinterval"
+_MATRIX, _COMPRESSED = 14, 15
+_KINDS = frozenset((*range(1, 8), 9, *range(12, 19)))
+_NUMERIC = frozenset(
+    ("double", "single", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
+)
 _NOTE = "the file tells no units; its channels are taken as volts"
 _TOLD = frozenset(("Tstart", _INTERVAL, "ExtraSamples", "RequestedLength", "Length", "Version"))
 
@@ -54,10 +60,38 @@ def _is_hdf5(path: Path) -> bool:
 
 
 def _plain(path: Path) -> dict[str, Any]:
-    from scipy.io import loadmat
+    from scipy.io import loadmat, whosmat
 
-    found = loadmat(path)
+    # SciPy's reader ends the process on some damaged cells, structures and texts.
+    _check_tags(path)
+    size = path.stat().st_size
+    names = [
+        name for name, shape, kind in whosmat(path)
+        if kind in _NUMERIC and math.prod(shape) <= 1100 * size
+    ]  # fmt: skip
+    found = loadmat(path, variable_names=names)
     return {key: np.asarray(value) for key, value in found.items() if not key.startswith("__")}
+
+
+def _check_tags(path: Path) -> None:
+    """Raise ValueError for a tag of version 5 that SciPy would take for a place in memory."""
+    content = path.read_bytes()
+    if not content.startswith(b"MATLAB 5"):
+        return
+    order = "<" if content[126:128] == b"IM" else ">"
+    at = 128
+    while at + 8 <= len(content):
+        kind, size = struct.unpack_from(f"{order}II", content, at)
+        if kind not in (_MATRIX, _COMPRESSED) or at + 8 + size > len(content):
+            raise ValueError("a tag is wrong")
+        inner, end = at + 8, at + 8 + size
+        while kind == _MATRIX and inner + 8 <= end:
+            own, length = struct.unpack_from(f"{order}II", content, inner)
+            small = own >> 16
+            if (own & 0xFFFF if small else own) not in _KINDS:
+                raise ValueError("a tag is wrong")
+            inner += 8 if small else 8 + -(-length // 8) * 8
+        at = end
 
 
 def _hdf5(path: Path) -> dict[str, Any]:
