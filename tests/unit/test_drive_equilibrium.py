@@ -16,7 +16,7 @@ class Spring:
 
     def __init__(self, stiffness=STIFFNESS):
         self.stiffness = stiffness
-        self.stand = SimpleNamespace(axes=np.eye(3), origin=np.array([0.05, 0.0, 0.0]), lead=2e-3)
+        self.stand = SimpleNamespace(axes=np.eye(3), origin=np.array([0.05, 0.0, 0.0]), ratio=15.0)
         self.sector = SimpleNamespace(
             wheel=SimpleNamespace(pair=SimpleNamespace(geometry=SimpleNamespace(axial_module=4.0))),
             body=SimpleNamespace(places=np.array([[0.0, 0.04, 0.0]])),

@@ -187,7 +187,7 @@ class Equilibrium:
         """Whether undeformed worm and teeth overlap too much."""
         if self._deepest > self._arm * abs(beta / self.contact.stand.ratio - phi):
             return False
-        shift = self.shift(yielded)
+        shift = shift_of(yielded)
         return self.contact.least_gap(beta + float(yielded[0]), phi, shift) < -self._deepest
 
     def _slope(self, action: Action) -> FloatArray:
