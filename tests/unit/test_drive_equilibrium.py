@@ -5,7 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from asperity.drive.static.equilibrium import Equilibrium
+from asperity.drive.static.equilibrium import Equilibrium, TooDeepError
+from asperity.drive.teeth.contact import FullError
 from asperity.errors import ConvergenceError
 
 STIFFNESS = 2e6
@@ -44,6 +45,20 @@ def test_a_singular_contact_is_told_as_no_balance():
 
     with pytest.raises(ConvergenceError, match="found no balance at 0 deg of the worm"):
         Equilibrium(Singular()).balance(0.0, 300.0, touching=0.0)
+
+
+def test_a_step_to_where_too_much_touches_is_taken_back_and_a_load_there_is_refused():
+    class Full(Spring):
+        def act(self, beta, phi, shift, *, sense, tolerance):
+            if phi < -2.2 * 300.0 / STIFFNESS:
+                raise FullError("full")
+            return super().act(beta, phi, shift, sense=sense, tolerance=tolerance)
+
+    far = Full()
+    far.sector.mean_compliance = 2.0 * 0.04**2 / STIFFNESS
+    assert Equilibrium(far).balance(0.0, 300.0, touching=0.0).residual < 1e-6
+    with pytest.raises(TooDeepError):
+        Equilibrium(far).balance(0.0, 900.0, touching=0.0)
 
 
 def test_a_slope_that_vanishes_under_load_is_told_as_no_balance():

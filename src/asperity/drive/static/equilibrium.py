@@ -13,7 +13,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.drive.shafts import COORDINATES
-from asperity.drive.teeth.contact import Action, TeethContact
+from asperity.drive.teeth.contact import Action, FullError, TeethContact
 from asperity.errors import ConvergenceError
 
 _STEPS = 40
@@ -26,6 +26,8 @@ _CHANGED = 0.7, 1.4
 _AGREED, _LEAST, _MOST = 1e-2, 1e-8, 1e-4
 # Of a change of the wheel's angle in a step, as a part of the deflection so far.
 _FURTHEST = 0.7
+# So often a step may lead to where more of the teeth touches than could be.
+_FULL = 4
 # Of the axial module: beyond it elastic flanks mean nothing.
 _DEEPEST = 0.1
 
@@ -110,6 +112,7 @@ class Equilibrium:
         size = float(np.abs(self.compliance).max()) or 1.0
         residual = np.inf
         before, promised = np.nan, np.nan
+        full = 0
         for _ in range(_STEPS):
             phi = free - behind
             if self._too_deep(beta, phi, yielded):
@@ -123,6 +126,13 @@ class Equilibrium:
                 action = contact.act(
                     beta + yielded[0], phi, shift_of(yielded), sense=sense, tolerance=tolerance
                 )
+            except FullError:
+                full += 1
+                if full > _FULL:
+                    raise TooDeepError("more of the teeth bears than could be") from None
+                behind, yielded = 0.5 * behind, 0.5 * yielded
+                before = promised = np.nan
+                continue
             except np.linalg.LinAlgError:
                 break
             on_worm = self.on_worm(action.wrench)

@@ -71,8 +71,8 @@ def too_much(problem: DriveProblem) -> InputError:
     module = problem.geometry.axial_module
     return InputError(
         f"operation.output_torque is {problem.load:.6g} N m; it would press the worm deeper than "
-        f"{0.1 * module:.3g} mm, a tenth of the module, into the teeth, which no elastic tooth "
-        "carries: take a smaller torque"
+        f"{0.1 * module:.3g} mm, a tenth of the module, into the teeth, or half of a flank would "
+        "bear, which no elastic tooth carries: take a smaller torque"
     )
 
 

@@ -161,7 +161,8 @@ def on_demand(case: Case, stroke: Stroke | None = None, run: Run | None = None) 
         return Service((*parts, *(((0.0, way.rest),) if way.rest > 0.0 else ())))
 
     found = exchange(service(unshaken), service(with_it), electrical, apparent)
-    worn = _worn(case, problem, shaken, shaking / cycle)
+    # The standard's life is running time: at rest nothing wears.
+    worn = _worn(case, problem, shaken, shaking / float(time.sum()))
     per_stroke = problem.worm_speed * time
     actuator = electrical * shaking
     return OnDemand(

@@ -48,6 +48,10 @@ _ELASTIC_SLIP = 1e-9
 _TOUCH = 1e-10
 
 
+class FullError(ConvergenceError):
+    """More of the teeth touches than could be."""
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Action:
     """What the worm does to the wheel, about the wheel's centre and axes, right-handed."""
@@ -229,8 +233,10 @@ class TeethContact:
 
         Raises
         ------
+        FullError
+            More of a tooth touches than could be.
         ConvergenceError
-            No equilibrium, or more of a tooth touches than could be.
+            No equilibrium.
         """
         body, stand = self.sector.body, self.stand
         numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
@@ -247,7 +253,9 @@ class TeethContact:
             (rotation, translation, slip, turn), laws, self._history, self.answer, self.kept,
             self.work, tolerance, with_slope,
         )  # fmt: skip
-        if residual == newton.FULL or residual > 1e3 * _TOLERANCE:
+        if residual == newton.FULL:
+            raise FullError("more of the teeth touches the worm than could be")
+        if residual > 1e3 * _TOLERANCE:
             raise ConvergenceError(
                 "the teeth find no equilibrium with the worm at this load: take a smaller torque",
                 reached={"residual": residual, "iterations": float(iterations)},
