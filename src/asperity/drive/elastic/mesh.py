@@ -13,74 +13,25 @@ Which faces are near is looked up anew before worm and tooth have come as close 
 """
 
 import math
-from typing import NamedTuple
 
-from asperity.arrays import FloatArray, IntArray
 from asperity.compiled import kernel
 from asperity.contact.candidates.faces import collect
 from asperity.contact.candidates.newton import FULL, solve
 from asperity.contact.candidates.records import (
-    Answer,
-    Body,
-    Candidates,
-    History,
-    Kept,
-    Laws,
-    Work,
     answer_of,
     candidates_of,
     kept_of,
 )
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
+from asperity.drive.elastic.records import Mesh
 from asperity.drive.interface import AT, POSES
-from asperity.drive.teeth.placing import Stand, place_worm, to_space
+from asperity.drive.teeth.placing import place_worm, to_space
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
 _NEAR = 6e-6  # from the worm, of faces that are looked at, m
 _STRAYED = 1e-4  # residual of a solve that is begun anew
 _LOST = 1.0  # residual of a tooth of which too much touches
-
-
-class Mesh(NamedTuple):
-    """Elastic teeth on both flanks: what stays, and room to work in.
-
-    With K teeth looked at, a tooth ``m`` has the place ``m mod K`` on the driving flank and K more
-    on the other.
-    """
-
-    body: Body
-    stand: Stand
-    laws: Laws  #: With the worm's flank 1
-    back: Laws  #: With the worm's flank -1
-    teeth: int  #: K
-    flanks: int  #: 1 or 2
-    ahead: float  #: Angle of the wheel at which the driving flank touches at pose 0, rad
-    damping: float  #: c of the contact, s/m
-    friction_stiffness: float  #: Of the asperities, Pa/m
-    stiffness: float  #: Of the flanks' surfaces, Pa/m
-    candidates: Candidates
-    answer: Answer
-    kept: Kept
-    history: History
-    earlier: FloatArray  #: (4k, 3): Committed forces, N
-    work: Work
-    #: (2K, 8): Where candidates were gathered: tooth, poses, least distance, reach, elastic way
-    gathered: FloatArray
-    shape: FloatArray  #: (2K, 3n): Displacement of the nodes when they were
-    rotation: FloatArray  #: (2, 3, 3): Of the worm before and after the step
-    translation: FloatArray  #: (2, 3)
-    vectors: FloatArray  #: (2, 3): Force and moment
-    wrench: FloatArray  #: (6,)
-    drift: FloatArray  #: (3, 3)
-    shift: FloatArray  #: (3,)
-    nothing: FloatArray  #: (3, 3): Zeros
-    still: FloatArray  #: (3,): Zeros
-    moved: FloatArray  #: (3,): Shift of the worm
-    one: FloatArray  #: (3, 3)
-    damped: FloatArray  #: (4,): Generalised forces of the damping
-    counted: IntArray  #: (1,): Evaluations of teeth so far
-
 
 # Poses and generalised forces of the damping; then for each tooth its number, how many points
 # touch, and of each: number, deflection (3), pressure over the reference, force (3), the force a

@@ -11,7 +11,8 @@ from asperity.contact.candidates.records import Answer, Candidates, History, Kep
 from asperity.contact.interface.friction import DAHL, PointFriction
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.elastic.march import march
-from asperity.drive.elastic.mesh import Mesh, advance, states
+from asperity.drive.elastic.mesh import advance, states
+from asperity.drive.elastic.records import Mesh
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem

@@ -1,0 +1,47 @@
+"""Elastic teeth as the kernels take them."""
+
+from typing import NamedTuple
+
+from asperity.arrays import FloatArray, IntArray
+from asperity.contact.candidates.records import Answer, Body, Candidates, History, Kept, Laws, Work
+from asperity.drive.teeth.placing import Stand
+
+
+class Mesh(NamedTuple):
+    """Elastic teeth on both flanks: what stays, and room to work in.
+
+    With K teeth looked at, a tooth ``m`` has the place ``m mod K`` on the driving flank and K more
+    on the other.
+    """
+
+    body: Body
+    stand: Stand
+    laws: Laws  #: With the worm's flank 1
+    back: Laws  #: With the worm's flank -1
+    teeth: int  #: K
+    flanks: int  #: 1 or 2
+    ahead: float  #: Angle of the wheel at which the driving flank touches at pose 0, rad
+    damping: float  #: c of the contact, s/m
+    friction_stiffness: float  #: Of the asperities, Pa/m
+    stiffness: float  #: Of the flanks' surfaces, Pa/m
+    candidates: Candidates
+    answer: Answer
+    kept: Kept
+    history: History
+    earlier: FloatArray  #: (4k, 3): Committed forces, N
+    work: Work
+    #: (2K, 8): Where candidates were gathered: tooth, poses, least distance, reach, elastic way
+    gathered: FloatArray
+    shape: FloatArray  #: (2K, 3n): Displacement of the nodes when they were
+    rotation: FloatArray  #: (2, 3, 3): Of the worm before and after the step
+    translation: FloatArray  #: (2, 3)
+    vectors: FloatArray  #: (2, 3): Force and moment
+    wrench: FloatArray  #: (6,)
+    drift: FloatArray  #: (3, 3)
+    shift: FloatArray  #: (3,)
+    nothing: FloatArray  #: (3, 3): Zeros
+    still: FloatArray  #: (3,): Zeros
+    moved: FloatArray  #: (3,): Shift of the worm
+    one: FloatArray  #: (3, 3)
+    damped: FloatArray  #: (4,): Generalised forces of the damping
+    counted: IntArray  #: (1,): Evaluations of teeth so far
