@@ -18,6 +18,7 @@ from asperity.drive.motor import (
     all_motors,
     exchange,
     lightest,
+    of_another_speed,
     scaled,
 )
 from asperity.errors import InputError
@@ -76,6 +77,13 @@ def test_your_own_motor_is_chosen_where_it_is_lighter(tmp_path, monkeypatch):
     motor = lightest(Service(((33.8, 60.0),)))
     assert (motor.name, motor.cost) == ("ours", 250.0)
     assert motor.source("price").name == "our price list"
+
+
+def test_a_motor_that_turns_at_another_speed_than_the_worm_is_told():
+    motor = lightest(Service(((33.8, 60.0),)))
+    assert of_another_speed((motor,), 2.0 * math.pi * 24.0) == ()
+    (line,) = of_another_speed((motor,), 2.0 * math.pi * 48.0)
+    assert "the worm turns at 2880 rpm and the motors at 14" in line
 
 
 def test_of_the_same_make_mass_goes_with_torque_and_size_with_its_cube_root():

@@ -99,9 +99,18 @@ def test_a_smaller_motor_does_but_the_actuator_weighs_more_than_it_saves(stroke)
     assert stroke.saved_mass < 0.0
     # A lead angle of 25 deg locks nothing.
     assert not stroke.holds_after
-    assert stroke.safety_wear == pytest.approx(stroke.safety_wear_plain, rel=1e-3)
+    assert stroke.safety_wear != pytest.approx(stroke.safety_wear_plain, rel=1e-2)
     assert stroke.figure() is not None
     assert set(stroke.to_json()) >= {"torque_ratio", "torque_balance", "settled"}
+
+
+def test_rest_neither_wears_nor_spares(stroke):
+    without = on_demand(
+        case(*ACTUATOR, "operation.through_travel_torque=122 N m"), Stroke(rest=0.0)
+    )
+    assert without.share_shaken > 10.0 * stroke.share_shaken
+    assert without.safety_wear == pytest.approx(stroke.safety_wear, rel=1e-9)
+    assert without.sump_rise == pytest.approx(stroke.sump_rise, rel=1e-9)
 
 
 def test_without_an_actuator_or_with_an_impossible_stroke_it_is_refused():

@@ -25,6 +25,9 @@ PRICE_SOURCE = Source("thesis 7.5", "one source", "GBP 23 for 6 kg, a maker's co
 LOWEST_VOLTAGE = 0.9
 """Of the supply over its rated one; IEC 60038 (from memory)."""
 
+# Of the speed, by which motors at the same mains differ by their slip.
+_SPEEDS = 0.1
+
 TRANSDUCER_MASS, GENERATOR_MASS = 1e-3, 3e-3
 """kg/W of a bolted ultrasonic transducer with its horn; kg/VA of its generator."""
 
@@ -153,6 +156,21 @@ def lightest(
             "ASPERITY_MATERIALS"
         )
     return min(doing, key=lambda motor: motor.mass)
+
+
+def of_another_speed(motors: Iterable[Motor], speed: float) -> tuple[str, ...]:
+    """Return the line that says where motors do not turn at a speed, rad/s; none where all do."""
+    speeds = [motor.speed for motor in motors]
+    if all(abs(speed / own - 1.0) <= _SPEEDS for own in speeds):
+        return ()
+    to_rpm = 30.0 / math.pi
+    low, high = (f"{to_rpm * own:.4g}" for own in (min(speeds), max(speeds)))
+    told = low if low == high else f"{low} to {high}"
+    return (
+        f"the worm turns at {to_rpm * speed:.4g} rpm and the motors at {told}: one of that speed "
+        "with the same torque has about the same mass, but other poles, name and power, or it "
+        "needs a gear between",
+    )
 
 
 @dataclasses.dataclass(frozen=True)

@@ -16,7 +16,7 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.friction import rating_inputs
 from asperity.drive.life import Life, life
-from asperity.drive.motor import Exchange, Service, exchange
+from asperity.drive.motor import Exchange, Service, exchange, of_another_speed
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
@@ -188,6 +188,7 @@ def on_demand(case: Case, stroke: Stroke | None = None, run: Run | None = None) 
             *shaken.notes,
             "masses of motors, actuator and generator are from memory, to some 15 %, and a factor "
             "of 2 for the latter two",
+            *of_another_speed((found.before, found.after), problem.worm_speed),
             *(() if worn else ("[rating] does not apply, so wear and heat are not told",)),
         ),
     )
