@@ -42,6 +42,33 @@ def test_the_powers_balance_while_both_flanks_hammer():
     assert one.closure < 3e-3
 
 
+@pytest.mark.parametrize(
+    "way",
+    [
+        ("vibration.mode=axial",),
+        ("vibration.mode=axial", "vibration.applied_to=seat", "shaft.bearing_axial=50 kN/mm"),
+        ("vibration.mode=torsional",),
+        ("vibration.mode=torsional", "vibration.applied_to=motor"),
+        ("vibration.mode=wheel-axial",),
+        ("vibration.mode=screw",),
+    ],
+)
+def test_a_wave_that_begins_at_its_crest_does_not_hit_the_flanks(way, tmp_path):
+    samples = tmp_path / "cosine.csv"
+    time = np.linspace(0.0, 0.5e-3, 65)
+    np.savetxt(samples, np.column_stack([time, np.cos(2e3 * 2.0 * np.pi * time)]), delimiter=",")
+    given = problem(
+        f"vibration.samples={samples}", "vibration.waveform=sampled", "drive.worm_mass=0.3 kg",
+        "vibration.displacement_amplitude=20 um", *way,
+    )  # fmt: skip
+    model = ReducedModel(given, reduction(given, Run()))
+    moving = system(given, model)
+    march = March(model, moving, *begin(given, model, moving), Run())
+    (first,) = march.stretches(1, 2e-6)
+    assert first["driving_max"] == pytest.approx(model.normal_force, rel=0.05)
+    assert abs(first["actuator"]) < 1e-2
+
+
 def test_the_powers_balance_while_damping_alone_unloads_flanks_that_touch():
     for one in all_solved([(*RATTLING, f"drive.contact_damping={c} s/m") for c in (1, 10)]):
         assert one.ledger.damping > one.ledger.friction

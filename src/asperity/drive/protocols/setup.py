@@ -13,7 +13,7 @@ from asperity.drive.motion.system import STATE, System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
 from asperity.errors import InputError
-from asperity.waveform import AT_REST, SAMPLED, Wave
+from asperity.waveform import AT_REST, SAMPLED, Wave, displacement_at
 
 _STABLE = 0.25  # of a step, times the highest natural frequency
 _STIFFER = 3.0  # that the normal contact may be than without vibration
@@ -168,14 +168,22 @@ def begin(
     state["step"] = moving.longest
     state["turn_rate"] = moving.speed
     state["roll_rate"] = moving.speed / point.ratio
-    if moving.torsion:
-        state["turn"] = -torque / moving.torsion
+    # A waveform need not begin at nothing: the wheel follows to where the worm is put.
+    wave = displacement_at(moving.wave, 0.0)
+    state["wave"] = wave
+    state["turn"] = moving.shake_motor * wave
+    twist = torque / moving.torsion if moving.torsion else 0.0
+    state["turn"] -= twist
+    state["shift"] = moving.shake_seat * wave
     if moving.shifts:
-        state["shift"] = thrust / moving.seat
+        state["shift"] += thrust / moving.seat
         state["seat_force"] = -thrust
+    turn = state["turn"] + moving.shake_worm_turn * wave
+    shift = state["shift"] + moving.shake_worm_shift * wave
+    aside = moving.shake_wheel * wave
     approach = model.law.approach_at(force)
     state["roll"] = (
-        point.lead * state["turn"] + state["shift"] - approach / point.normal_z
+        point.lead * (turn - aside / point.radius) + shift - approach / point.normal_z
     ) / point.arm
     state["driving"] = force
     state["torque"] = 0.0 if locked else torque
@@ -185,10 +193,10 @@ def begin(
         model.stored(approach, share)
         + 0.5 * moving.worm_inertia * state["turn_rate"] ** 2 * moving.turns
         + 0.5 * moving.wheel_inertia * state["roll_rate"] ** 2
-        + 0.5 * moving.torsion * state["turn"] ** 2
-        + 0.5 * moving.seat * state["shift"] ** 2
+        + 0.5 * moving.torsion * twist**2
+        + (0.5 * thrust**2 / moving.seat if moving.shifts else 0.0)
     )
-    pose = np.array([state["turn"], state["shift"], state["roll"], 0.0])
+    pose = np.array([turn, shift, state["roll"], aside])
     return states, model.settled_in(pose, share)
 
 
