@@ -10,7 +10,9 @@ from apparatus.drives import ASPERITIES, all_solved, case, deflection, problem, 
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.drive.directions import answer as ways
 from asperity.drive.locking import prepare as prepare_locking
+from asperity.drive.plots import plot_directions
 from asperity.drive.protocols.march import March
 from asperity.drive.protocols.setup import begin, switched_off, system
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
@@ -19,6 +21,11 @@ from asperity.drive.reduced.reduction import reduction
 from asperity.drive.solve import answer, prepare
 from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
+
+
+def drawn_text(figure):
+    return "\n".join(label.get_text() for label in figure.axes[0].get_yticklabels())
+
 
 RATTLING = (
     "vibration.mode=axial",
@@ -241,6 +248,28 @@ def test_vibration_needs_the_numbers_that_every_answer_depends_on(key):
     drive = given.drive.model_copy(update={key: None})
     with pytest.raises(InputError, match=f"drive.{key} is missing"):
         dataclasses.replace(given, drive=drive)
+
+
+def test_a_way_that_cannot_be_solved_is_named_and_leaves_the_others():
+    stiff = problem(*RATTLING, "drive.contact_damping=1000 s/m", "solve.duration=6 ms")
+    found = ways(stiff, Run())
+    rows = {row["mode"]: row for row in found.to_json()["directions"]}
+    assert rows["axial"]["torque_ratio"] is None
+    assert not rows["axial"]["settled"]
+    assert any(note.startswith("axial: not solved, the powers") for note in found.notes)
+    assert rows["screw"]["torque_ratio"] > 0.0
+    assert "not solved" in drawn_text(plot_directions(found.to_dataset()))
+
+
+def test_what_a_held_wheel_s_ratio_is_and_why_an_actuator_s_take_is_missing_are_told():
+    held = solved("drive.protocol=held-wheel", "vibration.frequency=20 kHz")
+    assert any("torque_ratio is the load over" in note for note in held.notes)
+    wheel = solved(
+        "vibration.mode=wheel-axial", "vibration.frequency=20 kHz", "drive.worm_mass=0.3 kg",
+        "vibration.displacement_amplitude=2 um", "actuator.coupling=0.3", "solve.duration=6 ms",
+    )  # fmt: skip
+    assert wheel.actuator_electrical is None
+    assert any("the mass of the wheel is not known" in note for note in wheel.notes)
 
 
 class Pressed(Run):

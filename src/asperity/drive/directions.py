@@ -1,7 +1,7 @@
 """The command `directions`: which way of shaking a gearset gives most, and for what."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,6 +22,7 @@ from asperity.runs import Run
 
 _MODES = ("mode",)
 _MICROMETRES = 1e6
+_OF_A_WAY = ("aperiodic", "what the actuator")  # begins a note that is not of all ways
 
 
 class Directions(Result):
@@ -131,30 +132,42 @@ def prepare(case: Case) -> DriveProblem:
 
 
 def answer(problem: DriveProblem, run: Run) -> Directions:
-    """Shake a drive each way; raises the error of a way that could not be solved."""
+    """Shake a drive each way.
+
+    A way that cannot be solved stands with a note in place of numbers.
+
+    Raises
+    ------
+    AsperityError
+        None could.
+    """
     reduced = reduction(problem, run)
     asked = [(problem.shaken(mode, problem.amplitude), reduced) for mode in PLACES]
     found = solve_many(asked, run, what="ways")
-    for each in found:
-        if isinstance(each, AsperityError):
-            raise each
     solved = [each for each in found if isinstance(each, DriveResult)]
+    if not solved:
+        raise next(each for each in found if isinstance(each, AsperityError))
 
-    def column(value: Any) -> FloatArray:
-        return np.array([np.nan if value(each) is None else value(each) for each in solved], float)
+    def column(value: Callable[[DriveResult], float | None]) -> FloatArray:
+        told = [value(each) if isinstance(each, DriveResult) else None for each in found]
+        return np.array([np.nan if each is None else each for each in told], float)
 
     static = solved[0].torque_static * problem.worm_speed
-    notes = dict.fromkeys(
-        f"{mode}: {note}" if note.startswith("aperiodic") else note
-        for mode, each in zip(PLACES, solved, strict=True)
-        for note in each.notes
-    )
+    notes: dict[str, None] = {}
+    for mode, each in zip(PLACES, found, strict=True):
+        if isinstance(each, AsperityError):
+            notes[f"{mode}: not solved, {each}"] = None
+            continue
+        for note in each.notes:
+            notes[f"{mode}: {note}" if note.startswith(_OF_A_WAY) else note] = None
     return Directions(
         problem=problem,
         amplitude=problem.amplitude,
         torque_ratio=column(lambda each: each.torque_ratio),
         torque_balance=column(lambda each: each.torque_balance),
-        settled=np.array([each.settled for each in solved], np.int8),
+        settled=np.array(
+            [isinstance(each, DriveResult) and each.settled for each in found], np.int8
+        ),
         saved=column(lambda each: static - each.ledger.drive),
         actuator=column(lambda each: each.ledger.actuator),
         energy_ratio=column(lambda each: each.energy_ratio),

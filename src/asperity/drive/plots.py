@@ -129,6 +129,8 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
     )
     labels = [
         f"{mode}\n{'settled' if sure else 'not settled'}, {100.0 * off:.2g} %"
+        if np.isfinite(off)
+        else f"{mode}\nnot solved"
         for mode, sure, off in zip(modes, settled, balance, strict=True)
     ]
     colours = [BLUE if sure else _LOST for sure in settled]

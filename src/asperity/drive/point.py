@@ -106,16 +106,6 @@ class MeshPoint:
         along = self.normal_z * self.lead / self.radius + friction * self.radius / self.length
         return self.radius * force * along
 
-    def friction_aslant(self, friction: float) -> float:
-        """Coefficient along the sliding that friction is worth at most, in whatever direction.
-
-        Its part across the sliding presses the flanks apart or together.
-        """
-        aslant = self.normal_across**2 - (friction * self.normal_radial) ** 2
-        if aslant <= 0.0:
-            raise InputError(f"friction.mu is {friction:g}, so much that the flanks jam")
-        return friction * self.normal_across / math.sqrt(aslant)
-
     def sliding_speed(self, worm_speed: float) -> float:
         """Speed at which the worm slides, m/s, turning at a speed in rad/s."""
         return worm_speed * self.length

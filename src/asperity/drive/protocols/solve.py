@@ -205,7 +205,6 @@ def _summarise(
 def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Demand | None:
     """What the actuator takes, tuned to its resonance with what it moves; None without a table."""
     if problem.actuator is None or moving.shake_wheel:
-        # Of a wheel that is shaken, nothing tells the mass.
         return None
     # Amplitudes are of displacements: the rate of the waveform makes them velocities.
     unit = problem.velocity / problem.amplitude if problem.amplitude else 0.0
@@ -250,6 +249,13 @@ def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tup
             f"aperiodic: the torque ratio of three blocks of cycles spreads by "
             f"{judged.spread:.2g}, and the wheel is out of balance by {100 * judged.balance:.2g} %"
         )
+    if problem.drive.protocol == "held-wheel":
+        notes.append(
+            "the motor pushes as without vibration: torque_ratio is the load over the mean torque "
+            "on the held wheel"
+        )
+    if problem.actuator is not None and problem.mode == "wheel-axial":
+        notes.append("what the actuator takes is not told: the mass of the wheel is not known")
     hidden = []
     if problem.shaft.torsion is None:
         hidden.append("torsion (a soft shaft lets the worm give way as it turns)")
