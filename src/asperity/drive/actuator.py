@@ -55,12 +55,6 @@ class Demand:
     electrical_power: float
     apparent_power: float
 
-    @property
-    def power_factor(self) -> float:
-        """Real over apparent power of the actuator; 0 where it takes none."""
-        taken = max(self.mechanical_power + self.own_loss, 0.0)
-        return taken / self.apparent_power if self.apparent_power > 0.0 else 0.0
-
 
 def elastic_energy(moving_mass: float, velocity: float, frequency_ratio: float) -> float:
     """Return the peak elastic energy of an actuator with a mass on it, J.

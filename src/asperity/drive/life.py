@@ -52,24 +52,6 @@ class Life:
     hours: float
 
 
-def screw_path_ratio(velocity_ratio: float) -> float:
-    """Return the path that flanks slide, over that without vibration along the sliding.
-
-    Mean of |1 + k sin|, k the vibration's peak velocity over the sliding velocity.
-
-    Examples
-    --------
-    >>> screw_path_ratio(1.0)
-    1.0
-    >>> round(screw_path_ratio(20.0) / 20.0 * math.pi / 2.0, 3)
-    1.001
-    """
-    k = abs(velocity_ratio)
-    if k <= 1.0:
-        return 1.0
-    return 2.0 / math.pi * (math.asin(1.0 / k) + math.sqrt(k**2 - 1.0))
-
-
 def life(
     given: Inputs,
     share: float = 0.0,

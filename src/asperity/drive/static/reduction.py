@@ -30,7 +30,6 @@ class TeethReduced:
     #: (n,): Angles that it is turned by, the worm and its shaft rigid, rad
     deflection: FloatArray
     radius: float  #: Effective radius on the worm: the closed form's with the same torque, m
-    force_radius: float  #: Mean radius of the normal force, m
     compliance: float  #: Of the teeth along the flank, m/N
     normal_force: float  #: Under the load, N
 
@@ -65,7 +64,6 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
         torque=np.array([course.torque for course in courses]),
         deflection=np.array([course.mean_deflection for course in courses]),
         radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
-        force_radius=float(moment / whole),
         compliance=float(compliance),
         normal_force=float(whole / phases),
     )
