@@ -109,10 +109,12 @@ class Directions(Result):
     def tables(self) -> tuple[Table, ...]:
         """Return a row a mode."""
         headings = (
-            "mode", "ratio", "balance", "settled", "saved (W)", "per um (W)", "actuator (W)",
+            "mode", "ratio", "balance", "settled", "saved (W)", "per µm (W)", "actuator (W)",
             "per W", "energy", "force", "open",
         )  # fmt: skip
         rows = [list(row.values()) for row in self.rows]
+        for row, settled in zip(rows, self.settled, strict=True):
+            row[0] = row[0] if settled else f"{row[0]} (not settled)"
         best = (
             f"best {name.replace('_', ' ')}: {', '.join(order) or 'none settled'}"
             for name, order in self.rankings.items()

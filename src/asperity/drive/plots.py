@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LOST = "#BBBBBB"
-_FORCES = 10.0  # over the static one, beyond which a scale is logarithmic
+_RESOLVED = 1e-5  # of a balance
+_KILO = 1e3
 _POWERS = (
     ("power_drive", "motor", BLUE),
     ("power_actuator", "actuator", ORANGE),
@@ -37,10 +38,20 @@ _POWERS = (
 )
 
 
+def _percent(share: float) -> str:
+    """Return a balance in percent; below what is resolved it is none."""
+    return f"{100.0 * share:.2g} %" if abs(share) > _RESOLVED else "0 %"
+
+
 def _state(dataset: "xr.Dataset") -> str:
     """Return what a ratio is to be read with."""
     settled = "settled" if dataset.attrs["settled"] else "not settled"
-    return f"{settled}, wheel out of balance by {100.0 * float(dataset['torque_balance']):.2g} %"
+    return f"{settled}, wheel out of balance by {_percent(float(dataset['torque_balance']))}"
+
+
+def _power(watts: float) -> str:
+    """Return a power as it is read."""
+    return f"{1e-3 * watts:.3g} kW" if abs(watts) >= _KILO else f"{watts:.3g} W"
 
 
 def plot_torque(dataset: "xr.Dataset") -> "Figure":
@@ -63,10 +74,18 @@ def plot_torque(dataset: "xr.Dataset") -> "Figure":
     course.axhline(floor, color=BLACK, dashes=(2, 2), linewidth=1.0, label="friction reversed")
     course.set_xlabel("time (ms)")
     course.set_ylabel("torque, mean of a cycle")
-    course.set_title("From the start of the vibration on", loc="left")
+    title = "From the start of the vibration on"
+    if not banded and "torque_ratio" in dataset:
+        title += f"; ratio {float(dataset['torque_ratio']):.3f}: {_state(dataset)}"
+    course.set_title(title, loc="left", fontsize="medium")
     course.margins(x=0.0)
-    legend(course)
+    _legend_below(course)
     return figure
+
+
+def _legend_below(axes: "Axes") -> None:
+    """Name the curves below their axes, where they cover none."""
+    legend(axes, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
 
 
 def _last_cycles(axes: "Axes", dataset: "xr.Dataset") -> None:
@@ -91,56 +110,59 @@ def _last_cycles(axes: "Axes", dataset: "xr.Dataset") -> None:
     axes.set_xlabel("time in the last cycles (ms)")
     axes.set_ylabel("torque (N m)")
     axes.margins(x=0.0)
-    legend(axes)
+    _legend_below(axes)
 
 
 def plot_powers(dataset: "xr.Dataset") -> "Figure":
     """Draw the power ledger: what is put in to the right of zero, and where it goes."""
     figure, (axes,) = panels(height=3.4)
     values = [float(dataset[name]) for name, _, _ in _POWERS]
-    # What is a millionth of the largest is none to speak of.
-    values = [value if abs(value) > 1e-6 * max(map(abs, values)) else 0.0 for value in values]
+    # What is a ten-thousandth of the largest is none to speak of.
+    values = [value if abs(value) > 1e-4 * max(map(abs, values)) else 0.0 for value in values]
     bars = axes.barh(
         [name for _, name, _ in _POWERS], values, color=[colour for *_, colour in _POWERS],
         height=0.6,
     )  # fmt: skip
-    axes.bar_label(bars, [f"{value:.4g} W" for value in values], padding=3)
+    axes.bar_label(bars, [_power(value) for value in values], padding=3)
     axes.axhline(1.5, color=BLACK, linewidth=0.8)
     axes.invert_yaxis()
     axes.margins(x=0.15)
     axes.axvline(0.0, color=BLACK, linewidth=0.8)
-    axes.set_xlabel("mean power (W); above the line put in, below it where it goes")
+    axes.set_xlabel("mean power (W)\nabove the line put in, below it where it goes")
     axes.set_title(f"Closes to {float(dataset['closure']):.1g};\n{_state(dataset)}", loc="left")
     return figure
 
 
 def plot_directions(dataset: "xr.Dataset") -> "Figure":
     """Draw each way of shaking: ratio, what it saves per watt, the greatest force."""
-    figure, axes = panels(1, 3, width=9.0, height=3.6)
+    figure, panel_rows = panels(2, 2, width=10.0, height=6.0)
     modes = [str(mode) for mode in dataset["mode"].values]
     settled = dataset["settled"].values.astype(bool)
     balance = dataset["torque_balance"].values
     actuator = dataset["actuator"].values
-    per_watt = np.where(actuator > 0.0, dataset["saved"] / np.where(actuator, actuator, 1.0), 0.0)
+    saved = dataset["saved"].values
+    per_watt = np.where(actuator > 0.0, saved / np.where(actuator, actuator, 1.0), np.nan)
     columns = (
         (dataset["torque_ratio"].values, "torque over static"),
-        (per_watt, "drive power saved,\nper actuator power"),
-        (dataset["force_ratio"].values, "greatest normal force\nover static"),
+        (saved / (1e6 * float(dataset["amplitude"])), "drive power saved (W/µm)"),
+        (per_watt, "drive power saved over actuator power"),
+        (dataset["force_ratio"].values, "greatest normal force over static"),
     )
     labels = [
-        f"{mode}\n{'settled' if sure else 'not settled'}, {100.0 * off:.2g} %"
+        f"{mode}\n{'settled' if sure else 'not settled'}, {_percent(off)}"
         if np.isfinite(off)
         else f"{mode}\nnot solved"
         for mode, sure, off in zip(modes, settled, balance, strict=True)
     ]
     colours = [BLUE if sure else _LOST for sure in settled]
-    for place, (panel, (values, label)) in enumerate(zip(axes, columns, strict=True)):
-        panel.barh(range(len(modes)), values, color=colours, height=0.6)
-        panel.set_yticks(range(len(modes)), labels if not place else [""] * len(modes))
+    for place, (panel, (values, label)) in enumerate(zip(panel_rows, columns, strict=True)):
+        bars = panel.barh(range(len(modes)), np.nan_to_num(values), color=colours, height=0.6)
+        words = [f"{value:.3g}" if np.isfinite(value) else "none" for value in values]
+        panel.bar_label(bars, words, padding=3)
+        panel.set_yticks(range(len(modes)), [""] * len(modes) if place % 2 else labels)
         panel.invert_yaxis()
+        panel.margins(x=0.2)
         panel.set_xlabel(label)
-    if dataset["force_ratio"].max() > _FORCES:
-        axes[2].set_xscale("log")
     return figure
 
 
@@ -168,7 +190,7 @@ def plot_locking(dataset: "xr.Dataset") -> "Figure":
     axes.set_yscale("symlog", linthresh=max(1e-3 * fastest, 1e-9))
     if dataset["creep_over"].min() >= -1e-3 * fastest:
         axes.set_ylim(bottom=-1e-3 * max(fastest, 1e-6))
-    axes.set_xlabel("amplitude of the vibration (um)")
+    axes.set_xlabel("amplitude of the vibration (µm)")
     axes.set_ylabel("creep of the wheel (rad/s)")
     word = "holds" if dataset.attrs["locked"] else "does not hold"
     share = float(dataset["holding_share"])

@@ -35,13 +35,18 @@ def over_pitch(dataset: "xr.Dataset") -> "Figure":
     error.plot(
         angle, unloaded - unloaded.mean(), color=VERMILION, dashes=DASHES[1], label="without load"
     )
-    error.set_ylabel("transmission error (urad)")
+    error.set_ylabel("transmission error (µrad)")
     error.margins(y=0.25)
     legend(error, ncols=2)
     force = dataset["tooth_force"].values
     parts = force / force.sum(axis=1, keepdims=True)
-    for k, column in enumerate(parts.T[parts.max(axis=0) > _SHOWN_SHARE]):
-        share.plot(angle, column, color=COLOURS[k % len(COLOURS)], dashes=DASHES[k % len(DASHES)])
+    shown = parts.T[parts.max(axis=0) > _SHOWN_SHARE]
+    for k, column in enumerate(shown):
+        share.plot(
+            angle, column, color=COLOURS[k % len(COLOURS)], dashes=DASHES[k % len(DASHES)],
+            label=f"tooth {k + 1}",
+        )  # fmt: skip
+    legend(share, ncols=len(shown), loc="upper center", bbox_to_anchor=(0.5, -0.22))
     share.set_ylabel("share of a tooth")
     share.set_ylim(0.0, 1.0)
     share.set_xlabel("angle of the worm (deg)")
@@ -86,6 +91,6 @@ def stiffness(dataset: "xr.Dataset") -> "Figure":
     axes.margins(x=0.15)
     axes.grid(visible=False, axis="y")
     whole = float(dataset["stiffness"])
-    axes.set_xlabel("turn of the wheel for its torque (urad/(N m))")
-    axes.set_title(f"together {1e6 / whole:.3g} urad/(N m): {whole:.4g} N m/rad")
+    axes.set_xlabel("turn of the wheel for its torque (µrad/(N m))")
+    axes.set_title(f"together {1e6 / whole:.3g} µrad/(N m): {whole:.4g} N m/rad")
     return figure

@@ -20,9 +20,8 @@ def plot_map(dataset: "xr.Dataset") -> "Figure":
     figure, (left, right) = panels(1, 2, width=11.0, height=4.8)
     k = dataset["velocity_ratio"].values
     form = ", ".join(f"{x:.2f}" for x in dataset["closed_form"].values)
-    worst = 100.0 * float(np.abs(dataset["torque_balance"].where(dataset["settled"] == 1)).max())
     for axes, name, title in (
-        (left, "torque_ratio", f"torque ratio; settled ones in balance to {worst:.1g} %"),
+        (left, "torque_ratio", f"torque ratio; {_balances(dataset)}"),
         (right, "energy_ratio", "power put in over that without vibration"),
     ):
         _plane(axes, dataset, name)
@@ -32,6 +31,20 @@ def plot_map(dataset: "xr.Dataset") -> "Figure":
         xycoords="axes fraction", fontsize=8.0,
     )  # fmt: skip
     return figure
+
+
+def _balances(dataset: "xr.Dataset") -> str:
+    """Return how well the wheel is balanced where the state is periodic, and where it is not."""
+    off = 100.0 * np.abs(dataset["torque_balance"].values)
+    settled = dataset["settled"].values == 1
+    parts = [
+        f"{name} in balance to {off[where].max():.1g} %"
+        for name, where in (
+            ("settled ones", settled & np.isfinite(off)), ("crossed", ~settled & np.isfinite(off)),
+        )
+        if where.any()
+    ]  # fmt: skip
+    return ", ".join(parts) or "none marched"
 
 
 def _plane(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:

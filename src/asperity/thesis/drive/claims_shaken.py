@@ -152,7 +152,9 @@ def _slow() -> Finding:
     return Finding.judged(
         {"within 0.03 at every k_w": max(apart) < 0.03},
         f"apart by up to {max(apart):.2f}, at k_w = {RATIOS[worst]:g}: {first[worst].ratio:.2f} "
-        f"and {second[worst].ratio:.2f}",
+        f"({_state(first[worst])}, balanced to {abs(first[worst].balance):.1%}) and "
+        f"{second[worst].ratio:.2f} ({_state(second[worst])}, to "
+        f"{abs(second[worst].balance):.1%})",
         f"59 mm/s at 750 Hz are {12.5:g} um, and the teeth stay in contact, lost for at most "
         f"{max(one.open for one in first):.0%} of the time; {18.5:g} um lift them, for up to "
         f"{max(one.open for one in second):.0%}. "
@@ -172,7 +174,8 @@ def _slow() -> Finding:
 )
 def _discs() -> Finding:
     runs = of_set(3)
-    ratio = np.array([run.shaken().ratio for run in runs])
+    found = [run.shaken() for run in runs]
+    ratio = np.array([one.ratio for one in found])
     k = np.array(RATIOS)
     across = np.asarray(transverse_ratio(k))
     apart = np.abs(ratio - across)
@@ -188,7 +191,9 @@ def _discs() -> Finding:
         "The curve of the disc tests is lost; in its place stands rigid friction under vibration "
         "across the sliding. That both fall alike at first says little: axial vibration of this "
         "worm is mostly along the normal, and its flanks leave each other from k_w = 1 on "
-        f"(apart by more than 0.1 from k_w = {far.min():g}).",
+        f"(apart by more than 0.1 from k_w = {far.min():g}). {sum(one.settled for one in found)} "
+        f"of {len(found)} runs are settled; the wheel is balanced to "
+        f"{max(abs(one.balance) for one in found):.1%}.",
         {f"apart_at_k_w_{one:g}": float(d) for one, d in zip(k, apart, strict=True)},
         [*runs, "asperity.slider.closed_forms.transverse_ratio"],
     )

@@ -84,7 +84,7 @@ def torque_over_time(dataset: "xr.Dataset") -> "Figure":
     at_end = "settled" if float(dataset["settled"]) > 0.5 else "not settled"
     lower.axhline(
         float(dataset["ratio"]), color=BLUE, dashes=(5, 2), linewidth=1.0,
-        label=f"at the end ({at_end})",
+        label=f"at the end ({at_end}, balanced to {abs(float(dataset['balance'])):.1%})",
     )  # fmt: skip
     limit(lower, 1.0)
     lower.set(xscale="log", xlabel="cycles from the start", ylabel="mean so far")
@@ -106,10 +106,18 @@ def advantage(dataset: "xr.Dataset") -> "Figure":
     other = left.twinx()
     other.grid(False)
     line(other, 2, k, dataset["advantage"], color=GREEN, marker="D", markerfacecolor="none")
+    _not_settled(other, k, dataset["advantage"], dataset["settled"])
     other.set_ylabel(r"mechanical advantage $M_a$", color=GREEN)
     other.set_ylim(0.0, None)
     legend_above(left, 2)
-    left.set_title("(a)", loc="left")
+    settled = dataset["settled"].values > 0.5
+    off = np.abs(dataset["balance"].values)
+    words = [
+        f"{name} {off[where].max():.1%}"
+        for name, where in (("settled", settled), ("crossed", ~settled))
+        if where.any()
+    ]
+    left.set_title(f"(a) wheel balanced to: {', '.join(words)}", loc="left")
     for name, colour in (("across", BLUE), ("along", VERMILION)):
         right.plot(dataset["k_v"], dataset[name], color=colour, label=f"rigid friction, {name}")
         right.axhline(

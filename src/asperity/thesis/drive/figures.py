@@ -138,6 +138,7 @@ def _over_time() -> Computed:
         ),
         static=((), whole.static, "N m", "torque without vibration"),
         ratio=((), whole.ratio, "1", "ratio at the end of the march"),
+        balance=((), whole.balance, "1", "torque of the mesh on the wheel over its load, less 1"),
         settled=((), float(whole.settled), "1", "whether that is a periodic, balanced state"),
         thesis_static=((), UNSHAKEN, "N m", "torque without vibration, thesis"),
         thesis=((), SHAKEN, "N m", "mean torque with vibration, thesis"),

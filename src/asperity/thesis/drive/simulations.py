@@ -134,6 +134,7 @@ PARTS: Mapping[str, Parts] = {
     "claim 7.6": _kept((3, ()), (3, (COULOMB,))),
     "claim 7.7": _kept((3, ACTUATOR)),
     "claim 7.10": _kept((1, ()), (2, ())),
+    "claim 7.13": _kept((3, ())),
     "claim 7.15": _kept((3, ())),
     "claim 7.17": _coarse,
 }
