@@ -102,6 +102,18 @@ def test_a_copy_keeps_the_quantities_of_a_list():
     assert copied.protocol == "window"
 
 
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("table-4.3", "this case is of a sliding body: asperity slide takes it"),
+        ("gearset-2", r"add it with model, 'coulomb' or 'dahl', and mu, which .*'iso14521'"),
+    ],
+)
+def test_what_a_case_lacks_of_a_drive_is_told(name, words):
+    with pytest.raises(InputError, match=words):
+        DriveProblem.from_case(read_case(name, case_tables()))
+
+
 def test_teeth_rated_otherwise_are_kept_apart_where_friction_is_the_standard_s():
     def kept(*settings):
         return kept_under(

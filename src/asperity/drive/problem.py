@@ -97,6 +97,7 @@ class DriveProblem:
         def table(model: type[T]) -> T | None:
             return case.require(model) if model.table in case else None
 
+        _check_tables(case)
         operation = case.require(Operation)
         with told(case):
             vibration = shape = None
@@ -346,6 +347,22 @@ class DriveProblem:
                 f"solve.step is {given:g} s, too coarse for a vibration of {shape.frequency:g} Hz; "
                 f"it may be at most {longest:.3g} s"
             )
+
+
+def _check_tables(case: Case) -> None:
+    """Refuse a case that is none of a gearset, or says nothing of its friction."""
+    if Gearset.table not in case:
+        other = "a sliding body: asperity slide takes it" if "slider" in case else "something else"
+        raise InputError(
+            f"{case.source}: there is no [gearset] in it; a drive is one of a worm gearset, and "
+            f"this case is of {other}"
+        )
+    if Friction.table not in case:
+        raise InputError(
+            f"{case.source}: the table [friction] is missing; add it with model, 'coulomb' or "
+            "'dahl', and mu, which must be there with drive.friction 'iso14521' too but counts "
+            "for nothing then"
+        )
 
 
 def _check_friction(friction: Friction) -> None:

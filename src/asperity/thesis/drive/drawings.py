@@ -113,11 +113,12 @@ def advantage(dataset: "xr.Dataset") -> "Figure":
     settled = dataset["settled"].values > 0.5
     off = np.abs(dataset["balance"].values)
     words = [
-        f"{name} {off[where].max():.1%}"
+        f"{name} {off[where].max():.2%}"
         for name, where in (("settled", settled), ("crossed", ~settled))
         if where.any()
     ]
-    left.set_title(f"(a) wheel balanced to: {', '.join(words)}", loc="left")
+    left.set_xlabel(f"{_K}\nwheel balanced to: {', '.join(words)}")
+    left.set_title("(a)", loc="left")
     for name, colour in (("across", BLUE), ("along", VERMILION)):
         right.plot(dataset["k_v"], dataset[name], color=colour, label=f"rigid friction, {name}")
         right.axhline(
