@@ -27,7 +27,7 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.reduction import teeth_reduced
-from asperity.drive.static.solve import StaticModel, contact_means, solve_static
+from asperity.drive.static.solve import StaticModel, condensed, contact_means, solve_static
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
@@ -37,7 +37,7 @@ from asperity.drive.static.sweep import (
     touching_angles,
 )
 from asperity.drive.teeth.contact import TeethContact
-from asperity.errors import InputError
+from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.transmission import transmission
 from asperity.runs import Run
 
@@ -132,6 +132,18 @@ def test_surfaces_that_only_just_touch_or_part_are_solved_like_others():
         assert action.residual < 1e-6
         if abs(behind) >= 1e-8:
             assert (action.wrench[5] > 0.0) == (behind > 0.0)
+
+
+@pytest.mark.slow
+def test_neighbours_that_come_to_no_agreement_are_no_solution():
+    contact = TeethContact(condensed(problem_of(), Run()), OWN_FRICTION)
+    still = np.zeros(3)
+    touching = contact.touching_angle(0.2, still)
+    assert contact.act(0.2, touching - 3e-4, still).residual < 1e-6
+    # Neighbours that come towards the worm, and further than a tooth goes back from it.
+    contact.blocks = -10.0 * contact.blocks
+    with pytest.raises(ConvergenceError, match="find no equilibrium"):
+        contact.act(0.2, touching - 8e-4, still)
 
 
 def test_the_slope_of_the_contact_is_that_of_its_forces():

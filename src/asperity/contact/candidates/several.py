@@ -1,5 +1,7 @@
 """Several bodies in contact with one counter-surface, each giving way to its neighbours' forces."""
 
+import math
+
 import numpy as np
 
 from asperity.compiled import kernel
@@ -106,7 +108,8 @@ def solve_all(
     Returns
     -------
     residual, iterations : float, int
-        Largest of all, or `newton.FULL`; evaluations of the contact.
+        Largest of all, or `newton.FULL`; where neighbours did not come to agree, at least the
+        change of the last turn over the forces. Evaluations of the contact.
     """
     rotation, translation, shift, turn = surfaces
     none = np.zeros(3)
@@ -114,6 +117,8 @@ def solve_all(
     bodies = number.shape[0]
     iterations = 0
     residual = 0.0
+    changed = whole = 0.0
+    agreed = True
     for _ in range(_SWEEPS):
         changed = 0.0
         whole = 0.0
@@ -139,8 +144,11 @@ def solve_all(
             before -= answer.force[k, :points]
             changed += _norm(before, points)
             whole += _norm(answer.force[k], points)
-        if blocks.shape[0] == 0 or changed <= tolerance * tolerance * whole:
+        agreed = blocks.shape[0] == 0 or changed <= tolerance * tolerance * whole
+        if agreed:
             break
+    if not agreed:
+        residual = max(residual, math.sqrt(changed / whole))
     for k in range(bodies):
         if with_tangent and candidates.counts[k, 0] > 0:
             motion = MotionNumbers(
