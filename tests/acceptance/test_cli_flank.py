@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from asperity.casefile.schema import keys_of
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
@@ -262,19 +263,21 @@ def test_what_was_reached_may_be_no_number(capsys, monkeypatch):
 
 @pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount])
 def test_the_page_has_each_key_with_its_default(table):
-    parts = re.split(r"^``\[(\w+)\]``", PAGE, flags=re.MULTILINE)
-    page = {parts[n]: parts[n + 1] for n in range(1, len(parts), 2)}[table.table]
-    row = re.compile(r"^   \* - ``(\w+)``\n     - .*\n     - (.*)\n", re.MULTILINE)
-    keys = dict(row.findall(page))
+    part = re.split(r"^``\[(\w+)\]``", PAGE, flags=re.MULTILINE)
+    page = dict(zip(part[1::2], part[2::2], strict=True))[table.table]
+    assert f".. case-table:: {table.table}\n" in page
+    keys = {key.name: key for key in keys_of(table)}
     assert keys.keys() == table.model_fields.keys()
-    for key, text in keys.items():
-        default, written = table.model_fields[key].default, text.strip('`"')
+    for name, key in keys.items():
+        assert key.meaning, name
+        default = table.model_fields[name].default
         if default is None:
-            assert "``" not in text, key
+            assert key.default == "", name
             continue
-        quantity = quantity_of(table, key)
+        written = key.default.strip('"')
+        quantity = quantity_of(table, name)
         given = to_si(written, quantity.unit) if quantity and quantity.unit else written
-        assert (float(given) if isinstance(default, float) else given) == default, key
+        assert (float(given) if isinstance(default, float) else given) == default, name
 
 
 def test_both_flanks_carry_the_torque_alike(nominal):

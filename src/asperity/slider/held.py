@@ -13,6 +13,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.loaded import STIFFNESS
+from asperity.friction.parameters import Friction
 from asperity.normal import elastic_force, indentation
 from asperity.slider.held_kernels import carry
 from asperity.slider.integrators import Pressed
@@ -119,11 +120,11 @@ class HeldBody:
         """Let what is normal to the plane settle, which asks nothing of what is in it."""
         model = self.model
         slider = {"drive_stiffness": None, "drive_damping": 0.0, "lateral": "guided"}
-        friction = {"model": "coulomb", "load_exponent": 1.0, "law": "vector"}
+        rigid = Friction.model_validate({"mu": model.friction.mu, "model": "coulomb"})
         alone = dataclasses.replace(
             model,
             slider=model.slider.model_copy(update=slider, units="SI"),
-            friction=model.friction.model_copy(update=friction),
+            friction=rigid,
         )
         pressed = Cycle(alone, steps, self.step)
         found, growth, _ = settle(pressed)
