@@ -141,6 +141,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             "A worm gearset that is loaded and shaken",
             {
                 **_GEARS,
+                "mount": {"backlash": "0.2 mm"},
                 "friction": {"model": "dahl", "mu": 0.05, "max_deflection": "70 nm"},
                 "drive": {
                     "load_inertia": "0.01 kg m**2",
@@ -164,7 +165,16 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 Question("vibration.frequency", "frequency of the vibration"),
                 Question("vibration.displacement_amplitude", "its amplitude"),
             ),
-            ("gearset", "operation", "friction", "drive", "shaft", "vibration", "actuator"),
+            (
+                "gearset",
+                "mount",
+                "operation",
+                "friction",
+                "drive",
+                "shaft",
+                "vibration",
+                "actuator",
+            ),
             ("drive", "directions", "locking", "rate"),
         ),
     }
