@@ -54,7 +54,8 @@ def check(count, seed):
             point.worm_torque(one.problem.load, sign * most_friction) / one.torque_static
             for sign in (-1.0, 1.0)
         )
-        assert least - 1e-9 <= one.advantage_min <= one.advantage_max <= most + 1e-9, given
+        # The mesh is solved to 1e-12 of its full friction, of which a light touch is a small part.
+        assert least - 1e-8 <= one.advantage_min <= one.advantage_max <= most + 1e-8, given
         # Between reversed and static friction, but for what slip across the sliding is worth.
         lowest.append(one.advantage_min / one.floor_reversed)
         assert lowest[-1] >= 0.996, given
