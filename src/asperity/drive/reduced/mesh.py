@@ -95,6 +95,18 @@ def _brittle(sx, sy, dx, dy, limit):
 
 
 @uncounted
+@kernel(inline="always")
+def _correction(more, xx, xy, yx, yy, ex, ey):
+    """Newton's step of a deflection whose error is ``e``, the teeth bending by ``more`` of it."""
+    a = 1.0 + more * xx
+    b = more * xy
+    c = more * yx
+    d = 1.0 + more * yy
+    over = 1.0 / (a * d - b * c)
+    return over * (d * ex - b * ey), over * (a * ey - c * ex)
+
+
+@uncounted
 @kernel
 def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     """Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
@@ -144,13 +156,7 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
             wy -= stepy
             continue
         last = off
-        a = 1.0 + more * xx
-        b = more * xy
-        c = more * yx
-        d = 1.0 + more * yy
-        over = 1.0 / (a * d - b * c)
-        stepx = over * (d * ex - b * ey)
-        stepy = over * (a * ey - c * ex)
+        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
         wx += stepx
         wy += stepy
     return wx, wy, off
@@ -186,13 +192,7 @@ def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
             wy -= stepy
             continue
         last = off
-        a = 1.0 + more * xx
-        b = more * xy
-        c = more * yx
-        d = 1.0 + more * yy
-        over = 1.0 / (a * d - b * c)
-        stepx = over * (d * ex - b * ey)
-        stepy = over * (a * ey - c * ex)
+        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
         wx += stepx
         wy += stepy
     return wx, wy, off
