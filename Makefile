@@ -7,6 +7,10 @@ endif
 BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder
+# Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
+SHARE ?= 1
+# Compiled modules are kept: the tests start hundreds of processes.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: help run test slow lint types floors docs examples bench clean
 
@@ -17,7 +21,7 @@ test: .venv/.dev  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
 slow: .venv/.dev  ## prove the rest of it
-	$(BIN)/python -m pytest -m slow $(PYTEST_OPTIONS)
+	$(BIN)/python -m pytest -m slow --share $(SHARE) $(PYTEST_OPTIONS)
 
 lint: .venv/.dev  ## look at format and style
 	$(BIN)/ruff format --check .

@@ -1,7 +1,9 @@
 """Settings shared by all tests."""
 
+import math
 import os
 import shutil
+from collections import defaultdict
 
 import hypothesis
 import pytest
@@ -26,6 +28,36 @@ _NEEDS = {
 }
 _absent = [program for program in _NEEDS if shutil.which(program) is None]
 collect_ignore = [name for program in _absent for name in _NEEDS[program]]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--share",
+        type=float,
+        default=1.0,
+        metavar="SHARE",
+        help="of each campaign (a statement tried on thousands of inputs, in parts) run this share",
+    )
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    # Parts of a campaign differ in one parameter alone; of each campaign one part is run at least.
+    share = config.getoption("share")
+    if share >= 1.0:
+        return
+    campaigns = defaultdict(list)
+    for item in items:
+        if mark := item.get_closest_marker("campaign"):
+            parameters = {**item.callspec.params}
+            del parameters[mark.kwargs["over"]]
+            campaigns[item.nodeid.partition("[")[0], repr(sorted(parameters.items()))].append(item)
+    left_out = set()
+    for parts in campaigns.values():
+        count = max(1, round(share * len(parts)))
+        left_out |= set(parts) - {parts[math.floor(n * len(parts) / count)] for n in range(count)}
+    if left_out:
+        config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+        items[:] = [item for item in items if item not in left_out]
 
 
 def pytest_report_header() -> list[str]:

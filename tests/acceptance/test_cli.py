@@ -69,6 +69,7 @@ def test_a_slide_is_readable_and_names_symbols_and_units(asperity):
     assert re.search(r"^drive force without vibration +mu F_N +5\.5 +N$", output, re.MULTILINE)
 
 
+@pytest.mark.slow
 def test_a_slide_writes_dataset_picture_and_scalars(asperity, tmp_path):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity("slide", "table-4.3", *SHORT, "--json", "--out", folder)
@@ -270,6 +271,7 @@ def test_a_mistake_is_one_line_and_ends_with_2(folder, monkeypatch, capsys, argu
         assert part in errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -322,6 +324,7 @@ def test_a_reader_who_leaves_early_is_not_told_off(start):
     assert errors == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lines", "absent"),
     [

@@ -150,6 +150,7 @@ def test_what_was_kept_of_another_case_is_told_and_not_mixed_in(
     check_same(tmp_path, uninterrupted)
 
 
+@pytest.mark.slow
 def test_interrupted_without_a_folder_a_block_says_how_far_it_was(start, new_user):
     environment = new_user()
     process = start(*SMALL, "--set", "solve.duration=1 s", env=environment)
@@ -260,6 +261,7 @@ def test_a_folder_that_cannot_be_used_is_refused_before_anything_is_solved(
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
 
 
+@pytest.mark.slow
 def test_no_convergence_says_where_and_leaves_what_was_solved(asperity, tmp_path):
     code, output, errors = asperity(*LONG, *TIPPING, "--json", "--out", tmp_path)
     assert code == 3
@@ -275,6 +277,7 @@ def test_no_convergence_says_where_and_leaves_what_was_solved(asperity, tmp_path
     assert all(bool(abs(unfinished[name]).max() < 1e12) for name in unfinished)
 
 
+@pytest.mark.slow
 def test_nothing_of_an_older_run_stays_beside_a_new_one(asperity, tmp_path):
     for name in ("block_0048.vtu", "block_0049.vtu", "notes.txt"):
         (tmp_path / name).write_text("older")

@@ -129,6 +129,7 @@ def test_a_reader_is_told_what_was_assumed_and_what_is_from_memory(asperity):
     assert answer["conjugacy_residual_mm"] < 1e-10
 
 
+@pytest.mark.slow
 def test_tables_for_people_have_values_with_units_and_notes(asperity):
     code, output, errors = asperity("flank", "gearset-3b")
     assert (code, errors) == (0, "")
@@ -158,6 +159,7 @@ def in_space(request):
     return request.param
 
 
+@pytest.mark.slow
 def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_path, in_space):
     folder = tmp_path / "new" / "out"
     step = ("--step",) if in_space else ()

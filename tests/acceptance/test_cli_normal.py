@@ -20,6 +20,7 @@ WEAR = [
 TOLD_OF_WEAR = {"wear_depth_per_cycle_m", "flash_temperature_K", "peclet"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", ["normal-pin", "normal-machine", "oblique"])
 def test_a_pressed_body_tells_its_load_beside_its_ratio(asperity, case, tmp_path):
     code, output, _ = asperity("slide", case, "--json", "--out", tmp_path)

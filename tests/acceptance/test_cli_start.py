@@ -95,6 +95,7 @@ def test_an_unknown_kind_is_told_the_near_one(asperity, here):
     assert not list(here.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="a terminal is stood in for by a pseudo terminal")
 def test_in_a_terminal_it_asks_and_asks_again_what_cannot_be(environment, here):
     import subprocess

@@ -45,6 +45,7 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
     )
 
 
+@pytest.mark.slow
 def test_without_standard_error_notes_do_not_spoil_the_answer(shell):
     code, output, errors = shell("asperity rate gearset-3 --json --out out 2>&-")
     assert (code, errors) == (0, "")
@@ -74,6 +75,7 @@ def test_a_case_whose_name_is_not_utf_8_is_solved(shell, tmp_path):
     assert output.startswith(r"caf\udce9.toml: homogenised")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("where", ["| true", slow(">&-"), slow("> /dev/full")])
 def test_no_file_is_lost_to_a_standard_output_that_takes_nothing(shell, tmp_path, where):
     settings = "--set solve.duration='20 ms' --set vibration.start='2 ms' --set solve.step='1 us'"

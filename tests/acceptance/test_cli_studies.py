@@ -19,6 +19,7 @@ def one_object(output):
     return json.loads(output, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_study_prints_one_object_and_writes_dataset_picture_and_json(asperity, tmp_path, command):
     folder = tmp_path / "new" / "out"
@@ -72,6 +73,7 @@ def test_methods_say_what_the_quoted_vibration_takes(asperity):
     assert "vibration is assumed: sine, 20 kHz, 20 um" in said
 
 
+@pytest.mark.slow
 def test_the_settings_of_an_optimum_make_it(asperity):
     code, output, _ = asperity("optimise", "gearset-3", "--json")
     assert code == 0

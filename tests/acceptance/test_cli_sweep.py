@@ -31,6 +31,7 @@ def start_slowly(start):
     return begin
 
 
+@pytest.mark.slow
 def test_a_sweep_interrupted_and_then_killed_loses_nothing_that_was_done(
     start_slowly, asperity, environment, kept, wait_for
 ):

@@ -48,6 +48,7 @@ def test_friction_law_across_the_drive(example):
     assert names["spread_across"] == pytest.approx(0.357, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_which_friction_reduction_helps(example):
     names = example("which_friction_reduction_helps")
     assert names["efficiency"]["longitudinal"][20] == pytest.approx(0.62281, rel=1e-4)

@@ -308,6 +308,7 @@ def watched(monkeypatch, new_user, tmp_path, _compiled):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="an alarm tells of a minute without a word")
+@pytest.mark.campaign(over="part")
 @pytest.mark.parametrize("part", range(TESTS))
 def test_no_input_ends_in_a_traceback_or_takes_a_minute_without_a_word(watched, part):
     rng = random.Random(part)

@@ -92,6 +92,7 @@ def arguments(folder, name):
     return ["rig", "import", name, "rig-final"]
 
 
+@pytest.mark.campaign(over="part")
 @pytest.mark.parametrize("part", range(TESTS))
 def test_no_file_ends_in_a_traceback(good, part, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)

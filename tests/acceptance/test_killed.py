@@ -54,6 +54,7 @@ def files(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
+@pytest.mark.campaign(over="part")
 @pytest.mark.parametrize("part", range(4))
 @pytest.mark.parametrize("name", ["slide", "block", "sweep"])
 def test_a_run_killed_again_and_again_ends_as_one_that_was_not(

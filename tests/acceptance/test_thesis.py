@@ -44,6 +44,7 @@ def whole(result):
     return run(result.index.parent)
 
 
+@pytest.mark.slow
 def test_every_figure_has_a_picture_and_its_numbers(result):
     assert not result.failed
     assert [figure.number for figure in result.figures] == [n for n in FIGURES if n not in SLOW]
@@ -477,6 +478,7 @@ def processes_of(group):
     return [row for row in rows if row[0] == str(group) and not row[1].startswith("Z")]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("ps") is None, reason="ps tells which processes there are")
 def test_ctrl_c_ends_all_processes_at_once_and_the_same_command_goes_on(tmp_path):
     command = [sys.executable, "-m", "asperity", "thesis", "--out", str(tmp_path)]

@@ -96,6 +96,7 @@ def test_on_the_shipped_mesh_too_it_is_the_rocking_at_k_20(way):
     assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_from_rest_the_block_goes_the_way_of_the_sliding_body_with_its_compliance():
     settings = [*LIGHT, "vibration.start=0 s", "vibration.direction=45 deg"]
     problem = BlockProblem.from_case(read_case("block-transverse", case_tables(), settings))

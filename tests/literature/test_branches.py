@@ -45,6 +45,7 @@ def swing_alone(model, start):
     return 0.5 * (d.max() - d.min())
 
 
+@pytest.mark.slow
 def test_a_ball_flies_or_stays_in_contact_by_where_it_comes_from():
     amplitudes = np.linspace(0.2e-6, 0.5e-6, 7)
     models = bodies(amplitudes)

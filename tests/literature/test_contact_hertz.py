@@ -152,6 +152,7 @@ def test_a_sphere_on_finite_elements_touches_as_hertz_says(quarter_patch, elemen
     assert found.radius_of_area == pytest.approx(1.0, abs=PATCH / A / count / 4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("element", "count"), [("hex27", 16), slow("hex8i", 32)])
 @pytest.mark.parametrize("law", ["hard", "linear"])
 def test_a_cylinder_on_finite_elements_touches_as_hertz_says(quarter_patch, element, count, law):
@@ -161,6 +162,7 @@ def test_a_cylinder_on_finite_elements_touches_as_hertz_says(quarter_patch, elem
     assert found.off < 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["hard", slow("linear")])
 def test_a_sphere_on_a_half_space_touches_as_hertz_says(quarter_of_half_space, law):
     surface, flexibility, size = quarter_of_half_space(12, A, NU, pair=False)
@@ -212,6 +214,7 @@ def test_a_sphere_on_a_half_space_converges_with_the_mesh(quarter_of_half_space,
     falls(found, 3.0, 0.9, ("radius",))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["hard", "linear"])
 def test_a_cylinder_on_a_half_plane_converges_with_the_mesh(law):
     found = [cylinder_on_half_plane(per_width, law) for per_width in (8, 16, 32)]

@@ -168,6 +168,7 @@ def apart(settings, step, count):
     return np.append(difference / scale, difference[3] / swing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("element", "direction"), grid(["hex8", "hex8i"], [0, 45]))
 def test_with_modes_a_shaken_block_moves_as_the_whole_one_within_a_thousandth(element, direction):
     light = [f"block.element={element}", "block.elements=[4, 3, 3]"]

@@ -102,12 +102,14 @@ def observed_order(steps, errors):
     return -slope
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [1.0, slow(1.5), 2.0])
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_the_update_goes_to_the_differential_equation(law, exponent):
     assert reached(200_000, walk, exponent, law) == pytest.approx(exact(exponent, law), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_an_exponent_below_one_goes_to_its_equation_too(law):
     # The root of what is left to the limit makes the equation stiff: 1e-6 instead of 1e-9.
@@ -132,6 +134,7 @@ def test_split_and_unsplit_converge_with_order_two_on_average_over_a_decade(law,
     assert observed_order(steps, errors) == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_under_a_load_that_swings_the_order_is_two_on_average_over_a_decade(law, exponent):

@@ -162,6 +162,7 @@ def errors(element, count):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("element", "order"), [("hex8", 1), ("hex8i", 1), ("hex27", 2)])
 def test_displacement_and_strain_converge_with_the_elements_order(element, order):
     coarse, fine = (errors(element, count) for count in ((3, 6) if order == 2 else (5, 10)))

@@ -119,6 +119,7 @@ def test_the_march_goes_to_the_equations_of_motion(name, applied_to):
     assert deflections[0] < 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "applied_to"), grid(["vector", "lugre, vector"], ["base", "body"])
 )

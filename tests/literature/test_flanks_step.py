@@ -83,6 +83,7 @@ def test_the_worm_has_the_volume_of_a_screw(flank, tmp_path):
     assert written.check.volume == pytest.approx(screw_volume(made.worm, 30.0), rel=1e-7)
 
 
+@pytest.mark.slow
 def test_every_face_of_the_worm_lies_on_the_exact_worm(tmp_path):
     made = pair()
     path = tmp_path / "worm.step"
@@ -95,6 +96,7 @@ def test_every_face_of_the_worm_lies_on_the_exact_worm(tmp_path):
     assert count == 6 * made.worm.starts
 
 
+@pytest.mark.slow
 def test_every_flank_of_the_tooth_lies_on_the_exact_wheel(wheel, tmp_path):
     path = tmp_path / "tooth.step"
     write_step(path, tooth_body(wheel))

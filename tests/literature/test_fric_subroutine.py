@@ -237,6 +237,7 @@ def test_stress_and_state_are_those_of_the_package_over_random_histories(build, 
     assert np.abs(own).max() > 0.9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", SOME)
 def test_derivatives_are_those_of_the_stress_by_slip_and_by_pressure(build, law):
     model, fric = build(*LAWS[law])
@@ -413,6 +414,7 @@ def test_disp_moves_the_base_as_the_case_says(build, wave):
             assert u[2] == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["split", "vector"])
 def test_a_body_solved_with_the_subroutine_slides_as_the_package_says(build, law):
     settings = [f"friction.law={law}", "vibration.direction=60 deg", "vibration.start=0.5 ms"]

@@ -86,6 +86,7 @@ SEEN = 1.1e-4
 DIGIT = 1e-3
 
 
+@pytest.mark.slow
 def test_the_spring_force_at_which_the_body_slips(stick_slip, equations):
     time, velocity, spring, _ = stick_slip
     first = slip_starts(time, velocity)[0]

@@ -319,6 +319,7 @@ def test_an_elliptic_vibration_of_rigid_friction_has_its_closed_form(phase):
     assert solve(model, history=False).ratio == pytest.approx(closed, abs=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("azimuth", "phase", "allowed"), [(0.0, 90.0, 4e-3), (45.0, 90.0, 1e-4), (45.0, -30.0, 1e-4)]
 )
@@ -357,6 +358,7 @@ def test_the_whole_body_is_solved_to_second_order():
     assert -slope == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("elevation", "law", "control"),
     [(30.0, "linear", "force"), (150.0, "hertz", "force"), (90.0, "hertz", "displacement")],
@@ -372,6 +374,7 @@ def test_the_law_of_a_cycle_leads_to_the_steady_state_and_tells_its_load(elevati
     assert found["period"] == expected["period"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "law", "control"), [(6.0, "hertz", "force"), (20.0, "hertz", "displacement")]
 )
@@ -401,6 +404,7 @@ def test_on_its_way_the_law_of_a_cycle_tells_the_loads_and_the_wear_of_its_own_v
     assert slow.normal.multiplier is None
 
 
+@pytest.mark.slow
 def test_a_body_that_goes_the_other_way_meets_the_vibration_of_the_other_side():
     law, other = (homogenise(body(6.0, elevation)) for elevation in (30.0, 150.0))
     speeds = np.array([1e-4, 5e-4, 2e-3, 1e-2])
@@ -444,6 +448,7 @@ def test_a_stable_state_beside_a_hardly_unstable_one_is_found(
     assert answer.normal.multiplier == pytest.approx(multiplier, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_where_nothing_stable_repeats_the_march_names_what_is_unstable():
     model = pin("vibration.frequency=3 kHz", "vibration.displacement_amplitude=0.8857 um")
     with pytest.raises(AperiodicError) as raised:

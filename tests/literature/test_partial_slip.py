@@ -216,6 +216,7 @@ def rubbed(pair, friction):
     return pair.load(state)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("exponent", "least", "most"),
     [
@@ -255,6 +256,7 @@ def test_dahl_friction_of_small_deflection_slips_as_cattaneo_and_mindlin_say(qua
     assert radius / A == pytest.approx(0.3 ** (1.0 / 3.0), rel=0.02)
 
 
+@pytest.mark.slow
 def test_cylinders_stick_within_cattaneo_s_strip():
     per_width = 24
     size = A / per_width

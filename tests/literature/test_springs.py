@@ -178,6 +178,7 @@ def test_ten_thousand_paths_of_indentation_and_slip_gain_nothing(law):
         assert least >= -1e-13 * np.abs(slips).max()
 
 
+@pytest.mark.slow
 def test_in_the_plane_the_order_is_two_on_average_over_a_decade():
     heights, weights = spring_profile("hertz", 16, 2.4)
     steps = np.unique(np.geomspace(400, 4000, 16).astype(int))

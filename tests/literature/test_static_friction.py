@@ -66,6 +66,7 @@ def test_every_friction_holds_at_the_least_load(model):
     assert found.static_ratio == pytest.approx(0.7039, abs=5e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damped", [0.0, 0.05])
 def test_springs_hold_what_the_least_load_presses_damping_or_not(damped):
     found = pressed(
@@ -83,6 +84,7 @@ def test_nothing_holds_where_the_contact_opens():
     assert found.creep > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.25, 0.6])
 def test_a_flat_contact_loses_the_amplitude_over_its_deflection(share):
     found = static(

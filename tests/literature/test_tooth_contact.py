@@ -156,6 +156,7 @@ def test_threads_of_nominal_thickness_interfere_by_the_known_amount(tilted):
     assert 1e3 * tilted.play.axial == pytest.approx(-19.9, abs=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "hob", "few"), [("identical", IDENTICAL, FEW), ("tilted", TILTED, {})]
 )

@@ -77,6 +77,7 @@ def numbers_of(rating):
     }
 
 
+@pytest.mark.slow
 @given(tables())
 def test_input_is_output_and_losses(case):
     iso = rate(*case).iso14521
@@ -99,6 +100,7 @@ def test_efficiency_falls_with_friction(case):
             assert (np.diff(eta) < 0.0).all()
 
 
+@pytest.mark.slow
 @given(tables())
 def test_wheel_can_drive_exactly_where_the_lead_angle_is_above_the_friction_angle(case):
     rated = rate(*case)
@@ -132,6 +134,7 @@ def assert_first_is_alone(rated, found):
                 assert math.isnan(found[key][0]), key
 
 
+@pytest.mark.slow
 @given(tables(), st.floats(6.0, 18.0))
 def test_a_variant_in_an_array_is_the_gearset_alone(case, q):
     gearset, operation, options = case
@@ -147,6 +150,7 @@ def test_a_variant_in_an_array_is_the_gearset_alone(case, q):
     assert_first_is_alone(rate(*case), found)
 
 
+@pytest.mark.slow
 @given(tables(), st.floats(6.0, 18.0))
 def test_efficiency_of_a_variant_whose_numbers_come_in_si_is_that_of_the_gearset_alone(case, q):
     # Not all numbers: a difference of near ones multiplies the last digit of a conversion.
@@ -167,6 +171,7 @@ def test_efficiency_of_a_variant_whose_numbers_come_in_si_is_that_of_the_gearset
         assert found[f"iso14521.{key}"][0] == pytest.approx(iso[key], rel=1e-13)
 
 
+@pytest.mark.slow
 @given(tables())
 def test_units_of_the_input_change_nothing(case):
     gearset, operation, options = case

@@ -139,6 +139,7 @@ def mirrored(model):
     return Model(model.slider, model.friction, vibration, model.solve, model.shape)
 
 
+@pytest.mark.slow
 @given(bodies, frictions(), vibrations())
 def test_the_mirror_image_of_a_direction_has_the_same_ratio(samples, slider, friction, vibration):
     model = made(slider, friction, vibration, samples)

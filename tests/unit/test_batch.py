@@ -82,6 +82,7 @@ def assert_all_same(models):
         assert_same(answer, solve(model, history=False))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("applied_to", ["base", "body"])
 def test_bodies_side_by_side_answer_as_each_alone(law, applied_to):
@@ -263,6 +264,7 @@ def test_a_batch_keeps_greatest_and_least_friction_across_apart():
         assert one.friction_min == pytest.approx(other.friction_min, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["linear", "hertz"])
 @pytest.mark.parametrize(
     ("control", "amplitude"),

@@ -180,6 +180,7 @@ def test_hard_contact_flutters_as_a_very_stiff_one():
     assert hard.growth.frequency == pytest.approx(stiff.growth.frequency, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_damping_of_modes_is_counted_and_leaves_a_block_without_them_alone():
     short = "vibration.velocity_ratio=6", "solve.step=2 us", "solve.duration=2 ms"
     damped = solve_block(problem("block.modes=4", "block.damping_ratio=0.1", *short), history=False)

@@ -84,6 +84,7 @@ def run(package, monkeypatch, tmp_path):
     machine_code._kernels.cache_clear()
 
 
+@pytest.mark.slow
 def test_a_second_process_finds_the_kernel_in_the_cache(run_process, run, tmp_path):
     first, hits, folder = run_process()
     assert (first, hits) == (30.0, 0)

@@ -334,6 +334,7 @@ def stopped(block, after, path):
     return march
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "stop"), grid([*RESUMED], [1, 20, 200]))
 def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path):
     whole = solve_block(problem(*RESUMED[name]))

@@ -50,6 +50,7 @@ def test_the_force_on_a_block_is_that_of_a_mass_on_a_spring_on_a_shaken_base():
     assert np.array(forces) - 55.0 == pytest.approx(swing, abs=0.01 * np.abs(swing).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "contact",
     [

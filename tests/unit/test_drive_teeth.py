@@ -126,6 +126,7 @@ def closure(model, way, count=160):
     return (given - lost - stored) / turned, outs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("amplitude", "limit"),
     # Sliding, in contact throughout, and lifting off at 5 m/s, which is 2.5 um a step.

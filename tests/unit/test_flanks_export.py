@@ -91,6 +91,7 @@ def edges(body):
     )
 
 
+@pytest.mark.slow
 def test_every_edge_of_worm_tooth_teeth_and_wheel_joins_two_faces(wheel):
     bodies = [worm_body(wheel.pair), *(tooth_body(wheel, teeth) for teeth in (1, 3, 31))]
     for body in bodies:
@@ -196,6 +197,7 @@ def drawn(path):
     return picture, float((picture.min(axis=-1) < 0.95).mean())
 
 
+@pytest.mark.slow
 def test_worm_and_wheel_are_drawn(wheel, tmp_path, capfd):
     _, share = drawn(views.pair_view(tmp_path / "pair.png", wheel, teeth=3))
     assert 0.1 < share < 0.9

@@ -70,6 +70,7 @@ def test_from_two_milliseconds_on_the_law_follows_the_cycle_mean_drive_force(cas
     assert np.abs(force - marched)[late].max() <= allowed * model.full_friction
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "speed", "law_name"), grid(CASES, [0.5, 1, 2, 6, 20], LAWS))
 def test_its_ratio_is_the_marchs(case, speed, law_name):
     marched, homogenised = both(
@@ -225,6 +226,7 @@ def test_with_a_damped_drive_it_ends_in_the_periodic_state(case, damping, durati
     assert_same_cycle(answer, periodic, 1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("damping", "mass"), grid([1e4, 1e5, 1e6], ["0.5 kg", "1 g"]))
 def test_a_damper_takes_from_the_slow_motion_and_from_the_shaking(damping, mass):
     # Within a second a strong damper still holds part of the spring's force.

@@ -58,6 +58,7 @@ def test_at_a_constant_load_the_update_is_that_without_one_to_the_last_bit(expon
         assert (found[0] / scale, found[1] / scale, fx / 4, fy / 4) == (*wanted, *wanted)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_with_the_stiffness_kept_ten_thousand_paths_of_load_and_slip_gain_nothing(law):
     random = np.random.default_rng(2)

@@ -358,6 +358,7 @@ def test_a_mean_over_a_stretch_stands_at_its_mean_time():
     assert history.drive_force == pytest.approx(96068.0 * stretch, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
     [

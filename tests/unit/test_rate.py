@@ -121,6 +121,7 @@ def test_every_equation_is_written_in_symbols_that_stand_before_it():
         assert unknown <= {entry.symbol}, (standard, entry.symbol, entry.equation, unknown)
 
 
+@pytest.mark.slow
 def test_every_number_has_symbol_meaning_equation_and_source():
     for standard, entry, _ in every_equation():
         assert entry.symbol, (standard, entry)

@@ -89,11 +89,13 @@ def test_runs_that_are_killed_go_on_to_the_same_cells(undisturbed, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_hundred_killed_runs_give_the_undisturbed_cells(undisturbed, tmp_path):
+@pytest.mark.campaign(over="part")
+@pytest.mark.parametrize("part", range(10))
+def test_a_hundred_killed_runs_give_the_undisturbed_cells(undisturbed, tmp_path, part):
     folder, _ = undisturbed
-    rng = random.Random(2)
+    rng = random.Random(part)
     runs = kills = 0
-    while kills < 100:
+    while kills < 10:
         here = tmp_path / f"run-{runs}"
         kills += killed_and_resumed(rigs.small_case(), here, lambda: rng.uniform(0.05, 0.8))
         assert rigs.cells(here) == rigs.cells(folder)

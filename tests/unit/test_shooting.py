@@ -53,6 +53,7 @@ def test_the_state_repeats_itself(theta, lateral, law):
     assert answer.ledger.residual < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", ["table-4.3", "table-4.4"])
 @pytest.mark.parametrize("law", LAWS)
 def test_marching_on_from_the_periodic_state_stays_there(case, law):

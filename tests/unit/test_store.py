@@ -111,6 +111,7 @@ def test_a_disk_full_at_the_last_moment_is_one_line_and_leaves_nothing(tmp_path,
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_dataset_that_does_not_fit_is_one_line_and_leaves_nothing(tmp_path):
     code = """
 import resource, signal, sys

@@ -174,6 +174,7 @@ def test_a_gearset_that_a_standard_cannot_rate_is_refused_with_its_reason():
         optimise(*gearset("gearset-2", "gearset.axial_module=2.4 mm"))
 
 
+@pytest.mark.slow
 def test_a_higher_permissible_torque_never_gives_more_efficiency(curve):
     assert np.all(np.diff(curve.torque) > 0.0)
     assert np.all(np.diff(curve.efficiency) <= 1e-9)

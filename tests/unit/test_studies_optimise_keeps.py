@@ -68,6 +68,7 @@ def check(case):
     assert not beaten.any()
 
 
+@pytest.mark.campaign(over="seed")
 @pytest.mark.parametrize(
     "seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 50))]
 )
@@ -75,6 +76,7 @@ def test_no_safety_that_held_is_lost_unnamed_and_the_frontier_beats_no_optimum(s
     check(drawn(seed))
 
 
+@pytest.mark.slow
 def test_what_falls_and_what_does_not_hold_is_named(best):
     notes = "\n".join(best.notes)
     assert "iso14521.safety_wear falls from 1.44 to" in notes
@@ -98,6 +100,7 @@ def test_the_design_to_be_made_has_round_numbers_and_is_rated_again(best):
     assert best.gain - 0.005 < rated.iso14521["eta_z1_2"] - best.before.iso14521["eta_z1_2"]
 
 
+@pytest.mark.slow
 def test_what_is_to_be_kept_does_not_fall():
     case = read_case("gearset-3", case_tables())
     kept = found(case, keep=["S_W"])

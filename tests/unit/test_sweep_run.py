@@ -117,6 +117,7 @@ def test_a_point_without_convergence_is_masked_with_its_reason_and_remembered(tm
     assert "velocity_ratio=30: the march left" in dataset.attrs["failures"]
 
 
+@pytest.mark.slow
 def test_an_interrupt_keeps_what_is_done_and_the_next_run_goes_on():
     body = case(*SHORT)
     axes = ["vibration.velocity_ratio=1:200:1"]
@@ -170,6 +171,7 @@ def test_dimensions_of_the_same_key_are_told_apart_by_their_tables():
     assert result.dims == ("slider_mass", "disc_mass", "radius")
 
 
+@pytest.mark.slow
 def test_walking_through_a_large_grid_takes_no_memory(monkeypatch):
     monkeypatch.setattr("asperity.sweep.grid._KEPT_TABLES", 256)
     body = case()
@@ -250,6 +252,7 @@ def test_a_worker_with_another_version_refuses_the_work_and_names_it(name):
         solve_remote(models, {**versions(), name: "another"})
 
 
+@pytest.mark.slow
 def test_a_large_grid_is_announced_before_it_is_looked_at(monkeypatch):
     def halted(_):
         raise InputError("halted")

@@ -30,6 +30,7 @@ def bearing_columns(dataset, design):
     return ((high - low) / width).values, low.values, high.values
 
 
+@pytest.mark.slow
 def test_an_identical_hob_gives_contact_lines_across_the_face(formation):
     share, _, _ = bearing_columns(formation, IDENTICAL)
     assert share.max() > 0.99
@@ -66,6 +67,7 @@ def test_each_correction_lowers_the_highest_pressure():
     assert float(dataset["relieved_length"]) > 1.2 * float(dataset["over_relieved_length"])
 
 
+@pytest.mark.slow
 def test_tilting_the_hob_brings_the_dye_from_the_edge_to_the_middle():
     dataset = FIGURES["2.11"].make().dataset
     centre = np.abs(dataset["centre"].values)

@@ -145,6 +145,7 @@ def test_a_figure_in_full_serves_where_that_is_not_asked_for(tmp_path, made):
     assert len(made()) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["figure-9.1.png", "figure-9.1.nc", "table-9.1.csv", "table-9.1.json"]
 )
@@ -236,6 +237,7 @@ def test_a_number_asks_for_all_that_have_it_in_the_order_of_the_page():
     assert len(select([])) == len(CLAIMS) + len(FIGURES) + len(TABLES)
 
 
+@pytest.mark.slow
 def test_everything_has_a_function_that_makes_it_and_cases_that_ship():
     for exhibit in everything():
         assert callable(exhibit.maker.make), exhibit.name
@@ -266,6 +268,7 @@ def follow_from(tmp_path, monkeypatch):
     return changed
 
 
+@pytest.mark.slow
 def test_a_change_reaches_what_follows_from_it_and_nothing_else(follow_from):
     again = follow_from("rating/__init__.py")
     assert {"claim 7.1", "table 3.2"} <= again

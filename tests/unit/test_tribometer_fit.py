@@ -54,6 +54,7 @@ def numbers(result):
     return {one.key: one for one in result.parameters}
 
 
+@pytest.mark.slow
 def test_what_made_the_data_is_found_again(tmp_path):
     path = table(tmp_path / "data.csv", exact("table-4.3"))
     settings = ["friction.max_deflection=75 nm"]
@@ -63,6 +64,7 @@ def test_what_made_the_data_is_found_again(tmp_path):
     assert all(one.identifiable for one in found.values())
 
 
+@pytest.mark.slow
 def test_intervals_are_as_wide_as_the_information_allows(tmp_path):
     path = table(tmp_path / "data.csv", exact("table-4.3"))
     result = fitted(path, "table-4.3", [LIMIT, EXPONENT], next="2")

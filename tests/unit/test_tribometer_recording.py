@@ -33,6 +33,7 @@ def stored(path):
     return np.concatenate([part for _, part in Recording.open(path).stretches()])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compress", [True, False])
 @pytest.mark.parametrize("pieces", [[450], [30] * 15, [100, 100, 250]])
 def test_what_was_recorded_is_read_back(tmp_path, compress, pieces):
@@ -173,6 +174,7 @@ def check_killed(path, block, reported):
     path.unlink()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
 def test_a_recording_that_is_killed_lacks_its_last_block_at_most(tmp_path):
     for number, wait in enumerate((0.0, 0.05, 0.113)):
@@ -182,8 +184,10 @@ def test_a_recording_that_is_killed_lacks_its_last_block_at_most(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
-def test_of_300_recordings_killed_at_random_each_lacks_its_last_block_at_most(tmp_path):
-    rng = random.Random(1)
-    for number in range(300):
+@pytest.mark.campaign(over="part")
+@pytest.mark.parametrize("part", range(10))
+def test_of_300_recordings_killed_at_random_each_lacks_its_last_block_at_most(tmp_path, part):
+    rng = random.Random(part)
+    for number in range(30):
         path, reported = killed(tmp_path, number, 50_000, rng.uniform(0.0, 0.15))
         check_killed(path, 50_000, reported)
