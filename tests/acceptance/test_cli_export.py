@@ -41,12 +41,45 @@ def test_one_object_names_the_files(asperity, tmp_path):
     assert "two explicit phases" in (tmp_path / "user.f").read_text()
 
 
+def test_the_mean_friction_of_a_body_is_taken_to_c(asperity, tmp_path):
+    code, output, errors = asperity("export", "table-4.4", "--to", "c", "--out", tmp_path)
+    assert (code, errors) == (0, "")
+    assert output.splitlines() == [str(tmp_path / name) for name in ("law.c", "law.h")]
+    header = (tmp_path / "law.h").read_text()
+    assert "slider.normal_force = 50.8 N" in header
+    assert "double asperity_friction(double velocity);" in header
+
+
+def test_over_a_value_the_mean_friction_is_a_map(asperity, tmp_path):
+    over = "vibration.velocity_ratio=6,2"
+    code, _, errors = asperity(
+        "export", "table-4.4", "--to", "csv", "--over", over, "--out", tmp_path
+    )
+    assert (code, errors) == (0, "")
+    rows = [line for line in (tmp_path / "map.csv").read_text().splitlines() if line[0] != "#"]
+    assert rows[0].startswith("vibration.velocity_ratio,velocity [m/s],friction [N]")
+    assert {row.partition(",")[0] for row in rows[1:]} == {"2.0", "6.0"}
+
+
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
         (
+            ["gearset-3", "--to", "c"],
+            "gearset-3: the table [slider] is missing; add it",
+        ),
+        (
+            ["table-4.4", "--to", "c", "--over", "friction.law=split,vector"],
+            "--over friction.law=split,vector: a map is over two numbers or more",
+        ),
+        (
+            ["block-longitudinal", "--to", "abaqus", "--over", "friction.mu=0.1,0.2"],
+            "--over is for 'c', 'csv', 'mat'; leave it out with --to abaqus",
+        ),
+        (
             ["block-longitudinal", "--to", "abacus"],
-            "--to abacus: it must be one of 'abaqus', 'calculix' (did you mean 'abaqus'?)",
+            "--to abacus: it must be one of 'abaqus', 'calculix', 'c', 'csv', "
+            "'mat' (did you mean 'abaqus'?)",
         ),
         (
             ["block-longitudinal"],

@@ -225,7 +225,7 @@ def arguments(rng, folder):
             )
         given += ["--over", axis]
     if command == "export":
-        given += ["--to", rng.choice(["abaqus", "calculix", "x"]), "--out", "out"]
+        given += ["--to", rng.choice(["abaqus", "calculix", "csv", "x"]), "--out", "out"]
     if command == "rate":
         given += ["--standard", rng.choice(["all", "iso14521", "bs721", "agma6034", "iso"])]
     if command == "flank":

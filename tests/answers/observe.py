@@ -123,7 +123,7 @@ def _netcdf(path):
 
 def _csv(path):
     with path.open(newline="", encoding="utf-8") as file:
-        heads, *rows = csv.reader(file)
+        heads, *rows = csv.reader(line for line in file if not line.startswith("#"))
     columns = zip(*rows, strict=True)
     return {head: {"value": _cells(column)} for head, column in zip(heads, columns, strict=True)}
 

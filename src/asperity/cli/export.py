@@ -3,32 +3,45 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from asperity.casefile import Case, read_case
+from asperity.casefile import Case, read_case, told
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, choices, suggestion
-from asperity.store import output_folder, write_text
+from asperity.store import output_folder, write_atomically, write_text
 
 _MOST_NODES = 2_000_000
-PROGRAMS = ("abaqus", "calculix")
+_DECKS = ("abaqus", "calculix")
+_LAWS = ("c", "csv", "mat")
+PROGRAMS = (*_DECKS, *_LAWS)
 
-Files = Mapping[str, str]
+Files = Mapping[str, str] | Mapping[str, bytes]
 
 
 def export(
-    case: str, program: str, settings: Sequence[str], *, as_json: bool, out: Path | None
+    case: str,
+    program: str,
+    settings: Sequence[str],
+    over: str = "",
+    *,
+    as_json: bool,
+    out: Path | None,
 ) -> None:
-    """Write a block's or a gearset's case as input of another program, and say where."""
+    """Write a case as input of another program, or its mean friction, and say where."""
     if program not in PROGRAMS:
         raise InputError(
             f"--to {program}: it must be one of {choices(PROGRAMS)}{suggestion(program, PROGRAMS)}"
         )
-    read = read_case(case, case_tables(), settings)
-    geared = "drive" in read and "block" not in read
-    write: Callable[[Case, str], Files] = _teeth if geared else _block
-    files = write(read, program)
+    if program in _LAWS:
+        files = _law(case, program, settings, over)
+    elif over:
+        raise InputError(f"--over is for {choices(_LAWS)}; leave it out with --to {program}")
+    else:
+        read = read_case(case, case_tables(), settings)
+        geared = "drive" in read and "block" not in read
+        write: Callable[[Case, str], Files] = _teeth if geared else _block
+        files = write(read, program)
     folder = output_folder(out if out is not None else Path("out") / program)
-    written = [str(write_text(folder / name, text)) for name, text in files.items()]
+    written = [str(_written(folder / name, content)) for name, content in files.items()]
     if as_json:
         show.print_json({"to": program, "files": written})
     else:
@@ -55,3 +68,52 @@ def _teeth(case: Case, program: str) -> Files:
     from asperity.runs import Run
 
     return WRITERS[program](TeethSetup.from_case(case, Run(notify=show.note)))
+
+
+def _law(name: str, program: str, settings: Sequence[str], over: str) -> Files:
+    from asperity import __version__
+    from asperity.runs import Run
+    from asperity.slider.friction_map import tabulate
+    from asperity.slider.law_files import WRITERS
+    from asperity.slider.methods import prepare
+    from asperity.sweep.axes import Axis, read_grid
+    from asperity.units import unit_of
+
+    axes: list[Axis] = []
+    if over:
+        case, axes = read_grid(name, case_tables(), settings, [over])
+    else:
+        case = read_case(name, case_tables(), settings)
+    key, unit, values = "", "", [0.0]
+    for axis in axes:
+        key, unit = axis.path, unit_of(case.known[axis.table], axis.key) or ""
+        values = sorted(value for value in axis.values if not isinstance(value, str))
+        if len(values) < 2:
+            raise InputError(f"--over {over}: a map is over two numbers or more")
+    with told(case), show.progress_bar("laws") as progress:
+        wanted: list[dict[str, object]] = [{key: value} if key else {} for value in values]
+        models = [
+            prepare(case.replace_values({"solve.method": "homogenised", **one})) for one in wanted
+        ]
+        run = Run(progress=progress, notify=show.note)
+        laws = tabulate(models, values, key, unit, run)
+    about = [f"asperity {__version__}, {case.source}", *_said(case, key)]
+    for note in dict.fromkeys(note for law in laws.laws for note in law.notes):
+        show.note(note)
+    return WRITERS[program](laws, about)
+
+
+def _said(case: Case, but: str) -> list[str]:
+    """What a case says of a body, as it is written there."""
+    said = [
+        (f"{name}.{key}", value)
+        for name in ("slider", "friction", "vibration", "normal")
+        for key, value in case.raw.get(name, {}).items()
+    ]
+    return [f"{path} = {value}" for path, value in said if path != but]
+
+
+def _written(path: Path, content: str | bytes) -> Path:
+    if isinstance(content, str):
+        return write_text(path, content)
+    return write_atomically(path, lambda target: target.write_bytes(content))

@@ -147,8 +147,21 @@ for _listed in COMMANDS:
 @reported
 def export(
     case: CaseArgument,
-    program: Annotated[str, typer.Option("--to", metavar="PROGRAM", help="abaqus or calculix.")],
+    program: Annotated[
+        str,
+        typer.Option(
+            "--to",
+            metavar="PROGRAM",
+            help="abaqus or calculix; c, csv or mat for a body's mean friction.",
+        ),
+    ],
     settings: SetOption = None,
+    over: Annotated[
+        str,
+        typer.Option(
+            "--over", metavar="TABLE.KEY=VALUES", help="Mean friction over this value as well."
+        ),
+    ] = "",
     as_json: JsonOption = False,
     out: Annotated[
         Path | None,
@@ -160,13 +173,16 @@ def export(
         ),
     ] = None,
 ) -> None:
-    """Write an elastic block, or a gearset's loaded teeth, as an input deck: block.inp, teeth.inp.
+    """Take a case to another program: an input deck, or a body's mean friction as a table.
 
-    For Abaqus also user.f, the friction law as user subroutine FRIC.
+    An elastic block or a gearset's loaded teeth become block.inp or teeth.inp, for Abaqus also
+    user.f, the friction law as user subroutine FRIC. The mean friction of a sliding body over a
+    cycle of its vibration, against its mean velocity, becomes law.c and law.h, law.csv or law.mat;
+    with --over over another value as well, map.c and so on.
     """
     from asperity.cli.export import export as run
 
-    run(case, program, settings or (), as_json=as_json, out=out)
+    run(case, program, settings or (), over, as_json=as_json, out=out)
 
 
 @app.command()

@@ -13,6 +13,7 @@
 from asperity.results.ledger import PowerLedger
 from asperity.runs import Stopped
 from asperity.slider.batch import solve_many
+from asperity.slider.friction_map import FrictionMap
 from asperity.slider.homogenised import HomogenisedLaw, homogenise
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
@@ -22,6 +23,7 @@ from asperity.slider.tables import TABLES
 
 __all__ = [
     "TABLES",
+    "FrictionMap",
     "History",
     "HomogenisedLaw",
     "Model",
