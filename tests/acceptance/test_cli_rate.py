@@ -150,6 +150,35 @@ def test_what_moves_the_first_to_fail_is_what_raising_it_does(asperity):
     assert sizes == sorted(sizes, reverse=True)
 
 
+def test_a_thicker_oil_is_looked_at_a_grade_away(asperity, own):
+    before = one_object(asperity("rate", own, "--json")[1])
+    levers = {lever["name"]: lever["exponent"] for lever in before["verdict"]["moved_by"]}
+    oil = 'operation.lubricant={ base_oil = "mineral", viscosity_40 = "330 mm^2/s", '
+    oil += 'viscosity_100 = "28.5 mm^2/s" }'
+    after = one_object(asperity("rate", own, "--set", oil, "--json")[1])
+    ratio = after["iso14521"]["safety_wear"] / before["iso14521"]["safety_wear"]
+    assert ratio == pytest.approx(1.5 ** levers["oil viscosity"], rel=1e-9)
+    assert levers["oil viscosity"] > 1.0
+
+
+def test_the_better_oil_and_wheel_give_what_choosing_them_does(asperity):
+    before = one_object(asperity("rate", "gearset-2", "--json")[1])
+    assert before["verdict"]["first"] == "iso14521.safety_wear"
+    found = {other["key"]: other for other in before["verdict"]["alternatives"]}
+    assert found.keys() == {"operation.lubricant", "gearset.wheel_material"}
+    for key, other in found.items():
+        after = asperity("rate", "gearset-2", "--json", "--set", f"{key}={other['value']}")[1]
+        safety = one_object(after)["iso14521"]["safety_wear"]
+        assert safety == pytest.approx(other["safety"], rel=1e-12)
+        assert safety > before["iso14521"]["safety_wear"]
+    # The best oil for the wear of aluminium bronze would be one that practice avoids with it.
+    assert "polyglycol" not in found["operation.lubricant"]["value"]
+    (line,) = (x for x in asperity("rate", "gearset-2")[1].splitlines() if "best listed" in x)
+    assert line == (
+        "best listed: oil ISO VG 460 polyalphaolefin (over 11), wheel EN-GJL-250 (5.81)"
+    )
+
+
 def test_the_three_standards_word_a_failure_alike(asperity):
     heavy = ("--set", "operation.output_torque=900 N m")
     answer = one_object(asperity("rate", "gearset-3", *heavy, "--json")[1])

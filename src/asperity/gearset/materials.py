@@ -73,6 +73,10 @@ class WheelMaterial(Material):
     bs721: WheelClass | None = None
     agma6034: Casting | None = None
 
+    def avoids(self, base_oil: str) -> bool:
+        """Whether practice avoids the pair of it and a base oil, for its wear."""
+        return self.family == "aluminium bronze" and base_oil == "polyglycol"
+
 
 class WormMaterial(Material):
     """Material of the worm.

@@ -1,5 +1,6 @@
 """Rate a worm gearset by up to three standards."""
 
+import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
@@ -9,6 +10,7 @@ from asperity.errors import InputError, choices, require_types, suggestion
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rate as rate_agma6034
+from asperity.rating.alternatives import Alternative, alternatives
 from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.demands import Demand
@@ -17,7 +19,7 @@ from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.iso14521.rating import rate as rate_iso14521
-from asperity.rating.levers import Lever, levers
+from asperity.rating.levers import Judge, Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
@@ -68,6 +70,8 @@ class Rated(Result):
         What was assumed for the keys of a case file that were left out, by ``table.key``.
     levers : tuple of Lever
         What moves the least safety most.
+    alternatives : tuple of Alternative
+        The oil and the wheel material of those with a name that bring most of it.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -81,11 +85,12 @@ class Rated(Result):
     self_locking: SelfLocking
     assumed: Mapping[str, str]
     levers: tuple[Lever, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
         """Whether it holds by each standard, and what fails first."""
-        return Verdict.of(self.found, self.levers)
+        return Verdict.of(self.found, self.levers, self.alternatives)
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -232,8 +237,13 @@ def rate(
                 raise
             notes.append(f"{name}: {error}")
     first = Verdict.of(found).first
+    moved: tuple[Lever, ...] = ()
+    if first is not None:
+        judge = _judge(first.demand, given.options, tables)
+        moved = levers(judge, given.gearset, given.operation)
     return Rated(
-        levers=() if first is None else _levers(first.demand, given, tables),
+        levers=moved,
+        alternatives=(),
         gearset=gearset,
         geometry=gearset.geometry,
         **{name: found.get(name) for name in STANDARDS},
@@ -267,8 +277,16 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
 
 
 def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
-    """Rate the gearset of a case."""
-    return rate_case(*problem)
+    """Rate the gearset of a case, and look for a better oil and wheel material."""
+    case, standards = problem
+    rated = rate_case(case, standards)
+    first = rated.verdict.first
+    if first is None:
+        return rated
+    options = case.require(RatingOptions) if RatingOptions.table in case else RatingOptions()
+    gearset, operation = case.require(Gearset), case.require(Operation)
+    judge = _judge(first.demand, options, tables_of(options, case.folder))
+    return dataclasses.replace(rated, alternatives=alternatives(judge, gearset, operation))
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
@@ -305,12 +323,12 @@ def _require_consistent(given: Inputs, by_iso: bool) -> None:
         raise
 
 
-def _levers(demand: Demand, given: Inputs, tables: Tables) -> tuple[Lever, ...]:
+def _judge(demand: Demand, options: RatingOptions, tables: Tables) -> Judge:
     def judge(gearset: Gearset, operation: Operation) -> float:
-        rating = _rate(demand.standard, inputs(gearset, operation, given.options), tables)
+        rating = _rate(demand.standard, inputs(gearset, operation, options), tables)
         return float(rating[demand.key])
 
-    return levers(judge, given.gearset, given.operation)
+    return judge
 
 
 def _rate(name: str, given: Inputs, tables: Tables) -> Rating:

@@ -5,6 +5,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
+from asperity.rating.alternatives import Alternative
 from asperity.rating.demands import DEMANDS, Demand
 from asperity.rating.levers import Lever
 from asperity.rating.result import Rating
@@ -18,6 +19,7 @@ _LONGEST = 3.0
 _BAR = 27
 _MOST_LEVERS = 3
 _MOST_REMARKS = 3
+_MOST_LINES = 23
 
 
 class Safety(NamedTuple):
@@ -62,14 +64,22 @@ class Verdict(NamedTuple):
         Safeties that have no answer, as ``standard.key``.
     levers : tuple of Lever
         What moves the least of them, the strongest first.
+    alternatives : tuple of Alternative
+        The oil and the wheel material of those with a name that bring most of it.
     """
 
     safeties: tuple[Safety, ...]
     unrated: tuple[str, ...]
     levers: tuple[Lever, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()
 
     @classmethod
-    def of(cls, found: Mapping[str, Rating], levers: tuple[Lever, ...] = ()) -> "Verdict":
+    def of(
+        cls,
+        found: Mapping[str, Rating],
+        levers: tuple[Lever, ...] = (),
+        alternatives: tuple[Alternative, ...] = (),
+    ) -> "Verdict":
         """Return the verdict of ratings by standard."""
         asked = [demand for demand in DEMANDS if demand.standard in found]
         rated = {d: found[d.standard][d.key] for d in asked if d.key in found[d.standard]}
@@ -77,6 +87,7 @@ class Verdict(NamedTuple):
             tuple(Safety(demand, float(value)) for demand, value in rated.items()),
             tuple(demand.path for demand in asked if demand not in rated),
             levers,
+            alternatives,
         )
 
     def __repr__(self) -> str:
@@ -115,6 +126,7 @@ class Verdict(NamedTuple):
                 {"name": lever.name, "keys": list(lever.keys), "exponent": lever.exponent}
                 for lever in self.levers
             ],
+            "alternatives": [other._asdict() for other in self.alternatives],
         }
 
     def sentences(self) -> Iterator[str]:
@@ -135,6 +147,9 @@ class Verdict(NamedTuple):
             strongest = ", ".join(lever.text for lever in self.levers[:_MOST_LEVERS])
             said += f"; a percent of it brings most: {strongest}"
         yield said
+        if self.alternatives:
+            better = ", ".join(other.told(d.asked) for other in self.alternatives)
+            yield f"best listed: {better}"
 
     def bars(self) -> Iterator[str]:
         """Yield a line each safety: its bar up to three times what is asked, and numbers."""
@@ -216,10 +231,11 @@ def screen(
         *notes,
         *(text for rating in found.values() for text in rating.violations),
     ]
-    for remark in remarks[:_MOST_REMARKS]:
+    shown = remarks[: max(1, min(_MOST_REMARKS, _MOST_LINES - 1 - len(lines)))]
+    for remark in shown:
         lines.append(textwrap.shorten(f"- {remark}", _WIDTH, placeholder=" ..."))
     memory = len({entry.key for rating in found.values() for entry in rating if entry.from_memory})
-    more = len(remarks) - _MOST_REMARKS
+    more = len(remarks) - len(shown)
     lines.append(
         f"assumed {assumed} keys, {memory} numbers rest on sources from memory"
         f"{f', {more} more remarks' if more > 0 else ''}: --full"

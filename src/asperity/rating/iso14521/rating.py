@@ -65,8 +65,7 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             "the oil temperature is that of a splash-lubricated gearbox, though the lubrication is "
             "by spray: give operation.oil_temperature"
         )
-    family, base_oil = given.gearset.wheel_material.family, given.operation.lubricant.base_oil
-    if family == "aluminium bronze" and base_oil == "polyglycol":
+    if given.gearset.wheel_material.avoids(given.operation.lubricant.base_oil):
         notes.append(
             "polyglycol with aluminium bronze is a pair that practice avoids, for its wear: the "
             "standard's curves are not of such pairs, and safety_wear says nothing of it"
