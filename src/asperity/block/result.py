@@ -155,7 +155,7 @@ class BlockResult(SlideResult):
             f"{self.increments} increments"
         )
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and pictures, and an animation for ParaView."""
         names = super().write(folder, pictures=pictures)
         write_block_series(self.problem, self.frames, folder / "block.pvd")

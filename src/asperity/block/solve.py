@@ -10,6 +10,7 @@ from asperity.block.solution.settled import SettledBlock, settle
 from asperity.block.solution.stability import flutter_note
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError
+from asperity.results.files import PICTURES
 from asperity.runs import Run
 
 
@@ -58,7 +59,12 @@ def _write_unfinished(march: BlockMarch, run: Run, why: str) -> None:
     unfinished = UnfinishedBlock(problem=march.problem, history=march.history, ended=why)
     unfinished.save(run.folder / "block.nc")
     # What a run before this one left would be taken for part of it.
-    for pattern in ("block.json", "block*.png", "block.pvd", "block_[0-9]*.vtu"):
+    for pattern in (
+        "block.json",
+        *(f"block*.{kind}" for kind in PICTURES),
+        "block.pvd",
+        "block_[0-9]*.vtu",
+    ):
         for path in run.folder.glob(pattern):
             path.unlink(missing_ok=True)
     run.notify(f"written to {run.folder}: block.nc, up to {march.history.time[-1]:.6g} s")

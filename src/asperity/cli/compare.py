@@ -24,7 +24,7 @@ def compare(
         show.print_tables(found.tables())
     if out is not None:
         folder = output_folder(out)
-        written = found.write(folder, pictures=False)
+        written = found.write(folder, pictures="")
         show.note(f"written to {folder}: {', '.join(written)}")
 
 

@@ -14,6 +14,7 @@ from asperity.casefile import read_case, told
 from asperity.cli import show
 from asperity.commands import Command, case_tables
 from asperity.errors import ConvergenceError, StorageError
+from asperity.results.files import picture_format
 from asperity.results.quantity import plain
 from asperity.runs import Run
 from asperity.store import output_folder
@@ -30,9 +31,11 @@ def execute(
     as_json: bool,
     out: Path | None,
     full: bool = True,
+    pictures: str = "png",
     **options: Any,
 ) -> None:
     """Do what a command does with a case, print the answer and write its files."""
+    pictures = picture_format(pictures)
     read = command.reader
     if read is None:
         found = read_case(case, case_tables(), settings)
@@ -54,7 +57,7 @@ def execute(
             raise
     shown = _show(found.source, result, as_json=as_json, full=full)
     if folder is not None:
-        names = result.write(folder)
+        names = result.write(folder, pictures=pictures)
         run.finished()
         show.note(f"written to {folder}: {', '.join(names)}")
     if file is not None:

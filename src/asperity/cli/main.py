@@ -57,6 +57,11 @@ OutOption = Annotated[
 ]
 
 
+FormatOption = Annotated[
+    str, typer.Option("--format", metavar="FORMAT", help="Of pictures: png, svg or pdf.")
+]
+
+
 def _out(command: Command) -> Any:
     if command.out == "DIR":
         return OutOption
@@ -103,6 +108,7 @@ def _command(command: Command) -> None:
         **({"case": (case, inspect.Parameter.empty)} if command.case else {}),
         **{option.name: _typed(option) for option in command.options},
         **({"full": (FullOption, False)} if command.brief else {}),
+        **({"pictures": (FormatOption, "png")} if command.draws else {}),
         "settings": (SetOption, None),
         "as_json": (JsonOption, False),
         "out": (_out(command), None),

@@ -64,7 +64,7 @@ def size(
     if out is None:
         return
     folder = output_folder(out)
-    kind, names = kind_of("gear"), found.write(folder, pictures=False)
+    kind, names = kind_of("gear"), found.write(folder, pictures="")
     for place, proposal in enumerate(found.found, 1):
         mine = {**values, "gearset": {**values["gearset"], **proposal.keys}}
         text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)

@@ -88,6 +88,8 @@ class Command:
         is saved in.
     into : str
         The argument that names the folder its files go to where ``--out`` is left out.
+    draws : bool
+        Whether pictures are among its files, so that ``--format`` says what they are.
     """
 
     name: str
@@ -104,6 +106,7 @@ class Command:
     case: str = "CASE"
     out: str = "DIR"
     into: str = ""
+    draws: bool = True
 
     @property
     def stem(self) -> str:

@@ -86,6 +86,7 @@ COMMANDS = (
         solve="asperity.rating.rate:answer",
         brief=True,
         needs=("gearset", "operation"),
+        draws=False,
         options=(Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),),
     ),
     Command(
@@ -232,6 +233,7 @@ COMMANDS = (
         solve="asperity.tribometer.importing.study:answer",
         arguments=(Argument("file", "FILE", "What the oscilloscope's program exported."),),
         case="CONFIG",
+        draws=False,
         out="REC.nc",
     ),
     Command(
@@ -260,6 +262,7 @@ COMMANDS = (
         counts="recordings",
         arguments=(Argument("folder", "DIR", "A folder of recordings."),),
         case="",
+        draws=False,
         into="folder",
     ),
 )

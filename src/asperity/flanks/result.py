@@ -218,7 +218,7 @@ class FlankStudy(Result):
                 listed = "; ".join(f"{key} ({text})" for key, text in group.items())
                 yield f"{words}: {listed}"
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write numbers, pictures, meshes and bodies to a folder that exists; return names."""
         from asperity.flanks.export.files import write_bodies
 

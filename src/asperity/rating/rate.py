@@ -172,9 +172,9 @@ class Rated(Result):
             frame.attrs = {}
         return pandas.concat(frames, names=["standard", "key"]) if frames else pandas.DataFrame()
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF, a page and a table for spreadsheets."""
-        names = super().write(folder, pictures=False)
+        names = super().write(folder, pictures="")
         write_text(folder / "rate.html", self.to_html())
         table = self.to_frame().map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from asperity.errors import InputError, choices, suggestion
 from asperity.store import write_atomically, write_text
 
 if TYPE_CHECKING:
@@ -16,8 +17,34 @@ def write_json(answer: Mapping[str, Any], path: Path) -> Path:
     return write_text(path, json.dumps(answer, indent=2, allow_nan=False) + "\n")
 
 
+PICTURES = ("png", "svg", "pdf")
+"""What a picture can be written as."""
+
+# The same picture gives the same bytes: no date, no random names; texts of a PDF can be edited.
+_UNDATED: Mapping[str, Mapping[str, None]] = {
+    ".svg": {"Date": None},
+    ".pdf": {"CreationDate": None},
+}
+_LASTING: dict[Any, Any] = {"svg.hashsalt": "asperity", "pdf.fonttype": 42}
+
+
+def picture_format(given: str) -> str:
+    """Return what pictures are to be written as; raises InputError for what they cannot be."""
+    if given not in PICTURES:
+        raise InputError(
+            f"--format {given}: it must be one of {choices(PICTURES)}{suggestion(given, PICTURES)}"
+        )
+    return given
+
+
 def write_picture(figure: "Figure", path: Path) -> Path:
     """Write a picture in the format its name ends with."""
+    import matplotlib as mpl
+
     from asperity.results.figures import DOTS_PER_INCH
 
-    return write_atomically(path, lambda target: figure.savefig(target, dpi=DOTS_PER_INCH))
+    def write(target: Path) -> None:
+        with mpl.rc_context(_LASTING):
+            figure.savefig(target, dpi=DOTS_PER_INCH, metadata=_UNDATED.get(path.suffix))
+
+    return write_atomically(path, write)

@@ -131,10 +131,17 @@ class Result(Quantities):
 
         return write_dataset(self._with_answer(), path)
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and the pictures to a folder that exists; returns their names.
 
         The numbers come first, so that a picture that fails costs the picture.
+
+        Parameters
+        ----------
+        folder : path
+            Where to.
+        pictures : str
+            What pictures are written as, png, svg or pdf; empty for none.
         """
         from asperity.results.files import write_json, write_picture
 
@@ -144,8 +151,8 @@ class Result(Quantities):
         self.save(folder / names[1])
         for name in (kind.drawings or [kind.stem]) if pictures else ():
             figure = self.figure(name if kind.drawings else None)
-            write_picture(figure, folder / f"{name}.png")
-            names.append(f"{name}.png")
+            write_picture(figure, folder / f"{name}.{pictures}")
+            names.append(f"{name}.{pictures}")
         return names
 
     @classmethod

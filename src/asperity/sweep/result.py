@@ -191,9 +191,9 @@ class SweepResult(Result):
         beside = {self._of.beside[name]: self.arrays[name] for name in self.beside}
         return (_table(self.axes, self.arrays[self._of.shown], remarks, beside),)
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
-        return super().write(folder, pictures=pictures and len(self.axes) <= MOST_AXES)
+        return super().write(folder, pictures=pictures if len(self.axes) <= MOST_AXES else "")
 
 
 class Answers:

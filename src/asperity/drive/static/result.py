@@ -184,7 +184,7 @@ class StaticResult(Result):
             f"{drive.phases} phases"
         )
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and pictures, and the loaded teeth for ParaView."""
         from asperity.drive.static.view import write_teeth
 

@@ -208,7 +208,7 @@ class Reduced(Result):
             Table.of(heads, files, remarks=self.notes),
         )
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF, CSV and the picture."""
         write_text(folder / "reduce.csv", self.to_csv())
         return [*super().write(folder, pictures=pictures), "reduce.csv"]

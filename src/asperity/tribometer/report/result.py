@@ -81,11 +81,11 @@ class Report(Result):
             "mean of the sliding velocities before and with vibration.",
         )]  # fmt: skip
 
-    def write(self, folder: Path, *, pictures: bool = True) -> list[str]:
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write the page, and beside it the reduced recordings."""
         text = page(self.title, self.tables(), self.notes, self.pictures() if pictures else ())
         write_text(folder / "report.html", text)
-        return ["report.html", *self.reduced.write(folder, pictures=False)]
+        return ["report.html", *self.reduced.write(folder, pictures="")]
 
 
 def over_velocity(dataset: "xr.Dataset") -> "Figure":
