@@ -1,4 +1,4 @@
-"""What vibration is worth: map, stroke of a valve, gearsets."""
+"""What vibration is worth: the closed form, the stroke of a valve, gearsets."""
 
 import math
 
@@ -8,15 +8,14 @@ from apparatus.drives import GIVEN
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.drive.closed_form import frictionless_ratio, screw_ratio
 from asperity.drive.point import MeshPoint
-from asperity.drive.studies.closed_form import frictionless_ratio, screw_ratio
-from asperity.drive.studies.gains import gains
-from asperity.drive.studies.map import drive_map
-from asperity.drive.studies.on_demand import Stroke, on_demand
+from asperity.drive.solve import answer, prepare
+from asperity.drive.studies.gains import gain
+from asperity.drive.studies.on_demand import OnDemand
 from asperity.errors import InputError
 from asperity.gearset import Gearset
-from asperity.rating import Operation
-from asperity.results import read
+from asperity.runs import Run
 
 
 def case(*settings, name="drive-screw"):
@@ -36,45 +35,19 @@ def test_a_screw_s_ratio_is_its_closed_form_and_ends_without_friction(point):
     assert found[-1] == pytest.approx(frictionless_ratio(point, 0.1344), abs=1e-5)
 
 
-@pytest.fixture(scope="module")
-def mapped():
-    return drive_map(case(), (2000.0, 20000.0), (0.5, 1.5))
-
-
-def test_a_map_has_both_readings_beside_each_ratio_and_resonances(mapped, tmp_path):
-    assert mapped.torque_ratio.shape == mapped.settled.shape == (2, 2)
-    assert mapped.settled.all()
-    assert np.abs(mapped.torque_balance).max() < 5e-3
-    # Hardly anything below the sliding; far above resonance the closed form but for elastic slip.
-    assert mapped.torque_ratio[:, 0] == pytest.approx([1.0, 1.0], abs=2e-3)
-    assert mapped.torque_ratio[1, 1] == pytest.approx(mapped.closed_form[1], abs=0.03)
-    assert mapped.energy_ratio[0, 1] < 0.95
-    assert mapped.resonance_worm == pytest.approx(2926.0, rel=1e-3)
-    path = mapped.save(tmp_path / "map.nc")
-    assert read(path).figure() is not None
-
-
-def test_a_map_of_nothing_is_refused():
-    with pytest.raises(InputError, match=r"frequencies are \[\]; give positive numbers that rise"):
-        drive_map(case(), ())
-    with pytest.raises(InputError, match=r"ratios are \[2.0, 1.0\]"):
-        drive_map(case(), (2000.0,), (2.0, 1.0))
-
-
-def test_points_beyond_the_mesh_leave_a_gap_and_a_note():
-    found = drive_map(case("vibration.mode=axial"), (20.0, 20000.0), (1.2,))
-    assert np.isnan(found.torque_ratio[0, 0])
-    assert np.isfinite(found.torque_ratio[1, 0])
-    assert "lifts the worm out of mesh" in found.notes[0]
-
-
+ON_DEMAND = (
+    "drive.protocol=on-demand", "operation.through_travel_torque=122 N m", "drive.stroke_rest=60 s",
+)  # fmt: skip
 ACTUATOR = ("actuator.coupling=0.3", "drive.worm_mass=0.3 kg")
+
+
+def stroked(*settings):
+    return answer(prepare(case(*ON_DEMAND, *settings)), Run())
 
 
 @pytest.fixture(scope="module")
 def stroke():
-    given = case(*ACTUATOR, "operation.through_travel_torque=122 N m")
-    return on_demand(given, Stroke(rest=60.0))
+    return stroked(*ACTUATOR)
 
 
 def test_a_stroke_s_times_turns_and_energies_follow_from_its_torques(stroke):
@@ -98,46 +71,47 @@ def test_a_smaller_motor_does_but_the_actuator_weighs_more_than_it_saves(stroke)
     )
     assert stroke.saved_mass < 0.0
     # A lead angle of 25 deg locks nothing.
-    assert not stroke.holds_after
+    assert not stroke.held_after
     assert stroke.safety_wear != pytest.approx(stroke.safety_wear_plain, rel=1e-2)
-    assert stroke.figure() is not None
     assert set(stroke.to_json()) >= {"torque_ratio", "torque_balance", "settled"}
+    title = stroke.figure("drive_stroke").axes[0].get_title(loc="left")
+    assert "in balance to" in title
+    assert "does not hold after" in title
 
 
 def test_rest_neither_wears_nor_spares(stroke):
-    without = on_demand(
-        case(*ACTUATOR, "operation.through_travel_torque=122 N m"), Stroke(rest=0.0)
-    )
+    without = stroked(*ACTUATOR, "drive.stroke_rest=0 s")
     assert without.share_shaken > 10.0 * stroke.share_shaken
     assert without.safety_wear == pytest.approx(stroke.safety_wear, rel=1e-9)
     assert without.sump_rise == pytest.approx(stroke.sump_rise, rel=1e-9)
 
 
-def test_without_an_actuator_or_with_an_impossible_stroke_it_is_refused():
-    with pytest.raises(InputError, match=r"the table \[actuator\] is missing"):
-        on_demand(case())
-    with pytest.raises(InputError, match="both seats must leave some of the turn"):
-        Stroke(turn=1.0, seat=0.5)
+def test_without_an_actuator_the_drive_is_told_and_why_its_stroke_is_not():
+    found = stroked()
+    assert not isinstance(found, OnDemand)
+    assert found.settled
+    assert "the stroke is not told: the table [actuator] is missing" in found.notes[-1]
+
+
+def test_a_stroke_that_is_all_seats_is_refused():
+    with pytest.raises(InputError, match=r"drive.stroke_seat is 30 deg and drive.stroke 60 deg"):
+        case("drive.stroke=60 deg", "drive.stroke_seat=30 deg")
+
+
+def test_a_stroke_s_files_have_the_last_cycles_and_the_stroke(tmp_path):
+    run = Run(folder=tmp_path)
+    found = answer(prepare(case(*ON_DEMAND, *ACTUATOR)), run)
+    assert found.bands is not None
+    names = found.write(tmp_path)
+    assert {"drive.png", "drive_stroke.png"} <= set(names)
 
 
 def test_the_gearset_of_least_efficiency_gains_most_and_loses_its_locking():
-    names = ("gearset-3b", "gearset-2")
-    gears = [case(name=name).require(Gearset) for name in names]
-    found = gains(gears, case(name="gearset-2").require(Operation))
-    assert found.names == ("gearset 2", "gearset 3, 2.9 in")
-    assert np.all(np.diff(found.efficiency) > 0.0)
-    assert np.all(np.diff(found.shaken_ratio) > 0.0)
-    assert np.all(found.shaken_ratio > found.efficiency)
-    assert found.locks.tolist() == [1.0, 0.0]
-    assert found.locks_shaken.tolist() == [0.0, 0.0]
-    assert list(found.to_dataset()["gearset"].values) == list(found.names)
-    assert found.figure() is not None
-
-
-def test_gains_of_nothing_or_below_the_sliding_are_refused():
-    operation = case(name="gearset-2").require(Operation)
-    with pytest.raises(InputError, match="no gearset is given"):
-        gains([], operation)
-    gear = case(name="gearset-2").require(Gearset)
-    with pytest.raises(InputError, match=r"velocity_ratio is 0.9; the closed form holds from 1.05"):
-        gains([gear], operation, velocity_ratio=0.9)
+    steep, flat = (
+        gain(case(name=name).require(Gearset).geometry, friction)
+        for name, friction in (("gearset-3b", 0.1346), ("gearset-2", 0.149))
+    )
+    assert flat.least_ratio < steep.least_ratio
+    assert flat.least_ratio < flat.torque_ratio < steep.torque_ratio < 1.0
+    assert (steep.locks, flat.locks) == (False, True)
+    assert not flat.locks_shaken

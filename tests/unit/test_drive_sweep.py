@@ -1,10 +1,12 @@
 """Drives over a grid: what stands beside the ratio, and what is refused."""
 
+import numpy as np
 import pytest
 from apparatus.drives import GIVEN, solved
 
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.results import read
 from asperity.sweep import read_grid, run
 
 
@@ -19,9 +21,44 @@ def test_a_drive_is_swept_over_its_own_keys_with_balance_and_settled_beside_the_
     assert max(map(abs, found["torque_balance"])) < 5e-3
     assert "ratio" not in found
     text = swept.tables()[0]
-    assert [column.heading for column in text.columns[1:4]] == ["ratio", "balance", "settled"]
-    title = swept.figure().axes[0].get_title(loc="left")
-    assert "in balance to" in title
+    headings = [column.heading for column in text.columns[1:5]]
+    assert headings == ["ratio", "closed form", "balance", "settled"]
+    axes = swept.figure().axes[0]
+    assert "in balance to" in axes.get_title(loc="left")
+    assert "closed form" in axes.get_legend().get_texts()[-1].get_text()
+
+
+@pytest.fixture(scope="module")
+def mapped():
+    over = ["vibration.velocity_ratio=0.5,1.5", "vibration.frequency=2,20 kHz"]
+    case, axes = read_grid("drive-screw", case_tables(), GIVEN, over)
+    return run(case, axes, cache=False)
+
+
+def test_over_two_axes_it_has_the_closed_form_beside_it_and_less_power_near_resonance(mapped):
+    found = mapped.arrays
+    assert (found["settled"] == 1.0).all()
+    assert np.abs(found["torque_balance"]).max() < 5e-3
+    # Hardly anything below the sliding; far above resonance the closed form but for elastic slip.
+    assert found["torque_ratio"][0] == pytest.approx([1.0, 1.0], abs=2e-3)
+    closed = found["torque_ratio_closed_form"]
+    assert found["torque_ratio"][1, 1] == pytest.approx(closed[1, 1], abs=0.03)
+    assert closed[:, 0] == pytest.approx(closed[:, 1])
+    assert found["energy_ratio"][1, 0] < 0.95
+    assert found["resonance_worm"] == pytest.approx(2926.0, rel=1e-3)
+
+
+def test_its_picture_is_a_map_with_both_readings_and_the_resonances_marked(mapped, tmp_path):
+    figure = read(mapped.save(tmp_path / "sweep.nc")).figure()
+    assert figure.get_suptitle().startswith("4 settled, the wheel in balance to")
+    marched, closed = figure.axes[:2]
+    assert "closed form" in closed.get_title()
+    words = [text.get_text() for text in marched.texts]
+    assert words[-2:] == ["$f_1$", "$f_2$"]
+    assert marched.get_ylabel() == "frequency (kHz)"
+    lines = [line.get_ydata()[0] for line in marched.lines[1:]]
+    # Between 2 and 20 kHz, which are the places 0 and 1.
+    assert lines == pytest.approx([(2.926 - 2.0) / 18.0, (3.4 - 2.0) / 18.0], abs=0.01)
 
 
 def test_a_key_of_a_sliding_body_is_no_axis_of_a_drive():

@@ -63,6 +63,12 @@ class Drive(Table):
     friction : {'constant', 'iso14521'}
         The coefficient of ``[friction]``, or that of ISO/TR 14521 at the local speed and
         temperature.
+    stroke, stroke_seat : float or str
+        Turn of the wheel in a stroke of protocol ``on-demand``, a quarter for a ball or butterfly
+        valve, and of it at either seat with ``operation.output_torque``, rad; between them it is
+        ``operation.through_travel_torque``.
+    stroke_rest : float or str
+        From one stroke to the next, s.
     window : int
         Cycles of protocol ``window``, and at least of each of the three blocks that a periodic
         state is judged by, 1 to 1000.
@@ -96,6 +102,13 @@ class Drive(Table):
     density: Literal["coarse", "intermediate", "fine"] = "coarse"
     phases: Annotated[int, Field(strict=True, ge=1, le=360)] = 24
     friction: Literal["constant", "iso14521"] = "constant"
+    stroke: Annotated[
+        float, Quantity("rad", what="an angle", example="90 deg", gt=1e-6, le=1e6)
+    ] = 0.5 * math.pi
+    stroke_seat: Annotated[
+        float, Quantity("rad", what="an angle", example="4.5 deg", gt=1e-9, le=1e6)
+    ] = math.radians(4.5)
+    stroke_rest: Annotated[float, Quantity("s", what="a time", example="60 s", ge=0, le=1e9)] = 0.0
     window: Annotated[int, Field(strict=True, ge=1, le=1000)] = 3
     deflection: tuple[tuple[_LoadTorque, _Turn], ...] | None = None
     effective_radius: _Length | None = None
@@ -125,6 +138,12 @@ class Drive(Table):
             raise InputError(
                 f"drive.teeth is {self.teeth}; it must be odd, so that there is a middle tooth: "
                 "take 1, 3, 5, 7 or 9"
+            )
+        if not 2.0 * self.stroke_seat < self.stroke:
+            raise InputError(
+                f"drive.stroke_seat is {math.degrees(self.stroke_seat):.4g} deg and drive.stroke "
+                f"{math.degrees(self.stroke):.4g} deg; both seats must leave some of the stroke: "
+                "give a smaller stroke_seat"
             )
         if self.deflection is not None:
             rising = all(

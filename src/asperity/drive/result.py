@@ -93,6 +93,10 @@ class DriveResult(Result):
     torque_static: float = quantity("T_Bs", "N m", "torque without vibration")
     torque: float | None = quantity("T_Bv", "N m", "mean torque under vibration")
     torque_ratio: float | None = quantity("T_Bv/T_Bs", "", "mean torque over that without")
+    torque_ratio_closed_form: float | None = quantity(
+        "T_B(mu S)/T_Bs", "", "ratio of a fast screw by closed form, in balance", optional=True,
+        default=None,
+    )  # fmt: skip
     torque_balance: float = quantity(
         "T_m/T_R - 1", "", "what the mesh gives the wheel beyond its load, over it"
     )
@@ -122,9 +126,11 @@ class DriveResult(Result):
         "(P_0 - P_d)/P_a", "", "drive power saved per actuator power",
         key="saved_per_actuator_W_W",
     )  # fmt: skip
-    actuator_electrical: float | None = quantity("P_e", "W", "real power the actuator takes")
+    actuator_electrical: float | None = quantity(
+        "P_e", "W", "real power that the amplifier takes from the mains, its losses in it"
+    )
     actuator_apparent: float | None = quantity(
-        "S", "VA", "apparent power of the actuator's amplifier"
+        "S", "VA", "apparent power behind the amplifier, at the actuator"
     )
     system_efficiency: float | None = quantity(
         "eta_sys", "", "load's power over drive's and actuator's electrical power"

@@ -33,4 +33,11 @@ def answer(problem: DriveProblem, run: Run) -> Result:
 
         return solve_static(problem, run)
     with in_proportion():
-        return solve_shaken(problem, model_of(problem, reduction(problem, run), run), run)
+        model = model_of(problem, reduction(problem, run), run)
+        shaken = solve_shaken(problem, model, run)
+    if problem.drive.protocol != "on-demand":
+        return shaken
+    # Motors and their materials are read where a stroke asks for one.
+    from asperity.drive.studies.on_demand import in_a_stroke
+
+    return in_a_stroke(problem, model, shaken)

@@ -37,6 +37,7 @@ class Drives(Subject):
     heading = "mean torque over that without vibration"
     shown = "torque_ratio"
     beside: ClassVar[Mapping[str, str]] = {
+        "torque_ratio_closed_form": "closed form",
         "torque_balance": "balance",
         "settled": "settled",
         "energy_ratio": "energy",

@@ -6,7 +6,9 @@ from typing import Any, ClassVar
 
 from asperity.casefile.case import Case
 from asperity.commands import COMMANDS, Command
+from asperity.drive.studies.gains import VELOCITY_RATIO, Gain, gain
 from asperity.errors import InputError
+from asperity.gearset import Gearset
 from asperity.results import Result
 from asperity.results.quantity import text_of
 from asperity.results.table import Table
@@ -16,6 +18,7 @@ COMPARED = ("rate", "block", "slide")
 """Commands whose answers are compared, the first that all cases have the tables of."""
 
 _SAME = 1e-9
+_SHAKEN = "screw.torque_ratio"
 _LEFT_OUT = "-"
 
 
@@ -93,11 +96,16 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         names = [f"{place}: {name}" for place, name in enumerate(names, 1)]
     flat = [dict(_numbers(result.to_json())) for result in answers]
     meanings = {key: what for result in answers for key, what in _meanings(result)}
+    gains = [_gain(case, numbers) for case, numbers in zip(cases, flat, strict=True)]
+    for numbers, gained in zip(flat, gains, strict=True):
+        if gained is not None:
+            numbers[_SHAKEN] = gained.torque_ratio
     said = [
         f"{name}: {sentence}"
         for name, result in zip(names, answers, strict=True)
         for sentence in _verdict(result)
     ]
+    said += _most_to_gain(names, gains)
     return Comparison(
         command=command.name,
         cases=tuple(names),
@@ -157,6 +165,33 @@ def _differing(
             yield key, meanings.get(key, ""), values
 
 
+def _gain(case: Case, numbers: Mapping[str, float | None]) -> Gain | None:
+    """What vibration saves in a gearset with the friction of its rating; None without one."""
+    friction = numbers.get("iso14521.mu_zm")
+    if friction is None:
+        return None
+    try:
+        return gain(case.require(Gearset).geometry, friction)
+    except InputError:
+        return None  # it cannot drive
+
+
+def _most_to_gain(names: Sequence[str], gains: Sequence[Gain | None]) -> Iterator[str]:
+    known = [(each, name) for name, each in zip(names, gains, strict=True) if each is not None]
+    if not known:
+        return
+    least, name = min(known, key=lambda pair: pair[0].torque_ratio)
+    yield (
+        f"most to gain from vibration: {name}, whose torque a fast screw at k_w = "
+        f"{VELOCITY_RATIO:g} leaves {least.torque_ratio:.3g} of, in balance with its load, and no "
+        f"friction at all {least.least_ratio:.3g} (closed forms; asperity drive has its resonances)"
+    )
+    for each, name in known:
+        if each.locks:
+            word = "still holds" if each.locks_shaken else "does not hold"
+            yield f"{name}: locks itself at rest; it {word} under that screw"
+
+
 def _meanings(result: Result) -> Iterator[tuple[str, str]]:
     """Yield what is shown of an answer, by key: of a rating what it comes to, of others all."""
     verdict = getattr(result, "verdict", None)
@@ -182,6 +217,7 @@ _OF_A_RATING = {
     "iso14521.theta_S_degC": "sump (degC)",
     "bs721.M_permissible_Nm": "torque permitted by BS 721 (N m)",
     "agma6034.allowable_torque_Nm": "torque allowed by AGMA 6034 (N m)",
+    _SHAKEN: f"torque under a fast screw, k_w = {VELOCITY_RATIO:g}, over that without, in balance",
 }
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from asperity.errors import InputError
 from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
+from asperity.sweep.maps import balances, plot_map, resonances
 from asperity.sweep.result import MOST_AXES
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ _MOST_MARKED = 40
 def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     """Draw the ratio over the longer numeric axis, one line for each value of the other.
 
+    Of drives over two numeric axes it is a map, see `asperity.sweep.maps`.
+
     Raises
     ------
     InputError
@@ -31,6 +34,9 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         raise InputError(
             f"the sweep has {len(axes)} axes; at most {MOST_AXES} can be drawn: take the dataset"
         )
+    drives = "torque_balance" in dataset
+    if drives and len(axes) == MOST_AXES and all(map(_is_numeric, axes)):
+        return plot_map(dataset)
     along = max(axes, key=lambda axis: (_is_numeric(axis), axis.size))
     curves = ratio.transpose(along.name, ...).values.reshape(along.size, -1)
     figure, (panel,) = panels()
@@ -45,9 +51,11 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     else:
         _many_lines(panel, along, curves, across)
     label = r"mean drive force over $\mu F_N$"
-    if "torque_balance" in dataset:
+    if drives:
         label = "mean torque over that without vibration"
         _mark_unsettled(panel, along, dataset, ratio)
+        if across is None and _is_numeric(along):
+            _closed_form(panel, along, dataset)
     panel.set(xlabel=_label(along), ylabel=label)
     least = float(np.nanmin(ratio)) if np.isfinite(ratio).any() else 0.0
     if least < 0.0:
@@ -95,10 +103,18 @@ def _mark_unsettled(
     places = along.values if _is_numeric(along) else np.arange(along.size)
     for column, out in zip(values.T, loose.T, strict=True):
         panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)
-    off = np.abs(dataset["torque_balance"].transpose(*order).values.reshape(along.size, -1))
-    worst = 100.0 * float(off[~loose].max()) if (~loose).any() else 0.0
-    crossed = f"{int(loose.sum())} crossed out have not settled; " if loose.any() else ""
-    panel.set_title(f"{crossed}wheel of the others in balance to {worst:.1g} %", loc="left")
+    panel.set_title(balances(dataset), loc="left", fontsize=10.0)
+
+
+def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:
+    """Draw what a drive comes to far above its resonances, and where these are."""
+    for label, at in resonances(dataset, str(along.name)):
+        panel.axvline(at, color=BLACK, dashes=(4, 2), linewidth=1.2)
+        panel.annotate(label, (at, 1.0), xycoords=("data", "axes fraction"), ha="center")
+    if "torque_ratio_closed_form" in dataset:
+        form = dataset["torque_ratio_closed_form"].values
+        _line(panel, along, form, color=BLACK, dashes=(5, 2), label="closed form, no resonance")
+        legend(panel)
 
 
 def _line(panel: "Axes", axis: "xr.DataArray", values: np.ndarray, **style: Any) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.drive.actuator import Demand, demand, elastic_energy, system_efficiency
+from asperity.drive.closed_form import screw_ratio
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import Judgement, March, Records, bands_of, mean
@@ -24,6 +25,7 @@ _AFTER_SECONDS = 40e-3
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
+_WORM_ALONE = ("held-wheel", "back-drive")  # protocols that have no sliding of their own
 _SOLVED = 1e-6  # of full friction, that the mesh's own equations may be off by
 
 
@@ -67,7 +69,7 @@ def solve_shaken(
         creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
         held = _held_after(problem, model, march, run)
         began = float(march.states[0]["time"])
-        if run.detailed and held is None:
+        if run.detailed:
             shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
     answer = _summarise(problem, model, march, judged)
     return dataclasses.replace(
@@ -170,6 +172,7 @@ def _summarise(
         torque_static=torque,
         torque=measured,
         torque_ratio=ratio,
+        torque_ratio_closed_form=_closed_form(problem, model),
         torque_balance=judged.balance,
         settled=judged.settled,
         spread=judged.spread if math.isfinite(judged.spread) else None,
@@ -223,6 +226,15 @@ def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Deman
         quality_factor=problem.actuator.quality_factor,
         efficiency=problem.actuator.efficiency,
     )
+
+
+def _closed_form(problem: DriveProblem, model: ReducedModel) -> float | None:
+    """Ratio of a screw far above the resonances; None where there is no such form."""
+    slides = problem.mode == "screw" and problem.drive.protocol not in _WORM_ALONE
+    sine = problem.vibrated[0].waveform == "sine"
+    if not (slides and sine and problem.drive.friction == "constant"):
+        return None
+    return float(screw_ratio(model.point, model.friction, problem.velocity_ratio))
 
 
 def _resonances(model: ReducedModel, moving: System) -> dict[str, Any]:
