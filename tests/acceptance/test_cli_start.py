@@ -240,6 +240,8 @@ def test_cases_side_by_side_differ_in_what_they_ask_and_come_to(asperity, here):
         rated = json.loads(asperity("rate", case, "--json")[1])
         for key in ("safety_wear", "eta_ges"):
             assert answer["results"][f"iso14521.{key}"][place] == rated["iso14521"][key]
+    assert answer["results"]["screw.torque_ratio"] == pytest.approx([0.8084, 0.8062], abs=1e-4)
+    assert "most to gain from vibration: gearset-3b" in " ".join(output.split())
 
 
 def test_a_case_compared_with_itself_differs_in_nothing(asperity):

@@ -140,6 +140,10 @@ def test_parts_add_and_what_is_left_out_is_rigid(action):
     ]
     assert list(found.values()) == alone
     assert compliances(action.radius) == {}
+    shaft = Shaft(bearing_axial=2e8, seat=5e8, units="SI")
+    assert list(compliances_of(shaft, action.radius)) == ["bearing_axial", "seat"]
+    assert shaft.axial == pytest.approx(1.0 / (1.0 / 2e8 + 1.0 / 5e8))
+    assert Shaft().axial is None
 
 
 @pytest.mark.parametrize(

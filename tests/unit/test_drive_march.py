@@ -106,6 +106,35 @@ def test_a_stiff_seat_shakes_nearly_as_a_rigid_one_and_a_soft_one_hardly():
     assert soft.force_max - soft.force_static < 0.3 * (rigid.force_max - rigid.force_static)
 
 
+def test_seat_and_bearing_yield_one_behind_the_other():
+    settings = (
+        "vibration.mode=axial", "vibration.applied_to=seat", "vibration.frequency=20 kHz",
+        "vibration.displacement_amplitude=2 um", "drive.worm_mass=0.3 kg",
+    )  # fmt: skip
+    both, one, seat = all_solved(
+        [(*settings, "shaft.bearing_axial=75 kN/mm", "shaft.seat=150 kN/mm"),
+         (*settings, "shaft.bearing_axial=50 kN/mm"), (*settings, "shaft.seat=50 kN/mm")]
+    )  # fmt: skip
+    assert both.torque == pytest.approx(one.torque, rel=1e-9)
+    assert seat.torque == one.torque
+    assert not any("axial bearing" in note for note in seat.notes)
+
+
+def test_an_actuator_off_its_resonance_takes_more_apparent_power_and_as_much_real():
+    settings = ("vibration.frequency=20 kHz", "actuator.coupling=0.3", "drive.worm_mass=0.3 kg")
+    tuned, said, off = all_solved(
+        [settings, (*settings, "actuator.resonance=20 kHz"),
+         (*settings, "actuator.resonance=25 kHz")]
+    )  # fmt: skip
+    assert said.actuator_apparent == tuned.actuator_apparent
+    assert off.ledger.actuator == tuned.ledger.actuator
+    assert off.actuator_electrical == pytest.approx(tuned.actuator_electrical, rel=0.05)
+    assert off.actuator_apparent > 2.0 * tuned.actuator_apparent
+    # The amplifier's losses are before it: what it gives is at most what it is made for.
+    for each in (tuned, off):
+        assert 0.9 * each.actuator_electrical <= each.actuator_apparent
+
+
 def test_without_vibration_to_speak_of_the_drive_runs_as_its_closed_form():
     one = solved("vibration.displacement_amplitude=1e-6 um")
     assert one.torque_ratio == pytest.approx(1.0, abs=1e-6)
@@ -263,7 +292,9 @@ def test_a_way_that_cannot_be_solved_is_named_and_leaves_the_others():
 
 def test_what_a_held_wheel_s_ratio_is_and_why_an_actuator_s_take_is_missing_are_told():
     held = solved("drive.protocol=held-wheel", "vibration.frequency=20 kHz")
-    assert any("torque_ratio is the load over" in note for note in held.notes)
+    (what,) = (entry.label.meaning for entry in held.entries() if entry.name == "torque_ratio")
+    assert what.startswith("load over the mean torque on the held wheel")
+    assert "load over torque of the held wheel" in held.figure().axes[0].get_title(loc="left")
     wheel = solved(
         "vibration.mode=wheel-axial", "vibration.frequency=20 kHz", "drive.worm_mass=0.3 kg",
         "vibration.displacement_amplitude=2 um", "actuator.coupling=0.3", "solve.duration=6 ms",

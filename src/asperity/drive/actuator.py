@@ -25,13 +25,6 @@ import dataclasses
 import math
 
 from asperity.errors import InputError
-from asperity.sources import Source
-
-SOURCE = Source(
-    "IEEE Std 176-1987, equivalent circuit of a piezoelectric resonator",
-    "from memory",
-    "one mode of vibration, linear",
-)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -29,16 +29,6 @@ from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.iso14521.friction import base_friction
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.sources import Source
-
-SOURCE = Source(
-    "ISO/TR 14521:2010, DIN 3996:2012",
-    "verified",
-    "mean coefficient of steady running, taken at the speed of an instant",
-)
-TEMPERATURE_SOURCE = Source(
-    "film thickness of ISO/TR 14521:2010", "from memory", "speed of equal film; an inference"
-)
 
 _POINTS = 4097
 _MM2 = 1e6

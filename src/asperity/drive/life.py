@@ -17,13 +17,6 @@ import math
 from asperity.errors import InputError
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
-from asperity.sources import Source
-
-SOURCE = Source(
-    "ISO/TR 14521:2010",
-    "one source",
-    "with the sliding path and the losses under vibration put in, which it does not know",
-)
 
 _ZERO_CELSIUS = 273.15
 

@@ -14,13 +14,11 @@ from typing import Annotated, ClassVar
 
 from asperity.errors import InputError
 from asperity.gearset.library import Sourced, every
-from asperity.sources import Source
 from asperity.units import Quantity
 
 PRICE_PER_MASS = 23.0 / 6.0
-"""GBP/kg of a motor without a price: what the thesis saves by what it weighs less (7.5)."""
-
-PRICE_SOURCE = Source("thesis 7.5", "one source", "GBP 23 for 6 kg, a maker's cost, not a price")
+"""GBP/kg of a motor without a price: what the thesis saves by what it weighs less: GBP 23 for 6 kg
+(7.5), a maker's cost and not a price."""
 
 LOWEST_VOLTAGE = 0.9
 """Of the supply over its rated one; IEC 60038 (from memory)."""
@@ -29,11 +27,8 @@ LOWEST_VOLTAGE = 0.9
 _SPEEDS = 0.1
 
 TRANSDUCER_MASS, GENERATOR_MASS = 1e-3, 3e-3
-"""kg/W of a bolted ultrasonic transducer with its horn; kg/VA of its generator."""
-
-ACTUATOR_SOURCE = Source(
-    "ultrasonic welding equipment of 1 to 3 kW", "from memory", "to a factor 2"
-)
+"""kg/W of a bolted ultrasonic transducer with its horn; kg/VA of its generator, those of
+welding equipment of 1 to 3 kW, from memory, to a factor of 2."""
 
 
 class Motor(Sourced):

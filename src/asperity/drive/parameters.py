@@ -48,8 +48,8 @@ class Drive(Table):
         :math:`J_1`, of worm and shaft about their axis, kg m2. Left out: that of steel cylinders
         of the threads' and the shaft's size.
     worm_mass : float or str, optional
-        Of worm and shaft, kg; counts where ``shaft.bearing_axial`` is given. Left out: as the
-        inertia.
+        Of worm and shaft, kg; counts where ``shaft.bearing_axial`` or ``shaft.seat`` is given. Left
+        out: as the inertia.
     contact_damping : float or str, optional
         :math:`c` in :math:`N = f(d)(1 + c\dot d)`, s/m. Needed with a vibration.
     flanks : {'both', 'driving'}
@@ -174,7 +174,10 @@ class Shaft(Table):
     diameter, span : float or str, optional
         Of the shaft, and between the worm's bearings, m.
     bearing_axial, bearing_radial : float or str, optional
-        Stiffness of the worm's bearings and their seats, N/m.
+        Stiffness of the worm's bearings, N/m; of the radial ones with their seats.
+    seat : float or str, optional
+        Stiffness along the axis of what the axial bearing sits in, N/m: in series with it. A
+        vibration ``applied_to`` the seat moves what is behind both.
     damping_ratio : float
         Of the shaft's torsion with the worm's inertia, and of the seat with the worm's mass, 0..1.
     """
@@ -192,6 +195,7 @@ class Shaft(Table):
     span: _Length | None = None
     bearing_axial: _Stiffness | None = None
     bearing_radial: _Stiffness | None = None
+    seat: _Stiffness | None = None
     damping_ratio: Annotated[
         float, Quantity("", what="a damping ratio", example="0.03", ge=0, le=1)
     ] = 0.03
@@ -204,6 +208,12 @@ class Shaft(Table):
                 "or leave shaft.bearing_radial out"
             )
         return self
+
+    @property
+    def axial(self) -> float | None:
+        """Stiffness between worm and housing along the axis, N/m; None where it is rigid."""
+        give = [1.0 / each for each in (self.bearing_axial, self.seat) if each is not None]
+        return 1.0 / sum(give) if give else None
 
     @property
     def torsion(self) -> float | None:
@@ -244,7 +254,10 @@ class Actuator(Table):
     quality_factor : float
         Mechanical quality :math:`Q_m` of the transducer at resonance.
     efficiency : float
-        Of the amplifier, 0..1.
+        Of the amplifier, 0..1: real power at the actuator over that from the mains.
+    resonance : float or str, optional
+        Natural frequency of the transducer with what it moves, Hz: where it is short-circuited,
+        the series resonance. Left out: that of the vibration, to which it is tuned.
     """
 
     table: ClassVar[str] = "actuator"
@@ -258,3 +271,7 @@ class Actuator(Table):
     efficiency: Annotated[
         float, Quantity("", what="an efficiency", example="0.9", ge=1e-3, le=1)
     ] = 0.9
+    resonance: (
+        Annotated[float, Quantity("Hz", what="a frequency", example="20 kHz", ge=1e-3, le=1e9)]
+        | None
+    ) = None

@@ -49,6 +49,13 @@ def _state(dataset: "xr.Dataset") -> str:
     return f"{settled}, wheel out of balance by {_percent(float(dataset['torque_balance']))}"
 
 
+def _ratio(dataset: "xr.Dataset") -> str:
+    """Return the ratio, what it is one of where that is not the worm's torques, and its state."""
+    held = dataset.attrs["drive.protocol"] == "held-wheel"
+    what = "load over torque of the held wheel" if held else "ratio"
+    return f"{what} {float(dataset['torque_ratio']):.3f}: {_state(dataset)}"
+
+
 def _power(watts: float) -> str:
     """Return a power as it is read."""
     return f"{1e-3 * watts:.3g} kW" if abs(watts) >= _KILO else f"{watts:.3g} W"
@@ -76,7 +83,7 @@ def plot_torque(dataset: "xr.Dataset") -> "Figure":
     course.set_ylabel("torque, mean of a cycle")
     title = "From the start of the vibration on"
     if not banded and "torque_ratio" in dataset:
-        title += f"; ratio {float(dataset['torque_ratio']):.3f}: {_state(dataset)}"
+        title += f"; {_ratio(dataset)}"
     course.set_title(title, loc="left", fontsize="medium")
     course.margins(x=0.0)
     _legend_below(course)
@@ -105,8 +112,7 @@ def _last_cycles(axes: "Axes", dataset: "xr.Dataset") -> None:
             alpha=0.6, linewidth=0.0, step="mid", label="contact lost",
         )  # fmt: skip
     if "torque_ratio" in dataset:
-        ratio = float(dataset["torque_ratio"])
-        axes.set_title(f"Ratio {ratio:.3f}: {_state(dataset)}", loc="left")
+        axes.set_title(_ratio(dataset), loc="left")
     axes.set_xlabel("time in the last cycles (ms)")
     axes.set_ylabel("torque (N m)")
     axes.margins(x=0.0)

@@ -289,7 +289,7 @@ class DriveProblem:
     def _check_moved(self) -> None:
         """Refuse a worm whose inertia or mass counts and is not known."""
         turns = self.shaft.torsion is not None or self.drive.protocol in _WORM_FREED
-        shifts = self.shaft.bearing_axial is not None
+        shifts = self.shaft.axial is not None
         if self.actuator is not None and self.amplitude > 0.0:
             # What the actuator takes follows from what it moves; of a wheel nothing tells the mass.
             both = self.drive.protocol == "tangential" or self.mode == "screw"

@@ -185,6 +185,16 @@ class DriveResult(Result):
         return f"{self.problem.drive.protocol}, {self.problem.mode}: {state}"
 
 
+class HeldWheel(DriveResult):
+    """The answer for a wheel that is held while the motor pushes as it does without vibration."""
+
+    title: ClassVar[str] = "Held wheel of a worm gearset under vibration"
+
+    torque_ratio: float | None = quantity(
+        "T_R/T_m", "", "load over the mean torque on the held wheel, the motor's torque the same"
+    )
+
+
 def inputs(problem: DriveProblem) -> dict[str, Any]:
     """Return the values of a problem's tables as numbers in SI and texts, by ``table.key``."""
     tables = (

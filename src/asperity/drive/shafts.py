@@ -216,7 +216,7 @@ def compliances_of(shaft: Shaft, radius: float) -> Mapping[str, FloatArray]:
     """Return what the parts of a ``[shaft]`` give; as `compliances`.
 
     The wheel stands in the middle between the bearings, the shaft is of steel, and the stiffness of
-    its bearings is with their seats.
+    its radial bearings is with their seats.
     """
     thick = None
     if shaft.diameter is not None and shaft.span is not None:
@@ -228,6 +228,7 @@ def compliances_of(shaft: Shaft, radius: float) -> Mapping[str, FloatArray]:
         bearing_radial=shaft.bearing_radial,
         bearing_axial=shaft.bearing_axial,
         torsion=shaft.torsion,
+        seat=shaft.seat,
     )
 
 

@@ -73,7 +73,7 @@ def system(
     turns = shaft.torsion is not None or not driven
     torsion = shaft.torsion if driven and shaft.torsion is not None else 0.0
     inertia = problem.worm_inertia if turns else 1.0
-    seat = shaft.bearing_axial
+    seat = shaft.axial
     mass = problem.worm_mass if seat is not None else 1.0
     ratio = shaft.damping_ratio
     _, shape = problem.vibrated

@@ -14,7 +14,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import Judgement, March, Records, bands_of, mean
 from asperity.drive.protocols.setup import begin, switched_off, system
 from asperity.drive.reduced.model import ReducedModel
-from asperity.drive.result import Bands, Course, DriveLedger, DriveResult
+from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
 from asperity.errors import ConvergenceError
 from asperity.results.ledger import guard
 from asperity.runs import Run
@@ -150,7 +150,7 @@ def _summarise(
     )
     guarded = guard(ledger, _ADVICE, reached={"torque_balance": judged.balance})
     torque = model.worm_torque
-    driven = bool(moving.speed)
+    driven, held = bool(moving.speed), problem.drive.protocol == "held-wheel"
     first = rows[: problem.drive.window]
     power = torque * problem.worm_speed
     put_in = ledger.drive + ledger.actuator
@@ -159,14 +159,14 @@ def _summarise(
     unit = torque / problem.load
     measured = mean(last, "torque") if driven else None
     ratio = None if measured is None else measured / torque
-    if problem.drive.protocol == "held-wheel":
+    if held:
         # The motor pushes as it does without vibration, and the wheel's torque is what changes.
         measured, ratio = torque, problem.load / mean(last, "wheel_torque")
     saved = power - ledger.drive
     efficiency = None
     if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
         efficiency = system_efficiency(ledger.load, ledger.drive, taken.electrical_power)
-    return DriveResult(
+    return (HeldWheel if held else DriveResult)(
         problem=problem,
         k_w=problem.velocity_ratio,
         torque_static=torque,
@@ -206,18 +206,20 @@ def _summarise(
 
 
 def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Demand | None:
-    """What the actuator takes, tuned to its resonance with what it moves; None without a table."""
+    """What the actuator takes, at its resonance or as far from it as is said; None without one."""
     if problem.actuator is None or moving.shake_wheel:
         return None
     # Amplitudes are of displacements: the rate of the waveform makes them velocities.
     unit = problem.velocity / problem.amplitude if problem.amplitude else 0.0
     energy = 0.0
+    resonance = problem.actuator.resonance
+    away = 1.0 if resonance is None else moving.frequency / resonance
     turn = moving.shake_worm_turn or moving.shake_motor
     shift = moving.shake_worm_shift or moving.shake_seat
     if turn:
-        energy += elastic_energy(problem.worm_inertia, unit * turn, 1.0)
+        energy += elastic_energy(problem.worm_inertia, unit * turn, away)
     if shift:
-        energy += elastic_energy(problem.worm_mass, unit * shift, 1.0)
+        energy += elastic_energy(problem.worm_mass, unit * shift, away)
     return demand(
         ledger.actuator,
         energy,
@@ -225,6 +227,7 @@ def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Deman
         coupling=problem.actuator.coupling,
         quality_factor=problem.actuator.quality_factor,
         efficiency=problem.actuator.efficiency,
+        frequency_ratio=away,
     )
 
 
@@ -261,18 +264,13 @@ def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tup
             f"aperiodic: the torque ratio of three blocks of cycles spreads by "
             f"{judged.spread:.2g}, and the wheel is out of balance by {100 * judged.balance:.2g} %"
         )
-    if problem.drive.protocol == "held-wheel":
-        notes.append(
-            "the motor pushes as without vibration: torque_ratio is the load over the mean torque "
-            "on the held wheel"
-        )
     if problem.actuator is not None and problem.mode == "wheel-axial":
         notes.append("what the actuator takes is not told: the mass of the wheel is not known")
     hidden = []
     if problem.shaft.torsion is None:
         hidden.append("torsion (a soft shaft lets the worm give way as it turns)")
-    if problem.shaft.bearing_axial is None:
-        hidden.append("axial bearing (a soft seat takes an axial vibration over)")
+    if problem.shaft.axial is None:
+        hidden.append("axial bearing and seat (a soft seat takes an axial vibration over)")
     if "bending" not in model.give:
         hidden.append("bending of the worm's shaft (often more than the teeth give)")
     if hidden:

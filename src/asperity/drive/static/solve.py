@@ -324,7 +324,7 @@ def _notes(problem: DriveProblem, seen: _Seen) -> tuple[str, ...]:
         for what, there in (
             ("bending of the worm's shaft", problem.shaft.diameter and problem.shaft.span),
             ("its radial bearings", problem.shaft.bearing_radial),
-            ("its axial bearing", problem.shaft.bearing_axial),
+            ("its axial bearing and seat", problem.shaft.axial),
             ("its torsion", problem.shaft.torsion),
         )
         if not there
