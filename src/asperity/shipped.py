@@ -1,18 +1,45 @@
 """The cases that ship, found without what it takes to read them."""
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 from asperity import store
 
+SPEAKING: Mapping[str, str] = {
+    "body-shaken-along": "table-4.3",
+    "body-shaken-across": "table-4.4",
+    "rigid-drive-slow": "table-4.1-L1",
+    "rigid-drive-fast": "table-4.1-L2",
+    "pin-on-disc": "normal-pin",
+    "pin-under-a-machine": "normal-machine",
+    "conveyed-body": "oblique",
+    "block-shaken-along": "block-longitudinal",
+    "block-shaken-across": "block-transverse",
+    "worm-15-to-1": "gearset-3",
+    "worm-60-to-1": "gearset-2",
+    "worm-flanks": "gearset-3b",
+    "worm-shaken-as-a-screw": "drive-screw",
+    "worm-shaken-along-its-axis": "drive-thesis",
+    "valve-actuator": "drive-actuator",
+    "disc-on-disc": "rig-final",
+    "disc-on-disc-dry": "rig-preliminary",
+}
+"""Names that say what a case is, beside those by which the thesis's tables are found."""
+
 
 def shipped_cases() -> dict[str, Path]:
-    """Return the files of the cases that ship, by name."""
+    """Return the files of the cases that ship, by the name of the file."""
     package = Path(__file__).parent
     # In an editable checkout the folder stands at the root, beside `src`.
     folders = [package / "cases", package.parents[1] / "cases"]
     folder = next((folder for folder in folders if folder.is_dir()), folders[0])
     return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def shipped_case(name: str) -> Path | None:
+    """Return the file of a case that ships, by either of its names; None for any other."""
+    return shipped_cases().get(SPEAKING.get(name, name))
 
 
 def describe(path: str | os.PathLike[str]) -> str:

@@ -161,9 +161,11 @@ def test_no_convergence_ends_with_3_and_tells_what_was_reached(asperity):
 def test_the_cases_that_ship_are_listed(asperity):
     code, output, errors = asperity("cases")
     assert (code, errors) == (0, "")
-    assert re.search(r"^table-4\.3 +Longitudinal", output, re.MULTILINE)
+    assert re.search(r"^table-4\.3 +body-shaken-along +Longitudinal", output, re.MULTILINE)
     code, output, _ = asperity("cases", "--json")
-    names = [case["name"] for case in one_object(output)["cases"]]
+    listed = one_object(output)["cases"]
+    assert {case["name"]: case["also"] for case in listed}["normal-pin"] == "pin-on-disc"
+    names = [case["name"] for case in listed]
     assert {"table-4.3", "table-4.4", *(f"table-4.1-L{n}" for n in range(1, 7))} <= set(names)
 
 

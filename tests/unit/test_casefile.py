@@ -10,7 +10,7 @@ import pytest
 
 from asperity.casefile import Table, read_case, told
 from asperity.errors import InputError
-from asperity.shipped import describe, shipped_cases
+from asperity.shipped import SPEAKING, describe, shipped_case, shipped_cases
 from asperity.units import Quantity
 
 
@@ -390,3 +390,16 @@ def test_a_shipped_case_is_read_by_name_unless_a_file_has_that_name(case_file):
     assert case.folder == shipped_cases()["table-4.4"].parent
     case_file.rename("table-4.4")
     assert read_case("table-4.4", TABLES)["body"].speed == 0.5e-3
+
+
+def test_a_speaking_name_is_another_name_of_a_case_that_ships():
+    shipped = shipped_cases()
+    assert not SPEAKING.keys() & shipped.keys()
+    assert len(set(SPEAKING.values())) == len(SPEAKING)
+    assert {name: shipped_case(name) for name in SPEAKING} == {
+        name: shipped[file] for name, file in SPEAKING.items()
+    }
+    known = dict.fromkeys(("slider", "friction", "vibration", "normal", "solve"), AnyTable)
+    assert read_case("pin-on-disc", known).raw == read_case("normal-pin", known).raw
+    with pytest.raises(InputError, match=r"neither .*did you mean 'pin-on-disc'"):
+        read_case("pin-on-disk", TABLES)

@@ -14,7 +14,7 @@ from typing import Any, TypeVar, overload
 from asperity import store
 from asperity.casefile.table import Table, names_file, same_thing, trouble_with
 from asperity.errors import InputError, nearest, plain
-from asperity.shipped import shipped_cases
+from asperity.shipped import SPEAKING, shipped_case, shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
 Raw = dict[str, Any]
@@ -191,15 +191,14 @@ def read_raw(
     """Return a case whose tables are not validated yet, and the text of its file."""
     path = Path(name_or_path)
     source = plain(str(name_or_path))
-    shipped = shipped_cases()
-    if source in shipped and not path.is_file():
-        path = shipped[source]
+    if not path.is_file():
+        path = shipped_case(source) or path
     try:
         text, raw = store.read_toml_text(path, source)
     except InputError as error:
         if not isinstance(error.__cause__, FileNotFoundError):
             raise
-        known = nearest(plain(path.name).removesuffix(".toml"), shipped)
+        known = nearest(plain(path.name).removesuffix(".toml"), (*shipped_cases(), *SPEAKING))
         raise InputError(f"{source} is neither a file nor a case that ships{known}") from None
     return Case(source, path.parent.absolute(), {}, raw, tables), text
 

@@ -232,16 +232,24 @@ def thesis(
 def cases(as_json: JsonOption = False) -> None:
     """List the cases that ship; their names work wherever a file does."""
     from asperity.cli import show
-    from asperity.shipped import describe, shipped_cases
+    from asperity.shipped import SPEAKING, describe, shipped_cases
 
-    shipped = {name: describe(path) for name, path in shipped_cases().items()}
+    speaking = {name: says for says, name in SPEAKING.items()}
+    listed = [
+        {"name": name, "also": speaking.get(name), "description": describe(path)}
+        for name, path in shipped_cases().items()
+    ]
     if as_json:
-        listed = [{"name": name, "description": said} for name, said in shipped.items()]
         show.print_json({"cases": listed})
     else:
         # Without the tables of answers, which take numpy.
-        width = max(map(len, shipped)) + 2
-        show.print_text("\n".join(f"{name:{width}}{said}" for name, said in shipped.items()))
+        widths = [max(len(case[key] or "") for case in listed) + 2 for key in ("name", "also")]
+        show.print_text(
+            "\n".join(
+                f"{case['name']:{widths[0]}}{case['also'] or '':{widths[1]}}{case['description']}"
+                for case in listed
+            )
+        )
 
 
 @app.command()
