@@ -11,6 +11,7 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.problem import PLACES, DriveProblem
 from asperity.drive.protocols.many import solve_many
+from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.result import DriveResult, inputs
 from asperity.drive.solve import prepare as prepare_drive
@@ -19,6 +20,7 @@ from asperity.results import Result, quantity
 from asperity.results.dataset import Labels
 from asperity.results.table import Table
 from asperity.runs import Run
+from asperity.runs.key import code_key, key
 
 _MODES = ("mode",)
 _MICROMETRES = 1e6
@@ -144,8 +146,9 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
         None could.
     """
     reduced = reduction(problem, run)
-    asked = [(problem.shaken(mode, problem.amplitude), reduced) for mode in PLACES]
-    found = solve_many(asked, run, what="ways")
+    ways = [(problem.shaken(mode, problem.amplitude), reduced) for mode in PLACES]
+    known = run.resume(key(code_key(__name__), asked(problem))) or {}
+    found = solve_many(ways, run, what="ways", known=known)
     solved = [each for each in found if isinstance(each, DriveResult)]
     if not solved:
         raise next(each for each in found if isinstance(each, AsperityError))

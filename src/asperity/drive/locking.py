@@ -21,6 +21,7 @@ from asperity.casefile import Case
 from asperity.drive.friction_curve import friction_at
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
+from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult, inputs
@@ -28,6 +29,7 @@ from asperity.drive.solve import prepare as prepare_drive
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.results import Result, quantity
 from asperity.runs import Run
+from asperity.runs.key import code_key, key
 
 _AMPLITUDES = ("amplitude",)
 # Of the way from rest to full friction, what the chart shows.
@@ -170,6 +172,7 @@ class _Search:
         self._reduced = reduced
         self._unit = unit
         self._run = run
+        self._known = run.resume(key(code_key(__name__), asked(problem))) or {}
         self.settled = False
 
     def creeps(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
@@ -181,7 +184,7 @@ class _Search:
             (self._problem.shaken(self._problem.mode, float(amplitude)), self._reduced)
             for amplitude in amplitudes
         ]
-        found = solve_many(shaken, self._run, what="amplitudes")
+        found = solve_many(shaken, self._run, what="amplitudes", known=self._known)
         for each in found:
             if isinstance(each, AsperityError):
                 raise each

@@ -1,6 +1,8 @@
 """Many shaken drives at once, on all cores: the kernels leave the interpreter to each other."""
 
 import concurrent.futures as cf
+import dataclasses
+import typing
 from collections.abc import Sequence
 
 import numpy as np
@@ -8,11 +10,12 @@ import numpy as np
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import STEP_SECONDS, block_of, longest_march
-from asperity.drive.protocols.solve import solve_shaken
+from asperity.drive.protocols.solve import asked, kind_of, solve_shaken
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.result import DriveResult
 from asperity.errors import AsperityError
 from asperity.runs import Run
+from asperity.runs.tree import Tree, from_tree, to_tree
 from asperity.runs.workers import cores
 from asperity.slider.parameters import in_proportion
 
@@ -28,7 +31,11 @@ def _steps(problem: DriveProblem) -> float:
 
 
 def solve_many(
-    problems: Sequence[tuple[DriveProblem, Reduction]], run: Run, *, what: str = "drives"
+    problems: Sequence[tuple[DriveProblem, Reduction]],
+    run: Run,
+    *,
+    what: str = "drives",
+    known: Tree | None = None,
 ) -> list[DriveResult | AsperityError]:
     """Solve many drives, without histories.
 
@@ -40,6 +47,9 @@ def solve_many(
         Who is told how many are done, and who may interrupt.
     what : str
         What they are called.
+    known : dict, optional
+        What was solved before, as `Run.resume` gave it or empty: it is not solved again, and what
+        is solved is added to it and kept.
 
     Returns
     -------
@@ -47,7 +57,10 @@ def solve_many(
         One for each; the exception of one that could not be solved stands in its place.
     """
     stop = np.zeros(1, np.int64)
-    steps = sum(_steps(problem) for problem, _ in problems)
+    kept: Tree = {} if known is None else known
+    names = [asked(problem) for problem, _ in problems]
+    missing = [n for n, name in enumerate(names) if name not in kept]
+    steps = sum(_steps(problems[n][0]) for n in missing)
     run.forecast(STEP_SECONDS * steps / cores(), f"{steps:.3g} steps")
 
     def one(problem: DriveProblem, reduced: Reduction) -> DriveResult | AsperityError:
@@ -60,12 +73,36 @@ def solve_many(
     pool = cf.ThreadPoolExecutor(cores())
     try:
         with run.going_on():
-            waiting = [pool.submit(one, *each) for each in problems]
+            waiting = {pool.submit(one, *problems[n]): n for n in missing}
+            found: dict[int, DriveResult | AsperityError] = {}
             left = set(waiting)
+            state = None if known is None else (lambda: kept)
             while left:
-                _, left = cf.wait(left, timeout=_LOOK_SECONDS, return_when=cf.FIRST_COMPLETED)
-                run.checkpoint(len(waiting) - len(left), len(waiting), what=what)
-            return [future.result() for future in waiting]
+                done, left = cf.wait(left, timeout=_LOOK_SECONDS, return_when=cf.FIRST_COMPLETED)
+                for future in done:
+                    n = waiting[future]
+                    found[n] = each = future.result()
+                    if isinstance(each, DriveResult):
+                        kept[names[n]] = _tree(each)
+                solved = len(kept) if known is not None else len(found)
+                run.checkpoint(solved, solved + len(left), state, what)
+            return [
+                found[n] if n in found else _restored(problem, kept[name])
+                for n, ((problem, _), name) in enumerate(zip(problems, names, strict=True))
+            ]
     finally:
         stop[0] = 1
         pool.shutdown(cancel_futures=True)
+
+
+def _tree(answer: DriveResult) -> Tree:
+    """Return all of an answer but its problem."""
+    fields = (field.name for field in dataclasses.fields(answer) if field.name != "problem")
+    return {name: to_tree(getattr(answer, name)) for name in fields}
+
+
+def _restored(problem: DriveProblem, tree: Tree) -> DriveResult:
+    kind = kind_of(problem)
+    hints = typing.get_type_hints(kind)
+    values = {name: from_tree(hints[name], entry) for name, entry in tree.items()}
+    return kind(problem=problem, **values)

@@ -54,7 +54,7 @@ def solve_shaken(
     locked = problem.drive.protocol == "back-drive"
     moving = system(problem, model, motor=not locked)
     march = March(model, moving, *begin(problem, model, moving), run, stop)
-    if kept := run.resume(_key(problem, model)):
+    if kept := run.resume(key(code_key(__name__, type(model).__module__), asked(problem))):
         march.restore(kept)
     window = problem.drive.window
     with run.going_on():
@@ -80,11 +80,16 @@ def solve_shaken(
     )
 
 
-def _key(problem: DriveProblem, model: ReducedModel) -> str:
-    """Return what a march is kept under; a study marches its case otherwise than the case says."""
-    asked = problem.case.canonical() if problem.case is not None else repr(problem)
-    changed = [table.model_dump_json() for table in (problem.drive, problem.vibrated[0])]
-    return key(code_key(__name__, type(model).__module__), asked, *changed)
+def asked(problem: DriveProblem) -> str:
+    """Return all that is asked of a drive; a study asks otherwise than its case says."""
+    case = problem.case.canonical() if problem.case is not None else repr(problem)
+    changed = (table.model_dump_json() for table in (problem.drive, problem.vibrated[0]))
+    return "\n".join((case, *changed))
+
+
+def kind_of(problem: DriveProblem) -> type[DriveResult]:
+    """Return the kind of answer that a problem's protocol has."""
+    return HeldWheel if problem.drive.protocol == "held-wheel" else DriveResult
 
 
 def _measured(problem: DriveProblem, model: ReducedModel) -> tuple[str, float]:
@@ -150,7 +155,7 @@ def _summarise(
     )
     guarded = guard(ledger, _ADVICE, reached={"torque_balance": judged.balance})
     torque = model.worm_torque
-    driven, held = bool(moving.speed), problem.drive.protocol == "held-wheel"
+    driven, kind = bool(moving.speed), kind_of(problem)
     first = rows[: problem.drive.window]
     power = torque * problem.worm_speed
     put_in = ledger.drive + ledger.actuator
@@ -159,14 +164,14 @@ def _summarise(
     unit = torque / problem.load
     measured = mean(last, "torque") if driven else None
     ratio = None if measured is None else measured / torque
-    if held:
+    if kind is HeldWheel:
         # The motor pushes as it does without vibration, and the wheel's torque is what changes.
         measured, ratio = torque, problem.load / mean(last, "wheel_torque")
     saved = power - ledger.drive
     efficiency = None
     if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
         efficiency = system_efficiency(ledger.load, ledger.drive, taken.electrical_power)
-    return (HeldWheel if held else DriveResult)(
+    return kind(
         problem=problem,
         k_w=problem.velocity_ratio,
         torque_static=torque,
