@@ -216,7 +216,13 @@ class Fit:
             step = min(step, abs(last - best.point[place]))
             if step <= 0.0:
                 return None
-            found = self.along(best, place, best.point[place] + side * step, near)
+            try:
+                found = self.along(best, place, best.point[place] + side * step, near)
+            except ConvergenceError:
+                # No end can be told beyond where the model answers.
+                last = best.point[place] + side * step
+                step = 0.5 * (inside[0] + step)
+                continue
             root = math.sqrt(max(found.chi2 - best.chi2, 0.0))
             if abs(root - wanted) < _NEAR * wanted:
                 return float(found.point[place])
@@ -227,7 +233,7 @@ class Fit:
             else:
                 outside = (step, root)
             step = _between(inside, outside, wanted)
-        return float(best.point[place] + side * step)
+        return None if outside is None else float(best.point[place] + side * step)
 
 
 def _between(inside: Any, outside: Any, wanted: float) -> float:
