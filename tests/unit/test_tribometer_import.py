@@ -1,6 +1,9 @@
 """Files of oscilloscope programs become recordings, or are refused with row and reason."""
 
 import importlib.util
+import struct
+import tracemalloc
+import zlib
 
 import h5py
 import numpy as np
@@ -125,6 +128,13 @@ REFUSED = {
         ["torque_steel", "'kg'"],
     ),
     "no channel": (lambda lines: [lines[0].replace("A", "X"), *lines[1:]], ["torque_steel", "'A'"]),
+    "a row cut in its middle": (
+        lambda lines: [*lines[:7], lines[7][: lines[7].rindex(",") - 1], *lines[8:]],
+        ["row 8 has 4 cells for 5 columns"],
+    ),
+    "a heading twice": (
+        lambda lines: [lines[0].replace("B", "A"), *lines[1:]], ["'Channel A'", "2 columns"]
+    ),
     "a channel twice": (
         lambda lines: [lines[0].replace("Channel B", "Input A"), *lines[1:]],
         ["torque_steel", "both"],
@@ -145,7 +155,7 @@ def test_what_cannot_be_imported_is_refused_with_row_and_reason(tmp_path, name):
     assert all(part in told for part in ("run.csv", *parts)), told
 
 
-@pytest.mark.parametrize("version", ["4", "5", "7.3"])
+@pytest.mark.parametrize("version", ["4", "5", "5 compressed", "7.3"])
 def test_matlab_files_of_all_versions_are_read(tmp_path, version):
     path, given = tmp_path / "run.mat", rows(100)
     variables = {name: given[:, n + 1 : n + 2] for n, name in enumerate("ABCD")}
@@ -155,10 +165,43 @@ def test_matlab_files_of_all_versions_are_read(tmp_path, version):
             for name, value in variables.items():
                 file[name] = value
     else:
-        scipy.io.savemat(path, variables, format=version)
+        scipy.io.savemat(path, variables, format=version[0], do_compression=" " in version)
     found = imported(path)
     assert found.sample_interval == pytest.approx(5e-5)
     assert seen(found, 0) == pytest.approx(given[:, 1], abs=1e-4)
+
+
+def test_a_channel_that_ends_before_the_others_is_missing_from_there(tmp_path):
+    given = rows(100)
+    variables = {name: given[:, n + 1 : n + 2] for n, name in enumerate("ABCD")}
+    variables |= {"B": variables["B"][:60], "Tinterval": np.array([[5e-5]])}
+    scipy.io.savemat(tmp_path / "run.mat", variables, format="4")
+    found = imported(tmp_path / "run.mat")
+    assert (found.samples, found.missing) == (100, 40)
+    assert "speed_steel ends after 60 of 100 samples; the rest is missing" in found.notes
+    assert np.all(found.sampled.counts[60:, 1] == layout.MISSING)
+
+
+def element(kind, content):
+    return struct.pack("<II", kind, len(content)) + content + bytes(-len(content) % 8)
+
+
+@pytest.mark.parametrize("wrong", ["size", "values", "tag"])
+def test_a_compressed_variable_that_claims_too_much_is_refused_before_it_is_read(tmp_path, wrong):
+    shape = (1 << 29, 1) if wrong == "values" else (4, 1)
+    tag = 77 if wrong == "tag" else 9
+    inner = element(6, struct.pack("<II", 6, 0)) + element(5, struct.pack("<ii", *shape))
+    inner += element(1, b"A") + element(tag, bytes(8 * 4))
+    told = 1 << 30 if wrong == "size" else len(inner)
+    packed = zlib.compress(struct.pack("<II", 14, told) + inner)
+    head = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<H", 0x0100) + b"IM"
+    path = tmp_path / "run.mat"
+    path.write_bytes(head + struct.pack("<II", 15, len(packed)) + packed)
+    tracemalloc.start()
+    with pytest.raises(InputError, match=r"run\.mat cannot be read: not a MATLAB file, or damaged"):
+        imported(path)
+    assert tracemalloc.get_traced_memory()[1] < 50e6
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize("content", [b"", b"MATLAB 5.0 MAT-file" + b"\1" * 200, b"\0" * 300])

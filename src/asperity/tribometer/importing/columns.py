@@ -73,7 +73,7 @@ def sampled(columns: Columns, channels: Channels, name: str) -> Sampled:
         nowhere.
     """
     places, notes = _mapped(columns, channels, name)
-    rows = min((len(columns.values[place]) for place in places.values()), default=0)
+    rows = max((len(columns.values[place]) for place in places.values()), default=0)
     if rows < 2:
         raise InputError(f"{name} holds {rows} samples of the channels; that is no recording")
     interval, where, length = _grid(columns, rows, name)
@@ -83,6 +83,10 @@ def sampled(columns: Columns, channels: Channels, name: str) -> Sampled:
         counts[:] = MISSING
         notes.append(f"{length - rows} samples are missing by the times; they are gaps")
     for column, (signal, place) in enumerate(places.items()):
+        own = len(columns.values[place])
+        if own < rows:
+            counts[own:, column] = MISSING
+            notes.append(f"{signal} ends after {own} of {rows} samples; the rest is missing")
         units = columns.units[place] or "V"
         channel = channels.mapped()[signal]
         unit_scale(units, signal, "V" if channel.points else SIGNALS[signal].unit, name)
@@ -98,10 +102,13 @@ def _mapped(columns: Columns, channels: Channels, name: str) -> tuple[dict[str, 
     for signal, channel in channels.mapped().items():
         found = matching(channel.channel, columns.headings)
         if len(found) > 1:
-            twice = choices(columns.headings[place] for place in found)
+            named = {columns.headings[place] for place in found}
+            twice = choices(sorted(named))
             raise InputError(
                 f"{name}: channels.{signal}.channel is {channel.channel!r}, which {twice} both "
                 "are; give the heading in full"
+                if len(named) > 1
+                else f"{name}: {twice} stands on {len(found)} columns; rename all but one of them"
             )
         if not found and signal in NEEDED:
             raise InputError(

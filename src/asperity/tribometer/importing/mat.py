@@ -2,6 +2,7 @@
 
 import math
 import struct
+import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ _KINDS = frozenset((*range(1, 8), 9, *range(12, 19)))
 _NUMERIC = frozenset(
     ("double", "single", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
 )
+_MOST_OF_A_BYTE = 1100  # what zeros are compressed to
+_BEGINNING = 1 << 16
 _NOTE = "the file tells no units; its channels are taken as volts"
 _TOLD = frozenset(("Tstart", _INTERVAL, "ExtraSamples", "RequestedLength", "Length", "Version"))
 
@@ -64,12 +67,10 @@ def _plain(path: Path) -> dict[str, Any]:
 
     # SciPy's reader ends the process on some damaged cells, structures and texts.
     _check_tags(path)
-    size = path.stat().st_size
-    names = [
-        name for name, shape, kind in whosmat(path)
-        if kind in _NUMERIC and math.prod(shape) <= 1100 * size
-    ]  # fmt: skip
-    found = loadmat(path, variable_names=names)
+    listed = [(name, shape) for name, shape, kind in whosmat(path) if kind in _NUMERIC]
+    if 8 * sum(math.prod(shape) for _, shape in listed) > _MOST_OF_A_BYTE * path.stat().st_size:
+        raise ValueError("more values than it can hold")
+    found = loadmat(path, variable_names=[name for name, _ in listed])
     return {key: np.asarray(value) for key, value in found.items() if not key.startswith("__")}
 
 
@@ -82,16 +83,29 @@ def _check_tags(path: Path) -> None:
     at = 128
     while at + 8 <= len(content):
         kind, size = struct.unpack_from(f"{order}II", content, at)
-        if kind not in (_MATRIX, _COMPRESSED) or at + 8 + size > len(content):
+        end = at + 8 + size
+        if kind not in (_MATRIX, _COMPRESSED) or end > len(content):
             raise ValueError("a tag is wrong")
-        inner, end = at + 8, at + 8 + size
-        while kind == _MATRIX and inner + 8 <= end:
-            own, length = struct.unpack_from(f"{order}II", content, inner)
-            small = own >> 16
-            if (own & 0xFFFF if small else own) not in _KINDS:
+        if kind == _MATRIX:
+            _check_inner(content, at + 8, end, order)
+        else:
+            # The tags stand before the data, whose size they tell.
+            begun = zlib.decompressobj().decompress(content[at + 8 : end], _BEGINNING)
+            kind, inner = struct.unpack_from(f"{order}II", begun)
+            if kind != _MATRIX or inner > _MOST_OF_A_BYTE * size:
                 raise ValueError("a tag is wrong")
-            inner += 8 if small else 8 + -(-length // 8) * 8
+            _check_inner(begun, 8, min(8 + inner, len(begun)), order)
         at = end
+
+
+def _check_inner(content: bytes, at: int, end: int, order: str) -> None:
+    """Look at the tags within an element, as far as they are there."""
+    while at + 8 <= end:
+        own, length = struct.unpack_from(f"{order}II", content, at)
+        small = own >> 16
+        if (own & 0xFFFF if small else own) not in _KINDS:
+            raise ValueError("a tag is wrong")
+        at += 8 if small else 8 + -(-length // 8) * 8
 
 
 def _hdf5(path: Path) -> dict[str, Any]:
@@ -100,6 +114,6 @@ def _hdf5(path: Path) -> dict[str, Any]:
     size = path.stat().st_size
     with h5py.File(path, "r") as file:
         sets: Sequence[Any] = [one for one in file.values() if isinstance(one, h5py.Dataset)]
-        if sum(one.size * one.dtype.itemsize for one in sets) > 1100 * size:
+        if sum(one.size * one.dtype.itemsize for one in sets) > _MOST_OF_A_BYTE * size:
             raise ValueError("more values than it can hold")
         return {str(one.name).strip("/"): one[...] for one in sets}

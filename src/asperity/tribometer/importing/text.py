@@ -61,6 +61,7 @@ def read_text(path: Path, name: str) -> Columns:
     if len(rows) > 2 and np.isnan(rows[-1, -1]) and not np.isnan(rows[-2, -1]):
         rows = rows[:-1]
         notes.append("the last row is cut off; it is left out")
+    _check_whole(text, name, separator, begin, rows)
     time = _time_column(headings, units, name)
     scale = to_si(f"1 {units[time]}", "s")
     keep = [place for place in range(len(headings)) if place != time]
@@ -138,6 +139,20 @@ def _numbers(text: str, name: str, separator: str, decimal: str, begin: int, wid
     except (ValueError, OverflowError, pd.errors.ParserError) as error:
         raise InputError(f"{name}: {_wrong(text, separator, begin, width, error)}") from None
     return frame.to_numpy()
+
+
+def _check_whole(text: str, name: str, separator: str, begin: int, rows: Any) -> None:
+    """Raise InputError for a row that lacks cells: its last number may be cut, too."""
+    width = rows.shape[1]
+    if not np.isnan(rows[:, -1]).any():
+        return
+    for number, line in enumerate(io.StringIO(text)):
+        cells = line.count(separator) + 1
+        if begin <= number < begin + len(rows) and cells < width:
+            raise InputError(
+                f"{name}: row {number + 1} has {cells} cells for {width} columns; mend it, or "
+                "leave the row out, which makes a gap"
+            )
 
 
 def _wrong(text: str, separator: str, begin: int, width: int, error: Exception) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.runs import Run
-from asperity.tribometer.options import Plan, Twin
+from asperity.tribometer.options import Plan, Reduction, Twin
 from asperity.tribometer.parameters import Limits
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.result import PlanResult
@@ -17,6 +17,8 @@ from asperity.tribometer.twin.plant import Plant
 # Velocity ratios from which a friction law is identified best.
 _TELLING = 1.5, 4.0
 _ENOUGH_TURNS = 2.0
+_STARTING = 1.5  # s, of motors and of the voltage that tells their speed
+_EDGES = 0.2  # s
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,11 +33,14 @@ class PlanProblem:
         In their order.
     plant : Plant or None
         The simulated rig, where the configuration has one.
+    reduction : Reduction
+        How its recordings will be reduced.
     """
 
     plan: Plan
     files: tuple[PlannedFile, ...]
     plant: Plant | None
+    reduction: Reduction
 
 
 def prepare(case: Case) -> PlanProblem:
@@ -43,7 +48,26 @@ def prepare(case: Case) -> PlanProblem:
     limits = case.require(Limits) if Limits.table in case else Limits()
     plan = case.require(Plan)
     plant = Plant.from_case(case) if Twin.table in case else None
-    return PlanProblem(plan, planned_files(plan, limits), plant)
+    reduction = case.require(Reduction) if Reduction.table in case else Reduction()
+    return PlanProblem(plan, planned_files(plan, limits), plant, reduction)
+
+
+def too_brief(plan: Plan, given: Reduction) -> str:
+    """Return which windows of a plan its own reduction will refuse; empty: none."""
+    least = given.settling + given.least_window
+    wanted = {"before": _STARTING + least, "shaken": _EDGES + least}
+    short = [
+        f"plan.{key} is {getattr(plan, key):g} s, which should be {most:g} s or more"
+        for key, most in wanted.items()
+        if getattr(plan, key) < most
+    ]
+    if not short:
+        return ""
+    return (
+        f"{'; '.join(short)}: when motors have started and reduction.settling = "
+        f"{given.settling:g} s is left out, rig reduce refuses what is shorter than "
+        f"reduction.least_window = {given.least_window:g} s"
+    )
 
 
 def answer(problem: PlanProblem, run: Run) -> PlanResult:
@@ -108,7 +132,8 @@ def _expected(problem: PlanProblem) -> Expected | None:
 
 def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
     plan = problem.plan
-    notes = []
+    brief = too_brief(plan, problem.reduction)
+    notes = [brief] if brief else []
     if expected is not None:
         ratio, steel, bronze = expected
         for volts in plan.steel_supplies:

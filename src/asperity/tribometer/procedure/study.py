@@ -15,10 +15,11 @@ from asperity.tribometer.instruments.backends import BACKENDS, open_bench
 from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
 from asperity.tribometer.instruments.protocols import Bench, InstrumentError
-from asperity.tribometer.options import Plan
+from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
+from asperity.tribometer.plan.study import too_brief
 from asperity.tribometer.procedure.journal import NAME, Journal
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
@@ -107,6 +108,9 @@ def answer(problem: RunProblem, run: Run) -> RunResult:
     """
     if run.folder is None:
         raise InputError("a run needs --out DIR, a folder for its recordings and its journal")
+    reduction = problem.case.require(Reduction) if Reduction.table in problem.case else Reduction()
+    if brief := too_brief(problem.case.require(Plan), reduction):
+        run.notify(brief)
     bench = open_bench(problem.case, problem.backend)
     try:
         return _run(problem, bench, run, run.folder)

@@ -15,6 +15,7 @@ from asperity.tribometer.reduction.drive_signal import Stretch, Tone
 from asperity.units import split_unit, to_si
 
 _NEEDED = ("torque_steel", "speed_steel", "speed_bronze")
+_SAMPLES_A_CYCLE = 6.0  # that tell a third harmonic
 _COMMAND = re.compile(r"\s*(?:(sine|triangle)\s+)?([0-9.]+\s*\w+)\s*", re.ASCII)
 
 
@@ -149,7 +150,13 @@ def _asked(
             flags.append(f"commanded a {wave}, measured a {shape}")
         shape = wave or shape
     elif shape == "unknown":
-        flags.append("the waveform is not told by the drive signal")
+        rate = blocks.samples / blocks.length
+        flags.append(
+            f"{rate:g} samples a second are too few to tell a triangle of {measured:.4g} Hz from a "
+            f"sine; take more than {_SAMPLES_A_CYCLE * measured:.3g}"
+            if tone and math.isnan(tone.third)
+            else "the drive signal is neither a sine nor a triangle"
+        )
     return frequency, shape, flags
 
 

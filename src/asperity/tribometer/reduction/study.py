@@ -169,6 +169,10 @@ def repeats(segments: Sequence[SegmentResult]) -> tuple[float | None, int]:
 
 
 def _notes(problem: Sequence[Reducible]) -> Iterator[str]:
+    yield (
+        "the model's ratio is at the sliding velocity with vibration, k_v at the mean of before "
+        "and with"
+    )
     if any(one.recording.simulated for one in problem):
         yield "simulated recordings are among these: no rig stands behind their numbers"
     if any(one.case.require(Rig).bearing_torque_steel == 0.0 for one in problem):
