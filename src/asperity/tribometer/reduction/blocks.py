@@ -17,6 +17,7 @@ from asperity.tribometer.signals import NEEDED, SIGNALS
 from asperity.units import to_si
 
 _AT_A_TIME = 1 << 18
+_NONE = 1e-6  # of a block
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,6 +51,10 @@ class Blocks:
     def count(self) -> int:
         """How many there are."""
         return len(self.drive_deviation)
+
+    def at_least(self, seconds: float) -> int:
+        """Return the fewest blocks that last so long, whatever the last bit of a length is."""
+        return math.ceil(seconds / self.length - _NONE)
 
     @property
     def time(self) -> FloatArray:

@@ -74,8 +74,7 @@ def _segment(
     shaking: Stretch,
     running: Sequence[Stretch],
 ) -> Segment:
-    settling = math.ceil(given.settling / blocks.length)
-    least = math.ceil(given.least_window / blocks.length)
+    settling, least = (blocks.at_least(one) for one in (given.settling, given.least_window))
     on = next((one for one in running if one.first <= shaking.first < one.last), None)
     if on is None:
         on = next((one for one in running if shaking.first < one.first < shaking.last), None)
@@ -153,7 +152,7 @@ def _asked(
         rate = blocks.samples / blocks.length
         flags.append(
             f"{rate:g} samples a second are too few to tell a triangle of {measured:.4g} Hz from a "
-            f"sine; take more than {_SAMPLES_A_CYCLE * measured:.3g}"
+            f"sine; take more than {_SAMPLES_A_CYCLE * measured:.4g}"
             if tone and math.isnan(tone.third)
             else "the drive signal is neither a sine nor a triangle"
         )
