@@ -106,12 +106,31 @@ def test_a_copy_keeps_the_quantities_of_a_list():
     ("name", "words"),
     [
         ("table-4.3", "this case is of a sliding body: asperity slide takes it"),
-        ("gearset-2", r"add it with model, 'coulomb' or 'dahl', and mu, which .*'iso14521'"),
+        ("gearset-2", r"add it with model, 'coulomb' or 'dahl', and mu, or set .*'iso14521'"),
     ],
 )
 def test_what_a_case_lacks_of_a_drive_is_told(name, words):
     with pytest.raises(InputError, match=words):
         DriveProblem.from_case(read_case(name, case_tables()))
+
+
+def test_by_the_standard_friction_is_its_own_whatever_the_table_says_or_lacks():
+    def friction(name, *settings):
+        read = read_case(name, case_tables(), ["drive.friction=iso14521", *settings])
+        return DriveProblem.from_case(read, shaken=False).friction
+
+    bare, given = friction("gearset-3b"), friction("drive-screw", "friction.mu=0.9")
+    assert bare.model == "coulomb"
+    assert bare.mu == given.mu == pytest.approx(0.1346, abs=5e-4)
+    assert given.max_deflection == 70e-9
+
+
+def test_elastic_teeth_are_not_marched_with_the_standard_s_friction_but_loaded_with_it():
+    settings = ["drive.friction=iso14521", "drive.model=teeth"]
+    read = read_case("drive-screw", case_tables(), settings)
+    with pytest.raises(InputError, match=r"drive.friction is 'iso14521'.*--static takes both"):
+        DriveProblem.from_case(read)
+    assert DriveProblem.from_case(read, shaken=False).friction.mu > 0.0
 
 
 def test_teeth_rated_otherwise_are_kept_apart_where_friction_is_the_standard_s():

@@ -16,13 +16,17 @@ with the wheel's bulk temperature of the rating as :math:`\theta_M`: an inferenc
 the temperature is that of the rating.
 """
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case, told
 from asperity.drive.friction_curve import FrictionCurve
+from asperity.drive.parameters import Drive
 from asperity.errors import InputError
+from asperity.friction import Friction
 from asperity.gearset import oil
 from asperity.gearset.parameters import Gearset
 from asperity.rating.inputs import Inputs, inputs
@@ -119,3 +123,44 @@ def friction_curve(
         raise InputError(f"the fastest sliding speed is {fastest:g} m/s; it must be positive")
     speeds = np.linspace(0.0, fastest, _POINTS)
     return FrictionCurve(float(speeds[1]), tooth_friction(given, speeds, temperature))
+
+
+def mesh_friction(case: Case, gearset: Gearset, operation: Operation, drive: Drive) -> Friction:
+    """Return a case's friction; by the standard its coefficient is that of steady sliding.
+
+    That on the reference circle, rigid asperities where nothing is said of them.
+    """
+    if drive.friction == "constant":
+        if Friction.table not in case:
+            raise InputError(
+                f"{case.source}: the table [friction] is missing; add it with model, 'coulomb' or "
+                "'dahl', and mu, or set drive.friction = 'iso14521'"
+            )
+        return case.require(Friction)
+    g = gearset.require_consistent().geometry
+    circle = 0.5e-3 * g.worm_pitch_diameter / math.cos(g.lead_angle)
+    mu = float(tooth_friction(rating_inputs(case), operation.worm_speed * circle))
+    if Friction.table not in case:
+        return Friction(model="coulomb", mu=mu)
+    return case.require(Friction).model_copy(update={"mu": mu}, units="SI")
+
+
+def check_friction(friction: Friction) -> None:
+    """Refuse what a mesh's friction is not."""
+    if friction.model not in ("coulomb", "dahl"):
+        raise InputError(
+            f"friction.model is '{friction.model}', which is of a sliding body; between teeth it "
+            "must be 'coulomb' or 'dahl'"
+        )
+    for key, only in (("law", "vector"), ("transfer", 1.0), ("load_exponent", 1.0)):
+        value = getattr(friction, key)
+        if value != only:
+            raise InputError(
+                f"friction.{key} is {value!r}, which is of a sliding body; between teeth it is "
+                f"{only!r}: leave it out"
+            )
+    if friction.model == "dahl" and friction.keeps != "stiffness":
+        raise InputError(
+            "friction.keeps is 'deflection', which makes energy where the force between teeth "
+            "swings; it must be 'stiffness': leave it out"
+        )

@@ -62,7 +62,7 @@ class Drive(Table):
         Positions of the worm over a pitch, 1 to 360.
     friction : {'constant', 'iso14521'}
         The coefficient of ``[friction]``, or that of ISO/TR 14521 at the local speed and
-        temperature.
+        temperature; with it ``[friction]`` may be left out, and its ``mu`` counts for nothing.
     stroke, stroke_seat : float or str
         Turn of the wheel in a stroke of protocol ``on-demand``, a quarter for a ball or butterfly
         valve, and of it at either seat with ``operation.output_torque``, rad; between them it is

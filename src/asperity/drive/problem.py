@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Self, TypeVar
 
 from asperity.casefile import Case, Table, told
+from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
 from asperity.errors import InputError
@@ -75,7 +76,7 @@ class DriveProblem:
     case: Case | None = None
 
     def __post_init__(self) -> None:
-        _check_friction(self.friction)
+        check_friction(self.friction)
         if self.solve.method != "march" or self.solve.scheme != "exponential":
             raise InputError(
                 f"solve.method is '{self.solve.method}' and solve.scheme '{self.solve.scheme}'; a "
@@ -105,11 +106,12 @@ class DriveProblem:
                 vibration = case.require(Vibration).of_gearset(PLACES)
                 turns = operation.worm_speed / (2.0 * math.pi)
                 shape = vibration.shape(case.folder, turns=turns)
+            gearset, drive = case.require(Gearset), table(Drive) or Drive()
             return cls(
-                gearset=case.require(Gearset),
+                gearset=gearset,
                 operation=operation,
-                friction=case.require(Friction),
-                drive=table(Drive) or Drive(),
+                friction=mesh_friction(case, gearset, operation, drive),
+                drive=drive,
                 shaft=table(Shaft) or Shaft(),
                 solve=table(Solve) or Solve(),
                 vibration=vibration,
@@ -247,6 +249,11 @@ class DriveProblem:
         return self.velocity / self.reference_speed
 
     def _check_vibration(self, vibration: Vibration) -> None:
+        if self.drive.friction != "constant" and self.drive.model == "teeth":
+            raise InputError(
+                "drive.friction is 'iso14521', which drive.model 'reduced' takes; elastic teeth "
+                "are marched with 'constant' (--static takes both)"
+            )
         for key, what in (("load_inertia", "inertia of the load"), ("contact_damping", "damping")):
             if getattr(self.drive, key) is None:
                 example = "3.2e-3 kg m**2" if key == "load_inertia" else "0.01 s/m"
@@ -350,36 +357,10 @@ class DriveProblem:
 
 
 def _check_tables(case: Case) -> None:
-    """Refuse a case that is none of a gearset, or says nothing of its friction."""
+    """Refuse a case that is none of a gearset."""
     if Gearset.table not in case:
         other = "a sliding body: asperity slide takes it" if "slider" in case else "something else"
         raise InputError(
             f"{case.source}: there is no [gearset] in it; a drive is one of a worm gearset, and "
             f"this case is of {other}"
-        )
-    if Friction.table not in case:
-        raise InputError(
-            f"{case.source}: the table [friction] is missing; add it with model, 'coulomb' or "
-            "'dahl', and mu, which must be there with drive.friction 'iso14521' too but counts "
-            "for nothing then"
-        )
-
-
-def _check_friction(friction: Friction) -> None:
-    """Refuse what a mesh's friction is not."""
-    if friction.model not in ("coulomb", "dahl"):
-        raise InputError(
-            f"friction.model is '{friction.model}'; between teeth it must be 'coulomb' or 'dahl'"
-        )
-    for key, only in (("law", "vector"), ("transfer", 1.0), ("load_exponent", 1.0)):
-        value = getattr(friction, key)
-        if value != only:
-            raise InputError(
-                f"friction.{key} is {value!r}, which is of a sliding body; between teeth it is "
-                f"{only!r}: leave it out"
-            )
-    if friction.model == "dahl" and friction.keeps != "stiffness":
-        raise InputError(
-            "friction.keeps is 'deflection', which makes energy where the force between teeth "
-            "swings; it must be 'stiffness': leave it out"
         )

@@ -23,7 +23,6 @@ from asperity.drive.static.solve import condensed
 from asperity.drive.static.sweep import REVERSED, Asked, Course, phases_of, sweep, touching_angles
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, KEPT, TeethContact
 from asperity.drive.teeth.sector import Sector
-from asperity.errors import InputError
 from asperity.flanks.meshing.backlash import set_backlash
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.wheel.enveloped import Wheel
@@ -58,11 +57,6 @@ class TeethModel(ReducedModel):
     @classmethod
     def of(cls, problem: DriveProblem, reduction: Reduction, run: Run) -> "TeethModel":
         """Return the model of a problem; ``reduction`` is that of the same teeth."""
-        if problem.drive.friction != "constant":
-            raise InputError(
-                "drive.friction is 'iso14521', which drive.model 'reduced' takes; with 'teeth' it "
-                "must be 'constant'"
-            )
         sector = condensed(problem, run)
         if problem.drive.flanks == "both":
             sector = _with_backlash(sector, problem)
