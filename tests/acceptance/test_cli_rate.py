@@ -201,7 +201,7 @@ def test_files_hold_the_same_numbers(asperity, own, tmp_path):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity("rate", own, "--json", "--out", folder)
     assert code == 0
-    assert errors == f"written to {folder}: rate.json, rate.nc, rate.html, rate.csv\n"
+    assert errors == f"written to {folder}: rate.json, rate.nc, rate.html, rate.csv, rate.xlsx\n"
     answer = one_object(output)
     assert json.loads((folder / "rate.json").read_text()) == answer
     with (folder / "rate.csv").open(newline="") as file:

@@ -81,7 +81,8 @@ COMMANDS = (
     Command(
         "rate",
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
-        "With --out also rate.json, rate.nc, rate.html and rate.csv.",
+        "With --out also rate.json, rate.nc, rate.html, rate.csv and rate.xlsx, a workbook of live "
+        "formulas.",
         prepare="asperity.rating.rate:prepare",
         solve="asperity.rating.rate:answer",
         brief=True,

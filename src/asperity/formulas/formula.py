@@ -20,6 +20,7 @@ from asperity.formulas.masks import (
     real,
 )
 from asperity.formulas.symbols import Bounds, Symbol, Unit, finite
+from asperity.formulas.traced import Traced
 from asperity.sources import Source
 
 P = ParamSpec("P")
@@ -217,6 +218,8 @@ class _Made:
         lowest, highest = self.result.bounds.ends
         with np.errstate(all="ignore"):
             values = self.body(**given)
+            if isinstance(values, Traced):
+                return values if self.scales[system] == 1.0 else values * self.scales[system]
             if not shape:
                 number = float(values)
                 if lowest <= number <= highest and not holes:

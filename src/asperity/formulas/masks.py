@@ -12,6 +12,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray, Real
 from asperity.errors import InputError
 from asperity.formulas.symbols import Symbol
+from asperity.formulas.traced import Traced
 
 Invalid = Literal["raise", "mask"]
 Reasons = npt.NDArray[np.int16]
@@ -136,6 +137,7 @@ def check(name: str, value: Real, symbol: Symbol) -> Real:
     mask = _MASK.get()
     if mask is None or number:
         first = value if number else value[outside].flat[0]
+        first = first.value if isinstance(first, Traced) else first
         unit = f" {symbol.unit}" if symbol.unit else ""
         sentence = f"{name} is {first:.6g}{unit}; {symbol.allowed}"
         if mask is None:
@@ -158,6 +160,8 @@ def real(name: str, value: Any) -> Any:
     try:
         if isinstance(value, float) or type(value) is int:
             return float(value)
+        if isinstance(value, Traced):
+            return value
         array = np.asarray(value)
     except (OverflowError, ValueError):
         array = np.empty(0, dtype=object)

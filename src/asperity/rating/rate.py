@@ -72,6 +72,10 @@ class Rated(Result):
         What moves the least safety most.
     alternatives : tuple of Alternative
         The oil and the wheel material of those with a name that bring most of it.
+    given : Inputs
+        What the formulas started from.
+    tables_bs721 : Tables
+        Those of BS 721.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -86,6 +90,8 @@ class Rated(Result):
     assumed: Mapping[str, str]
     levers: tuple[Lever, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
+    given: Inputs
+    tables_bs721: Tables
 
     @property
     def verdict(self) -> Verdict:
@@ -173,12 +179,15 @@ class Rated(Result):
         return pandas.concat(frames, names=["standard", "key"]) if frames else pandas.DataFrame()
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write JSON, netCDF, a page and a table for spreadsheets."""
+        """Write JSON, netCDF, a page, and for spreadsheets a table and live formulas."""
+        from asperity.rating.workbook import write_rating
+
         names = super().write(folder, pictures="")
         write_text(folder / "rate.html", self.to_html())
         table = self.to_frame().map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
-        return [*names, "rate.html", "rate.csv"]
+        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
+        return [*names, "rate.html", "rate.csv", "rate.xlsx"]
 
 
 def rate(
@@ -244,6 +253,8 @@ def rate(
     return Rated(
         levers=moved,
         alternatives=(),
+        given=given,
+        tables_bs721=tables,
         gearset=gearset,
         geometry=gearset.geometry,
         **{name: found.get(name) for name in STANDARDS},

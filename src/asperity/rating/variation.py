@@ -28,7 +28,7 @@ from asperity.formulas import (
 from asperity.gearset import relations
 from asperity.gearset.geometry import diameters
 from asperity.gearset.parameters import Gearset
-from asperity.gearset.proportions import RULES
+from asperity.gearset.proportions import RULES, Heights
 from asperity.rating.inputs import (
     GEOMETRY,
     RPM,
@@ -101,7 +101,13 @@ def varied(
     if "friction" in given and "base_friction" in given:
         raise InputError("friction and base_friction are given; keep one of them")
     numbers = _macro(base, given, mask)
-    numbers |= _derived(gearset, options, numbers, mask)
+    follows, heights = derived(gearset, options, numbers)
+    for name in ("worm_root_diameter", "wheel_mean_diameter", "wheel_root_diameter"):
+        mask.refuse(np.asarray(follows[name]) <= 0.0, f"the {name} is not positive")
+    mask.refuse(
+        np.asarray(heights.wheel_addendum) <= 0.0, "the lead angle leaves no teeth of the wheel"
+    )
+    numbers |= follows
     numbers |= {name: value for name, value in given.items() if name not in numbers}
     if "output_torque" in given and operation.through_travel_torque is None:
         numbers["through_travel_torque"] = THROUGH_TRAVEL * given["output_torque"]
@@ -174,10 +180,25 @@ def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Rea
     }
 
 
-def _derived(
-    gearset: Gearset, options: RatingOptions, numbers: Mapping[str, Real], mask: Mask
-) -> dict[str, Real]:
-    """Return the other numbers of `asperity.gearset.Geometry` that the formulas need."""
+def derived(
+    gearset: Gearset, options: RatingOptions, numbers: Mapping[str, Real]
+) -> tuple[dict[str, Real], Heights]:
+    """Return the other numbers of `asperity.gearset.Geometry` that the formulas need.
+
+    Parameters
+    ----------
+    gearset, options
+        Whose rules and widths hold.
+    numbers : mapping of str to float or ndarray
+        Teeth, module, diameter factor and centre distance, by their names in `Geometry`.
+
+    Returns
+    -------
+    dict of str to float or ndarray
+        By name.
+    Heights
+        Of the teeth.
+    """
     a, m, q = (numbers[n] for n in ("centre_distance", "axial_module", "diameter_factor"))
     z1, z2 = numbers["starts"], numbers["wheel_teeth"]
     lead = relations.lead_angle(z1, q)
@@ -185,7 +206,7 @@ def _derived(
     widest = relations.widest_contact(m, q)
     geometry = gearset.geometry
     b_2 = widest if gearset.wheel_face_width is None else geometry.wheel_face_width
-    derived = {
+    found = {
         **diameters(m, q, z2, a, heights),
         "lead_angle": lead,
         "axial_pitch": np.pi * m,
@@ -193,11 +214,6 @@ def _derived(
         "rim_width": b_2,
         "rim_thickness": (2.0 * m if gearset.rim_thickness is None else geometry.rim_thickness),
     }
-    derived = {name: number for name, number in derived.items() if name in GEOMETRY}
-    derived["effective_face_width"] = face_width_that_carries(gearset, options, m, q)
-    for name in ("worm_root_diameter", "wheel_mean_diameter", "wheel_root_diameter"):
-        mask.refuse(np.asarray(derived[name]) <= 0.0, f"the {name} is not positive")
-    mask.refuse(
-        np.asarray(heights.wheel_addendum) <= 0.0, "the lead angle leaves no teeth of the wheel"
-    )
-    return derived
+    found = {name: number for name, number in found.items() if name in GEOMETRY}
+    found["effective_face_width"] = face_width_that_carries(gearset, options, m, q)
+    return found, heights

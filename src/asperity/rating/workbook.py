@@ -1,0 +1,277 @@
+"""A rating as a workbook: the inputs to be changed, and every number as a live formula.
+
+The formulas are those of the calculation: it runs once more on numbers that remember how they were
+found (`asperity.formulas.traced`), each of which becomes a cell. What is chosen by a word (a
+material's family, the way of lubrication, the flank's type) is chosen as in the case.
+"""
+
+import dataclasses
+import math
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel
+
+from asperity.formulas.traced import Traced
+from asperity.gearset import relations
+from asperity.rating.agma6034.rating import rated as rated_agma6034
+from asperity.rating.bs721.rating import rated as rated_bs721
+from asperity.rating.bs721.tables import Tables
+from asperity.rating.demands import DEMANDS
+from asperity.rating.entries import Fact, facts
+from asperity.rating.inputs import THROUGH_TRAVEL, Inputs, Values
+from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
+from asperity.rating.result import Rating
+from asperity.rating.variation import derived
+from asperity.results.xlsx import Formula, Input, Sheet, place, write_workbook
+from asperity.units import unit_of
+
+_INPUTS, _GEOMETRY = "inputs", "geometry"
+_VALUE = 1  # column
+_GIVEN_WIDTHS = (12, 24, 10, 44, 44)
+_FOUND_WIDTHS = (12, 24, 10, 44, 60, 44, 10, 10)
+# Numbers of a case that are in SI, where the sheet has the standards' units.
+_FROM_SI = {"MPa": 1e-6, "mm2/s": 1e6}
+_HEADING = ("symbol", "value", "unit", "meaning", "equation", "source", "asked", "holds")
+_REMARKS = (
+    "Coloured cells are there to be changed; all other numbers follow.",
+    "A number without a formula on another sheet is fixed by a word of the case.",
+    "Limits of validity and notes are those of asperity rate, and are not checked here.",
+)
+_FREE = (
+    "starts", "wheel_teeth", "axial_module", "diameter_factor", "profile_shift", "pressure_angle",
+    "worm_roughness", "worm_speed", "output_torque", "through_travel_torque", "base_friction",
+    "friction", "friction_factor",
+)  # fmt: skip
+
+
+def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], path: Path) -> Path:
+    """Write the workbook of a rating.
+
+    Parameters
+    ----------
+    given : Inputs
+        What was rated.
+    tables : Tables
+        Of BS 721.
+    found : mapping of str to Rating
+        The ratings, by standard.
+    path : path
+        The file.
+    """
+    cells = _Cells()
+    traced, own = _traced(given, cells), _tables(tables, cells)
+    values = {standard: _rated(standard, traced, own) for standard in found}
+    cells.settle(number for rated in values.values() for number in rated.values())
+    geometry = _Page(_GEOMETRY, cells)
+    for name, value in vars(traced).items():
+        if isinstance(value, Traced) and value.operation:
+            geometry.add(value, *_about_geometry(name))
+    pages = [geometry]
+    for standard, rating in found.items():
+        page = _Page(standard, cells)
+        asked = {demand.key: demand.asked for demand in DEMANDS if demand.standard == standard}
+        for entry in rating.entries:
+            if entry.key in values[standard]:
+                about = entry.symbol, entry.unit, entry.meaning, entry.equation, str(entry.source)
+                page.add(values[standard][entry.key], *about, asked=asked.get(entry.key))
+        pages.append(page)
+    remarks = [("", "", "", remark) for remark in ("", *_REMARKS)]
+    sheets = {_INPUTS: Sheet([*cells.rows, *remarks], _GIVEN_WIDTHS)}
+    sheets |= {page.name: Sheet(page.rows, _FOUND_WIDTHS) for page in pages}
+    return write_workbook(sheets, path)
+
+
+def _traced(given: Inputs, cells: "_Cells") -> Inputs:
+    """Return the inputs with cells in place of numbers, the geometry found from five of them."""
+    gearset: Any = _Part(given.gearset, "gearset", cells)
+    free: dict[str, Any] = {
+        name: None if getattr(given, name) is None else cells.input(name, getattr(given, name))
+        for name in _FREE
+    }
+    if given.operation.through_travel_torque is None:
+        free["through_travel_torque"] = THROUGH_TRAVEL * free["output_torque"]
+    z1, z2, m, q, x = (free[name] for name in _FREE[:5])
+    numbers = {
+        **free,
+        "gear_ratio": relations.gear_ratio(z1, z2),
+        "centre_distance": relations.centre_distance(m, q, z2, x),
+    }
+    follows, _ = derived(gearset, given.options, numbers)
+    own = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
+    operation: Any = _Part(given.operation, "operation", cells)
+    own |= {"gearset": gearset, "operation": operation, **numbers, **follows}
+    return _TracedInputs(**own, cells=cells, plain=given)
+
+
+def _about_geometry(name: str) -> tuple[str, str, str, str]:
+    """Symbol, unit, meaning and equation."""
+    fact = _fact(name)
+    if fact is None:
+        return "", "", name.replace("_", " "), ""
+    # An angle is calculated with in radians.
+    unit = "rad" if fact.unit == "deg" else fact.unit
+    return fact.symbol, unit, fact.meaning, fact.derived or fact.equation
+
+
+def _rated(standard: str, given: Inputs, tables: Tables) -> Values:
+    if standard == "iso14521":
+        return rated_capacity(given, rated_efficiency(given))
+    return rated_bs721(given, tables)[0] if standard == "bs721" else rated_agma6034(given)
+
+
+def _tables(tables: Tables, cells: "_Cells") -> Tables:
+    """Return BS 721's tables with cells for what is looked up by materials."""
+
+    def looked_up(name: str) -> Any:
+        stresses = getattr(tables, name)
+        return lambda *words: cells.input(f"{name}: {', '.join(words)}", stresses(*words), "MPa")
+
+    names = "bending_stress_factor", "surface_stress_factor", "worm_surface_stress_factor"
+    return dataclasses.replace(tables, **{name: looked_up(name) for name in names})
+
+
+class _Cells:
+    """The inputs that a calculation asks for, and where every number stands."""
+
+    def __init__(self) -> None:
+        self.rows: list[tuple[Any, ...]] = [("symbol", "value", "unit", "meaning", "key")]
+        self.places: dict[int, str] = {}
+        self._known: dict[str, tuple[Traced, Traced]] = {}
+        self._units: dict[str, str] = {}
+
+    def input(self, path: str, value: float, unit: str = "") -> Traced:
+        """Return an input as a number that is calculated with.
+
+        Parameters
+        ----------
+        path : str
+            Where it stands in the inputs.
+        value : float
+            What it is.
+        unit : str
+            Its unit, where the rating has none for it.
+        """
+        if path not in self._known:
+            fact = _fact(path)
+            self._units[path] = unit = fact.unit if fact else unit
+            size = _FROM_SI.get(unit, 1.0) if "." in path else 1.0
+            shown = Traced(math.degrees(value) if unit == "deg" else value * size)
+            number = np.radians(shown) if unit == "deg" else shown if size == 1.0 else shown / size
+            self._known[path] = shown, number
+        return self._known[path][1]
+
+    def settle(self, results: Iterable[Any]) -> None:
+        """Give a row to each input that results rest on."""
+        open_, reached = [one for one in results if isinstance(one, Traced)], set()
+        while open_:
+            one = open_.pop()
+            if id(one) not in reached:
+                reached.add(id(one))
+                open_ += [other for other in one.arguments if isinstance(other, Traced)]
+        for path, (shown, _) in self._known.items():
+            if id(shown) in reached:
+                fact = _fact(path)
+                name = path.rpartition(".")[2].replace("_", " ")
+                symbol, meaning = (fact.symbol, fact.meaning) if fact else ("", name)
+                self.places[id(shown)] = place(_INPUTS, len(self.rows), _VALUE)
+                value = Input(float(shown.value))
+                self.rows.append((symbol, value, self._units[path], meaning, path))
+
+
+class _Page:
+    """A sheet of numbers that were found."""
+
+    def __init__(self, name: str, cells: _Cells) -> None:
+        self.name, self._cells = name, cells
+        self.rows: list[tuple[Any, ...]] = [_HEADING]
+
+    def add(
+        self,
+        value: Any,
+        symbol: str,
+        unit: str,
+        meaning: str,
+        equation: str,
+        source: str = "",
+        asked: float | None = None,
+    ) -> None:
+        """Add a row; a number is known by its cell from here on."""
+        row = len(self.rows)
+        where = place(self.name, row, _VALUE)
+        shown: Any = value
+        if isinstance(value, Traced):
+            known = self._cells.places.get(id(value))
+            text = value.whole_formula(self._cells.places) if known is None else known
+            here = place(self.name, 0, 0).partition("!")[0]
+            shown = Formula(text.replace(f"{here}!", ""), float(value.value))
+            self._cells.places.setdefault(id(value), where)
+        holds: tuple[Any, ...] = ()
+        if asked is not None and isinstance(value, Traced):
+            said = "holds" if value.value >= asked else "FAILS"
+            holds = (asked, Formula(f'IF(B{row + 1}>=G{row + 1},"holds","FAILS")', said))
+        self.rows.append((symbol, shown, unit, meaning, equation, source, *holds))
+
+
+def _fact(path: str) -> Fact | None:
+    """What the rating says of an input, by its place or its name."""
+    known = facts("given")
+    by_place = {fact.of: fact for fact in known}
+    by_name = {fact.of.rpartition(".")[2]: fact for fact in known}
+    return by_place.get(path) or by_name.get(path.rpartition(".")[2])
+
+
+class _Part:
+    """A table of a case whose numbers are cells."""
+
+    def __init__(self, thing: Any, path: str, cells: _Cells) -> None:
+        self._thing, self._path, self._cells = thing, path, cells
+
+    def __getattr__(self, name: str) -> Any:
+        value, path = getattr(self._thing, name), f"{self._path}.{name}"
+        if isinstance(value, BaseModel) or dataclasses.is_dataclass(value):
+            return _Part(value, path, self._cells)
+        if isinstance(value, Mapping):
+            return {key: self._number(f"{path}.{key}", one) for key, one in value.items()}
+        return self._number(path, value)
+
+    def _number(self, path: str, value: Any) -> Any:
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return value
+        kind, name = type(self._thing), path.rpartition(".")[2]
+        unit = unit_of(kind, name) if issubclass(kind, BaseModel) else None
+        return self._cells.input(path, value, unit or "")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class _TracedInputs(Inputs):
+    """Inputs whose numbers are cells; those that are rounded on their way into Python as well."""
+
+    cells: _Cells
+    plain: Inputs
+
+    def _cell(self, name: str, unit: str = "") -> Any:
+        value = getattr(self.plain, name)
+        return None if value is None else self.cells.input(name, value, unit)
+
+    ambient_temperature = property(lambda self: self._cell("ambient_temperature"))
+    oil_temperature = property(lambda self: self._cell("oil_temperature", "degC"))
+    sump_limit = property(lambda self: self._cell("sump_limit", "degC"))
+
+    @property
+    def life(self) -> Any:
+        operation = self.plain.operation
+        if operation.duty_cycle is None and operation.wheel_revolutions is not None:
+            return super().life
+        return self._cell("life")
+
+    @property
+    def bearing_span(self) -> Any:
+        if self.plain.operation.bearing_span is None:
+            return super().bearing_span
+        return self._cell("bearing_span")
+
+    def _equivalent_hours(self, exponent: int, torque: Any) -> Any:
+        return self._cell("wear_hours" if exponent == 3 else "strength_hours", "h")

@@ -1,0 +1,179 @@
+"""A rating's workbook calculated anew, as a spreadsheet does, is the rating."""
+
+import math
+import re
+import zipfile
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.formulas.traced import Traced
+from asperity.rating.rate import rate_case
+from asperity.rating.workbook import write_rating
+from asperity.results.xlsx import Formula, Sheet, write_workbook
+
+MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+REFERENCE = re.compile(r"(?:'([^']+)'!)?\$?(?<![A-Z0-9'])([A-Z]{1,2})\$?(\d+)(?![\d(])")
+FUNCTIONS = {
+    "ABS": abs, "SQRT": math.sqrt, "EXP": math.exp, "LN": math.log, "LOG10": math.log10,
+    "SIN": math.sin, "COS": math.cos, "TAN": math.tan, "ASIN": math.asin, "ACOS": math.acos,
+    "ATAN": math.atan, "ATAN2": lambda x, y: math.atan2(y, x), "DEGREES": math.degrees,
+    "RADIANS": math.radians, "MIN": min, "MAX": max, "NA": lambda: math.nan,
+    "IF": lambda condition, yes, no: yes if condition else no,
+}  # fmt: skip
+
+
+class Workbook:
+    """A spreadsheet of its own: it reads the file and calculates every formula."""
+
+    def __init__(self, path):
+        self.cells, self.shown = {}, {}
+        with zipfile.ZipFile(path) as package:
+            listed = ElementTree.fromstring(package.read("xl/workbook.xml"))
+            self.names = [sheet.get("name") for sheet in listed.iter(f"{MAIN}sheet")]
+            for number, name in enumerate(self.names, start=1):
+                text = package.read(f"xl/worksheets/sheet{number}.xml")
+                for cell in ElementTree.fromstring(text).iter(f"{MAIN}c"):
+                    self._read(name, cell)
+
+    def _read(self, sheet, cell):
+        column, row = re.fullmatch(r"([A-Z])(\d+)", cell.get("r")).groups()
+        key = sheet, column, int(row)
+        formula, value = cell.find(f"{MAIN}f"), cell.find(f"{MAIN}v")
+        inline = cell.find(f"{MAIN}is/{MAIN}t")
+        if inline is not None:
+            self.cells[key] = inline.text
+            return
+        shown = value.text if cell.get("t") == "str" else float(value.text)
+        self.cells[key] = shown if formula is None else Formula(formula.text, shown)
+
+    def rows(self, sheet):
+        last = max(row for name, _, row in self.cells if name == sheet)
+        for row in range(2, last + 1):
+            yield row, [self.cells.get((sheet, column, row), "") for column in "ABCDE"]
+
+    def value(self, key, known):
+        if key not in known:
+            cell = self.cells[key]
+            known[key] = (
+                self._calculated(cell.text, key[0], known) if isinstance(cell, Formula) else cell
+            )
+        return known[key]
+
+    def _calculated(self, text, sheet, known):
+        places = []
+
+        def place(match):
+            other, column, row = match.groups()
+            places.append(self.value((other or sheet, column, int(row)), known))
+            return f"_{len(places) - 1}_"
+
+        python = re.sub(r"(?<![<>])=", "==", REFERENCE.sub(place, text)).replace("^", "**")
+        names = {f"_{number}_": value for number, value in enumerate(places)}
+        return eval(python, {"__builtins__": {}}, FUNCTIONS | names)
+
+    def change(self, key, factor):
+        """Multiply an input."""
+        (row,) = (row for row, cells in self.rows("inputs") if cells[4] == key)
+        self.cells["inputs", "B", row] *= factor
+
+
+def rated(*, name="gearset-3", settings=(), values=None):
+    case = read_case(name, case_tables(), settings)
+    return rate_case(case.replace_values(values or {}))
+
+
+def workbook(found, folder):
+    path = write_rating(found.given, found.tables_bs721, found.found, folder / "rate.xlsx")
+    return Workbook(path)
+
+
+def differences(sheets, found):
+    """Of each number of a rating, what the workbook has for it less it, over it."""
+    known, wrong, count = {}, {}, 0
+    for standard, rating in found.found.items():
+        by_meaning = {cells[3]: row for row, cells in sheets.rows(standard)}
+        results = [entry for entry in rating if entry.meaning in by_meaning]
+        for entry in results:
+            value = sheets.value((standard, "B", by_meaning[entry.meaning]), known)
+            if not math.isclose(value, entry.value, rel_tol=1e-12, abs_tol=1e-300):
+                wrong[f"{standard}.{entry.key}"] = value, entry.value
+        count += len(results)
+        for row, cells in sheets.rows(standard):
+            if isinstance(cells[1], Formula):
+                again = sheets.value((standard, "B", row), known)
+                assert math.isclose(again, cells[1].value, rel_tol=1e-12)
+    return count, wrong
+
+
+CASES = {
+    "splash": {},
+    "gearset 2": {"name": "gearset-2"},
+    "old edition": {"settings": ["rating.iso14521_edition='1998'"]},
+    "concave": {"settings": ["gearset.flank=ZC", "gearset.tooth_proportions=iso"]},
+    "widths given": {"settings": ["gearset.wheel_face_width=12 mm", "gearset.rim_thickness=3 mm"]},
+    "friction given": {"settings": ["rating.friction=0.05", "operation.oil_temperature=60 degC"]},
+    "polyglycol, fan": {
+        "settings": ["operation.lubricant=ISO VG 460 polyglycol", "operation.fan=true"]
+    },
+}
+
+
+@pytest.mark.parametrize("given", CASES.values(), ids=CASES)
+def test_a_workbook_calculated_anew_is_the_rating(given, tmp_path):
+    found = rated(**given)
+    count, wrong = differences(workbook(found, tmp_path), found)
+    assert count > 20 * len(found.found)
+    assert not wrong
+
+
+def test_a_changed_input_goes_through_the_whole_workbook(tmp_path):
+    given = {
+        "gearset.axial_module": 2.2e-3, "gearset.diameter_factor": 8.2,
+        "gearset.profile_shift": 0.02, "operation.worm_speed": 150.0,
+        "operation.output_torque": 300.0,
+    }  # fmt: skip
+    factors = {
+        "gearset.axial_module": 1.1, "gearset.diameter_factor": 1.05, "operation.worm_speed": 0.7,
+        "operation.output_torque": 0.8,
+    }  # fmt: skip
+    free = {"gearset.centre_distance": None}
+    sheets = workbook(rated(values=free | given), tmp_path)
+    for key, factor in factors.items():
+        sheets.change(key.partition(".")[2], factor)
+    changed = {key: value * factors.get(key, 1.0) for key, value in given.items()}
+    again = rated(values=free | changed)
+    known = {}
+    for standard, rating in again.found.items():
+        for row, cells in sheets.rows(standard):
+            entry = next(entry for entry in rating if entry.meaning == cells[3])
+            value = sheets.value((standard, "B", row), known)
+            assert math.isclose(value, entry.value, rel_tol=1e-11), entry.key
+            if (standard, "H", row) in sheets.cells:
+                asked = sheets.cells[standard, "G", row]
+                said = sheets.value((standard, "H", row), known)
+                assert said == ("holds" if entry.value >= asked else "FAILS")
+
+
+def test_traced_numbers_are_dropped_by_nothing_unnoticed():
+    number = np.sqrt(Traced(2.0) + 1.0) / np.float64(3.0)
+    assert number.value == math.sqrt(3.0) / 3.0
+    with pytest.raises(TypeError):
+        float(number)
+    with pytest.raises(TypeError):
+        f"{number:.3g}"
+    with pytest.raises(KeyError):
+        np.floor(number)
+
+
+def test_texts_of_a_workbook_are_no_formulas_and_the_same_content_is_the_same_file(tmp_path):
+    rows = [("a", "b"), ("=HYPERLINK(1)", Formula("A1&<1", 2.0)), ("\x1b&<", 1.5)]
+    first = write_workbook({"one": Sheet(rows, (10,))}, tmp_path / "first.xlsx").read_bytes()
+    assert write_workbook({"one": Sheet(rows, (10,))}, tmp_path / "b.xlsx").read_bytes() == first
+    sheets = Workbook(tmp_path / "first.xlsx")
+    assert sheets.cells["one", "A", 2] == "=HYPERLINK(1)"
+    assert sheets.cells["one", "B", 2] == Formula("A1&<1", 2.0)
+    assert sheets.cells["one", "A", 3] == "\\x1b&<"
