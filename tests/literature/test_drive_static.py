@@ -27,7 +27,15 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.reduction import teeth_reduced
-from asperity.drive.static.solve import StaticModel, condensed, contact_means, solve_static
+from asperity.drive.static.result import PATTERNS
+from asperity.drive.static.solve import (
+    StaticModel,
+    _back_patterns,
+    _Seen,
+    condensed,
+    contact_means,
+    solve_static,
+)
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
@@ -240,3 +248,36 @@ def test_gearset_2_locks_itself():
     assert found.input_torque_frictionless == pytest.approx(100.0 / 60.0, abs=1e-3)
     assert found.input_torque_reversed == pytest.approx(-1.30, abs=0.03)
     assert found.efficiency == pytest.approx(0.353, abs=2e-3)
+
+
+def patterns_of(*settings):
+    model = model_of(*ONE_TOOTH, *settings, phases=2)
+    forward = _Seen(model)
+    model.courses([Asked(PATTERNS[-1] * LOAD, look=forward.pattern)])
+    back = _back_patterns(model, 0, 2)
+    return forward.nodal, back
+
+
+@pytest.mark.slow
+def test_driven_backwards_the_other_flank_bears_as_the_first_does_half_a_turn_about_the_tooth():
+    forward, back = patterns_of()
+    assert back.shape == (len(PATTERNS), forward.size)
+    assert np.abs(back[-1] - forward).max() < 1e-3 * forward.max()
+    # A worm that sits aside of the middle of the wheel does not bear alike.
+    forward, back = patterns_of("mount.axial_offset=0.1 mm")
+    assert np.abs(back[-1] - forward).max() > 0.1 * forward.max()
+
+
+def test_the_other_flank_s_balance_with_a_shaft_that_gives_is_the_first_s_mirrored():
+    sides = []
+    compliance = np.diag([1e-5, 5e-9, 2e-8, 2e-8])
+    model = model_of(*ONE_TOOTH, phases=4)
+    for side, sense in ((1, 1), (-1, REVERSED)):
+        contact = TeethContact(model.sector, model.friction, side=side)
+        balance = Equilibrium(contact, compliance).balance(side * 0.3, LOAD, sense=sense)
+        sides.append((balance.worm_torque, balance.yielded, balance.action.wrench[5]))
+    (torque, yielded, pushed), (back, back_yielded, pulled) = sides
+    assert back == pytest.approx(-torque, rel=1e-6)
+    assert pulled == pytest.approx(-pushed, rel=1e-6)
+    # It gives way about and along its axis and the wheel's the other way, outwards the same.
+    assert back_yielded == pytest.approx(np.array([-1, -1, -1, 1]) * yielded, rel=1e-5)

@@ -93,7 +93,8 @@ class Equilibrium:
         beta : float
             Of the motor's end of the shaft, rad.
         torque : float
-            Of the load on the wheel, N m; above 0 it holds the wheel back.
+            Of the load on the wheel, N m, above 0: it holds back a wheel that the worm's flank
+            pushes forwards, and of flank -1 one that it pushes backwards.
         sense : int
             1: the drive runs forwards, -1: backwards, 0: without friction.
         touching : float, optional
@@ -106,7 +107,7 @@ class Equilibrium:
         ConvergenceError
             No balance was found.
         """
-        contact = self.contact
+        contact, side = self.contact, self.contact.side
         free = contact.touching_angle(beta, np.zeros(3)) if touching is None else touching
         behind, yielded = self._guess(torque, sense)
         size = float(np.abs(self.compliance).max()) or 1.0
@@ -114,7 +115,7 @@ class Equilibrium:
         before, promised = np.nan, np.nan
         full = 0
         for _ in range(_STEPS):
-            phi = free - behind
+            phi = free - side * behind
             if self._too_deep(beta, phi, yielded):
                 raise TooDeepError(
                     "the load presses the worm further into the teeth than they can give",
@@ -135,12 +136,10 @@ class Equilibrium:
                 continue
             except np.linalg.LinAlgError:
                 break
-            on_worm = self.on_worm(action.wrench)
+            on_worm, pushed = self.on_worm(action.wrench), side * float(action.wrench[5])
             if _LEAST * torque < abs(promised) < _SMALL * torque:
-                self._softer *= float(np.clip((action.wrench[5] - before) / promised, *_CHANGED))
-            missing = np.concatenate(
-                [[action.wrench[5] - torque], yielded - self.compliance @ on_worm]
-            )
+                self._softer *= float(np.clip((pushed - before) / promised, *_CHANGED))
+            missing = np.concatenate([[pushed - torque], yielded - self.compliance @ on_worm])
             residual = max(
                 abs(missing[0]) / torque,
                 float(np.abs(missing[1:]).max()) / (size * (1.0 + float(np.abs(on_worm).max()))),
@@ -148,7 +147,7 @@ class Equilibrium:
             if residual <= _CLOSE:
                 # The wheel's turn by which the worm's yielding is made up for.
                 turns = self._twists @ action.slope[5] / action.slope[5, 5]
-                by_worm = -float(turns @ yielded)
+                by_worm = -side * float(turns @ yielded)
                 self._last[sense] = torque, np.array([behind - by_worm, by_worm, *yielded])
                 return Balance(
                     beta, phi, -float(on_worm[0]), yielded, turns, action, contact,
@@ -156,12 +155,12 @@ class Equilibrium:
                 )  # fmt: skip
             slope = self._slope(action)
             try:
-                move = self._move(slope, missing, behind, yielded, action)
+                move = self._move(slope, missing, behind, yielded, pushed)
             except np.linalg.LinAlgError:
                 break
             bound = _FURTHEST * max(abs(behind), 1e-6)
             share = min(1.0, bound / max(abs(move[0]), 1e-300))
-            before, promised = float(action.wrench[5]), share * float(slope[0] @ move)
+            before, promised = pushed, share * float(slope[0] @ move)
             behind -= share * move[0]
             yielded = yielded + share * move[1:]
         raise ConvergenceError(
@@ -175,10 +174,10 @@ class Equilibrium:
         missing: FloatArray,
         behind: float,
         yielded: FloatArray,
-        action: Action,
+        pushed: float,
     ) -> FloatArray:
         """Return Newton's step; out of touch, without a slope, the worm comes back and nearer."""
-        if action.wrench[5] > 0.0:
+        if pushed > 0.0:
             return np.asarray(np.linalg.solve(slope, -missing))
         return np.concatenate([[-0.5 * max(behind, 1e-5)], -0.5 * yielded])
 
@@ -205,10 +204,11 @@ class Equilibrium:
         twists, slope = self._twists, self._softer * action.slope
         matrix = np.zeros((5, 5))
         matrix[0, 0] = -slope[5, 5]
-        matrix[0, 1:] = slope[5] @ twists.T
+        side = self.contact.side
+        matrix[0, 1:] = side * slope[5] @ twists.T
         # On the worm the forces are opposite; the wheel's turn is the worm's about Z, turned round.
         on_worm = -twists @ slope
-        matrix[1:, 0] = self.compliance @ on_worm[:, 5]
+        matrix[1:, 0] = side * self.compliance @ on_worm[:, 5]
         matrix[1:, 1:] = np.eye(4) - self.compliance @ on_worm @ twists.T
         return matrix
 

@@ -56,24 +56,37 @@ def over_pitch(dataset: "xr.Dataset") -> "Figure":
 
 
 def pattern(dataset: "xr.Dataset") -> "Figure":
-    """Draw where the flank bears over a pitch, and how hard, at three torques."""
+    """Draw where the flanks bear over a pitch, and how hard, at three torques."""
     from matplotlib.tri import Triangulation
 
     loads = dataset["load"].values
-    figure, axes = panels(len(loads), height=1.6 + 1.9 * len(loads))
+    # A node of the other flank lies where half a turn about the tooth takes it.
+    flanks = [("pattern", 1.0, "driving flank"), ("pattern_back", -1.0, "other flank, backwards")]
+    flanks = [flank for flank in flanks if flank[0] in dataset]
+    figure, axes = panels(
+        len(loads), len(flanks), width=1.0 + 6.0 * len(flanks), height=1.6 + 1.9 * len(loads)
+    )
     z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
     corners = dataset["faces"].values
-    triangles = Triangulation(z, r, np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]))
-    for panel, load, pressure in zip(axes, loads, dataset["pattern"].values, strict=True):
-        mega = 1e-6 * pressure
-        drawn = panel.tricontourf(triangles, mega, levels=_LEVELS, cmap="cividis")
+    halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    for place, panel in enumerate(axes):
+        row, column = divmod(place, len(flanks))
+        name, side, words = flanks[column]
+        mega = 1e-6 * dataset[name].values[row]
+        drawn = panel.tricontourf(
+            Triangulation(side * z, r, halves), mega, levels=_LEVELS, cmap="cividis"
+        )
         bar = figure.colorbar(drawn, ax=panel)
         bar.set_label("pressure (MPa)")
         panel.set_aspect("equal")
         panel.grid(visible=False)
-        panel.set_ylabel("radius (mm)")
-        panel.set_title(f"{load:.4g} N m, at most {mega.max():.4g} MPa at a node")
-    axes[-1].set_xlabel("along the wheel's axis (mm)")
+        panel.set_title(
+            f"{words}: {loads[row]:.4g} N m, at most {mega.max():.4g} MPa at a node", fontsize=10.0
+        )
+        if not column:
+            panel.set_ylabel("radius (mm)")
+        if row == len(loads) - 1:
+            panel.set_xlabel("along the wheel's axis (mm)")
     return figure
 
 

@@ -144,6 +144,11 @@ class StaticResult(Result):
         "p", "Pa", "largest pressure over a pitch at the nodes of the flank",
         dims=("load", "node"),
     )  # fmt: skip
+    pattern_back: FloatArray | None = quantity(
+        "p", "Pa", "the same on the other flank as the drive runs backwards, at the nodes turned "
+        "half a turn about the tooth",
+        dims=("load", "node"), default=None,
+    )  # fmt: skip
     node_radius: FloatArray = quantity(
         "r", "m", "distance of the nodes from the wheel's axis", dims=("node",)
     )

@@ -103,6 +103,9 @@ class StaticModel:
         self.friction = friction_of(problem, self._sliding_speed())
         self.contact = TeethContact(self.sector, self.friction)
         self.equilibrium = Equilibrium(self.contact, whole)
+        self.pressure = FlankPressure.of(
+            self.sector, problem.gearset.wheel_material, problem.gearset.worm_material
+        )
 
     def _sliding_speed(self) -> float:
         """Speed at which the flanks slide where they bear, m/s, which friction hardly moves."""
@@ -147,7 +150,6 @@ class _Seen:
     """What is taken from the fields of each phase."""
 
     model: StaticModel
-    pressure: FlankPressure
     weight: float = 0.0
     radius: float = 0.0
     speed: float = 0.0
@@ -167,8 +169,8 @@ class _Seen:
         """Keep the largest pressure at each node."""
         for k in range(balance.contact.slots):
             if balance.action.normal[k] > 0.0:
-                field = self.pressure.field(balance.contact, k)
-                np.maximum(self.nodal, self.pressure.nodal(field), out=self.nodal)
+                field = self.model.pressure.field(balance.contact, k)
+                np.maximum(self.nodal, self.model.pressure.nodal(field), out=self.nodal)
 
     def whole(self, number: int, balance: Balance) -> None:
         """Keep pressures, radius and speed."""
@@ -178,9 +180,9 @@ class _Seen:
         for k in range(contact.slots):
             if balance.action.normal[k] <= 0.0:
                 continue
-            field = self.pressure.field(contact, k)
-            largest = max(largest, float(self.pressure.nodal(field).max()))
-            value, resolved = self.pressure.hertz(field)
+            field = self.model.pressure.field(contact, k)
+            largest = max(largest, float(self.model.pressure.nodal(field).max()))
+            value, resolved = self.model.pressure.hertz(field)
             if value > self.hertz:
                 self.hertz, self.resolved = value, resolved
         self.turns.append(balance.turns)
@@ -225,11 +227,10 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     """
     model = StaticModel(problem, run)
     load, sector_, contact = problem.load, model.sector, model.contact
-    gearset = problem.gearset
-    pressure = FlankPressure.of(sector_, gearset.wheel_material, gearset.worm_material)
-    seen = _Seen(model, pressure)
-    less_loaded = [_Seen(model, pressure) for _ in PATTERNS[:-1]]
+    seen = _Seen(model)
+    less_loaded = [_Seen(model) for _ in PATTERNS[:-1]]
     count = len(model.phases)
+    total = (3 if run.detailed else 2) * count
     every = _EVERY if count >= _MANY else 1
     with run.going_on():
         forward, more, less, frictionless, reversed_ = model.courses(
@@ -239,15 +240,16 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
                 Asked(load, FRICTIONLESS),
                 Asked(load, REVERSED),
             ],
-            lambda done: run.checkpoint(done, 2 * count, what="phases"),
+            lambda done: run.checkpoint(done, total, what="phases"),
         )
         model.courses(
             [
                 Asked(share * load, look=part.pattern)
                 for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
             ],
-            lambda done: run.checkpoint(count + done, 2 * count, what="phases"),
+            lambda done: run.checkpoint(count + done, total, what="phases"),
         )
+        back = _back_patterns(model, 2 * count, total) if run.detailed else None
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, np.array(seen.turns[::every]), more, less)
@@ -295,11 +297,31 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         part_stiffness=np.array(list(parts.values())),
         pattern_torque=load * np.array(PATTERNS),
         pattern=np.array([*(part.nodal for part in less_loaded), seen.nodal]),
+        pattern_back=back,
         node_radius=np.hypot(surface.positions[:, 0], surface.positions[:, 1]),
         node_face=problem.gearset.hand_sign * surface.positions[:, 2],
         faces=surface.faces,
         notes=_notes(problem, seen),
     )
+
+
+def _back_patterns(model: StaticModel, done: int, total: int) -> FloatArray | None:
+    """Largest pressures on the other flanks as the drive runs backwards; None where none bear."""
+    contact = TeethContact(model.sector, model.friction, side=-1)
+    seen = [_Seen(model) for _ in PATTERNS]
+    asked = [
+        Asked(share * model.problem.load, REVERSED, look=part.pattern)
+        for share, part in zip(PATTERNS, seen, strict=True)
+    ]
+    touching = touching_angles(contact, model.phases)
+    try:
+        sweep(
+            Equilibrium(contact, model.equilibrium.compliance), model.phases, touching, asked,
+            lambda more: model.run.checkpoint(done + more, total, what="phases"),
+        )  # fmt: skip
+    except TooDeepError:
+        return None
+    return np.array([part.nodal for part in seen])
 
 
 def _parts(model: StaticModel, turns: FloatArray, more: Course, less: Course) -> dict[str, float]:

@@ -249,7 +249,7 @@ class TeethContact:
             )
         laws = self.laws(self._friction if sense else 0.0)
         residual, iterations = solve_all(
-            body, np.array(numbers), self.blocks, self.candidates,
+            body, self.side * np.array(numbers), self.blocks, self.candidates,
             (rotation, translation, slip, turn), laws, self._history, self.answer, self.kept,
             self.work, tolerance, with_slope,
         )  # fmt: skip
