@@ -45,7 +45,7 @@ def made_bench(case):
 def run(case, folder, *, bench=None, resume=False, acknowledge=""):
     """Run a plan, on a bench of one's own if given; returns the answer."""
     folder.mkdir(exist_ok=True)
-    problem = study.prepare(case, "sim", resume, acknowledge)
+    problem = study.prepare(case, "sim", "", resume, acknowledge)
     work = Run(folder=folder, stem="rig-run")
     if bench is None:
         return study.answer(problem, work)

@@ -50,7 +50,7 @@ def scope(request, rig, monkeypatch):
         from asperity.tribometer.instruments.replay import ReplayScope
         from asperity.tribometer.recording import Recording
 
-        made = ReplayScope(Recording.open(request.getfixturevalue("recorded")), bench.clock)
+        made = ReplayScope([Recording.open(request.getfixturevalue("recorded"))], bench.clock)
     else:
         made = bench.scope
     return Made(made, bench.clock.sleep)
@@ -166,7 +166,7 @@ def test_a_recording_that_is_over_is_like_a_pulled_cable(recorded, rig):
 
     bench, _ = rig
     recording = Recording.open(recorded)
-    stream = Stream(ReplayScope(recording, bench.clock), 2.5e-4, BLOCK, 0.0)
+    stream = Stream(ReplayScope([recording], bench.clock), 2.5e-4, BLOCK, 0.0)
 
     def play():
         while True:

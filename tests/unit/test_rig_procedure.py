@@ -11,9 +11,12 @@ from apparatus import rigs
 from apparatus.grid import slow
 
 from asperity.errors import InputError
+from asperity.runs import Run
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure import journal as journals
+from asperity.tribometer.procedure import study
 from asperity.tribometer.procedure.journal import Journal
+from asperity.tribometer.recording import Recording
 
 VIBRATES = lambda rig: rig.vibrates  # noqa: E731
 
@@ -43,6 +46,42 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
     # What it was fitted to, but for run-out, of whose mean a second sees little.
     assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.05)
     assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)
+
+
+def replayed(case, undisturbed, folder):
+    recorded, _ = undisturbed
+    folder.mkdir()
+    problem = study.prepare(case, "replay", str(recorded))
+    return study.answer(problem, Run(folder=folder, stem="rig-run"))
+
+
+def test_a_run_played_back_is_watched_again_and_gives_its_cells(undisturbed, tmp_path):
+    answer = replayed(rigs.small_case(), undisturbed, tmp_path / "again")
+    assert answer.failure is None
+    assert rigs.cells(tmp_path / "again") == rigs.cells(undisturbed[0])
+    assert any("played back from" in note for note in answer.notes)
+    assert Recording.open(tmp_path / "again" / "file-01.nc").simulated
+
+
+@pytest.mark.parametrize(
+    ("setting", "kind"),
+    [('limits.torque="0.3 N m"', "torque"), ('plan.bronze_supply="0.5 V"', "supply"),
+     ('plan.frequencies=["750 Hz","250 Hz"]', "frequency")],
+)  # fmt: skip
+def test_another_limit_or_plan_trips_on_what_was_recorded(undisturbed, tmp_path, setting, kind):
+    answer = replayed(rigs.small_case(setting), undisturbed, tmp_path / "again")
+    assert getattr(answer.failure, "kind", "") == kind
+
+
+def test_a_replay_that_cannot_be_is_refused(undisturbed, tmp_path):
+    with pytest.raises(InputError, match="--recordings DIR"):
+        study.prepare(rigs.small_case(), "replay")
+    with pytest.raises(InputError, match="not gone on with"):
+        study.prepare(rigs.small_case(), "replay", str(tmp_path), resume=True)
+    with pytest.raises(InputError, match=r"holds no file-01\.nc"):
+        study.answer(
+            study.prepare(rigs.small_case(), "replay", str(tmp_path)), Run(folder=tmp_path)
+        )
 
 
 def test_what_a_run_records_is_what_its_journal_says(undisturbed):

@@ -217,7 +217,8 @@ COMMANDS = (
         counts="cells",
         case="CONFIG",
         options=(
-            Option("backend", "sim, hardware or manual.", "NAME", default="sim"),
+            Option("backend", "sim, replay, hardware or manual.", "NAME", default="sim"),
+            Option("recordings", "The folder of the run that a replay plays.", "DIR"),
             Option("resume", "Go on with the run in --out, at its cell.", default=False),
             Option(
                 "acknowledge",
@@ -240,7 +241,8 @@ COMMANDS = (
     Command(
         "rig reduce",
         "Reduce recordings: what vibration does to torque, power and efficiency.",
-        "With --out also reduce.json, reduce.nc, reduce.csv and reduce.png.",
+        "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "
+        "takes, and reduce.png.",
         prepare="asperity.tribometer.reduction.study:prepare",
         solve="asperity.tribometer.reduction.study:answer",
         read="asperity.tribometer.reduction.study:read",

@@ -5,7 +5,9 @@ import dataclasses
 import io
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -54,6 +56,11 @@ class Measurements:
         """Conditions that the table has columns of."""
         return tuple(self.conditions[0])
 
+    def everywhere(self, values: Mapping[str, Value]) -> Self:
+        """Return them with conditions that all share, where they have no column of their own."""
+        shared = tuple({**values, **one} for one in self.conditions)
+        return dataclasses.replace(self, conditions=shared)
+
 
 @dataclasses.dataclass(frozen=True)
 class _Column:
@@ -91,10 +98,14 @@ def read_measurements(path: Path, case: Case) -> Measurements:
     """
     name = plain(str(path))
     text = store.read_text(path, name)
+    said = (line for line in text.splitlines() if line.strip() and not line.startswith("#"))
+    separator = max(",;\t", key=next(said, "").count)
     try:
         lines = [
             (number, row)
-            for number, row in enumerate(csv.reader(io.StringIO(text, newline="")), start=1)
+            for number, row in enumerate(
+                csv.reader(io.StringIO(text, newline=""), delimiter=separator), start=1
+            )
             if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
         ]
     except csv.Error as error:
@@ -106,12 +117,19 @@ def read_measurements(path: Path, case: Case) -> Measurements:
     if again := next((one for one in seen if seen.count(one) > 1), None):
         raise InputError(f"{name}: the column {again[0]} is there twice; keep one of them")
     measured = [one for one in columns if one.key in (RATIO, FORCE)]
+    if len(measured) > 1:
+        raise InputError(f"{name}: the columns hold 'ratio' and 'force'; keep one of them")
     if len(measured) != 1 or (DEVIATION, False) not in seen:
         raise InputError(
             f"{name}: the columns must hold 'ratio' or 'force [N]', and 'sd', its standard "
             "deviation"
         )
-    table = [_row(columns, cells, name, number) for number, cells in lines[1:]]
+    # Between semicolons or tabs a comma is a decimal one.
+    table = [
+        _row(columns, cells if separator == "," else [one.replace(",", ".") for one in cells],
+             name, number)
+        for number, cells in lines[1:]
+    ]  # fmt: skip
     values = np.array([row[measured[0].key, False] for row in table], dtype=float)
     conditions = [
         {key: value for (key, deviation), value in row.items()

@@ -107,10 +107,17 @@ class Fit:
         columns = []
         for place in range(point.size):
             step = _DIFFERENCE if point[place] + _DIFFERENCE <= self._upper[place] else -_DIFFERENCE
-            moved = point.copy()
-            moved[place] += step
-            columns.append((self.residuals(moved) - here) / step)
+            try:
+                columns.append(self._slope(point, here, place, step))
+            except ConvergenceError:
+                columns.append(self._slope(point, here, place, -step))
         return np.column_stack(columns)
+
+    def _slope(self, point: FloatArray, here: FloatArray, place: int, step: float) -> FloatArray:
+        moved = point.copy()
+        moved[place] += step
+        found: FloatArray = (self.residuals(moved) - here) / step
+        return found
 
     def least(self, start: FloatArray) -> Estimate:
         """Find the least chi-square from a start.

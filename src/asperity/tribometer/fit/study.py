@@ -12,11 +12,13 @@ from asperity.casefile import Case, told
 from asperity.errors import ConvergenceError, InputError, choices, nearest
 from asperity.friction.dahl import LAWS
 from asperity.runs import Run
+from asperity.slider.parameters import Slider
 from asperity.tribometer.fit.data import Measurements, Value, read_measurements
 from asperity.tribometer.fit.design import proposals
 from asperity.tribometer.fit.estimate import WIDEST, Estimate, Fit
 from asperity.tribometer.fit.forward import BLOCK, DRIVE, SLIDE, Predictor, prepared
 from asperity.tribometer.fit.result import FitResult, Law, Parameter, Proposed
+from asperity.tribometer.parameters import Rig
 from asperity.units import Quantity, quantity_of
 
 _LAW = "friction.law"
@@ -88,6 +90,9 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
             f"{nearest(model, (SLIDE, BLOCK, DRIVE))}"
         )
     measured = read_measurements(Path(data), case)
+    if model == SLIDE and Slider.table not in case and Rig.table in case:
+        # A disc of a rig is a body on a rigid drive, under the rig's load.
+        measured = measured.everywhere({"slider.normal_force": case.require(Rig).load})
     ready = prepared(case, model)
     keys = [key.strip() for key in free.split(",") if key.strip()]
     if not keys:

@@ -14,8 +14,10 @@ from asperity.tribometer.instruments.parameters import Controller, Supplies
 from asperity.tribometer.instruments.protocols import Bench, Supply, VibrationDrive
 from asperity.tribometer.parameters import Sonotrode
 
-BACKENDS = "sim", "hardware", "manual"
-"""All of it simulated; all that can be had as hardware; a PicoScope, and a person for the rest."""
+REPLAY = "replay"
+BACKENDS = "sim", REPLAY, "hardware", "manual"
+"""All of it simulated; a run played back; all that can be had as hardware; a PicoScope, and a
+person for the rest."""
 
 
 def open_bench(case: Case, backend: str) -> Bench:

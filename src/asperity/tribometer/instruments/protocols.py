@@ -241,6 +241,8 @@ class Bench:
         For runs that measure the vibration's velocity.
     memory : Memory, optional
         Of a simulated rig.
+    simulated : bool
+        Whether what it measures comes from no rig.
     """
 
     scope: Scope
@@ -252,6 +254,7 @@ class Bench:
     amplifier: Supply | None = None
     accelerometer: Accelerometer | None = None
     memory: Memory | None = None
+    simulated: bool = False
 
     @property
     def instruments(self) -> tuple[Instrument, ...]:

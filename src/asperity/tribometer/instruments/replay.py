@@ -1,77 +1,152 @@
-"""A recording played back as if it were measured: for trying interlocks on what has happened."""
+"""A run played back as if it were measured: for trying interlocks on what has happened.
 
-from collections.abc import Iterator
+The oscilloscope hands out recordings at their own pace in a time of its own. Where an instrument
+is switched, the play goes to where the recording says that it was: at a real rig that takes a time
+that is another one every time.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
+from asperity.errors import InputError, plain
 from asperity.tribometer.instruments.protocols import (
     FULL_SCALE,
+    Bench,
     Clock,
     Counts,
     Input,
     InstrumentError,
     Poll,
+    Reading,
+    Waveform,
 )
 from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction.blocks import unit_scale
+from asperity.units import to_si
 
 _LETTERS = "ABCDEFGHIJKLMNOP"
 _STRETCH = 1 << 16
+_NEAR = 2.0  # s, within which what is switched is looked for
+_OFF = "off"
 
 
-class ReplayScope:
-    """An oscilloscope that hands out a recording at its own pace, by a clock.
+class PlayedClock:
+    """A time that passes only in sleep."""
 
-    When the recording is over nothing comes any more, as from a cable that was pulled.
+    def __init__(self) -> None:
+        self._now = 0.0
 
-    Parameters
-    ----------
-    recording : Recording
-        What is played.
-    clock : Clock
-        Which time passes.
-    """
+    def now(self) -> float:
+        """Return seconds that never run backwards."""
+        return self._now
+
+    def sleep(self, seconds: float) -> None:
+        """Let time pass."""
+        self._now += max(0.0, seconds)
+
+
+class _Played:
+    """What the instruments of a replay share."""
 
     by_hand = False
-
-    def __init__(self, recording: Recording, clock: Clock) -> None:
-        self.name = f"replay of {recording.name}"
-        self.inputs = tuple(
-            Input(letter, source.signal, source.scale * FULL_SCALE)
-            for letter, source in zip(_LETTERS, recording.sources, strict=False)
-        )
-        self._recording = recording
-        self._clock = clock
-        self._played: Iterator[tuple[int, Counts]] | None = None
-        self._waiting = np.empty((0, len(self.inputs)), np.int16)
-        self._begun = 0.0
-        self._given = 0
+    name: str
 
     def identify(self) -> str:
         """Return what is played."""
         return self.name
 
+    def safe(self) -> None:
+        """Do nothing: what has happened cannot be switched off."""
+
+    def close(self) -> None:
+        """Let go of it."""
+
+
+class ReplayScope(_Played):
+    """An oscilloscope that hands out recordings, one with every start.
+
+    When a recording is over nothing comes any more, as from a cable that was pulled.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        What is played, of the same channels in volts.
+    clock : Clock
+        Which time passes.
+
+    Raises
+    ------
+    InputError
+        A channel is not in volts, or the recordings have other channels.
+    """
+
+    def __init__(self, recordings: Sequence[Recording], clock: Clock) -> None:
+        self.name = f"replay of {recordings[0].name}"
+        self.inputs = _inputs(recordings[0])
+        for one in recordings[1:]:
+            if _inputs(one) != self.inputs:
+                raise InputError(f"{one.name} has other channels than {recordings[0].name}")
+        self._left = list(recordings)
+        self._clock = clock
+        self._played: Recording | None = None
+        self._ready: tuple[int, Counts] = (0, np.empty((0, len(self.inputs)), np.int16))
+        self._place = 0
+        self._begun = 0.0
+        self._given = 0
+
     def start(self, interval: float) -> float:
-        """Begin to play; returns the recording's own interval, s, whatever is asked for."""
-        self._played = self._recording.stretches(_STRETCH)
-        self._waiting = self._waiting[:0]
-        self._begun, self._given = self._clock.now(), 0
-        return self._recording.sample_interval
+        """Begin the next recording; returns its own interval, s, whatever is asked for."""
+        if not self._left:
+            raise InstrumentError(f"{self.name}: no recording is left to play", kind="over")
+        self._played = self._left.pop(0)
+        self.name = f"replay of {self._played.name}"
+        self._ready = 0, self._ready[1][:0]
+        self._begun, self._given, self._place = self._clock.now(), 0, 0
+        return self._played.sample_interval
 
     def poll(self) -> Poll:
         """Return what has come since the last poll."""
-        if self._played is None:
-            raise InstrumentError(f"{self.name} does not play; start it first", kind="not started")
+        played = self._started()
         now = self._clock.now()
-        due = round((now - self._begun) / self._recording.sample_interval) - self._given
-        while len(self._waiting) < due:
-            following = next(self._played, None)
-            if following is None:
-                break
-            self._waiting = np.concatenate([self._waiting, following[1]])
-        taken, self._waiting = self._waiting[:due], self._waiting[due:]
+        due = max(round((now - self._begun) / played.sample_interval) - self._given, 0)
+        first, counts = self._ready
+        if not first <= self._place <= self._place + due <= first + len(counts):
+            first, counts = self._place, played.part(self._place, self._place + due + _STRETCH)
+            self._ready = first, counts
+        taken = counts[self._place - first : self._place - first + due]
+        self._place += len(taken)
         self._given += len(taken)
         over = tuple(bool(one) for one in (np.abs(taken.astype(int)) >= FULL_SCALE).any(axis=0))
         return Poll(tuple(taken.T), now, over)
+
+    def reach(self, kind: str, *, off: bool) -> None:
+        """Go to where something was switched, if that is near."""
+        played = self._played
+        if played is None:
+            return
+        now = self._place * played.sample_interval
+        times = [
+            one.time for one in played.events if one.kind == kind and (one.text == _OFF) == off
+        ]
+        nearest = min(times, key=lambda time: abs(time - now), default=now)
+        if abs(nearest - now) <= _NEAR:
+            self._place = round(nearest / played.sample_interval)
+
+    def told(self, kind: str) -> str:
+        """Return the last event of a kind, empty where there is none."""
+        played = self._started()
+        now = (self._place - 0.5) * played.sample_interval  # of the last sample handed out
+        return next(
+            (one.text for one in reversed(played.events) if one.kind == kind and one.time <= now),
+            "",
+        )
+
+    def _started(self) -> Recording:
+        if self._played is None:
+            raise InstrumentError(f"{self.name} does not play; start it first", kind="not started")
+        return self._played
 
     def stop(self) -> None:
         """End the play."""
@@ -84,3 +159,119 @@ class ReplayScope:
     def close(self) -> None:
         """Let go of it."""
         self.stop()
+
+
+def _inputs(recording: Recording) -> tuple[Input, ...]:
+    if any(one.offset for one in recording.sources):
+        raise InputError(f"{recording.name} is no record of volts, which alone can be played")
+    return tuple(
+        Input(
+            letter, one.signal,
+            one.scale * FULL_SCALE * unit_scale(one.units, one.signal, "V", recording.name),
+        )
+        for letter, one in zip(_LETTERS, recording.sources, strict=False)
+    )  # fmt: skip
+
+
+class ReplayVibration(_Played):
+    """The vibration as it was recorded."""
+
+    def __init__(self, scope: ReplayScope) -> None:
+        self.name = "recorded vibration"
+        self._scope = scope
+
+    def configure(self, waveform: Waveform, frequency: float) -> None:
+        """Do nothing: the interlock sees whether it was so."""
+
+    def on(self) -> None:
+        """Go to where it began."""
+        self._scope.reach("vibration", off=False)
+
+    def off(self) -> None:
+        """Go to where it ended."""
+        self._scope.reach("vibration", off=True)
+
+    def keep_alive(self) -> None:
+        """Nothing watches."""
+
+
+class ReplaySupply(_Played):
+    """A supply as it was recorded."""
+
+    def __init__(self, scope: ReplayScope, motor: str) -> None:
+        self.name = f"recorded supply of {motor}"
+        self._scope, self._kind = scope, f"{motor}_supply"
+
+    def set(self, voltage: float) -> None:
+        """Do nothing: its reading says what was set."""
+
+    def on(self) -> None:
+        """Go to where it was switched on."""
+        self._scope.reach(self._kind, off=False)
+
+    def off(self) -> None:
+        """Go to where it was switched off."""
+        self._scope.reach(self._kind, off=True)
+
+    def reading(self) -> Reading:
+        """Return what the recording says was set; currents are on its channels."""
+        text = self._scope.told(self._kind)
+        return Reading(0.0 if text in ("", _OFF) else to_si(text, "V"), 0.0)
+
+
+class _NoTachometer(_Played):
+    name = "tachometer"
+
+    def speed(self, motor: str) -> float:
+        """Refuse: no recording holds it."""
+        raise InstrumentError(f"no recording holds a tachometer's speed of {motor}")
+
+
+class _Nobody:
+    """A person, of whom nothing is asked any more."""
+
+    def do(self, text: str) -> None:
+        """Do nothing."""
+
+    def arrange(self, text: str, mode: str) -> None:
+        """Do nothing."""
+
+    def read(self, text: str, unit: str) -> float:
+        """Refuse: it was read when it was recorded."""
+        raise InstrumentError(f"{text}: nobody is there to read it")
+
+
+def replay_bench(folder: Path, names: Sequence[str]) -> Bench:
+    """Return the bench of a run that has been recorded.
+
+    Parameters
+    ----------
+    folder : Path
+        Of its recordings.
+    names : sequence of str
+        Of those that are played, in order.
+
+    Raises
+    ------
+    InputError
+        One of them is missing, or cannot be played.
+    """
+    recordings = []
+    for name in names:
+        path = folder / name
+        if not path.is_file():
+            raise InputError(
+                f"{plain(str(folder))} holds no {name}; a replay needs all recordings of the plan"
+            )
+        recordings.append(Recording.open(path))
+    clock = PlayedClock()
+    scope = ReplayScope(recordings, clock)
+    return Bench(
+        scope=scope,
+        vibration=ReplayVibration(scope),
+        motors={name: ReplaySupply(scope, name) for name in ("steel", "bronze")},
+        tachometer=_NoTachometer(),
+        person=_Nobody(),
+        clock=clock,
+        simulated=any(one.simulated for one in recordings),
+    )

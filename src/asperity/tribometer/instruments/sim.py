@@ -365,5 +365,6 @@ def simulated_bench(
         amplifier=SimulatedSupply(rig, "amplifier"),
         accelerometer=SimulatedAccelerometer(rig),
         memory=rig,
+        simulated=True,
     )
     return bench, rig

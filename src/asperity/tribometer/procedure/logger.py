@@ -95,7 +95,6 @@ class Logger:
         self._told = self._begun
         self._looked = self._begun
         self._changing = False
-        simulated = bench.memory is not None
         start = datetime.datetime.now(datetime.UTC)
         self._stream = Stream(bench.scope, interval, BLOCK, self._begun)
         self.interval = self._stream.interval
@@ -104,7 +103,7 @@ class Logger:
             sources = [Source(one.signal, "V", one.range / 32767.0) for one in bench.scope.inputs]
             self._recorder = Recorder(
                 path, sources, self.interval, configuration=configuration, start=start,
-                block=max(1, round(_WRITTEN / self.interval)), simulated=simulated,
+                block=max(1, round(_WRITTEN / self.interval)), simulated=bench.simulated,
             )  # fmt: skip
 
     @property

@@ -19,7 +19,7 @@ from asperity.runs import Run
 from asperity.runs.interrupt import Interrupted, terminable
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
-from asperity.tribometer.instruments.protocols import Bench, InstrumentError
+from asperity.tribometer.instruments.protocols import Bench, InstrumentError, WallClock
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
@@ -139,7 +139,7 @@ class Machine:
         left = sum(one.act == "cell" and one.key not in done for one in self._actions)
         plan = self._plan
         seconds = left * (plan.before + plan.shaken + plan.idle)
-        if self._bench.memory is not None:
+        if not isinstance(self._bench.clock, WallClock):
             seconds *= plan.sample_rate * _SIMULATED_SAMPLE + _SIMULATED_SECOND
         self._run.forecast(seconds, f"{left} cells")
 

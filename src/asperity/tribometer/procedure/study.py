@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 
 from asperity.casefile import Case
-from asperity.errors import AsperityError, InputError, choices, suggestion
+from asperity.errors import AsperityError, InputError, choices, plain, suggestion
 from asperity.runs import Run
 from asperity.runs.key import key
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.instruments.backends import BACKENDS, open_bench
+from asperity.tribometer.instruments.backends import BACKENDS, REPLAY, open_bench
 from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
 from asperity.tribometer.instruments.protocols import Bench, InstrumentError
+from asperity.tribometer.instruments.replay import replay_bench
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
@@ -28,6 +29,7 @@ from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
 
 _LEAST_SAMPLES_A_CYCLE = 2.5
+_RECORDED = frozenset(("rest", "cell", "save"))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,6 +46,8 @@ class RunProblem:
         Everything the plan needs.
     backend : str
         Which instruments.
+    recordings : str
+        Folder of the run that is played back; empty but for a replay.
     resume : bool
         Whether a run is gone on with.
     acknowledge : str
@@ -54,12 +58,17 @@ class RunProblem:
     files: tuple[PlannedFile, ...]
     actions: tuple[Action, ...]
     backend: str
+    recordings: str
     resume: bool
     acknowledge: str
 
 
 def prepare(
-    case: Case, backend: str = "sim", resume: bool = False, acknowledge: str = ""
+    case: Case,
+    backend: str = "sim",
+    recordings: str = "",
+    resume: bool = False,
+    acknowledge: str = "",
 ) -> RunProblem:
     """Lay out a run; refuses a plan beyond its limits, and instruments that cannot be had."""
     limits = case.require(Limits) if Limits.table in case else Limits()
@@ -82,7 +91,15 @@ def prepare(
             )
     if acknowledge.strip() and not resume:
         raise InputError("--acknowledge goes with --resume: it is for a run that latched")
-    if backend == "sim":
+    if (backend == REPLAY) != bool(recordings):
+        raise InputError("--backend replay and --recordings DIR, a run's folder, go together")
+    if backend == REPLAY and resume:
+        raise InputError("a replay is not gone on with; leave --resume out, and begin it anew")
+    actions = tuple(sequence(files))
+    if backend == REPLAY:
+        # What is asked of a person and what is tried beforehand is in no recording.
+        actions = tuple(one for one in actions if one.act in _RECORDED)
+    elif backend == "sim":
         plant = Plant.from_case(case)
         for one in files:
             for cell in one.cells:
@@ -95,7 +112,7 @@ def prepare(
             plant.steady(volts, plan.bronze_supply, plant.friction())
     else:
         Operator()
-    return RunProblem(case, files, tuple(sequence(files)), backend, resume, acknowledge.strip())
+    return RunProblem(case, files, actions, backend, recordings, resume, acknowledge.strip())
 
 
 def answer(problem: RunProblem, run: Run) -> RunResult:
@@ -111,7 +128,11 @@ def answer(problem: RunProblem, run: Run) -> RunResult:
     reduction = problem.case.require(Reduction) if Reduction.table in problem.case else Reduction()
     if brief := too_brief(problem.case.require(Plan), reduction):
         run.notify(brief)
-    bench = open_bench(problem.case, problem.backend)
+    if problem.backend == REPLAY:
+        names = [f"{one.name}.nc" for one in problem.files]
+        bench = replay_bench(Path(problem.recordings), names)
+    else:
+        bench = open_bench(problem.case, problem.backend)
     try:
         return _run(problem, bench, run, run.folder)
     finally:
@@ -204,6 +225,8 @@ def _result(problem: RunProblem, journal: Journal, latch: AsperityError | None) 
 
 def _notes(problem: RunProblem, journal: Journal, latch: AsperityError | None) -> list[str]:
     notes: list[str] = []
+    if problem.backend == REPLAY:
+        notes.append(f"played back from {plain(problem.recordings)}: no rig was run")
     if problem.backend == "sim":
         notes.append("simulated: no rig was run")
         notes.extend(standing(problem.case))

@@ -131,6 +131,12 @@ class Recording:
             for first in range(0, self.samples, length):
                 yield first, raw[first : min(first + length, self.samples)]
 
+    def part(self, first: int, last: int) -> Counts:
+        """Return the counts of all channels from a sample up to another."""
+        with self._counts() as raw:
+            counts: Counts = raw[first : min(last, self.samples)]
+        return counts
+
     def values(self, signal: str, first: int = 0, last: int | None = None) -> FloatArray:
         """Return what a channel saw, in its unit; NaN where a sample is missing or past the range.
 

@@ -10,10 +10,16 @@ from asperity.results import Quantities, Result, quantity
 from asperity.results.quantity import Entry, plain
 from asperity.results.table import Table
 from asperity.store import harmless_cell, write_text
+from asperity.tribometer.parameters import TRANSVERSE
 
 if TYPE_CHECKING:
     import xarray as xr
 
+_MEASURED = (
+    "ratio", "sd", "slider.drive_velocity [mm/s]", "vibration.velocity_amplitude [mm/s]",
+    "sd vibration.velocity_amplitude [mm/s]", "vibration.frequency [Hz]",
+    "vibration.direction [deg]",
+)  # fmt: skip
 GOOD, DOUBTFUL, REFUSED = "good", "doubtful", "refused"
 
 
@@ -209,9 +215,27 @@ class Reduced(Result):
         )
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write JSON, netCDF, CSV and the picture."""
+        """Write JSON, netCDF, CSV, what a fit takes, and the picture."""
         write_text(folder / "reduce.csv", self.to_csv())
-        return [*super().write(folder, pictures=pictures), "reduce.csv"]
+        write_text(folder / "measurements.csv", self.to_measurements())
+        return [*super().write(folder, pictures=pictures), "reduce.csv", "measurements.csv"]
+
+    def to_measurements(self) -> str:
+        """Return torque with over torque before, with its conditions: a table for ``fit``.
+
+        Of a triangle the velocity is that of its first harmonic, as a sine.
+        """
+        rows = [
+            (1.0 + one.torque_change / 100.0, one.deviation / 100.0, one.sliding_velocity_with,
+             one.velocity_amplitude, one.velocity_deviation, one.commanded,
+             90.0 if one.mode == TRANSVERSE else 0.0)
+            for one in self.segments
+            if one.torque_change is not None and one.deviation and one.commanded is not None
+            and one.velocity_amplitude and (one.sliding_velocity_with or 0.0) > 0.0
+        ]  # fmt: skip
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows([_MEASURED, *rows])
+        return text.getvalue()
 
     def to_csv(self) -> str:
         """Return a row a segment; columns are named as in JSON, intervals by their ends."""
