@@ -125,9 +125,6 @@ def answer(problem: RunProblem, run: Run) -> RunResult:
     """
     if run.folder is None:
         raise InputError("a run needs --out DIR, a folder for its recordings and its journal")
-    reduction = problem.case.require(Reduction) if Reduction.table in problem.case else Reduction()
-    if brief := too_brief(problem.case.require(Plan), reduction):
-        run.notify(brief)
     if problem.backend == REPLAY:
         names = [f"{one.name}.nc" for one in problem.files]
         bench = replay_bench(Path(problem.recordings), names)
@@ -154,7 +151,11 @@ def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult
     latch: AsperityError | None = None
     try:
         _opened(problem, journal)
-        machine = Machine(problem.case, problem.actions, bench, journal, folder, run)
+        case = problem.case
+        reduction = case.require(Reduction) if Reduction.table in case else Reduction()
+        if brief := too_brief(case.require(Plan), reduction):
+            run.notify(brief)
+        machine = Machine(case, problem.actions, bench, journal, folder, run)
         latch = machine.go()
         if latch is None and not journal.of("finished"):
             journal.write("finished")
