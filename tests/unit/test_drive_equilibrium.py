@@ -16,7 +16,7 @@ class Spring:
     """Stands in for the teeth: a torque that goes with the wheel's angle, and none beyond."""
 
     def __init__(self, stiffness=STIFFNESS):
-        self.stiffness = stiffness
+        self.stiffness, self.side = stiffness, 1
         self.stand = SimpleNamespace(axes=np.eye(3), origin=np.array([0.05, 0.0, 0.0]), ratio=15.0)
         self.sector = SimpleNamespace(
             wheel=SimpleNamespace(pair=SimpleNamespace(geometry=SimpleNamespace(axial_module=4.0))),
