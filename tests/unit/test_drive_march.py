@@ -364,7 +364,7 @@ def test_a_march_goes_on_from_where_it_was_interrupted(tmp_path):
 
 def test_a_cycle_marched_in_parts_is_the_same_cycle(monkeypatch):
     whole = solved("drive.protocol=window", "drive.window=2", "solve.step=0.5 us")
-    monkeypatch.setattr("asperity.drive.protocols.march._CALL_STEPS", 250)
+    monkeypatch.setattr("asperity.drive.protocols.march._CALL_SECONDS", 75e-6)
     parts = solved("drive.protocol=window", "drive.window=2", "solve.step=0.5 us")
     assert parts.torque == pytest.approx(whole.torque, rel=1e-9)
     assert parts.force_max == pytest.approx(whole.force_max, rel=1e-9)

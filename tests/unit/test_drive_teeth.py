@@ -10,6 +10,8 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.contact.candidates.inverse import apply, invert
+from asperity.contact.candidates.records import Work
 from asperity.contact.increment.problem import ContactState, IncrementProblem
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
@@ -20,9 +22,13 @@ from asperity.drive.elastic.mesh import advance, states
 from asperity.drive.elastic.model import TeethModel
 from asperity.drive.interface import AT, OUTS
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.march import March
+from asperity.drive.protocols.setup import begin, system
+from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS
 from asperity.drive.teeth.placing import place_worm
+from asperity.errors import ConvergenceError
 from asperity.friction.dahl import VECTOR
 from asperity.runs import Run
 
@@ -167,3 +173,74 @@ def test_teeth_are_handed_over_at_a_pitch():
     here, there = (marched(model, way, v)[0] for way in (q, further))
     np.testing.assert_allclose(there[:, :6], here[:, :6], rtol=2e-6, atol=1e-3)
     assert states(model.teeth) == len(model.settled_in(q[0], 1.0))
+
+
+def march_of(model):
+    moving = system(model.problem, model)
+    return March(model, moving, *begin(model.problem, model, moving), Run())
+
+
+def test_a_cycle_whose_slip_turns_round_is_solved_at_every_step_and_its_powers_balance():
+    # Where the slip turns, points of a tooth stand at a kink between sticking and slipping back.
+    model = model_of("drive.protocol=window", "drive.window=1", "vibration.velocity_ratio=1.5")
+    answer = solve_shaken(model.problem, model, Run())
+    assert answer.residual <= 1e-6
+    assert answer.closure < 1e-3
+    assert answer.steps > 900
+
+
+def test_a_march_of_teeth_goes_on_to_the_bit_from_where_it_was_left():
+    settings = ("drive.flanks=driving", "vibration.frequency=20 kHz")
+    whole, first, other = (march_of(model_of(*settings)) for _ in range(3))
+    for _ in range(3):
+        whole.go(1)
+    first.go(2)
+    left = first.tree()
+    # What other steps leave in the mesh's room is nothing to it.
+    whole.mesh.settled_in(np.zeros(4), 1.0)
+    other.restore({name: np.copy(value) for name, value in left.items()})
+    other.go(1)
+    assert other.rows.tobytes() == whole.rows.tobytes()
+    assert other.committed.tobytes() == whole.committed.tobytes()
+
+
+def test_an_open_tooth_tells_how_fast_it_comes_near_before_it_touches():
+    model = model_of()
+    play = 0.5 * 0.28e-3 / (model.point.normal_z * model.point.arm)
+    speed = -6.0 / model.point.arm
+    last = 40
+
+    def way(t):
+        # From the middle of the play towards the flank that drives, at 6 m/s along the axis.
+        return play + speed * (t - t[-1]) * 0.5, np.full_like(t, 0.5 * speed)
+
+    q, v = moved(model, last, way)
+    # It ends with the flank that drives just touched.
+    q[:, 2] += float(model.courses[0].deflection[0]) - play
+    outs, _ = marched(model, q, v)
+    free = outs[:, AT.driving] == 0.0
+    told = outs[free, AT.approach]
+    assert free.sum() > 20
+    assert told[0] == 0.0
+    assert told[-3:] == pytest.approx(3.0 * model.point.normal_z, rel=0.1)
+
+
+def test_a_step_that_no_tooth_can_be_solved_for_ends_in_one_line(monkeypatch):
+    model = model_of("drive.flanks=driving", "vibration.frequency=20 kHz")
+    march = march_of(model)
+    narrow = model.teeth._replace(work=Work.room(model.sector.body, 2))
+    monkeypatch.setitem(model.__dict__, "teeth", narrow)
+    with pytest.raises(ConvergenceError, match="the mesh are left with 1 of its forces"):
+        march.stretches(1, 1e-6)
+
+
+def test_a_small_matrix_is_inverted_and_one_without_inverse_refused():
+    matrix = np.random.default_rng(3).normal(size=(7, 7))
+    matrix[0, 0] = 0.0
+    inverse, order, out = matrix.copy(), np.zeros(7, np.int64), np.zeros(7)
+    assert invert(inverse, order)
+    apply(inverse, matrix[:, 2].copy(), out)
+    np.testing.assert_allclose(out, np.eye(7)[2], atol=1e-13)
+    matrix[3] = 2.0 * matrix[5]
+    assert not invert(matrix, order)
+    assert not invert(np.full((2, 2), np.nan), order)

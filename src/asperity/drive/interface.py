@@ -59,3 +59,6 @@ class Places(NamedTuple):
 
 AT = Places()
 OUTS = len(AT)
+
+SOLVED = 1e-6
+"""Of full friction, or of a tooth's forces, that a mesh's own equations may be off by."""

@@ -14,3 +14,12 @@ def model_of(problem: DriveProblem, reduced: Reduction, run: Run) -> ReducedMode
 
         return TeethModel.of(problem, reduced, run)
     return ReducedModel(problem, reduced)
+
+
+def step_seconds(problem: DriveProblem) -> float:
+    """Return what a step of a problem's mesh takes, about, s."""
+    if problem.drive.model == "teeth":
+        from asperity.drive.elastic.model import TeethModel
+
+        return TeethModel.step_seconds
+    return ReducedModel.step_seconds

@@ -15,8 +15,9 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
+from asperity.contact.candidates.inverse import apply, invert
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
-from asperity.contact.interface.tractions import tractions
+from asperity.contact.interface.tractions import augmented_tractions, tractions
 
 FULL = -1.0
 """Residual of a solve for which there was no room."""
@@ -24,6 +25,13 @@ FULL = -1.0
 _LEAST_STEP = 1.0 / 32.0
 # Of what is missing: an old matrix that leaves more of it is made anew.
 _QUICK = 0.2
+# Plain steps after which the augmented ones begin.
+_PLAIN = 12
+# Augmentations that are tried, in parts of the body's own stiffness; merits that are looked back.
+_AUGMENTATIONS = (1.0, 0.2, 5.0)
+_REMEMBERED = 3
+# Assumed this well, of the whole, forces are worth a look at the laws themselves.
+_NEAR = 1e-3
 
 
 @kernel
@@ -78,6 +86,27 @@ def respond(body, candidates, force, free, nodal, u):
 @kernel
 def evaluate(body, candidates, laws, motion, history, answer, work, with_tangent):
     """Write the contact that the forces lead to; squared norms of what is missing and of both."""
+    look(body, candidates, laws, motion, history, answer, work, with_tangent, 0.0)
+    missing = 0.0
+    made = 0.0
+    assumed = 0.0
+    for q in range(body.shapes.shape[0] * candidates.counts[0]):
+        weight = candidates.weights[q]
+        for c in range(3):
+            t = weight * answer.traction[q, c]
+            f = answer.force[q, c]
+            missing += (t - f) * (t - f)
+            made += t * t
+            assumed += f * f
+    return missing, max(made, assumed)
+
+
+@kernel
+def look(body, candidates, laws, motion, history, answer, work, with_tangent, augmentation):
+    """Write the contact that the forces lead to, or an augmentation near them; what that is off.
+
+    The last is of `asperity.contact.interface.tractions.augmented_tractions`.
+    """
     faces = candidates.counts[0]
     points = faces * body.shapes.shape[0]
     given = laws.interface
@@ -95,22 +124,20 @@ def evaluate(body, candidates, laws, motion, history, answer, work, with_tangent
         answer.deflection[:points], answer.size[:points],
     )  # fmt: skip
     respond(body, candidates, answer.force, answer.free, work.nodal, answer.u)
-    tractions(
-        answer.u, committed, interface, motion, work.nodal, part, answer.stiffness[:points],
-        with_tangent,
-    )  # fmt: skip
-    missing = 0.0
-    made = 0.0
-    assumed = 0.0
+    if augmentation == 0.0:
+        tractions(
+            answer.u, committed, interface, motion, work.nodal, part, answer.stiffness[:points],
+            with_tangent,
+        )  # fmt: skip
+        return 0.0
     for q in range(points):
-        weight = candidates.weights[q]
         for c in range(3):
-            t = weight * answer.traction[q, c]
-            f = answer.force[q, c]
-            missing += (t - f) * (t - f)
-            made += t * t
-            assumed += f * f
-    return missing, max(made, assumed)
+            work.assumed[q, c] = answer.force[q, c] / candidates.weights[q]
+    _, off = augmented_tractions(
+        answer.u, committed, interface, motion, work.nodal, part, answer.stiffness[:points],
+        with_tangent, work.assumed, augmentation,
+    )  # fmt: skip
+    return off
 
 
 @kernel
@@ -222,21 +249,142 @@ def _fits(candidates, count, kept, work):
 
 
 @kernel
-def _invert(body, candidates, count, nodes, answer, kept, work):
-    """Keep the inverse of Newton's matrix, and write the change by it."""
+def _change(body, candidates, count, nodes, answer, kept, work):
+    """Write Newton's change of the forces and keep the inverse; False where there is none."""
     n = 3 * count
     matrix = assemble(body, candidates, count, nodes, answer, work)
     if count > kept.points.shape[0]:
         kept.size[0] = 0
-        work.change[:n] = np.linalg.solve(matrix, work.right[:n])
-        return
-    inverse = np.linalg.inv(matrix)
+        return _solved(matrix, work.right[:n], work.change[:n])
+    inverse = kept.inverse[: n * n].reshape(n, n)
+    inverse[:] = matrix
+    kept.size[0] = 0
+    if not invert(inverse, work.order):
+        return False
     kept.size[0] = count
     for i in range(count):
         q = work.active[i]
         kept.points[i] = 4 * candidates.face[q // 4] + q % 4
-    kept.inverse[: n * n].reshape(n, n)[:] = inverse
-    np.dot(kept.inverse[: n * n].reshape(n, n), work.right[:n], work.change[:n])
+    apply(inverse, work.right[:n], work.change[:n])
+    return True
+
+
+@kernel
+def _solved(matrix, right, change):
+    """Write the solution of equations; False where there is none."""
+    try:
+        change[:] = np.linalg.solve(matrix, right)
+    except Exception:  # of a kernel nothing narrower can be caught
+        return False
+    return True
+
+
+@kernel
+def _plain(body, candidates, laws, motion, history, answer, kept, work):
+    """Newton's steps on the laws as they are; see `solve`."""
+    missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
+    floor = laws.floor * laws.floor
+    iterations = 1
+    anew = False
+    tangent = False
+    steps = 0
+    while steps < _PLAIN:
+        if whole <= floor:
+            return 0.0, iterations
+        if missing <= laws.tolerance * laws.tolerance * whole:
+            break
+        count, nodes = gather(body, candidates, answer, work)
+        if 9 * count * count > work.matrix.size:
+            return FULL, iterations
+        n = 3 * count
+        if not anew and _fits(candidates, count, kept, work):
+            right = _missing(candidates, count, answer, work)
+            apply(kept.inverse[: n * n].reshape(n, n), right, work.change[:n])
+            _move(count, 1.0, answer, work)
+            now, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
+            iterations += 1
+            tangent = False
+            anew = now > _QUICK * _QUICK * missing
+            if now > missing:
+                # Where the old matrix leads astray.
+                _move(count, 0.0, answer, work)
+                continue
+            missing = now
+            continue
+        if not tangent:
+            missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, True)
+            iterations += 1
+            count, nodes = gather(body, candidates, answer, work)
+        _missing(candidates, count, answer, work)
+        if not _change(body, candidates, count, nodes, answer, kept, work):
+            break
+        steps += 1
+        anew = False
+        tangent = True
+        share = 1.0
+        while True:
+            _move(count, share, answer, work)
+            now, whole = evaluate(body, candidates, laws, motion, history, answer, work, True)
+            iterations += 1
+            if now <= (1.0 - 1e-4 * share) * missing or share <= _LEAST_STEP or whole <= floor:
+                break
+            share *= 0.5
+        missing = now
+    if whole <= floor:
+        return 0.0, iterations
+    return math.sqrt(missing / whole), iterations
+
+
+@kernel
+def _augmented(body, candidates, laws, motion, history, answer, work, augmentation):
+    """Newton's steps on augmented laws, with a line search that looks back; see `solve`."""
+    floor = laws.floor * laws.floor
+    iterations = 1
+    off = look(body, candidates, laws, motion, history, answer, work, True, augmentation)
+    bounds = np.full(_REMEMBERED, off)
+    residual = np.inf
+    for step in range(laws.most):
+        scale = 0.0
+        for q in range(body.shapes.shape[0] * candidates.counts[0]):
+            for c in range(3):
+                scale += answer.force[q, c] ** 2 / candidates.weights[q]
+        if off <= _NEAR * _NEAR * scale:
+            missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
+            iterations += 2
+            if whole <= floor:
+                return 0.0, iterations
+            residual = math.sqrt(missing / whole)
+            if residual <= laws.tolerance:
+                return residual, iterations
+            look(body, candidates, laws, motion, history, answer, work, True, augmentation)
+        count, nodes = gather(body, candidates, answer, work)
+        if 9 * count * count > work.matrix.size:
+            return FULL, iterations
+        n = 3 * count
+        _missing(candidates, count, answer, work)
+        matrix = assemble(body, candidates, count, nodes, answer, work)
+        if not _solved(matrix, work.right[:n], work.change[:n]):
+            break
+        bound = bounds.max()
+        share = 1.0
+        best, best_share = np.inf, 1.0
+        while True:
+            _move(count, share, answer, work)
+            off = look(body, candidates, laws, motion, history, answer, work, True, augmentation)
+            iterations += 1
+            if off < best:
+                best, best_share = off, share
+            if off <= (1.0 - 1e-4 * share) * bound:
+                break
+            if share <= _LEAST_STEP:
+                _move(count, best_share, answer, work)
+                off = look(
+                    body, candidates, laws, motion, history, answer, work, True, augmentation
+                )
+                break
+            share *= 0.5
+        bounds[step % _REMEMBERED] = off
+    return residual, iterations
 
 
 @kernel
@@ -244,7 +392,9 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
     """Solve the contact of a body with its counter-surface.
 
     While the same points touch, the inverse of an earlier step serves; where it does not lead on
-    quickly, Newton's matrix is made anew.
+    quickly, Newton's matrix is made anew. Laws much stiffer than the body can lead such steps to a
+    kink between two branches of friction, where each points to the other. From there the
+    augmented laws lead on, as in `asperity.contact.increment.newton`.
 
     Parameters
     ----------
@@ -267,45 +417,22 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
         What is missing of the forces, over them; 0 where the surfaces only touch. `FULL`: more
         points touch than there is room for.
     """
-    missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
-    floor = laws.floor * laws.floor
-    iterations = 1
-    anew = False
-    for _ in range(laws.most):
-        if whole <= floor:
-            return 0.0, iterations
-        if missing <= laws.tolerance * laws.tolerance * whole:
+    points = body.shapes.shape[0] * candidates.counts[0]
+    for q in range(points):
+        for c in range(3):
+            work.start[q, c] = answer.force[q, c]
+    residual, iterations = _plain(body, candidates, laws, motion, history, answer, kept, work)
+    for factor in _AUGMENTATIONS:
+        if residual <= laws.tolerance:
             break
-        count, nodes = gather(body, candidates, answer, work)
-        if 9 * count * count > work.matrix.size:
-            return FULL, iterations
-        n = 3 * count
-        if not anew and _fits(candidates, count, kept, work):
-            right = _missing(candidates, count, answer, work)
-            np.dot(kept.inverse[: n * n].reshape(n, n), right, work.change[:n])
-            _move(count, 1.0, answer, work)
-            now, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
-            iterations += 1
-            anew = now > _QUICK * _QUICK * missing
-            if now > missing:
-                # Where the old matrix leads astray.
-                _move(count, 0.0, answer, work)
-                continue
-            missing = now
-            continue
-        evaluate(body, candidates, laws, motion, history, answer, work, True)
-        iterations += 1
-        count, nodes = gather(body, candidates, answer, work)
-        _missing(candidates, count, answer, work)
-        _invert(body, candidates, count, nodes, answer, kept, work)
-        anew = False
-        share = 1.0
-        while True:
-            _move(count, share, answer, work)
-            now, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
-            iterations += 1
-            if now <= (1.0 - 1e-4 * share) * missing or share <= _LEAST_STEP or whole <= floor:
-                break
-            share *= 0.5
-        missing = now
-    return math.sqrt(missing / whole), iterations
+        for q in range(points):
+            for c in range(3):
+                answer.force[q, c] = work.start[q, c]
+        residual, more = _augmented(
+            body, candidates, laws, motion, history, answer, work, factor * body.stiffness
+        )
+        iterations += more
+    if residual > laws.tolerance:
+        missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
+        residual = math.sqrt(missing / whole) if whole > 0.0 else 0.0
+    return residual, iterations

@@ -20,16 +20,20 @@ class Body(NamedTuple):
     weights: FloatArray  #: (4k,): Area of each point, m^2
     places: FloatArray  #: (4k, 3): Undeformed points, m
     flexibility: FloatArray  #: (3n, 3n): Symmetric, m/N
+    stiffness: float  #: Against a traction about one node, the mean over all, Pa/m
 
     @classmethod
     def of(cls, surface: ContactSurface, flexibility: FloatArray) -> Body:
         """Return a body from its contact surface and the flexibility of its nodes, m/N."""
+        area = surface.nodal_area
+        own = np.diagonal(flexibility).reshape(-1, 3).mean(axis=1)
         return cls(
             np.ascontiguousarray(surface.faces),
             np.ascontiguousarray(surface.shapes),
             np.ascontiguousarray(surface.weights.ravel()),
             np.ascontiguousarray(surface.points.reshape(-1, 3)),
             np.ascontiguousarray(flexibility),
+            float(area.sum() / (area**2 * own).sum()),
         )
 
     @property
@@ -119,9 +123,12 @@ class Work(NamedTuple):
     """What solves work with, one after the other."""
 
     nodal: FloatArray  #: (3n,): Nodal forces
+    start: FloatArray  #: (4k, 3): Forces at the start of a solve
     trial: FloatArray  #: (4k, 3): Forces at the start of a search
+    assumed: FloatArray  #: (4k, 3): Tractions, Pa
     change: FloatArray  #: (3m,): Newton's change of the active ones
     active: IntArray  #: (4k,): Points in contact, or with a force still
+    order: IntArray  #: (3m,): Of the rows of an inverse
     local: IntArray  #: (n,): Place of a node among those of the active points
     nodes: IntArray  #: (n,): These nodes
     #: (9mn,): Response of m active points to forces at these nodes, m/N
@@ -137,8 +144,11 @@ class Work(NamedTuple):
         return cls(
             np.zeros(3 * n),
             np.zeros((q, 3)),
+            np.zeros((q, 3)),
+            np.zeros((q, 3)),
             np.zeros(3 * most),
             np.zeros(q, dtype=np.int64),
+            np.zeros(3 * most, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
             np.zeros(n, dtype=np.int64),
             np.zeros(9 * most * n),

@@ -29,8 +29,7 @@ from asperity.drive.interface import AT, POSES
 from asperity.drive.teeth.placing import place_worm, to_space
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
-_NEAR = 6e-6  # from the worm, of faces that are looked at, m
-_STRAYED = 1e-4  # residual of a solve that is begun anew
+_NEAR = 3e-6  # to the worm, within which faces are looked at, m
 _LOST = 1.0  # residual of a tooth of which too much touches
 
 # Poses and generalised forces of the damping; then for each tooth its number, how many points
@@ -131,28 +130,48 @@ def _travelled(mesh, seen, q):
 
 
 @kernel
-def _gather(mesh, k, laws, committed, at, tooth, q):
+def _reach(mesh, v, dt):
+    """How near to the worm a tooth's points may touch or be about to, m."""
+    middle = mesh.body.places[mesh.body.places.shape[0] // 2, 1]
+    # The thread's slope brings the worm closer as the wheel shifts: less than its whole way.
+    rate = abs(mesh.stand.lead * v[0] + v[1] - middle * v[2]) + abs(v[3])
+    return max(_NEAR, _AHEAD * rate * dt)
+
+
+@kernel
+def _gather(mesh, k, laws, committed, at, tooth, q, reach):
     """Gather a tooth's faces near the worm, unless those there are will do; if any are near."""
     seen = mesh.gathered[k]
     if seen[0] == tooth:
         way = _travelled(mesh, seen, q) + seen[7]
-        if way < 0.5 * seen[6]:
+        if way + reach <= seen[6]:
             return mesh.candidates.counts[k, 0] > 0
-        if seen[5] - way > _NEAR:
+        if seen[5] - way > reach:
             return False
     count = int(committed[at + 1]) if committed[at] == tooth else 0
     u = mesh.shape[k]
     own = candidates_of(mesh.candidates, k)
     _displace(mesh, committed, at, count, True, own.nodes, 0, u)
     seen[5] = collect(
-        mesh.body, laws.interface.counter, mesh.rotation[1], mesh.translation[1], u, _NEAR, own
-    )
+        mesh.body, laws.interface.counter, mesh.rotation[1], mesh.translation[1], u, 2.0 * reach,
+        own,
+    )  # fmt: skip
     seen[0] = tooth
     for c in range(POSES):
         seen[1 + c] = q[c]
-    seen[6] = _NEAR
+    seen[6] = 2.0 * reach
     seen[7] = 0.0
     return own.counts[0] > 0
+
+
+@kernel
+def forget(mesh):
+    """Forget what earlier steps left for those after them, so that a march goes on from its state.
+
+    Which faces were gathered and by which inverse a tooth was solved shows in the last digits.
+    """
+    mesh.gathered[:, 0] = math.inf
+    mesh.kept.size[:] = 0
 
 
 @kernel
@@ -188,7 +207,7 @@ def _approach(mesh, side, v, x, y, z, nx, ny, nz):
 
 
 @kernel
-def _write(mesh, k, trial, at, tooth, side, v, dt, out):
+def _write(mesh, k, trial, at, tooth, side, v, dt, reach, out):
     """Write what a tooth remembers, and add up energies, losses and the damping's wrench.
 
     Returns the normal force.
@@ -215,7 +234,7 @@ def _write(mesh, k, trial, at, tooth, side, v, dt, out):
                 out[AT.stored] += 0.5 * w * bristle * s1[c] * s1[c]
         gap = answer.distance[q]
         rate = 0.0
-        if p > 0.0 or gap < _NEAR:
+        if p > 0.0 or gap < reach:
             x, y, z = place_of(own, shapes, answer.u, q)
             rate = _approach(mesh, side, v, x, y, z, n[0], n[1], n[2])
             if gap - _AHEAD * max(rate, 0.0) * dt < 0.0:
@@ -291,6 +310,7 @@ def advance(mesh, committed, trial, q, v, dt, out):
     damped = mesh.damped
     damped[:] = 0.0
     shift = mesh.moved
+    reach = _reach(mesh, v, dt)
     for place in range(mesh.flanks * mesh.teeth):
         side = 1 if place < mesh.teeth else -1
         laws = mesh.laws if side > 0 else mesh.back
@@ -305,7 +325,7 @@ def advance(mesh, committed, trial, q, v, dt, out):
         shift[2] = -q[1]
         place_worm(stand, q[0], shift, angle, q[3], side, mesh.rotation[1], mesh.translation[1])
         touched = committed[at] == tooth and committed[at + 1] > 0.0
-        near = _gather(mesh, place, laws, committed, at, tooth, q)
+        near = _gather(mesh, place, laws, committed, at, tooth, q, reach)
         if not near and not touched:
             continue
         shift[2] = -before[1]
@@ -327,19 +347,11 @@ def advance(mesh, committed, trial, q, v, dt, out):
             mesh.body, own, laws, motion, mesh.history, answer, kept_of(mesh.kept, place),
             mesh.work,
         )  # fmt: skip
-        if residual == FULL or residual > _STRAYED:
-            # The way from before led astray: begin with nothing.
-            answer.force[:] = 0.0
-            residual, more = solve(
-                mesh.body, own, laws, motion, mesh.history, answer, kept_of(mesh.kept, place),
-                mesh.work,
-            )  # fmt: skip
-            took += more
         if residual == FULL:
             residual = _LOST
         mesh.counted[0] += took
         out[AT.residual] = max(out[AT.residual], residual)
-        normal = _write(mesh, place, trial, at, tooth, side, v, dt, out)
+        normal = _write(mesh, place, trial, at, tooth, side, v, dt, reach, out)
         out[AT.driving if side > 0 else AT.back] += normal
         to_space(angle, side, mesh.vectors)
         _act(mesh, mesh.vectors, q, damped)

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -54,6 +55,8 @@ class TeethModel(ReducedModel):
 
     sector: Sector
 
+    step_seconds: ClassVar[float] = 0.4e-3
+
     @classmethod
     def of(cls, problem: DriveProblem, reduction: Reduction, run: Run) -> "TeethModel":
         """Return the model of a problem; ``reduction`` is that of the same teeth."""
@@ -61,6 +64,11 @@ class TeethModel(ReducedModel):
         if problem.drive.flanks == "both":
             sector = _with_backlash(sector, problem)
         return cls(problem, reduction, sector)
+
+    @property
+    def give(self) -> tuple[str, ...]:
+        """Nothing: bending and radial bearings of the shaft are rigid here."""
+        return ()
 
     @functools.cached_property
     def contact(self) -> TeethContact:

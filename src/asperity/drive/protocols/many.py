@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from asperity.drive.models import model_of
+from asperity.drive.models import model_of, step_seconds
 from asperity.drive.problem import DriveProblem
-from asperity.drive.protocols.march import STEP_SECONDS, block_of, longest_march
+from asperity.drive.protocols.march import block_of, longest_march
 from asperity.drive.protocols.solve import asked, kind_of, solve_shaken
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.result import DriveResult
@@ -61,7 +61,8 @@ def solve_many(
     names = [asked(problem) for problem, _ in problems]
     missing = [n for n, name in enumerate(names) if name not in kept]
     steps = sum(_steps(problems[n][0]) for n in missing)
-    run.forecast(STEP_SECONDS * steps / cores(), f"{steps:.3g} steps")
+    seconds = sum(step_seconds(problems[n][0]) * _steps(problems[n][0]) for n in missing)
+    run.forecast(seconds / cores(), f"{steps:.3g} steps")
 
     def one(problem: DriveProblem, reduced: Reduction) -> DriveResult | AsperityError:
         try:

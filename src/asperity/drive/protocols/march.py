@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.drive.interface import SOLVED
 from asperity.drive.motion.system import SUMS, System
 from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
@@ -26,13 +27,16 @@ _BLOCK_SECONDS = 2e-3
 # Whole periods of motions that repeat after 1, 2, 3, 4, 6 or 12 cycles.
 _BLOCK_CYCLES = 12
 _LONGEST_SECONDS, _FEWEST_CYCLES = 60e-3, 60
-_CALL_STEPS = 200_000
-STEP_SECONDS = 0.3e-6
-"""What a step of the reduced mesh takes, about."""
+# Of one call of the kernel, between which Ctrl-C is heard.
+_CALL_SECONDS = 0.06
 
 
 class Marchable(Protocol):
-    """A mesh that can be marched."""
+    """A mesh that can be marched, and what a step of it takes, about."""
+
+    @property
+    def step_seconds(self) -> float:
+        """Of a processor, s."""
 
     def march(
         self,
@@ -124,7 +128,7 @@ class March:
     def go(self, cycles: int, *, of: int = 0) -> None:
         """March so many cycles more, of so many in all."""
         target = self.rows.size + cycles
-        calls = self.cycle / (_CALL_STEPS * self.system.longest)
+        calls = self.mesh.step_seconds * self.cycle / (_CALL_SECONDS * self.system.longest)
         while self.rows.size < target:
             if calls > 1.0:
                 found = self._slow_cycle(math.ceil(calls))
@@ -157,7 +161,7 @@ class March:
         Raises
         ------
         ConvergenceError
-            The motion left the finite numbers.
+            The motion left the finite numbers, or the mesh's equations were not solved.
         """
         began = time.perf_counter()
         rows = np.zeros(count, SUMS)
@@ -170,6 +174,13 @@ class March:
             raise ConvergenceError(
                 f"the march left the finite numbers before {at:g} s; give a smaller solve.step",
                 reached={"time_s": at},
+            )
+        residual = float(rows["residual"].max())
+        if not residual <= SOLVED:
+            raise ConvergenceError(
+                f"the equations of the mesh are left with {residual:.2g} of its forces at "
+                f"{at:.4g} s: give a smaller solve.step",
+                reached={"residual": residual, "time_s": at},
             )
         return rows
 
@@ -194,7 +205,7 @@ class March:
         ramp = math.ceil(self.system.wave.ramp)
         most = ramp + longest_march(block, self.system.frequency, duration)
         steps = most * self.cycle / self.system.longest
-        self._run.forecast(STEP_SECONDS * steps, f"{steps:.3g} steps")
+        self._run.forecast(self.mesh.step_seconds * steps, f"{steps:.3g} steps")
         if self.rows.size < ramp:
             self.go(ramp - self.rows.size, of=most)
         # Gone on with anywhere, it is judged at the same ends of blocks.

@@ -26,7 +26,6 @@ _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
 _WORM_ALONE = ("held-wheel", "back-drive")  # protocols that have no sliding of their own
-_SOLVED = 1e-6  # of full friction, that the mesh's own equations may be off by
 
 
 def solve_shaken(
@@ -136,11 +135,6 @@ def _summarise(
 ) -> DriveResult:
     rows, moving = march.rows, march.system
     residual = float(rows["residual"].max())
-    if not residual <= _SOLVED:
-        raise ConvergenceError(
-            f"the equations of the mesh are left with {residual:.2g} of full friction: {_ADVICE}",
-            reached={"residual": residual, "torque_balance": judged.balance},
-        )
     last = rows[-judged.cycles :]
     time = float(last["time"].sum())
     whole = rows.size == judged.cycles

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -37,10 +38,14 @@ class ReducedModel:
         What it is a model of.
     reduction : Reduction
         What the teeth are reduced to.
+    step_seconds : float
+        What a step of the march takes, about, s.
     """
 
     problem: DriveProblem
     reduction: Reduction
+
+    step_seconds: ClassVar[float] = 0.3e-6
 
     @functools.cached_property
     def point(self) -> MeshPoint:

@@ -261,10 +261,16 @@ class TeethContact:
                 reached={"residual": residual, "iterations": float(iterations)},
             )
         total, slope, forces = np.zeros(6), np.zeros((6, 6)), np.zeros((len(angles), 3))
-        _act(
-            body, stand, self.side, angles, self.candidates, self.answer, self.work, with_slope,
-            total, slope, forces,
-        )  # fmt: skip
+        try:
+            _act(
+                body, stand, self.side, angles, self.candidates, self.answer, self.work,
+                with_slope, total, slope, forces,
+            )  # fmt: skip
+        except np.linalg.LinAlgError as error:
+            raise ConvergenceError(
+                "the teeth's contact has no stiffness at this load: take another torque",
+                reached={"residual": residual},
+            ) from error
         return Action(
             total, slope, tuple(numbers), forces, self._normal_forces(), residual, iterations
         )
