@@ -27,6 +27,8 @@ def _steps(problem: DriveProblem) -> float:
     frequency = problem.vibrated[1].frequency
     block = block_of(problem.drive.window, frequency)
     cycles = longest_march(block, frequency, problem.solve.duration)
+    if problem.drive.protocol == "window":
+        cycles = problem.drive.window
     return cycles / (frequency * problem.step)
 
 
