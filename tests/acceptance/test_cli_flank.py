@@ -11,7 +11,7 @@ import pytest
 from asperity.casefile.schema import keys_of
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
-from asperity.flanks.parameters import Disc, Hob, Modification, Mount
+from asperity.flanks.parameters import Blanks, Disc, Hob, Modification, Mount
 from asperity.store import read_dataset
 from asperity.units import quantity_of, to_si
 
@@ -193,7 +193,7 @@ def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_pa
     for name in ("tooth.stl", "worm.stl"):
         assert (folder / name).stat().st_size > 10_000
     assert (folder / "gearset.glb").read_bytes().startswith(b"glTF")
-    for name in ("tooth.step", "worm.step") if in_space else ():
+    for name in ("tooth.step", "worm.step", "wheel.step", "gearset.step") if in_space else ():
         assert (folder / name).read_text().startswith("ISO-10303-21;")
 
 
@@ -212,6 +212,8 @@ def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_pa
         (("--set", "gearset.pressure_angle=30 deg"), "the hob's thread is pointed"),
         (("--set", "gearset.wheel_face_width=40 mm"), "gearset.wheel_face_width of at most"),
         (("--set", "gearset.starts=0"), "gearset.starts is 0"),
+        (("--set", "blank.bore=200 mm"), "blank.bore is 200 mm; the inside of the rim has"),
+        (("--set", "blank.shaft_diameter=14 mm"), "the worm's root diameter is 13.84 mm"),
     ],
 )
 def test_mistakes_are_one_line_and_exit_2(asperity, tmp_path, arguments, line):
@@ -263,7 +265,7 @@ def test_what_was_reached_may_be_no_number(capsys, monkeypatch):
     assert one_object(capsys.readouterr().out)["reached"] == {"backlash_mm": None}
 
 
-@pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount])
+@pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount, Blanks])
 def test_the_page_has_each_key_with_its_default(table):
     part = re.split(r"^``\[(\w+)\]``", PAGE, flags=re.MULTILINE)
     page = dict(zip(part[1::2], part[2::2], strict=True))[table.table]

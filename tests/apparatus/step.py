@@ -16,4 +16,4 @@ def read_step(path):
     assert reader.ReadFile(os.fspath(path)) == IFSelect_ReturnStatus.IFSelect_RetDone
     assert reader.TransferRoots()
     shape = reader.OneShape()
-    return Solid(shape, check(shape))
+    return Solid("", shape, check(shape))

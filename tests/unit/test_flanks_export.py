@@ -11,30 +11,36 @@ from apparatus.step import read_step
 
 from asperity.errors import ConvergenceError, InputError, MissingExtraError, StorageError
 from asperity.flanks.export import views
+from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.patch import Body, Patch
+from asperity.flanks.export.scene import write_gearset
 from asperity.flanks.export.step import write_step
-from asperity.flanks.export.tooth import tooth_body
-from asperity.flanks.export.worm import worm_body
+from asperity.flanks.export.tooth import SHOWN as TOOTH_SHOWN
+from asperity.flanks.export.tooth import tooth_body, wheel_body
+from asperity.flanks.export.turned import merged, shaft_sections, volume, wheel_section
+from asperity.flanks.export.worm import SHOWN, whole_worm, worm_body
 from asperity.flanks.mesh.tooth import tooth
-from asperity.flanks.parameters import Hob
+from asperity.flanks.parameters import Blanks, Hob
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
-from asperity.mesh.surface_files import write_glb, write_stl
+from asperity.mesh.glb import Node, write_glb
+from asperity.mesh.stl import write_stl
+
+GEARSET = {
+    "starts": 2,
+    "wheel_teeth": 31,
+    "axial_module": "2 mm",
+    "diameter_factor": 10.0,
+    "hand": "left",
+    "worm_material": "case-hardened steel",
+    "wheel_material": "CuAl10Fe5Ni5-C-GZ",
+}
 
 
 @pytest.fixture(scope="module")
 def wheel():
-    gearset = Gearset(
-        starts=2,
-        wheel_teeth=31,
-        axial_module="2 mm",
-        diameter_factor=10.0,
-        hand="left",
-        worm_material="case-hardened steel",
-        wheel_material="CuAl10Fe5Ni5-C-GZ",
-    )
-    return Wheel.cut(Pair.of(gearset, Hob(oversize=1.1)))
+    return Wheel.cut(Pair.of(Gearset(**GEARSET), Hob(oversize=1.1)))
 
 
 def block():
@@ -93,10 +99,77 @@ def edges(body):
 
 @pytest.mark.slow
 def test_every_edge_of_worm_tooth_teeth_and_wheel_joins_two_faces(wheel):
-    bodies = [worm_body(wheel.pair), *(tooth_body(wheel, teeth) for teeth in (1, 3, 31))]
+    bodies = [worm_body(wheel.pair), *(tooth_body(wheel, teeth) for teeth in (1, 3))]
+    bodies += [whole_worm(wheel.pair), wheel_body(wheel)]
     for body in bodies:
         assert set(edges(body).values()) == {2}, body.name
-    assert [body.name for body in bodies] == ["worm", "tooth", "teeth", "wheel"]
+    assert [body.name for body in bodies] == ["worm", "tooth", "teeth", "worm", "wheel"]
+
+
+def test_the_skins_of_whole_worm_and_wheel_are_closed(wheel):
+    for body in (whole_worm(wheel.pair, spacing=SHOWN), wheel_body(wheel, spacing=TOOTH_SHOWN)):
+        surface = body.surface()
+        assert trimesh.Trimesh(surface.points, surface.triangles, process=False).is_volume
+
+
+PLAIN = {"bore": "30 mm", "hub_width": "10 mm", "web_width": "10 mm", "chamfer": "0 mm"}
+
+
+@pytest.mark.parametrize(
+    ("sizes", "pieces"),
+    [
+        ({}, 11),
+        # No web, no chamfer: the hub's faces are those of the wheel, and all that is left is bore.
+        (PLAIN | {"wheel": "10 mm"}, 1),
+        ({"web_width": "5 mm", "hub_width": "5 mm", "chamfer": "0 mm"}, 5),
+    ],
+)
+def test_what_lies_in_one_plane_or_on_one_cylinder_is_one_face(sizes, pieces):
+    sizes = dict(sizes)
+    numbers = GEARSET | {"wheel_face_width": sizes.pop("wheel", "13 mm")}
+    geometry = Gearset(**numbers).geometry
+    section = wheel_section(geometry, Blanks(**sizes))
+    assert len(merged(section)) - 1 == pieces
+    # From the axis to the section, the same missing volume.
+    assert volume(merged(section)) == pytest.approx(volume(section), rel=1e-12) or pieces == 1
+
+
+@pytest.mark.parametrize(
+    ("sizes", "line"),
+    [
+        ({"bore": "70 mm"}, "blank.bore is 70 mm; the inside of the rim has"),
+        ({"bore": "20 mm", "hub_diameter": "20 mm"}, "blank.bore is 20 mm; the hub has 20 mm"),
+        ({"hub_diameter": "70 mm"}, "blank.hub_diameter is 70 mm; the inside of the rim has"),
+        ({"web_width": "20 mm"}, "blank.web_width is 20 mm; the wheel's face is"),
+        ({"chamfer": "9 mm"}, "blank.chamfer is 9 mm; there is room for at most"),
+        ({"shaft_diameter": "16 mm"}, "blank.shaft_diameter is 16 mm; the worm's root"),
+        ({"free_end": "0.1 mm", "chamfer": "1 mm"}, "blank.chamfer is 1 mm; there is room for"),
+    ],
+)
+def test_sizes_that_leave_no_room_are_refused_in_a_line(wheel, sizes, line):
+    def both():
+        wheel_section(wheel.pair.geometry, Blanks(**sizes))
+        shaft_sections(wheel.pair, 20.0, Blanks(**sizes))
+
+    with pytest.raises(InputError, match=line):
+        both()
+
+
+def test_the_gearset_to_mail_is_small_and_turns_by_its_ratio(wheel, tmp_path):
+    assembly = Assembly(pair=wheel.pair, thinned=0.0, wheel_angle=0.0)
+    path = write_gearset(tmp_path / "gearset.glb", wheel, assembly)
+    assert path.stat().st_size < 2e6
+    scene = trimesh.load_scene(path)
+    assert set(scene.geometry) == {"worm", "hub", "tooth 1"}
+    assert len(scene.graph.nodes_geometry) == 2 + 31
+    # Upright, the worm above the wheel by the centre distance, in metres.
+    worm = scene.geometry["worm"].copy().apply_transform(scene.graph["worm"][0])
+    assert worm.bounds.mean(axis=0)[1] == pytest.approx(
+        1e-3 * wheel.pair.geometry.centre_distance, rel=1e-3
+    )
+    assert scene.bounds[0, 1] == pytest.approx(
+        -0.5e-3 * wheel.pair.geometry.wheel_outside_diameter, rel=0.01
+    )
 
 
 def finer(body):
@@ -124,7 +197,9 @@ def test_bodies_go_into_stl_and_glb(wheel, tmp_path):
     worm, teeth = worm_body(wheel.pair, 15.0).surface(), tooth_body(wheel, 2).surface()
     solid = trimesh.load_mesh(write_stl(tmp_path / "worm.stl", worm))
     assert solid.volume == pytest.approx(worm.volume(), rel=1e-5)
-    scene = trimesh.load_scene(write_glb(tmp_path / "both.glb", {"worm": worm, "wheel": teeth}))
+    scene = trimesh.load_scene(
+        write_glb(tmp_path / "both.glb", [Node("worm", worm), Node("wheel", teeth)])
+    )
     assert set(scene.geometry) == {"worm", "wheel"}
 
 
@@ -168,7 +243,7 @@ def test_a_step_file_that_cannot_be_written_is_named(tmp_path, capfd):
 
 
 def test_impossible_bodies_are_refused(wheel):
-    with pytest.raises(InputError, match="the wheel has 1 to 31"):
+    with pytest.raises(InputError, match="1 to 30 can be cut out of the wheel"):
         tooth_body(wheel, 32)
     with pytest.raises(InputError, match="must be positive"):
         worm_body(wheel.pair, 0.0)

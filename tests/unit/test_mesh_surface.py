@@ -1,14 +1,20 @@
 """Surfaces and their files, read back by a program of others."""
 
+import itertools
+import json
+import struct
+
 import numpy as np
 import pytest
 import trimesh
 from apparatus.meshes import skin
+from scipy.spatial.transform import Rotation
 
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
+from asperity.mesh.glb import Node, write_glb
+from asperity.mesh.stl import write_stl
 from asperity.mesh.surface import Surface, joined
-from asperity.mesh.surface_files import write_glb, write_stl
 
 
 def barrel(order, unit="mm"):
@@ -49,7 +55,7 @@ def test_glb_comes_back_in_metres_with_y_upwards_named_and_coloured(tmp_path):
     surface = skin(mesh)
     colours = np.tile([1.0, 0.5, 0.0], (len(surface.points), 1))
     coloured = Surface(surface.points, surface.triangles, "mm", colours)
-    path = write_glb(tmp_path / "a.glb", {"plain": surface, "coloured": coloured})
+    path = write_glb(tmp_path / "a.glb", [Node("plain", surface), Node("coloured", coloured)])
     scene = trimesh.load_scene(path)
     assert set(scene.geometry) == {"plain", "coloured"}
     # z from 0 to 1 mm has become y from 0 to 1e-3 m.
@@ -62,10 +68,77 @@ def test_glb_comes_back_in_metres_with_y_upwards_named_and_coloured(tmp_path):
 
 def test_glb_is_shaded_smoothly_but_for_creases(tmp_path):
     cube = skin(box((1, 1, 1), (2, 2, 2)))
-    scene = trimesh.load_scene(write_glb(tmp_path / "a.glb", {"cube": cube}))
+    scene = trimesh.load_scene(write_glb(tmp_path / "a.glb", [Node("cube", cube)]))
     normals = scene.geometry["cube"].vertex_normals
     # Every corner of a cube's triangle is shaded with its own face's normal.
     assert np.isclose(np.abs(normals).max(axis=1), 1).all()
+
+
+def parts_of_glb(path):
+    """The JSON of a GLB and a function that gives the numbers of its accessors."""
+    content = path.read_bytes()
+    magic, version, length = struct.unpack_from("<4sII", content)
+    assert (magic, version, length) == (b"glTF", 2, len(content))
+    size, kind = struct.unpack_from("<I4s", content, 12)
+    assert kind == b"JSON"
+    document = json.loads(content[20 : 20 + size])
+    rest, kind = struct.unpack_from("<I4s", content, 20 + size)
+    assert kind == b"BIN\0"
+    assert size % 4 == rest % 4 == 0
+    assert document["buffers"] == [{"byteLength": rest}]
+    binary = content[28 + size :]
+
+    def numbers(index):
+        accessor = document["accessors"][index]
+        view = document["bufferViews"][accessor["bufferView"]]
+        assert view["byteOffset"] % 4 == 0
+        kind = {5126: "<f4", 5123: "<u2", 5125: "<u4"}[accessor["componentType"]]
+        columns = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+        start = view["byteOffset"]
+        values = np.frombuffer(binary[start : start + view["byteLength"]], kind)
+        return values.reshape(accessor["count"], columns)
+
+    return document, numbers
+
+
+def test_glb_stores_a_surface_once_and_turns_what_turns(tmp_path):
+    cube = skin(box((1, 1, 1), (2, 2, 2)))
+    quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    wheel = Node("wheel", children=[Node("a", cube), Node("b", cube, quarter)], turns=-0.3)
+    path = write_glb(tmp_path / "a.glb", [wheel, Node("worm", cube, quarter.T, turns=1.0)])
+    document, numbers = parts_of_glb(path)
+    assert len(document["meshes"]) == 1
+    (primitive,) = document["meshes"][0]["primitives"]
+    indices = numbers(primitive["indices"])
+    assert document["accessors"][primitive["indices"]]["componentType"] == 5123
+    points = numbers(primitive["attributes"]["POSITION"])
+    normals = numbers(primitive["attributes"]["NORMAL"])
+    # Nine corners on each of six faces.
+    assert len(points) == len(normals) == indices.max() + 1 == 54
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-6)
+    (animation,) = document["animations"]
+    turned = {}
+    for channel in animation["channels"]:
+        sampler = animation["samplers"][channel["sampler"]]
+        times, turns = numbers(sampler["input"])[:, 0], numbers(sampler["output"])
+        assert channel["target"]["path"] == "rotation"
+        steps = [
+            (one.inv() * two).as_rotvec()
+            for one, two in itertools.pairwise(Rotation.from_quat(turns))
+        ]
+        assert np.abs(steps).max() < 0.6 * np.pi
+        name = document["nodes"][channel["target"]["node"]]["name"]
+        turned[name] = np.sum(steps, axis=0) / (2 * np.pi), times[-1]
+    np.testing.assert_allclose(turned["wheel"][0], [0, 0, -0.3], atol=1e-6)
+    np.testing.assert_allclose(turned["worm"][0], [0, 0, 1], atol=1e-6)
+    assert turned["wheel"][1] == turned["worm"][1] == 4.0
+
+
+def test_a_scene_has_one_unit(tmp_path):
+    one = skin(box((1, 1, 1), (1, 1, 1)))
+    other = Surface(one.points, one.triangles, "mm")
+    with pytest.raises(InputError, match="one unit"):
+        write_glb(tmp_path / "a.glb", [Node("a", one), Node("b", other)])
 
 
 def test_surfaces_join_and_keep_their_colours():
@@ -95,4 +168,4 @@ def test_a_surface_cannot_hold_nonsense(change, message):
 
 def test_nothing_is_no_scene(tmp_path):
     with pytest.raises(InputError, match="at least one"):
-        write_glb(tmp_path / "a.glb", {})
+        write_glb(tmp_path / "a.glb", [])

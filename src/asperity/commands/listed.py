@@ -140,7 +140,8 @@ COMMANDS = (
     Command(
         "flank",
         "Cut a worm wheel exactly: its contact, transmission error, backlash and mesh.",
-        "With --out also flank.json, flank.nc, pictures, and tooth and worm as mesh and surface.",
+        "With --out also flank.json, flank.nc, pictures, tooth and worm as mesh and surface, and "
+        "gearset.glb, both turning.",
         prepare="asperity.flanks.study:prepare",
         solve="asperity.flanks.study:answer",
         needs=("gearset",),
@@ -151,7 +152,7 @@ COMMANDS = (
                 "SIZE",
                 default="intermediate",
             ),
-            Option("step", "Also write tooth and worm as STEP, with --out.", default=False),
+            Option("step", "Also write worm, wheel and both in mesh as STEP.", default=False),
         ),
     ),
     Command(

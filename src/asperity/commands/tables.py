@@ -24,6 +24,7 @@ _TABLES = {
     "disc": "asperity.flanks.parameters:Disc",
     "modification": "asperity.flanks.parameters:Modification",
     "mount": "asperity.flanks.parameters:Mount",
+    "blank": "asperity.flanks.parameters:Blanks",
     "rig": "asperity.tribometer.parameters:Rig",
     "steel_disc": "asperity.tribometer.parameters:SteelDisc",
     "bronze_disc": "asperity.tribometer.parameters:BronzeDisc",

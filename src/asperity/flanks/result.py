@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.meshing.analysis import LABELS, Analysis
 from asperity.flanks.meshing.lubrication import LoadedNumbers
+from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.mesh import HexMesh
@@ -76,8 +78,12 @@ class FlankStudy(Result):
         backlash asks for.
     assumed, from_memory : mapping of str to str
         What was not given, and what no document at hand confirms.
+    assembly : Assembly
+        How both stand in mesh in the files.
     step : bool
-        Whether the files hold tooth and worm as STEP.
+        Whether the files hold tooth, worm, wheel and both in mesh as STEP.
+    blanks : Blanks, optional
+        What wheel and worm are beside their teeth.
     """
 
     title: ClassVar[str] = "worm gearset"
@@ -97,7 +103,9 @@ class FlankStudy(Result):
     mesh: ToothMesh
     assumed: Mapping[str, str]
     from_memory: Mapping[str, str]
+    assembly: Assembly
     step: bool = False
+    blanks: Blanks | None = None
     seconds: float = quantity("", "s", "time it took", key="seconds", only="json", shown=False)
 
     @property
@@ -224,7 +232,15 @@ class FlankStudy(Result):
 
         return [
             *super().write(folder, pictures=pictures),
-            *write_bodies(self.wheel, self.mesh.hexahedra, folder, step=self.step),
+            *write_bodies(
+                self.wheel,
+                self.mesh.hexahedra,
+                self.assembly,
+                folder,
+                blanks=self.blanks,
+                name=self.heading(),
+                step=self.step,
+            ),
         ]
 
 

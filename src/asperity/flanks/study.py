@@ -7,13 +7,15 @@ from typing import TypeVar
 from asperity.casefile import Case, Table
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
+from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.extras import require_cad, require_view
+from asperity.flanks.export.turned import shaft_sections, wheel_section
 from asperity.flanks.mesh.tooth import element_size, read_density, tooth
 from asperity.flanks.meshing import lubrication
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
-from asperity.flanks.parameters import Disc, Hob, Modification, Mount
+from asperity.flanks.parameters import Blanks, Disc, Hob, Modification, Mount
 from asperity.flanks.result import FlankStudy, ToothMesh
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
@@ -39,8 +41,8 @@ T = TypeVar("T", bound=Table)
 class Prepared:
     """What a study begins with; what can be refused without much work has been.
 
-    The notes are of the load; ``step`` says whether its files are to hold tooth and worm as STEP,
-    ``seconds`` what it took.
+    The notes are of the load; ``step`` says whether its files are to hold STEP, ``seconds`` what it
+    took.
     """
 
     gearset: Gearset
@@ -52,6 +54,7 @@ class Prepared:
     load: Load | None = None
     notes: tuple[str, ...] = ()
     step: bool = False
+    blanks: Blanks | None = None
 
 
 def prepare_gearset(
@@ -91,7 +94,7 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
         Of the mesh: ``coarse``, ``intermediate``, ``fine``, or the element size on the flank, as
         text with its unit or in mm.
     step : bool
-        Whether the files are to hold tooth and worm as STEP.
+        Whether the files are to hold tooth, worm, wheel and both in mesh as STEP.
 
     Raises
     ------
@@ -111,8 +114,12 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     made = prepare_gearset(
         gearset, table(Hob), table(Mount), table(Modification), table(Disc), size
     )
+    blanks = table(Blanks)
+    pair = made.wheel.pair
+    wheel_section(pair.geometry, blanks)
+    shaft_sections(pair, pair.geometry.worm_face_width, blanks)
     load, notes = _load(case, gearset)
-    return dataclasses.replace(made, load=load, notes=tuple(notes), step=step)
+    return dataclasses.replace(made, load=load, notes=tuple(notes), step=step, blanks=blanks)
 
 
 def answer(prepared: Prepared, run: Run) -> FlankStudy:
@@ -148,6 +155,13 @@ def study(prepared: Prepared) -> FlankStudy:
             raise
         found = analyse(pair, prepared.wheel, worm_speed=load.worm_speed)
         notes.append(f"no load on the contact lines: {error}")
+    assembly = Assembly.of(found, made=prepared.step)
+    if assembly.thinned:
+        less = MICROMETRES * assembly.thinned
+        notes.append(
+            f"in worm.step and gearset.step the threads are {less:.3g} um thinner along the axis, "
+            "so that they do not overlap the wheel"
+        )
     assumed = _assumed(prepared.gearset, prepared.hob, prepared.disc)
     return FlankStudy(
         name=prepared.gearset.name,
@@ -158,7 +172,9 @@ def study(prepared: Prepared) -> FlankStudy:
         from_memory=_from_memory(prepared.gearset, assumed, loaded=load is not None),
         notes=(*_notes(found, prepared.wheel), *notes),
         seconds=prepared.seconds + time.perf_counter() - began,
+        assembly=assembly,
         step=prepared.step,
+        blanks=prepared.blanks,
     )
 
 

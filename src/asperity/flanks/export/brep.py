@@ -4,7 +4,8 @@ No solid is cut from another: every face is a spline surface through exact point
 faces that meet have the same curve there.
 """
 
-from collections.abc import Sequence
+import functools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,24 +22,43 @@ SEWING_TOLERANCE = 1e-6
 _INTEGRATION = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Check:
-    """What is known of a solid, in mm; its volume is positive where its outside is outside.
-
-    Free edges do not join exactly two faces: a closed solid has none.
-    """
+    """What is known of a solid. Free edges do not join exactly two faces: a closed one has none."""
 
     valid: bool
     free_edges: int
     faces: int
-    volume: float
-    area: float
+    shape: Any
+
+    @functools.cached_property
+    def volume(self) -> float:
+        """Volume in mm^3, positive where its outside is outside."""
+        from OCP.BRepGProp import BRepGProp
+
+        return self._sum(BRepGProp.VolumeProperties_s)
+
+    @functools.cached_property
+    def area(self) -> float:
+        """Area in mm^2."""
+        from OCP.BRepGProp import BRepGProp
+
+        return self._sum(BRepGProp.SurfaceProperties_s)
+
+    def _sum(self, integrate: Callable[..., Any]) -> float:
+        from OCP.GProp import GProp_GProps
+
+        found = GProp_GProps()
+        # Without a bound on its error the integration is slower and less exact.
+        integrate(self.shape, found, _INTEGRATION)
+        return float(found.Mass())
 
 
 @dataclass(frozen=True)
 class Solid:
-    """A solid as Open CASCADE knows it, and what was found when it was made."""
+    """A solid as Open CASCADE knows it, what it is called, and what was found when it was made."""
 
+    name: str
     shape: Any
     check: Check
 
@@ -64,10 +84,12 @@ def solid(body: Body) -> Solid:
     for patch in body.patches:
         sewing.Add(_face(patch))
     for ring in body.rings:
-        sewing.Add(_cap(ring))
+        sewing.Add(_cap(ring, body.hole(ring)))
+    for section in body.turned:
+        sewing.Add(_revolved(section))
     sewing.Perform()
     shells = TopExp_Explorer(sewing.SewedShape(), TopAbs_ShapeEnum.TopAbs_SHELL)
-    count = len(body.patches) + len(body.rings)
+    count = len(body.patches) + len(body.rings) + sum(len(each) - 1 for each in body.turned)
     if not shells.More():
         raise ConvergenceError(f"the {body.name}'s faces do not join", reached={"faces": count})
     shape = BRepBuilderAPI_MakeSolid(TopoDS.Shell(shells.Current())).Solid()
@@ -79,18 +101,16 @@ def solid(body: Body) -> Solid:
             f"{found.faces} join and leave {found.free_edges} free edges",
             reached={"free_edges": found.free_edges, "faces": found.faces},
         )
-    return Solid(shape, found)
+    return Solid(body.name, shape, found)
 
 
 def check(shape: Any) -> Check:
     """Return what is known of a solid, whether made or read."""
     from OCP.BRepCheck import BRepCheck_Analyzer
-    from OCP.BRepGProp import BRepGProp
     from OCP.collections import (
         IndexedDataMap_TopoDS_Shape_List_TopoDS_Shape_TopTools_ShapeMapHasher as OwnerMap,
     )
     from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
-    from OCP.GProp import GProp_GProps
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp
 
@@ -99,16 +119,11 @@ def check(shape: Any) -> Check:
     TopExp.MapShapesAndAncestors_s(shape, edge, face, owners)
     TopExp.MapShapes_s(shape, face, faces)
     free = sum(owners.FindFromIndex(index).Size() != 2 for index in range(1, owners.Extent() + 1))
-    volume, area = GProp_GProps(), GProp_GProps()
-    # Without a bound on its error the integration is slower and less exact.
-    BRepGProp.VolumeProperties_s(shape, volume, _INTEGRATION)
-    BRepGProp.SurfaceProperties_s(shape, area, _INTEGRATION)
     return Check(
         valid=bool(BRepCheck_Analyzer(shape).IsValid()),
         free_edges=free,
         faces=faces.Extent(),
-        volume=volume.Mass(),
-        area=area.Mass(),
+        shape=shape,
     )
 
 
@@ -128,7 +143,7 @@ def _face(patch: Patch) -> Any:
     return BRepBuilderAPI_MakeFace(surface, SEWING_TOLERANCE).Face()
 
 
-def _cap(ring: Sequence[FloatArray]) -> Any:
+def _cap(ring: Sequence[FloatArray], hole: float | None) -> Any:
     from OCP.BRepBuilderAPI import (
         BRepBuilderAPI_MakeEdge,
         BRepBuilderAPI_MakeFace,
@@ -136,7 +151,8 @@ def _cap(ring: Sequence[FloatArray]) -> Any:
     )
     from OCP.collections import Array1_gp_Pnt
     from OCP.Geom import Geom_BSplineCurve
-    from OCP.gp import gp_Pnt
+    from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Pnt
+    from OCP.TopoDS import TopoDS
 
     wire = BRepBuilderAPI_MakeWire()
     for row in ring:
@@ -147,7 +163,34 @@ def _cap(ring: Sequence[FloatArray]) -> Any:
             array.SetValue(number, gp_Pnt(*pole))
         spline = Geom_BSplineCurve(array, *_knots(knots), curve.degrees[1])
         wire.Add(BRepBuilderAPI_MakeEdge(spline).Edge())
-    return BRepBuilderAPI_MakeFace(wire.Wire(), True).Face()
+    face = BRepBuilderAPI_MakeFace(wire.Wire(), True)
+    if hole is not None:
+        middle, up = gp_Pnt(0.0, 0.0, float(ring[0][0, 2])), gp_Dir(0.0, 0.0, 1.0)
+        circle = gp_Circ(gp_Ax2(middle, up, gp_Dir(1.0, 0.0, 0.0)), hole)
+        inside = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire()
+        face.Add(inside if _downwards(face.Face()) else TopoDS.Wire(inside.Reversed()))
+    return face.Face()
+
+
+def _downwards(face: Any) -> bool:
+    """Whether the normal of a plane face points against the z axis."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.TopAbs import TopAbs_Orientation
+
+    plane = BRepAdaptor_Surface(face).Plane().Axis().Direction().Z()
+    return bool(plane < 0.0) != bool(face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED)
+
+
+def _revolved(section: FloatArray) -> Any:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakePolygon
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
+    from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
+
+    line = BRepBuilderAPI_MakePolygon()
+    for radius, z in section.tolist():
+        line.Add(gp_Pnt(radius, 0.0, z))
+    axis = gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(0.0, 0.0, 1.0))
+    return BRepPrimAPI_MakeRevol(line.Wire(), axis).Shape()
 
 
 def _knots(knots: FloatArray) -> tuple[Any, Any]:

@@ -1,6 +1,7 @@
 """The body of a worm or hob: a few patches a start, between two planes."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,18 +9,32 @@ from numpy.typing import ArrayLike
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
+from asperity.flanks.export.turned import shaft_sections
+from asperity.flanks.parameters import Blanks
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.setting import Pair
 
-# Points that leave a quintic through a helix of the worm's size within 1e-8 mm.
-_POINTS_PER_TURN = 60
-_POINTS_ON_FLANK = 21
-_POINTS_ON_ARC = 13
+_LEAST_ALONG = 8
 # Distance of the points on a ground flank at the root, to the mean distance.
 _ROOT_SPACING = 0.2
 
 
-def worm_body(pair: Pair, length: float | None = None) -> Body:
+class Spacing(NamedTuple):
+    """How many points a worm's grids have, and how many along the axis at most."""
+
+    per_turn: int
+    on_flank: int
+    on_arc: int
+    most: int
+
+
+EXACT = Spacing(60, 21, 13, 10_000)
+"""Points that leave a quintic through a helix of the worm's size within 1e-8 mm."""
+SHOWN = Spacing(48, 7, 4, 200)
+"""What a picture needs."""
+
+
+def worm_body(pair: Pair, length: float | None = None, *, spacing: Spacing = EXACT) -> Body:
     """Return the worm of a pair between two planes across its axis, of its own length or another.
 
     About the z axis, mm, the middle of a thread space at z = 0 on the x axis; mirrored if the
@@ -32,7 +47,8 @@ def worm_body(pair: Pair, length: float | None = None) -> Body:
     if not (math.isfinite(length) and length > 0):
         raise InputError(f"the worm's length is {length:g} mm; it must be positive")
     p = worm.reduced_lead
-    count = max(8, 1 + math.ceil(_POINTS_PER_TURN * length / (2 * math.pi * p)))
+    count = 1 + math.ceil(spacing.per_turn * length / (2 * math.pi * p))
+    count = min(max(_LEAST_ALONG, count), spacing.most)
     along = np.linspace(-length / 2, length / 2, count)
 
     def swept(radius: ArrayLike, axial: ArrayLike, start: int) -> Patch:
@@ -43,7 +59,7 @@ def worm_body(pair: Pair, length: float | None = None) -> Body:
         # Angles fall as the axial place grows.
         return Patch(np.stack(points, axis=-1)[::-1])
 
-    pieces = _axial_section(worm)
+    pieces = _axial_section(worm, spacing)
     patches = []
     for start in range(worm.starts):
         for radius, axial in pieces:
@@ -51,6 +67,14 @@ def worm_body(pair: Pair, length: float | None = None) -> Body:
     low = [patch.points[::-1, 0] for patch in patches]
     high = [patch.points[:, -1] for patch in reversed(patches)]
     return Body(worm.name, patches, [low, high]).moved(np.diag([1.0, 1.0, pair.mirror]))
+
+
+def whole_worm(pair: Pair, blanks: Blanks | None = None, spacing: Spacing = EXACT) -> Body:
+    """Return the worm with its shaft ends, in the frame of `worm_body`."""
+    sections = shaft_sections(pair, pair.geometry.worm_face_width, blanks)
+    thread = worm_body(pair, spacing=spacing)
+    shaft = Body("", [], [], sections).moved(np.diag([1.0, 1.0, pair.mirror]))
+    return Body(thread.name, thread.patches, thread.rings, shaft.turned)
 
 
 def mounted_worm(pair: Pair) -> Body:
@@ -61,14 +85,14 @@ def mounted_worm(pair: Pair) -> Body:
     return Body(worm.name, patches, [list(map(place, ring)) for ring in worm.rings]).moved(mirror)
 
 
-def _axial_section(worm: Helicoid) -> list[tuple[FloatArray, FloatArray]]:
+def _axial_section(worm: Helicoid, spacing: Spacing) -> list[tuple[FloatArray, FloatArray]]:
     """Return radius and axial place of each piece of a start, in the order of their places."""
-    side = [worm.curve(u)[:2] for u in _flank_places(worm)]
+    side = [worm.curve(u)[:2] for u in _flank_places(worm, spacing)]
     if worm.tip_rounding > 0:
-        side.append(worm.curve(np.linspace(1.0, 2.0, _POINTS_ON_ARC))[:2])
+        side.append(worm.curve(np.linspace(1.0, 2.0, spacing.on_arc))[:2])
     inner = float(side[0][1][0])
     outer = float(side[-1][1][-1])
-    even = np.linspace(-1.0, 1.0, _POINTS_ON_FLANK)
+    even = np.linspace(-1.0, 1.0, spacing.on_flank)
     pitch = 2 * worm.half_pitch
     root = (np.full_like(even, worm.root_radius), inner * even)
     land = (np.full_like(even, worm.tip_radius), pitch / 2 + (pitch / 2 - outer) * even)
@@ -76,11 +100,11 @@ def _axial_section(worm: Helicoid) -> list[tuple[FloatArray, FloatArray]]:
     return [root, *side, land, *back]
 
 
-def _flank_places(worm: Helicoid) -> list[FloatArray]:
+def _flank_places(worm: Helicoid, spacing: Spacing) -> list[FloatArray]:
     """Return places on the flank, even in what it is smooth in, split where it is not."""
     base = worm.profile.base_radius
     root, end = worm.root_radius, worm.flank_end
-    even = np.linspace(0.0, 1.0, _POINTS_ON_FLANK)
+    even = np.linspace(0.0, 1.0, spacing.on_flank)
     if base is None or base >= end:
         # Discs leave flanks that bend most at the root, near where they would undercut themselves.
         return [even * (_ROOT_SPACING + (1.0 - _ROOT_SPACING) * even)]
@@ -90,4 +114,4 @@ def _flank_places(worm: Helicoid) -> list[FloatArray]:
     radius = np.hypot(base, low + even * (high - low))
     radius[[0, -1]] = least, end
     flank = (radius - root) / (end - root)
-    return [flank] if least == root else [np.linspace(0.0, flank[0], _POINTS_ON_ARC), flank]
+    return [flank] if least == root else [np.linspace(0.0, flank[0], spacing.on_arc), flank]

@@ -1,0 +1,65 @@
+"""Worm and wheel in mesh and turning, as a GLB small enough to mail."""
+
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+
+from asperity.flanks.export import tooth, worm
+from asperity.flanks.export.assembly import Assembly
+from asperity.flanks.export.patch import Body
+from asperity.flanks.export.turned import wheel_section
+from asperity.flanks.parameters import Blanks
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.frame import turned
+from asperity.mesh.glb import Node, write_glb
+
+STEEL, BRONZE = (0.68, 0.71, 0.75), (0.85, 0.66, 0.38)
+"""Colours of worm and wheel: red, green and blue, 0 to 1."""
+
+_SECONDS = 6.0
+"""For a turn of the worm."""
+
+
+def write_gearset(
+    path: str | os.PathLike[str],
+    wheel: Wheel,
+    assembly: Assembly,
+    blanks: Blanks | None = None,
+) -> Path:
+    """Write worm and whole wheel in mesh as a GLB that turns both by their ratio, atomically.
+
+    A tooth is stored once. In a cycle the worm turns once, and the wheel by as many teeth as the
+    worm has starts, so that the end is as the beginning.
+    """
+    pair = assembly.pair
+    starts, teeth = pair.geometry.starts, pair.geometry.wheel_teeth
+    one = tooth.shown_tooth(wheel).surface()
+    section = wheel_section(pair.geometry, blanks)
+    ring = [
+        Node(f"tooth {number + 1}", one, turned(2.0 * math.pi * number / teeth), colour=BRONZE)
+        for number in range(teeth)
+    ]
+    hub = Node("hub", Body("hub", [], [], [section]).surface(), colour=BRONZE)
+    nodes = [
+        Node(
+            "worm",
+            worm.whole_worm(pair, blanks, worm.SHOWN).surface(),
+            assembly.worm_rotation,
+            assembly.worm_place,
+            turns=1.0,
+            colour=STEEL,
+        ),
+        Node(
+            "wheel",
+            rotation=assembly.wheel_rotation,
+            place=np.zeros(3),
+            children=[hub, *ring],
+            turns=starts / teeth,
+        ),
+    ]
+    # Upright, the worm above: the file's z is up, which in the gearset's own frame is y.
+    upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+    whole = Node("gearset", rotation=upright, children=nodes)
+    return write_glb(path, [whole], seconds=_SECONDS)
