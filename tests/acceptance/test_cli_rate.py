@@ -301,3 +301,41 @@ def test_a_worm_that_hardly_turns_is_refused_in_one_line(asperity, options):
     assert (code, output) == (2, "")
     assert "too far apart" in errors
     assert errors.count("\n") == 1
+
+
+OIL = """
+[source.us]
+name = "our supplier"
+confidence = "one source"
+
+[lubricant."our oil"]
+base_oil = "polyglycol"
+viscosity_40 = "460 mm^2/s"
+viscosity_100 = "75 mm^2/s"
+from = { "*" = "us" }
+"""
+
+
+def test_an_oil_of_ones_own_is_in_a_file_named_on_the_command_line(asperity, tmp_path):
+    (tmp_path / "ours.toml").write_text(OIL)
+    ours = ["--materials", tmp_path / "ours.toml"]
+    code, output, _ = asperity(*ours, "lubricants", "--json")
+    assert code == 0
+    listed = {thing["name"]: thing for thing in one_object(output)["listed"]}
+    assert listed["our oil"]["sources"]["viscosity_40"]["name"] == "our supplier"
+    lubricant = ["--set", "operation.lubricant=our oil", "--json"]
+    code, output, _ = asperity(*ours, "rate", "gearset-3", *lubricant)
+    assert code == 0
+    film = one_object(output)["verdict"]["film"]
+    assert film["regime"] == "boundary"
+    assert 0.0 < film["lambda"] < 1.0
+    code, _, errors = asperity("rate", "gearset-3", *lubricant)
+    assert (code, errors.count("\n")) == (2, 1)
+
+
+@pytest.mark.parametrize(("name", "why"), [("nowhere.toml", "no such file"), ("a:b", "':'")])
+def test_a_file_of_ones_own_that_is_wrong_is_named(asperity, tmp_path, name, why):
+    code, output, errors = asperity("--materials", name, "lubricants", cwd=tmp_path)
+    assert (code, output, errors.count("\n")) == (2, "", 1)
+    assert name in errors
+    assert why in errors

@@ -110,7 +110,7 @@ def test_a_mistake_ends_with_2_and_one_line(asperity, arguments, message):
 def test_a_contact_that_does_not_converge_ends_with_3_and_tells_what_was_reached(
     monkeypatch, capsys
 ):
-    def fails(case):
+    def fails(case, methods):
         raise ConvergenceError("no periodic state found", reached={"residual": 0.5})
 
     monkeypatch.setattr(methods, "compare_case", fails)

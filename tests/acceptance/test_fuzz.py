@@ -228,6 +228,9 @@ def arguments(rng, folder):
         given += ["--to", rng.choice(["abaqus", "calculix", "csv", "x"]), "--out", "out"]
     if command == "rate":
         given += ["--standard", rng.choice(["all", "iso14521", "bs721", "agma6034", "iso"])]
+    if command == "methods":
+        also = ["literature", "broken.csv", "broken.toml", "/dev/zero", "nowhere.toml"]
+        given += rng.choice([[], ["--also", rng.choice(also)]])
     if command == "flank":
         given += ["--density", rng.choice(["coarse", "3 mm", "0", "x"])]
     if rng.random() < 0.7:

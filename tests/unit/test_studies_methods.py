@@ -16,7 +16,7 @@ from asperity.slider.closed_forms import directed_ratio, vibration_power
 from asperity.slider.tables import TABLES as SLIDER
 from asperity.store import read_dataset, write_dataset
 from asperity.studies.methods import compare, compare_case
-from asperity.studies.reported import reported_methods
+from asperity.studies.reported import more_methods, reported_methods
 from asperity.studies.shaken import shake
 from asperity.vibration import Vibration
 
@@ -277,3 +277,14 @@ def test_the_picture_has_a_bar_for_every_way(comparison):
 def test_an_unknown_way_names_the_nearest(comparison):
     with pytest.raises(InputError, match="did you mean 'diamond'"):
         comparison["diamonds"]
+
+
+def test_more_ways_stand_beside_those_that_ship_and_the_last_of_a_key_wins(file):
+    shipped = [method.key for method in reported_methods()]
+    more = more_methods(["literature", file(OWN + OWN.replace("wax", "fe3o4").split("\n\n")[1])])
+    keys = [method.key for method in more]
+    assert keys[: len(shipped)] == shipped
+    assert {"ester", "wcc", "wax"} <= set(keys)
+    assert next(method for method in more if method.key == "fe3o4").reduction == 0.2
+    found = compare(*gearset(), methods=more)
+    assert found["ester"].base_friction == pytest.approx(0.8 * found["as_is"].base_friction)

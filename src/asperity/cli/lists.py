@@ -33,7 +33,7 @@ def print_library(models: Sequence[type[Sourced]], *, as_json: bool) -> None:
     remarks = (
         *(f"{number}: {source}" for source, number in sources.items()),
         "the name, in quotes, is what a case file takes; a table with these keys works as well",
-        "files of your own are named in ASPERITY_MATERIALS",
+        "files of your own: asperity --materials FILE COMMAND, or named in ASPERITY_MATERIALS",
     )
     show.print_tables([*tables, Table((), (), remarks=remarks)])
 

@@ -74,10 +74,22 @@ def _out(command: Command) -> Any:
 def asperity(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
+    files: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--materials",
+            metavar="FILE",
+            help="Materials, oils, bearings and motors of your own; again for another file.",
+        ),
+    ] = None,
 ) -> None:
     """What imposed vibration does to friction between sliding surfaces."""
     from asperity.cli.show import print_text
 
+    if files:
+        from asperity.gearset.library import add_files
+
+        add_files(files)
     if version:
         from asperity import __version__
 

@@ -105,6 +105,15 @@ COMMANDS = (
         "also methods.nc, methods.png and methods.json.",
         prepare="asperity.studies.methods:prepare",
         solve="asperity.studies.methods:answer",
+        options=(
+            Option(
+                "also",
+                "More ways: literature, for what else chapter 2 of the thesis reports, or a file "
+                "of your own; again for another.",
+                "NAME",
+                many=True,
+            ),
+        ),
         needs=("gearset", "operation"),
     ),
     Command(

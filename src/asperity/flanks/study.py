@@ -22,6 +22,7 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.rating import Operation, rate_case
+from asperity.rating.regime import Film
 from asperity.runs import Run
 from asperity.sources import Source
 
@@ -162,6 +163,11 @@ def study(prepared: Prepared) -> FlankStudy:
             f"in worm.step and gearset.step the threads are {less:.3g} um thinner along the axis, "
             "so that they do not overlap the wheel"
         )
+    loaded = [lines for flank in found.flanks.values() for lines in flank.loaded]
+    if loaded:
+        # Where the entrainment turns its sign there is no film: the mean tells of the flank.
+        thinnest = min(lines.numbers.film_mean for lines in loaded)
+        notes.append(Film(thinnest, 1e6 * prepared.gearset.worm_roughness).sentence())
     assumed = _assumed(prepared.gearset, prepared.hob, prepared.disc)
     return FlankStudy(
         name=prepared.gearset.name,

@@ -15,13 +15,14 @@ its class. Its key ``from`` names the source of each value by key, with ``"*"`` 
     # ... the other keys of WheelMaterial
     from = { "*" = "maker" }
 
-Files of your own are named in the environment variable ``ASPERITY_MATERIALS`` (several with the
-separator of ``PATH``). The last file that has a name wins.
+Files of your own are named on the command line, ``asperity --materials FILE COMMAND``, or in the
+environment variable ``ASPERITY_MATERIALS`` (several with the separator of ``PATH``). The last file
+that has a name wins.
 """
 
 import functools
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar
 
@@ -134,6 +135,25 @@ def _find(model: type[Sourced], name: str, stamps: _Stamps) -> Sourced:
         raise InputError(f'{entry.file}: [{section}."{name}"]: {error}') from None
 
 
+def add_files(paths: Sequence[str]) -> None:
+    """Take data files of one's own beside those that the environment names, in this process.
+
+    Raises
+    ------
+    InputError
+        One cannot be read, or its name cannot stand in the environment.
+    """
+    for path in paths:
+        if os.pathsep in path or not path:
+            raise InputError(
+                f"--materials {path}: a name with {os.pathsep!r} in it, or none, is not possible; "
+                "give the file another name"
+            )
+    named = [path for path in os.environ.get(VARIABLE, "").split(os.pathsep) if path]
+    os.environ[VARIABLE] = os.pathsep.join([*named, *(str(Path(p).absolute()) for p in paths)])
+    _library(_stamps())
+
+
 def _stamps() -> _Stamps:
     stamps = []
     for path in map(Path, filter(None, os.environ.get(VARIABLE, "").split(os.pathsep))):
@@ -142,7 +162,7 @@ def _stamps() -> _Stamps:
         except OSError as error:
             raise InputError(
                 f"{path} cannot be read: {(error.strerror or str(error)).lower()}; name a data "
-                f"file in {VARIABLE}"
+                f"file in --materials or {VARIABLE}"
             ) from None
     return tuple(stamps)
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from asperity.rating.alternatives import Alternative
 from asperity.rating.demands import DEMANDS, Demand
 from asperity.rating.levers import Lever
+from asperity.rating.regime import Film
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
 
@@ -66,12 +67,15 @@ class Verdict(NamedTuple):
         What moves the least of them, the strongest first.
     alternatives : tuple of Alternative
         The oil and the wheel material of those with a name that bring most of it.
+    film : Film or None
+        The oil between the teeth, by ISO/TR 14521.
     """
 
     safeties: tuple[Safety, ...]
     unrated: tuple[str, ...]
     levers: tuple[Lever, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
+    film: Film | None = None
 
     @classmethod
     def of(
@@ -88,6 +92,7 @@ class Verdict(NamedTuple):
             tuple(demand.path for demand in asked if demand not in rated),
             levers,
             alternatives,
+            Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
         )
 
     def __repr__(self) -> str:
@@ -127,6 +132,7 @@ class Verdict(NamedTuple):
                 for lever in self.levers
             ],
             "alternatives": [other._asdict() for other in self.alternatives],
+            "film": None if self.film is None else self.film.to_json(),
         }
 
     def sentences(self) -> Iterator[str]:
@@ -187,7 +193,11 @@ def power_lines(iso: Rating) -> Iterator[str]:
     n = {entry.key: entry.value for entry in iso}
     parts = {"teeth": "meshing", "idling": "idle", "bearings": "bearing", "seals": "seal"}
     losses = {name: float(n[f"loss_{key}_W"]) for name, key in parts.items()}
-    shares = " + ".join(f"{name} {value:.4g}" for name, value in losses.items())
+    # Three digits say enough, and the line stays one.
+    shares = " + ".join(
+        f"{name} {value:.0f}" if value >= 100.0 else f"{name} {value:.3g}"
+        for name, value in losses.items()
+    )
     yield (
         f"efficiency {100 * float(n['eta_ges']):.1f} % of the gearbox, "
         f"{100 * float(n['eta_z1_2']):.1f} % of the teeth (ISO/TR 14521)"
@@ -226,6 +236,8 @@ def screen(
     if "iso14521" in found:
         for line in power_lines(found["iso14521"]):
             lines += _wrapped(line)
+    if verdict.film is not None:
+        lines += _wrapped(verdict.film.sentence())
     lines += _wrapped(locking_line(locking))
     remarks = [
         *notes,

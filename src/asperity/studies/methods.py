@@ -28,7 +28,7 @@ from asperity.sources import Source
 from asperity.studies import shaken
 from asperity.studies.comparison import Compared, Comparison
 from asperity.studies.gears import Gears
-from asperity.studies.reported import OWN, Method, reported_methods
+from asperity.studies.reported import OWN, Method, more_methods, reported_methods
 from asperity.studies.shaken import Shaken
 from asperity.vibration import Vibration
 
@@ -117,15 +117,21 @@ def compare_case(case: Case, methods: Sequence[Method] | None = None) -> Compari
     )
 
 
-def prepare(case: Case) -> Case:
-    """Return a case that has a gearset; raises InputError where a table is missing."""
+def prepare(case: Case, *, also: Sequence[str] | None = None) -> tuple[Case, tuple[Method, ...]]:
+    """Return a case that has a gearset, and ways to less friction.
+
+    Raises
+    ------
+    InputError
+        A table is missing, or a file of more ways is wrong.
+    """
     Gears.of(case)
-    return case
+    return case, more_methods(also or ())
 
 
-def answer(case: Case, _: Run) -> Comparison:
+def answer(problem: tuple[Case, tuple[Method, ...]], _: Run) -> Comparison:
     """Compare ways to less friction in the gearset of a case."""
-    return compare_case(case)
+    return compare_case(*problem)
 
 
 @dataclasses.dataclass(frozen=True)

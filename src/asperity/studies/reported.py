@@ -2,7 +2,7 @@
 
 import functools
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -25,6 +25,7 @@ OWN = Source(
 Kind = Literal["oil", "additive", "coating", "vibration"]
 
 _SHIPPED = Path(__file__).parent / "data" / "methods.toml"
+_LITERATURE = _SHIPPED.with_name("literature.toml")
 _TEXT_ONLY = {"text_only": True}
 
 
@@ -65,6 +66,21 @@ class Method(Table):
     velocity_ratio: Annotated[float, Field(gt=0.0)] | None = None
     direction: Annotated[float, Quantity("rad", what="an angle", example="90 deg")] | None = None
     source: SkipValidation[Source]
+
+
+def more_methods(names: Sequence[str]) -> tuple[Method, ...]:
+    """Return the methods that ship and more of them, the last of a key.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Files of methods, or ``literature``: what else the thesis's chapter 2 reports in numbers.
+    """
+    found = {method.key: method for method in _shipped()}
+    for name in names:
+        path = _LITERATURE if name == "literature" else Path(name)
+        found |= {method.key: method for method in _read(path)}
+    return tuple(found.values())
 
 
 def reported_methods(path: str | os.PathLike[str] | None = None) -> tuple[Method, ...]:
