@@ -26,11 +26,12 @@ def _over_k(axes: "Axes", label: str = _RATIO) -> None:
     axes.set(xlabel=_K, ylabel=label, xlim=(0.09, 22.0))
 
 
-def _not_settled(axes: "Axes", k: Any, values: Any, settled: Any) -> None:
+def _not_settled(axes: "Axes", k: Any, values: Any, settled: Any, label: str | None = None) -> None:
     loose = np.asarray(settled) < 0.5
     axes.plot(
-        np.asarray(k)[loose], np.asarray(values)[loose], "x", color=BLACK, markersize=9, zorder=4
-    )
+        np.asarray(k)[loose], np.asarray(values)[loose], "x", color=BLACK, markersize=9, zorder=4,
+        label=label if loose.any() else None,
+    )  # fmt: skip
 
 
 def ratios(dataset: "xr.Dataset") -> "Figure":
@@ -41,17 +42,24 @@ def ratios(dataset: "xr.Dataset") -> "Figure":
         own = dataset.sel(series=name)
         marks(upper, index, k, own["ratio"], str(name), filled=True)
         line(upper, index, k, own["ratio"], linewidth=0.8)
-        _not_settled(upper, k, own["ratio"], own["settled"])
+        # Told once, by the first that has any.
+        told = any("not settled" in str(each.get_label()) for each in upper.lines)
+        words = None if told else "not settled"
+        _not_settled(upper, k, own["ratio"], own["settled"], words)
         marks(upper, index, k, own["window"], f"{name}, first cycles")
         marks(lower, index, k, own["balance"], filled=True)
         marks(lower, index, k, own["window_balance"])
         line(lower, index, k, own["window_balance"], linewidth=0.8)
     limit(upper, 1.0)
-    upper.axhline(float(dataset["floor"]), color=BLACK, dashes=DOTTED, linewidth=1.0)
+    upper.axhline(
+        float(dataset["floor"]), color=BLACK, dashes=DOTTED, linewidth=1.0,
+        label="all friction reversed",
+    )  # fmt: skip
     _over_k(upper)
     legend_above(upper, 2)
     _over_k(lower, "wheel's torque over its load, less 1")
     lower.set_yscale("symlog", linthresh=0.1)
+    lower.margins(y=0.1)
     limit(lower, 0.0)
     return figure
 
@@ -60,10 +68,9 @@ def torque_over_time(dataset: "xr.Dataset") -> "Figure":
     """Draw the torque of the first cycles, contact lost in grey, and means so far."""
     figure, (upper, lower) = panels(2, height=6.8)
     time = 1e3 * dataset["time"].values
-    low, high = float(dataset["torque"].min()), float(dataset["torque"].max())
     upper.fill_between(
-        time, low, high, where=dataset["open"].values > 0.5, color=_GREY, linewidth=0,
-        label="no contact",
+        time, 0.0, 1.0, where=dataset["open"].values > 0.5, color=_GREY, linewidth=0,
+        label="no contact", transform=upper.get_xaxis_transform(),
     )  # fmt: skip
     line(upper, 0, time, dataset["torque"], "$T_B$", linewidth=1.0)
     for value, name, dashes in (

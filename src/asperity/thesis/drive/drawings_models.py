@@ -64,11 +64,11 @@ def increment(dataset: "xr.Dataset") -> "Figure":
         axes.plot(*zip(one, other, strict=True), color=COLOURS[n], linewidth=2.0)
     axes.plot(*body.T, "o-", color=BLACK, linewidth=0.9, markersize=4)
     axes.plot(*root.T, "s:", color=BLACK, linewidth=0.9, markersize=4)
-    for place, names, above in ((body, ("N'", "N''", "N'₁"), 9), (root, _ROOTS, -16)):
-        for at, name in zip(place, names, strict=True):
-            axes.annotate(name, at, (-4, above), textcoords="offset points")
+    for place, names, offsets in ((body, _BODIES, _BESIDE_BODIES), (root, _ROOTS, _BESIDE_ROOTS)):
+        for at, name, offset in zip(place, names, offsets, strict=True):
+            axes.annotate(name, at, offset, textcoords="offset points")
     sizes = dataset["deflection"].values
-    shifts = ((-62, 4), (8, -12), (8, -12))
+    shifts = ((-74, -2), (8, -12), (8, -12))
     for (one, other), name, size, shift in zip(stretched, _SIZES, sizes, shifts, strict=True):
         axes.annotate(
             f"{name} = {size:.2f}", 0.5 * (one + other), shift, textcoords="offset points"
@@ -78,7 +78,8 @@ def increment(dataset: "xr.Dataset") -> "Figure":
 
 
 _SIZES = ("s", "s'", "s₁")
-_ROOTS = ("M", "M'¹", "M'²", "M₁")
+_BODIES, _BESIDE_BODIES = ("N'", "N''", "N'₁"), ((-6, 9), (8, -3), (-4, 9))
+_ROOTS, _BESIDE_ROOTS = ("M", "M'¹", "M'²", "M₁"), ((-4, -16), (-4, -16), (-24, 4), (-4, -16))
 
 
 def _equal(axes: "Axes", x: str, y: str) -> None:
