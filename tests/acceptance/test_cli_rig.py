@@ -1,13 +1,16 @@
 """``asperity rig`` and ``asperity fit`` as a laboratory uses them."""
 
 import csv
+import dataclasses
 import json
+import math
 
 import numpy as np
 import pytest
-from apparatus.rig_signals import TORQUE, record, run_of
+from apparatus.rig_signals import NOISY, TORQUE, record, run_of
 
 from asperity.results import read
+from asperity.tribometer.reduction.wear import path_share
 
 FREQUENCIES, RATIOS, RATE = (250.0, 500.0), (0.31, 0.22), 5e3
 KEYS = [
@@ -71,6 +74,70 @@ def test_files_of_a_reduction_hold_its_numbers(asperity, recording, reduced, tmp
         [one["torque_change_percent"] for one in reduced["segments"]]
     )
     assert saved.figure() is not None
+
+
+def test_an_accelerometer_tells_the_velocity_of_the_vibration(asperity, tmp_path):
+    # (76): a peak of 200 m/s2 at 500 Hz is 63.7 mm/s, at 250 Hz twice that.
+    channel = (
+        'channels.acceleration={channel="I", points=[["0 V","0 m/s**2"],["5 V","500 m/s**2"]]}'
+    )
+    path = record(
+        tmp_path / "run.nc", phases(), dataclasses.replace(NOISY, acceleration=200.0), rate=RATE,
+        settings=(channel,),
+    )  # fmt: skip
+    code, _, errors = asperity("rig", "reduce", path, "--out", tmp_path / "out")
+    assert code == 0, errors
+    with (tmp_path / "out" / "reduce.csv").open(newline="", encoding="utf-8") as file:
+        for row, frequency in zip(csv.DictReader(file), FREQUENCIES, strict=True):
+            peak = 1e3 * 200.0 / (2.0 * math.pi * frequency)
+            assert float(row["velocity_amplitude_mm_per_s"]) == pytest.approx(peak, rel=2e-3)
+            assert float(row["k_v_with"]) == pytest.approx(peak / 5.5, rel=0.02)
+
+
+def test_weighings_give_archards_coefficient_on_the_path_of_the_discs(asperity, recording):
+    lost = ("--set", "steel_disc.mass_loss=2 mg", "--set", "bronze_disc.mass_loss=9 mg")
+    code, output, errors = asperity("rig", "reduce", recording, *lost, "--json")
+    assert code == 0, errors
+    answer = json.loads(output)
+    steel, bronze = answer["wear_together"]
+    # Two segments: six seconds at 2.5 mm/s, six at 5.5 mm/s.
+    assert steel["distance_m"] == pytest.approx(0.096, rel=0.02)
+    # Across the sliding at k 3.6 and 6 the path is some 2.5 and 3.9 times the distance.
+    shares = [path_share(one["k_v"] * 4.0 / 5.5, "transverse") for one in answer["segments"]]
+    path = 0.006 * 2.5 * 2.0 + 0.006 * 5.5 * sum(shares)
+    assert bronze["path_m"] == pytest.approx(path, rel=0.02)
+    volume = 9e-6 / 7600.0
+    assert bronze["archard"] == pytest.approx(
+        volume * 1.5e9 / (141.64 * bronze["path_m"]), rel=1e-3
+    )
+
+
+def test_path_along_the_sliding_is_no_longer_below_k_of_one():
+    assert path_share(0.97, "longitudinal") == 1.0
+    turn = np.linspace(0.0, 2.0 * math.pi, 100_001)
+    for k in (1.5, 4.0):
+        along = np.trapezoid(np.abs(1.0 - k * np.cos(turn)), turn) / (2.0 * math.pi)
+        across = np.trapezoid(np.hypot(1.0, k * np.cos(turn)), turn) / (2.0 * math.pi)
+        assert path_share(k, "longitudinal") == pytest.approx(along, rel=1e-6)
+        assert path_share(k, "transverse") == pytest.approx(across, rel=1e-6)
+
+
+def test_a_reduction_is_fitted_as_it_is(asperity, recording, tmp_path):
+    code, _, errors = asperity("rig", "reduce", recording, "--out", tmp_path / "out")
+    assert code == 0, errors
+    law = ("mu=0.1", "max_deflection=70 nm", "law=split", "transfer=0.7")
+    settings = [part for one in law for part in ("--set", f"friction.{one}")]
+    code, output, errors = asperity(
+        "fit", tmp_path / "out" / "measurements.csv", "rig-final", *settings,
+        "--free", "friction.transfer", "--json",
+    )  # fmt: skip
+    assert code == 0, errors
+    (found,) = json.loads(output)["parameters"]
+    assert 0.5 < found["value"] <= 1.0
+
+
+def test_a_recording_is_no_repeat_of_itself(asperity, recording):
+    refused(asperity("rig", "reduce", recording, recording), "run-1.nc is given twice")
 
 
 @pytest.mark.parametrize("missed", [(0,), (1,)])

@@ -80,6 +80,8 @@ class Imperfections:
         Standard deviations from sample to sample, rad/s, A and V.
     middle, swing : float
         Of the drive signal, V.
+    acceleration : float
+        Peak of the shaken disc's, m/s2.
     """
 
     white: float = 0.0
@@ -97,6 +99,7 @@ class Imperfections:
     drive_noise: float = 0.0
     middle: float = 5.0
     swing: float = 7.0
+    acceleration: float = 0.0
 
 
 @dataclasses.dataclass
@@ -184,6 +187,7 @@ def _stretch(
         "load_cell": with_noise(0.014, 0.0),
         "current_steel": with_noise(phase.current_steel, rig.current_noise),
         "current_bronze": with_noise(phase.current_bronze, rig.current_noise),
+        "acceleration": rig.acceleration * np.sin(2.0 * math.pi * phase.frequency * time),
     }
 
 

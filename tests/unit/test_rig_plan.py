@@ -58,6 +58,13 @@ def test_a_plan_says_what_it_will_not_resolve():
     assert "cannot be told" in " ".join(planned("plan.repeats=1").notes)
 
 
+def test_a_plan_says_which_windows_its_reduction_refuses_and_what_is_interpolated():
+    told = planned('plan.before="5 s"', 'plan.frequencies=["250 Hz", "600 Hz"]').notes
+    assert any("plan.before is 5 s, which should be 5.5 s or more" in note for note in told)
+    assert any("v_a at 600 Hz is interpolated" in note for note in told)
+    assert not any("least_window" in note or "interpolated" in note for note in planned().notes)
+
+
 def test_velocity_ratios_of_a_plan_are_those_of_the_rig():
     plan = planned()
     here = (plan.mode == "transverse") & (plan.frequency == 750.0)

@@ -3,6 +3,7 @@
 import dataclasses
 import os
 import random
+import shutil
 import signal
 
 import numpy as np
@@ -46,6 +47,14 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
     # What it was fitted to, but for run-out, of whose mean a second sees little.
     assert answer.torque_before[1] == pytest.approx(0.6448, rel=0.05)
     assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)
+
+
+def test_a_run_whose_recording_is_gone_is_not_gone_on_with(undisturbed, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(undisturbed[0], folder)
+    (folder / "file-01.nc").unlink()
+    with pytest.raises(InputError, match=r"file-01\.nc holds 2 cells, and it is gone"):
+        rigs.run(rigs.small_case(), folder, resume=True)
 
 
 def replayed(case, undisturbed, folder):

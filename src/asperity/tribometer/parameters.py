@@ -97,6 +97,8 @@ class Disc(Table):
         Ra along the circumference, m.
     hardness : float or str, optional
         Pa, for Archard's coefficient of wear.
+    mass_loss : float or str, optional
+        What it lost between two weighings, over the recordings that are reduced together, kg.
     """
 
     material: str
@@ -107,6 +109,7 @@ class Disc(Table):
     density: Annotated[float, Quantity("kg/m**3", "a density", "7850 kg/m**3", gt=0)] | None = None
     roughness: Annotated[float, Quantity("m", "a roughness", "0.8 um", gt=0)] | None = None
     hardness: Modulus | None = None
+    mass_loss: Annotated[float, Quantity("kg", "a mass", "4.2 mg", ge=0)] | None = None
 
     @property
     def radius(self) -> float:

@@ -136,12 +136,16 @@ class FitResult(Result):
         keys = list(self.proposed[0].conditions)
         further = [
             (*(one.conditions[key] for key in keys),
-             *(100.0 * value for value in one.relative_deviations.values()))
+             *("open" if value > _WIDE else 100.0 * value
+               for value in one.relative_deviations.values()))
             for one in self.proposed
         ]  # fmt: skip
         heads = (*keys, *(f"{key} %" for key in self.proposed[0].relative_deviations))
-        title = "What to measure next, and the deviations then"
+        title = "What to measure next, one after the other, in SI units, and the deviations then"
         return found, laws, Table.of(heads, further, title=title, left=0)
+
+
+_WIDE = 3.0  # relative deviation that tells nothing
 
 
 def _end(value: float | None) -> float | str:

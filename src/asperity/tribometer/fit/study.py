@@ -26,7 +26,7 @@ _STEP = 1e-3  # of an uncertain condition, for its slope
 _MOST_NEXT = 100
 _CORRELATED, _AS_ONE = 0.95, 0.999
 _ALIKE = 0.01  # of chi-square, by which laws do not differ
-_POOR = 2.0  # chi-square a degree of freedom
+_UNLIKELY = 0.05
 
 
 @dataclasses.dataclass(frozen=True)
@@ -210,18 +210,22 @@ class _Data:
         rows = [row for row, kept in zip(data.conditions, self.answered, strict=True) if kept]
         here = self.predicted(point)
         for key, deviation in data.uncertain.items():
-            moved = [{**row, key: _moved(row[key])} for row in rows]
-            values, why = self._predict(moved, self.given(point))
-            if why:
+            slope = np.full(len(rows), math.nan)
+            for side in (_STEP, -_STEP):
+                moved = [{**row, key: _moved(row[key], side)} for row in rows]
+                values, why = self._predict(moved, self.given(point))
+                steps = [_moved(row[key], side) - float(row[key]) for row in rows]
+                slope = np.where(np.isnan(slope), (values - here) / np.array(steps), slope)
+                if not why:
+                    break
+            if np.isnan(slope).any():
                 raise ConvergenceError(next(iter(why.values())))
-            steps = np.array([_moved(row[key]) - float(row[key]) for row in rows])
-            slope = (values - here) / steps
             variance[self.answered] += (slope * deviation[self.answered]) ** 2
         self.deviations = np.sqrt(variance)
 
 
-def _moved(value: Value) -> float:
-    return float(value) * (1.0 + _STEP) if value else _STEP
+def _moved(value: Value, step: float) -> float:
+    return float(value) * (1.0 + step) if value else step
 
 
 @dataclasses.dataclass(frozen=True)
@@ -357,6 +361,12 @@ def _parameter(
     )
 
 
+def _chance(chi2: float, freedom: int) -> float:
+    from scipy.stats import chi2 as distribution
+
+    return float(distribution.sf(chi2, freedom))
+
+
 def _notes(predict: Predictor, chosen: _Fitted) -> list[str]:
     notes = []
     if predict.marched:
@@ -366,9 +376,11 @@ def _notes(predict: Predictor, chosen: _Fitted) -> list[str]:
     if chosen.data.failed:
         notes.append(f"{len(chosen.data.failed)} measurements have no answer and are left out")
     freedom = _freedom(chosen)
-    if freedom > 0 and chosen.best.chi2 > _POOR * freedom:
+    chance = _chance(chosen.best.chi2, freedom) if freedom > 0 else 1.0
+    if chance < _UNLIKELY:
         notes.append(
-            f"chi-square is {chosen.best.chi2 / freedom:.2g} a degree of freedom: the law does not "
-            "meet the data within their deviations, and the intervals are too narrow"
+            f"chi-square is {chosen.best.chi2:.3g} with {freedom} degrees of freedom, or more in "
+            f"{chance:.1g} of cases if the law and the deviations are right: one of them may not "
+            "be, and the intervals too narrow"
         )
     return notes

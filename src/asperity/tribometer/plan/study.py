@@ -165,6 +165,14 @@ def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
                 f"a full sine of {fastest:g} Hz takes {current:.3g} A of the amplifier, and no "
                 "sonotrode.current_limit is given: what it caps is not seen"
             )
+    if problem.plant is not None and problem.plant.sonotrode.frequencies:
+        known_at = problem.plant.sonotrode.frequencies
+        between = [one for one in plan.frequencies if one not in known_at]
+        if between:
+            notes.append(
+                f"v_a at {', '.join(f'{one:g}' for one in between)} Hz is interpolated between "
+                "sonotrode.frequencies"
+            )
     notes.append(
         "no run with the discs apart is planned: the bearings' torque stays in every torque"
     )

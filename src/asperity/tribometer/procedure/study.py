@@ -192,6 +192,15 @@ def _opened(problem: RunProblem, journal: Journal) -> None:
         raise InputError("--acknowledge is given and nothing has latched; leave it out")
     if latched is not None:
         journal.write("acknowledged", text=problem.acknowledge, of=latched["line"])
+    lost = [
+        line["recording"] for line in journal.of("done")
+        if "cell" in line and not (journal.path.parent / line["recording"]).is_file()
+    ]  # fmt: skip
+    if lost:
+        raise InputError(
+            f"{journal.path} says that {lost[0]} holds {lost.count(lost[0])} cells, and it is "
+            "gone; put it back, or begin the plan in another --out"
+        )
     journal.write("resumed")
 
 
@@ -233,7 +242,8 @@ def _notes(problem: RunProblem, journal: Journal, latch: AsperityError | None) -
         notes.extend(standing(problem.case))
     if latch is not None:
         notes.append(
-            f"latched: {latch}; vibration and motors are off until a person acknowledges it"
+            f"latched: {latch}; vibration and motors are off until a person acknowledges it: "
+            '--resume --acknowledge "who, and what was done"'
         )
     parts: dict[str, Any] = {}
     for line in journal.of("recording"):

@@ -108,7 +108,7 @@ class Recording:
             raise StorageError(f"{name} cannot be read: it is a folder; give a file") from None
         except Exception as error:
             # A damaged file surfaces as whatever the layer that trips over it raises.
-            raise StorageError(f"{name} cannot be read: not a recording, or damaged") from error
+            raise StorageError(f"{name} cannot be read: {_why(path)}") from error
 
     @property
     def duration(self) -> float:
@@ -161,6 +161,17 @@ class Recording:
     def name(self) -> str:
         """The file's name, as it may be shown."""
         return plain(self.path.name)
+
+
+def _why(path: Path) -> str:
+    """Return what can be told of a file that does not open."""
+    with path.open("rb") as file:
+        head = file.read(48)
+    stated = int.from_bytes(head[40:48], "little")
+    size = path.stat().st_size
+    if head.startswith(b"\x89HDF\r\n\x1a\n\0") and size < stated:
+        return f"{size} of its {stated} bytes are there, the rest is cut off; copy it again"
+    return "not a recording, or damaged; import what an oscilloscope wrote: asperity rig import"
 
 
 def worth(counts: Counts, source: Source) -> FloatArray:

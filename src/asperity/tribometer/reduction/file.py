@@ -310,7 +310,8 @@ def _file(
     path = distance
     for segment, one in zip(segments, found, strict=True):
         if one.k_v_with is not None:
-            part = sliding[segment.shaken.first : segment.shaken.last]
+            # All of the vibration, not only the window that is reduced.
+            part = sliding[round(segment.start / blocks.length) : segment.shaken.last + 1]
             share = wear.path_share(one.k_v_with, pair.rig.mode)
             path += (share - 1.0) * float(part.sum() * blocks.length)
     losses = {name: wear.mass_loss(recording.events, name) for name in ("steel", "bronze")}

@@ -149,6 +149,7 @@ class Reduced(Result):
         default=None,
     )  # fmt: skip
     repeat_freedom: int = quantity("", "", "degrees of freedom of that", default=0)
+    weighed: tuple[dict[str, Any], ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return the segments, and beside them what is told of each recording."""
@@ -166,6 +167,8 @@ class Reduced(Result):
                 for one in self.files
             ],
         }  # fmt: skip
+        if self.weighed:
+            beside["wear_together"] = list(self.weighed)
         segments = {"segments": [one.to_json() for one in self.segments]}
         told: dict[str, Any] = plain(beside)
         return segments | told | super().to_json()
@@ -201,17 +204,30 @@ class Reduced(Result):
             for one in self.segments
             if one.flags
         ]
+        if self.repeat_deviation is not None:
+            flags.append(
+                f"repeats of a cell differ by {self.repeat_deviation:.2g} points about their mean, "
+                f"pooled over cells ({self.repeat_freedom} degrees of freedom)"
+            )
+        remarks = [
+            f"{one['disc']} disc: {one['mass_loss_mg']:.3g} mg lost over {one['distance_m']:.3g} m "
+            f"of sliding, {one['path_m']:.3g} m with the vibration's path"
+            + (f": Archard's K is {one['archard']:.3g}" if one["archard"] is not None else "")
+            for one in self.weighed
+        ]
+        # As many digits as a part of a turn can tell.
         files = [
-            (one.file, one.runout_steel, one.runout_bronze, one.noise, one.drift, one.distance,
-             len(one.gaps))
+            (one.file, *map(_two, (one.runout_steel, one.runout_bronze, one.noise, one.drift)),
+             one.distance, len(one.gaps))
             for one in self.files
         ]  # fmt: skip
         heads = (
-            "file", "run-out steel %", "bronze %", "noise N m", "drift %", "distance m", "gaps"
+            "file", "run-out steel %", "bronze %", "noise N m", "drift of the file %",
+            "distance m", "gaps",
         )  # fmt: skip
         return (
             Table.of(headings, rows, left=4, remarks=flags),
-            Table.of(heads, files, remarks=self.notes),
+            Table.of(heads, files, remarks=(*remarks, *self.notes)),
         )
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
@@ -251,6 +267,10 @@ class Reduced(Result):
 
 def _declared(rows: tuple[Quantities, ...]) -> list[Entry]:
     return list(type(rows[0]).declared()) if rows else []
+
+
+def _two(value: float | None) -> float | None:
+    return None if value is None else float(f"{value:.2g}")
 
 
 def _cell(value: Any) -> Any:

@@ -88,9 +88,11 @@ def _segment(
     if on is None:
         refused = "the motor stands still"
     elif shaken.count < least:
-        refused = f"{_seconds(shaken, blocks)} with vibration, too short"
+        refused = _short(f"{_seconds(shaken, blocks)} with vibration", given)
+    elif not before.count:
+        refused = "no sliding before it"
     elif before.count < least:
-        refused = f"no sliding before it ({_seconds(before, blocks)})"
+        refused = _short(f"{_seconds(before, blocks)} of sliding before it", given)
     elif tone is None:
         refused = "its drive signal has no tone"
     elif frequency is None:
@@ -102,6 +104,13 @@ def _segment(
         refused = _lost(blocks, before, shaken)
     start = shaking.first * blocks.length
     return Segment(before, shaken, tone, frequency, waveform, start, refused, tuple(flags))
+
+
+def _short(what: str, given: Reduction) -> str:
+    return (
+        f"{what}, {given.settling:g} s of settling left out: less than reduction.least_window = "
+        f"{given.least_window:g} s"
+    )
 
 
 def _seconds(stretch: Stretch, blocks: Blocks) -> str:

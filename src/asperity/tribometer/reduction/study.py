@@ -17,6 +17,7 @@ from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Rig, Sonotrode
 from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction import wear
 from asperity.tribometer.reduction.blocks import blocks_of
 from asperity.tribometer.reduction.file import reduce_file
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
@@ -66,6 +67,9 @@ def read(
     """Open recordings; each is reduced by the configuration that is given, or by its own."""
     given = read_case(config, known, settings) if config else None
     opened = [Recording.open(Path(name)) for name in recordings]
+    places = [one.path.resolve() for one in opened]
+    if again := next((one for one in opened if places.count(one.path.resolve()) > 1), None):
+        raise InputError(f"{again.name} is given twice; a recording is no repeat of itself")
     found = []
     for recording in opened:
         own = given
@@ -111,6 +115,7 @@ def answer(problem: Sequence[Reducible], run: Run) -> Reduced:
     return Reduced(
         segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
         repeat_freedom=freedom, notes=tuple(_notes(problem)),
+        weighed=tuple(wear.between_weighings(Pair.from_case(problem[0].case), files)),
     )  # fmt: skip
 
 

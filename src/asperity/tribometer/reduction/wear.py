@@ -2,12 +2,15 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
+from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import LONGITUDINAL, Disc
 from asperity.tribometer.recording import Event
+from asperity.tribometer.reduction.result import FileResult
 from asperity.units import to_si
 
 
@@ -52,6 +55,18 @@ def mass_loss(events: Sequence[Event], disc: str) -> float | None:
             except ValueError:
                 continue
     return weighed[0] - weighed[-1] if len(weighed) > 1 else None
+
+
+def between_weighings(pair: Pair, files: Sequence[FileResult]) -> Iterator[dict[str, Any]]:
+    """Yield wear of each disc that was weighed before and after the recordings together."""
+    distance = sum(one.distance for one in files)
+    path = sum(one.path or one.distance for one in files)
+    for name, disc in (("steel", pair.steel), ("bronze", pair.bronze)):
+        if disc.mass_loss is not None:
+            yield {
+                "disc": name, "mass_loss_mg": 1e6 * disc.mass_loss, "distance_m": distance,
+                "path_m": path, "archard": archard(disc.mass_loss, disc, pair.rig.load, path),
+            }  # fmt: skip
 
 
 def archard(loss: float | None, disc: Disc, load: float, path: float) -> float | None:

@@ -78,7 +78,8 @@ class Report(Result):
         return [*made, Picture(
             "Torque ratio over the velocity ratio", over_velocity(dataset),
             "As figures 6.37, 6.46 and 6.51, measured against the model: k_v counts v_a over the "
-            "mean of the sliding velocities before and with vibration.",
+            "mean of the sliding velocities before and with vibration. The model's ratio is that "
+            "at the velocity with vibration.",
         )]  # fmt: skip
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
