@@ -268,8 +268,8 @@ COMMANDS = (
     Command(
         "rig report",
         "Put the recordings of a folder on one page: cells, pictures, what was left out.",
-        "Writes report.html, and reduce.json, reduce.nc, reduce.csv and measurements.csv, into DIR, or "
-        "into --out.",
+        "Writes report.html, reduce.json, reduce.nc, reduce.csv and measurements.csv into DIR, "
+        "or into --out.",
         prepare="asperity.tribometer.report.study:prepare",
         solve="asperity.tribometer.report.study:answer",
         read="asperity.tribometer.report.study:read",
