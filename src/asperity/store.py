@@ -1,6 +1,7 @@
 """Files read with a bound and written whole or not at all, and labelled results in netCDF."""
 
 import contextlib
+import contextvars
 import functools
 import hashlib
 import os
@@ -10,7 +11,7 @@ import secrets
 import stat
 import tempfile
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -30,7 +31,48 @@ _LONG_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*{_KEY_PART}(?:[ \t]*\.[ \t]*{_KEY_P
 _TEMPORARY = re.compile(r"\..*\.asperity-([0-9a-f]{8})-([0-9]+)-[0-9a-f]{12}(?:\.[^.]*)?")
 
 
-def _reason(error: OSError) -> str:
+_inputs: contextvars.ContextVar[set[tuple[int, int]] | None] = contextvars.ContextVar(
+    "inputs", default=None
+)
+
+
+@contextlib.contextmanager
+def inputs_kept() -> Iterator[None]:
+    """Let nothing that is read until the end of the block be written over within it."""
+    token = _inputs.set(set())
+    try:
+        yield
+    finally:
+        _inputs.reset(token)
+
+
+def keep_input(path: str | os.PathLike[str]) -> None:
+    """Note a file that somebody gave, so that :func:`inputs_kept` keeps it."""
+    kept = _inputs.get()
+    if kept is not None:
+        with contextlib.suppress(OSError, ValueError):
+            kept.add(_identity(path))
+
+
+def _identity(path: str | os.PathLike[str]) -> tuple[int, int]:
+    # Of one file under two names, or behind a link, it is the same.
+    found = os.stat(path)
+    return found.st_dev, found.st_ino
+
+
+def _refuse_input(path: Path) -> None:
+    try:
+        read = _identity(path) in (_inputs.get() or ())
+    except (OSError, ValueError):  # there is none
+        return
+    if read:
+        raise InputError(
+            f"{plain(str(path))} is read here, and would be written over; choose another --out"
+        )
+
+
+def reason(error: OSError) -> str:
+    """Return in a few words why a file cannot be read or written."""
     if isinstance(error, StorageError):
         return str(error)
     return plain((error.strerror or str(error) or type(error).__name__).lower())
@@ -55,6 +97,7 @@ def read_bytes(path: str | os.PathLike[str], most: int = _MOST_BYTES) -> bytes:
     kind = path.stat().st_mode
     if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
         raise StorageError("it is a device or a pipe; save what it holds to a file")
+    keep_input(path)
     with path.open("rb") as file:
         content = file.read(most + 1)
     if len(content) > most:
@@ -86,15 +129,15 @@ def read_text(
     try:
         return read_bytes(path, most).decode("utf-8-sig")
     except OSError as error:
-        cause, reason = error, _reason(error)
+        cause, why = error, reason(error)
         if isinstance(error, IsADirectoryError):
-            reason = "it is a folder; give a file"
+            why = "it is a folder; give a file"
     except UnicodeDecodeError as error:
-        cause, reason = error, f"byte {error.start} is not UTF-8; save it as UTF-8"
+        cause, why = error, f"byte {error.start} is not UTF-8; save it as UTF-8"
     except ValueError as error:  # a zero byte in the name
-        cause, reason = error, str(error)
+        cause, why = error, str(error)
     name = name if len(name) < 200 else f"{name[:197]}..."
-    raise InputError(f"{name or repr(name)} cannot be read: {reason}") from cause
+    raise InputError(f"{name or repr(name)} cannot be read: {why}") from cause
 
 
 def read_toml(path: str | os.PathLike[str], name: str | None = None) -> dict[str, Any]:
@@ -111,9 +154,9 @@ def read_toml_text(
         return text, parse_toml(text)
     except ValueError as error:
         last = f"(at line {len(text.splitlines())}, the last one)"
-        reason = str(error).replace("(at end of document)", last)
+        why = str(error).replace("(at end of document)", last)
         name = plain(str(path)) if name is None else name
-        raise InputError(f"{name}: not valid TOML: {plain(reason)}") from None
+        raise InputError(f"{name}: not valid TOML: {plain(why)}") from None
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -150,8 +193,11 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
     ------
     StorageError
         The file cannot be written: full disk, no permission, no such folder, ...
+    InputError
+        It is what the command reads.
     """
     path = Path(path)
+    _refuse_input(path)
     # The suffix stays, because drawing libraries choose the format by it.
     owner = f"asperity-{_here()}-{os.getpid()}-{secrets.token_hex(6)}"
     temporary = path.with_name(f".{path.stem[:80]}.{owner}{path.suffix}")
@@ -160,10 +206,11 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
         with temporary.open("rb+") as file:
             os.fsync(file.fileno())
         os.replace(temporary, path)
-    except StorageError:
+    except StorageError as error:
+        error.args = (str(error).replace(str(temporary), str(path)), *error.args[1:])
         raise
     except OSError as error:
-        raise StorageError(f"{path} cannot be written: {_reason(error)}") from error
+        raise StorageError(f"{path} cannot be written: {reason(error)}") from error
     finally:
         # After the rename there is nothing left to remove; before it, also for an interrupt.
         with contextlib.suppress(OSError):
@@ -308,6 +355,6 @@ def output_folder(path: str | os.PathLike[str]) -> Path:
         remove_leftovers(folder)
     except OSError as error:
         raise StorageError(
-            f"{path} cannot be used as output folder: {_reason(error)}; choose another"
+            f"{path} cannot be used as output folder: {reason(error)}; choose another"
         ) from error
     return folder

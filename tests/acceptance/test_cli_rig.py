@@ -224,6 +224,37 @@ def test_an_export_of_an_oscilloscope_becomes_a_recording(asperity, tmp_path):
     refused(asperity("rig", "reduce", out), "run.nc")
 
 
+def test_what_was_measured_is_not_written_over(asperity, recording, tmp_path):
+    raw, case = tmp_path / "run.csv", "rig-final"
+    raw.write_text("measured once")
+    old = tmp_path / "old.nc"
+    old.write_bytes(b"measured once")
+    there = "is there already; name another file"
+    refused(asperity("rig", "import", raw, case, "--out", raw), "run.csv", there)
+    refused(asperity("rig", "import", raw, case, "--out", old), "old.nc", there)
+    refused(asperity("rig", "import", raw, case, "--out", tmp_path), "is a folder; name a file")
+    named = asperity("rig", "import", raw, case, "--out", tmp_path / "new.csv")
+    refused(named, "it must end in .nc, as new.nc does")
+    below = asperity("rig", "import", raw, case, "--out", raw / "new.nc")
+    refused(below, "run.csv cannot be used as output folder")
+    assert raw.read_text() == old.read_text() == "measured once"
+    # Under the very name of the answer's file, in a folder of its own and among others.
+    mine = tmp_path / "series" / "reduce.nc"
+    mine.parent.mkdir()
+    mine.write_bytes(recording.read_bytes())
+    for words in (("reduce", mine, "--out", mine.parent), ("report", mine.parent)):
+        code, _, errors = asperity("rig", *words)
+        assert code == 2
+        assert "reduce.nc is read here, and would be written over" in errors
+        assert mine.read_bytes() == recording.read_bytes()
+
+
+def test_a_run_begins_in_no_folder_that_holds_recordings(asperity, tmp_path):
+    (tmp_path / "file-01.nc").write_bytes(b"measured once")
+    refused(asperity("rig", "run", "rig-final", "--out", tmp_path), "file-01.nc is there already")
+    assert [path.name for path in tmp_path.iterdir()] == ["file-01.nc"]
+
+
 def test_a_fit_prints_the_keys_of_the_contract(asperity, tmp_path):
     rows = "\n".join(f"{k},{r},0.01" for k, r in ((1.5, 0.62), (2, 0.46), (3, 0.26), (6, 0.12)))
     (tmp_path / "data.csv").write_text(f"vibration.velocity_ratio,ratio,sd\n{rows}\n", "utf-8")

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 import xarray
 
-from asperity.errors import StorageError
+from asperity.errors import InputError, StorageError
 from asperity.store import (
     harmless_cell,
+    inputs_kept,
     output_folder,
     read_dataset,
+    read_text,
     write_atomically,
     write_dataset,
     write_text,
@@ -116,7 +118,7 @@ def test_a_dataset_that_does_not_fit_is_one_line_and_leaves_nothing(tmp_path):
     code = """
 import resource, signal, sys
 import numpy, xarray
-from asperity.errors import StorageError
+from asperity.errors import InputError, StorageError
 from asperity.store import write_dataset
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
@@ -210,3 +212,27 @@ def test_a_spreadsheet_takes_no_text_for_a_formula():
         assert harmless_cell(text) == f"'{text}"
     for cell in ("mu", "-", "", "-3.5e-6", "+inf", 3.5, None, True, "a=b"):
         assert harmless_cell(cell) is cell
+
+
+def test_what_a_command_reads_it_does_not_write_over(tmp_path):
+    given = write_text(tmp_path / "given.txt", "mine")
+    other = tmp_path / "other.txt"
+    other.symlink_to(given)
+    with inputs_kept():
+        assert read_text(given) == "mine"
+        for path in (given, other):
+            with pytest.raises(InputError, match="is read here, and would be written over"):
+                write_text(path, "its")
+        assert write_text(tmp_path / "new.txt", "its").read_text() == "its"
+    assert given.read_text() == "mine"
+    # Whoever reads a file in Python may replace it.
+    read_text(given)
+    assert write_text(given, "its").read_text() == "its"
+
+
+def test_a_file_that_cannot_be_written_is_told_by_its_own_name(tmp_path):
+    def fail(path):
+        raise StorageError(f"{path} cannot be written: disk full")
+
+    path = tmp_path / "run.nc"
+    assert refusal(write_atomically, path, fail) == f"{path} cannot be written: disk full"

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 from asperity.casefile import read_case, told
 from asperity.cli import show
 from asperity.commands import Command, case_tables
-from asperity.errors import ConvergenceError, StorageError
+from asperity.errors import ConvergenceError, InputError, StorageError, plain
 from asperity.results.files import picture_format
-from asperity.results.quantity import plain
+from asperity.results.quantity import plain as jsonable
 from asperity.runs import Run
 from asperity.store import output_folder
 
@@ -36,6 +36,9 @@ def execute(
 ) -> None:
     """Do what a command does with a case, print the answer and write its files."""
     pictures = picture_format(pictures)
+    file = out if command.out != "DIR" else None
+    if file is not None:
+        _check_new(file, command)
     read = command.reader
     if read is None:
         found = read_case(case, case_tables(), settings)
@@ -45,27 +48,39 @@ def execute(
         problem = command.prepared(found, **options)
     if out is None and command.into:
         out = Path(options[command.into])
-    file = out if command.out != "DIR" else None
-    with _folder(None if file else out) as folder, show.progress_bar(command.counts) as progress:
-        run = Run(progress=progress, notify=show.note, folder=folder, stem=command.stem)
+    parent = out if file is None else file.parent
+    with _folder(parent) as folder, show.progress_bar(command.counts) as progress:
+        into = folder if file is None else None
+        run = Run(progress=progress, notify=show.note, folder=into, stem=command.stem)
         try:
             with told(found):
                 result = command.solved(problem, run)
         except ConvergenceError as error:
             if as_json:
-                show.print_json({"error": str(error), "reached": plain(error.reached)})
+                show.print_json({"error": str(error), "reached": jsonable(error.reached)})
             raise
     shown = _show(found.source, result, as_json=as_json, full=full)
-    if folder is not None:
+    if file is not None:
+        show.note(f"written to {result.save(file)}")
+    elif folder is not None:
         names = result.write(folder, pictures=pictures)
         run.finished()
         show.note(f"written to {folder}: {', '.join(names)}")
-    if file is not None:
-        show.note(f"written to {result.save(file)}")
     if shown is not None:
         raise shown
     if result.failure is not None:
         raise result.failure
+
+
+def _check_new(file: Path, command: Command) -> None:
+    """Refuse a file that is there: what it holds may have been measured once and for all."""
+    name, ending = plain(str(file)), Path(command.out).suffix
+    if file.is_dir():
+        raise InputError(f"--out {name} is a folder; name a file in it, as {name}/{command.out}")
+    if file.exists() or file.is_symlink():
+        raise InputError(f"--out {name} is there already; name another file, or remove it")
+    if file.suffix.lower() != ending:
+        raise InputError(f"--out {name}: it must end in {ending}, as {file.stem}{ending} does")
 
 
 @contextlib.contextmanager

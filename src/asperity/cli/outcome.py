@@ -26,8 +26,12 @@ def reported(command: Callable[P, None]) -> Callable[P, None]:
 
     @functools.wraps(command)
     def wrapped(*arguments: P.args, **options: P.kwargs) -> None:
+        # Loaded here, for the help does without.
+        from asperity.store import inputs_kept
+
         try:
-            command(*arguments, **options)
+            with inputs_kept():
+                command(*arguments, **options)
         except AsperityError as error:
             _end(_line(error), error.exit_code)
         except KeyboardInterrupt as error:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from asperity import store
 from asperity.casefile import Case
 from asperity.errors import InputError, plain
 from asperity.runs import Run
@@ -43,16 +44,15 @@ def prepare(case: Case, *, file: str) -> Importable:
     case.require(Channels)
     name = plain(file)
     path = Path(file)
+    store.keep_input(path)
     try:
         if not path.is_file():
             reason = "it is a folder; give a file" if path.is_dir() else "no such file"
             raise InputError(f"{name} cannot be read: {reason}")
         with path.open("rb") as opened:
             head = opened.read(128)
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{name} cannot be read: {str(error).lower()}") from None
+    except OSError as error:
+        raise InputError(f"{name} cannot be read: {store.reason(error)}") from None
     return Importable(path, name, _form(path, head), case)
 
 

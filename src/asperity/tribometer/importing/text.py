@@ -76,8 +76,7 @@ def _decoded(path: Path, name: str) -> str:
     try:
         content = store.read_bytes(path, _MOST_BYTES)
     except OSError as error:
-        reason = str(error.strerror or error).lower()
-        raise InputError(f"{name} cannot be read: {reason}") from None
+        raise InputError(f"{name} cannot be read: {store.reason(error)}") from None
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return content.decode("utf-16", "replace")
     if b"\0" in content[:_HEAD]:

@@ -145,8 +145,12 @@ def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult
             "look at the instruments",
             kind="not safe",
         )
-    if problem.resume and not (folder / NAME).exists():
-        raise InputError(f"{folder} holds no run to go on with; leave --resume out")
+    if not (folder / NAME).exists():
+        if problem.resume:
+            raise InputError(f"{folder} holds no run to go on with; leave --resume out")
+        files = (folder / f"{one.name}.nc" for one in problem.files)
+        if there := next(filter(Path.exists, files), None):
+            raise InputError(f"{there} is there already, of another run; choose another --out")
     journal = Journal(folder)
     latch: AsperityError | None = None
     try:

@@ -13,6 +13,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from asperity import store
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError, StorageError, plain, shown
@@ -97,6 +98,7 @@ class Recording:
             There is no such file, or it is no recording or damaged.
         """
         name = plain(str(path))
+        store.keep_input(path)
         try:
             with _opened(path) as file:
                 return cls(path, **_read(file, path.stat().st_size, name))

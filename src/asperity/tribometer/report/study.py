@@ -18,6 +18,8 @@ from asperity.tribometer.reduction.result import REFUSED, Reduced, SegmentResult
 from asperity.tribometer.reduction.study import Reducible
 from asperity.tribometer.report.result import Report
 
+_ANSWERS = Reduced.stem, "run", "plan"  # that commands leave beside recordings
+
 
 @dataclasses.dataclass(frozen=True)
 class Gathered(Case):
@@ -35,15 +37,14 @@ def read(case: str, known: Mapping[str, Any], settings: Sequence[str], *, folder
     found: list[Reducible] = []
     refused: list[tuple[str, str]] = []
     for path in sorted(place.glob("*.nc")):
-        if path.stem in (Reduced.stem, "run", "plan"):
-            continue
         try:
             recording = Recording.open(path)
             found.append(Reducible(recording, recording.case(known).replace(settings)))
             Pair.from_case(found[-1].case)
             found[-1].case.require(Channels)
         except AsperityError as error:
-            refused.append((plain(path.name), str(error)))
+            if path.stem not in _ANSWERS:
+                refused.append((plain(path.name), str(error)))
             found = [one for one in found if one.recording.path != path]
     if not found:
         why = f": {refused[0][0]}: {refused[0][1]}" if refused else ""
