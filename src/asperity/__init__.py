@@ -4,9 +4,11 @@ What a session begins with stands here, imported when it is first used.
 """
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = False  # as typing has it, which takes its time at the start of a command
 if TYPE_CHECKING:
+    from typing import Any
+
     from asperity.block.parameters import Block, Contact
     from asperity.errors import AsperityError, ConvergenceError, InputError
     from asperity.flanks.parameters import Disc, Hob, Modification, Mount
@@ -96,7 +98,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     if name not in _PLACE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = getattr(importlib.import_module(_PLACE[name]), name)

@@ -45,6 +45,39 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
     )
 
 
+IMPORTS = """
+import signal, sys
+from asperity.cli.main import main
+
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == sys.argv[1]:
+            signal.raise_signal(signal.SIGINT)
+
+sys.meta_path.insert(0, Finder())
+main(sys.argv[2:])
+"""
+
+
+@pytest.mark.parametrize(
+    ("while_importing", "command"),
+    [
+        ("typer", "rate gearset-3"),
+        slow("rich.markdown", "--help"),
+        slow("rich.markdown", "rig --help"),
+        slow("asperity.store", "cases"),
+        ("asperity.casefile", "rig reduce run.nc"),
+        slow("numpy", "rate gearset-3"),
+    ],
+)
+def test_ctrl_c_at_any_import_ends_with_130_and_a_line(environment, while_importing, command):
+    ended = subprocess.run(
+        [sys.executable, "-c", IMPORTS, while_importing, *command.split()],
+        env=environment, capture_output=True, text=True, timeout=180, check=False,
+    )  # fmt: skip
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "interrupted\n")
+
+
 @pytest.mark.slow
 def test_without_standard_error_notes_do_not_spoil_the_answer(shell):
     code, output, errors = shell("asperity rate gearset-3 --json --out out 2>&-")

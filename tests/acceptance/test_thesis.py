@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import typer
 
-from asperity.cli.main import app
+from asperity.cli.application import app
 from asperity.store import read_dataset
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything

@@ -10,9 +10,9 @@ from typing import ParamSpec
 
 import typer
 
+from asperity.cli import interrupt
 from asperity.errors import AsperityError, ConvergenceError, plain
 
-INTERRUPTED = 130
 BROKEN_PIPE = 141
 
 # What typer raises for a wrong command line, wherever this version of it keeps the class.
@@ -26,20 +26,25 @@ def reported(command: Callable[P, None]) -> Callable[P, None]:
 
     @functools.wraps(command)
     def wrapped(*arguments: P.args, **options: P.kwargs) -> None:
-        # Loaded here, for the help does without.
-        from asperity.store import inputs_kept
-
+        starting = interrupt.as_exception()
         try:
+            # Loaded here, for the help does without.
+            from asperity.store import inputs_kept
+
             with inputs_kept():
                 command(*arguments, **options)
         except AsperityError as error:
             _end(_line(error), error.exit_code)
         except KeyboardInterrupt as error:
-            _end(str(error) or "interrupted", INTERRUPTED)
+            _end(str(error) or interrupt.LINE, interrupt.INTERRUPTED)
         except BrokenPipeError:
             # Who read the output has seen enough. Python would complain at its own last flush.
             silence_standard_output()
             _end("", BROKEN_PIPE)
+        finally:
+            if starting:
+                # Of a group, what follows is the start of the command itself.
+                interrupt.at_once()
 
     return wrapped
 

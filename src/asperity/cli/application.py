@@ -1,0 +1,409 @@
+"""What a user types, and what it sets going.
+
+Everything heavy is imported inside the commands, so that the help is there at once.
+"""
+
+import inspect
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from asperity.cli.outcome import (
+    USAGE_ERROR,
+    hold_streams,
+    reported,
+    silence_standard_output,
+    tell,
+    unwritten,
+    usage,
+)
+from asperity.commands import COMMANDS, GROUPS, Argument, Command, Option
+
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="What imposed vibration does to friction between sliding surfaces.",
+)
+
+_CASE_HELP = "A case file, or the name of a case that ships."
+CaseArgument = Annotated[str, typer.Argument(metavar="CASE", help=_CASE_HELP)]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Change the case; as often as needed."),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print one JSON object to standard output, nothing else.")
+]
+
+
+FullOption = Annotated[
+    bool, typer.Option("--full", help="Print every number, not one screen with the verdict.")
+]
+
+
+def _folder(given: str) -> Path:
+    # Python takes "" for the working directory; it is a variable of the shell that was not set.
+    if not given:
+        raise typer.BadParameter("it is empty; give a folder, or . for the working directory")
+    return Path(given)
+
+
+OutOption = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
+]
+
+
+FormatOption = Annotated[
+    str, typer.Option("--format", metavar="FORMAT", help="Of pictures: png, svg or pdf.")
+]
+
+
+def _out(command: Command) -> Any:
+    if command.out == "DIR":
+        return OutOption
+    said = typer.Option("--out", metavar=command.out, parser=_folder, help="File to write.")
+    return Annotated[Path | None, said]
+
+
+@app.callback(invoke_without_command=True)
+@reported
+def asperity(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
+    files: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--materials",
+            metavar="FILE",
+            help="Materials, oils, bearings and motors of your own; again for another file.",
+        ),
+    ] = None,
+) -> None:
+    """What imposed vibration does to friction between sliding surfaces."""
+    from asperity.cli.show import print_text
+
+    if files:
+        from asperity.gearset.library import add_files
+
+        add_files(files)
+    if version:
+        from asperity import __version__
+
+        print_text(f"asperity {__version__}")
+        raise typer.Exit
+    # With its rich help typer prints by itself and returns nothing.
+    if context.invoked_subcommand is None and (text := context.get_help()):
+        print_text(text)
+
+
+def _command(command: Command) -> None:
+    """Give the application a command of the registry."""
+
+    @reported
+    def run(
+        settings: list[str] | None, as_json: bool, out: Path | None, case: str = "", **options: Any
+    ) -> None:
+        from asperity.cli.execute import execute
+
+        execute(command, case, settings or (), as_json=as_json, out=out, **options)
+
+    case = Annotated[str, typer.Argument(metavar=command.case, help=_CASE_HELP)]
+    parameters = {
+        **{
+            argument.name: (_placed(argument), inspect.Parameter.empty)
+            for argument in command.arguments
+        },
+        **({"case": (case, inspect.Parameter.empty)} if command.case else {}),
+        **{option.name: _typed(option) for option in command.options},
+        **({"full": (FullOption, False)} if command.brief else {}),
+        **({"pictures": (FormatOption, "png")} if command.draws else {}),
+        "settings": (SetOption, None),
+        "as_json": (JsonOption, False),
+        "out": (_out(command), None),
+    }
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    run.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+        [
+            inspect.Parameter(name, keyword, annotation=kind, default=default)
+            for name, (kind, default) in parameters.items()
+        ]
+    )
+    run.__doc__ = f"{command.summary}\n\n{command.files}"
+    # Typer looks at the function behind a decorator.
+    del run.__wrapped__  # type: ignore[attr-defined]
+    group, _, name = command.name.rpartition(" ")
+    (_groups[group] if group else app).command(name=name)(run)
+
+
+def _placed(argument: Argument) -> Any:
+    kind: Any = list[str] if argument.many else str
+    return Annotated[kind, typer.Argument(metavar=argument.metavar, help=argument.help)]
+
+
+def _typed(option: Option) -> tuple[Any, Any]:
+    kind: Any = list[str] if option.many else str if option.metavar else bool
+    metavar = option.metavar or None
+    said = typer.Option(f"--{option.name}", metavar=metavar, help=option.help)
+    default: Any = inspect.Parameter.empty if option.default is None else option.default
+    if option.many and default == "":
+        kind, default = list[str] | None, None
+    return Annotated[kind, said], default
+
+
+_groups = {name: typer.Typer(help=about) for name, about in GROUPS.items()}
+for _name, _group in _groups.items():
+    app.add_typer(_group, name=_name, no_args_is_help=True)
+for _listed in COMMANDS:
+    _command(_listed)
+
+
+@app.command()
+@reported
+def export(
+    case: CaseArgument,
+    program: Annotated[
+        str,
+        typer.Option(
+            "--to",
+            metavar="PROGRAM",
+            help="abaqus or calculix; c, csv or mat for a body's mean friction.",
+        ),
+    ],
+    settings: SetOption = None,
+    over: Annotated[
+        str,
+        typer.Option(
+            "--over", metavar="TABLE.KEY=VALUES", help="Mean friction over this value as well."
+        ),
+    ] = "",
+    as_json: JsonOption = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="DIR",
+            parser=_folder,
+            help="Folder to write to; out/PROGRAM if left out.",
+        ),
+    ] = None,
+) -> None:
+    """Take a case to another program: an input deck, or a body's mean friction as a table.
+
+    An elastic block or a gearset's loaded teeth become block.inp or teeth.inp, for Abaqus also
+    user.f, the friction law as user subroutine FRIC. The mean friction of a sliding body over a
+    cycle of its vibration, against its mean velocity, becomes law.c and law.h, law.csv or law.mat;
+    with --over over another value as well, map.c and so on.
+    """
+    from asperity.cli.export import export as run
+
+    run(case, program, settings or (), over, as_json=as_json, out=out)
+
+
+@app.command()
+@reported
+def thesis(
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--only", metavar="NUMBER", help="Only what has this number, as 4.17."),
+    ] = None,
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write to.")
+    ] = Path("out/thesis"),
+    full: Annotated[
+        bool,
+        typer.Option("--full", help="Figures of elastic blocks on fine meshes; about an hour."),
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Reproduce the thesis's claims, figures and tables into one page, index.html.
+
+    The page is there at once and fills. What is done is kept: after Ctrl-C, or a change in the
+    package, the same command makes what is missing and no more.
+    """
+    from asperity.cli import show
+    from asperity.errors import ConvergenceError
+    from asperity.thesis import run
+
+    result = run(out, only or (), show.note, full=full)
+    if as_json:
+        show.print_json(result.to_json())
+    else:
+        show.print_text(str(result.index))
+    if result.failed:
+        name, why = next(iter(result.failed.items()))
+        count = f"{len(result.failed)} of what was to be made failed"
+        raise ConvergenceError(f"{count}, the first of them {name}: {why}")
+
+
+@app.command()
+@reported
+def cases(as_json: JsonOption = False) -> None:
+    """List the cases that ship; their names work wherever a file does."""
+    from asperity.cli import show
+    from asperity.shipped import SPEAKING, describe, shipped_cases
+
+    speaking = {name: says for says, name in SPEAKING.items()}
+    listed = [
+        {"name": name, "also": speaking.get(name), "description": describe(path)}
+        for name, path in shipped_cases().items()
+    ]
+    if as_json:
+        show.print_json({"cases": listed})
+    else:
+        # Without the tables of answers, which take numpy.
+        widths = [max(len(case[key] or "") for case in listed) + 2 for key in ("name", "also")]
+        show.print_text(
+            "\n".join(
+                f"{case['name']:{widths[0]}}{case['also'] or '':{widths[1]}}{case['description']}"
+                for case in listed
+            )
+        )
+
+
+@app.command()
+@reported
+def new(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide, block or drive.")],
+    file: Annotated[
+        str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")
+    ] = "",
+    ratio: Annotated[
+        str, typer.Option("--ratio", metavar="RATIO", help="Of a gear's speeds; 40 if left out.")
+    ] = "",
+    settings: SetOption = None,
+    defaults: Annotated[bool, typer.Option("--defaults", help="Ask nothing.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Write a commented case file of your own, asking what is to be in it.
+
+    A gearset is sized from ratio, torque and speed.
+    """
+    from asperity.cli.new import new as run
+
+    path = Path(file) if file else None
+    run(kind, path, settings or (), ratio, defaults=defaults, as_json=as_json)
+
+
+@app.command()
+@reported
+def size(
+    ratio: Annotated[str, typer.Option("--ratio", metavar="RATIO", help="Of the speeds.")],
+    output_torque: Annotated[
+        str, typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
+    ],
+    worm_speed: Annotated[
+        str, typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
+    ],
+    rank: Annotated[
+        str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
+    ] = "size",
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
+    ] = None,
+) -> None:
+    """Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.
+
+    With --out also size.json, size.nc and a case file for each proposal.
+    """
+    from asperity.cli.new import size as run
+
+    asked = (f"operation.output_torque={output_torque}", f"operation.worm_speed={worm_speed}")
+    run(ratio, (*asked, *(settings or ())), rank, as_json=as_json, out=out)
+
+
+@app.command()
+@reported
+def compare(
+    cases: Annotated[
+        list[str], typer.Argument(metavar="CASE CASE...", help="Case files, or names of cases.")
+    ],
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
+    ] = None,
+) -> None:
+    """Put gearsets or bodies side by side: what differs in what is asked and in what comes of it.
+
+    A --set changes all of them. With --out also compare.json and compare.nc.
+    """
+    from asperity.cli.compare import compare as run
+
+    run(cases, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
+def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
+    """Find all mistakes of a case file, each with its line and what is allowed."""
+    from asperity.cli.check import check as run
+
+    run(case, settings or (), as_json=as_json)
+
+
+@app.command()
+@reported
+def schema(as_json: JsonOption = False) -> None:
+    """Print the JSON Schema of case files, by which editors complete and underline.
+
+    It is one JSON object in any case.
+    """
+    from asperity.cli.check import print_schema
+
+    print_schema()
+
+
+@app.command()
+@reported
+def materials(as_json: JsonOption = False) -> None:
+    """List the materials of worms and wheels, with source and trust."""
+    from asperity.cli.lists import print_library
+    from asperity.gearset.materials import WheelMaterial, WormMaterial
+
+    print_library((WheelMaterial, WormMaterial), as_json=as_json)
+
+
+@app.command()
+@reported
+def lubricants(as_json: JsonOption = False) -> None:
+    """List the lubricants and their base oils, with source and trust."""
+    from asperity.cli.lists import print_library
+    from asperity.gearset.lubricants import BaseOil, Lubricant
+
+    print_library((Lubricant, BaseOil), as_json=as_json)
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Run the command line; returns its exit code."""
+    hold_streams()
+    command: Any = typer.main.get_command(app)
+    # Left without a value, the option for help would load all of pydantic to convert none.
+    no_help: dict[str, Any] = {"help": False}
+    for name, one in command.commands.items():
+        within = dict.fromkeys(getattr(one, "commands", {}), no_help.copy())
+        no_help[name] = {"help": False, **within}
+    try:
+        code: int | None = command.main(
+            arguments, prog_name="asperity", standalone_mode=False, default_map=no_help
+        )
+    except USAGE_ERROR as error:
+        tell(usage(error))
+        code = 2
+    except OSError as error:
+        # Of what is left, the help that cannot be printed.
+        tell(unwritten(error))
+        code = 2
+    try:
+        sys.stdout.flush()
+    except OSError:
+        # What refused it has been told; Python would complain at its own last flush.
+        silence_standard_output()
+    return code or 0
