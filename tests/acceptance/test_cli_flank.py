@@ -1,5 +1,6 @@
 """`asperity flank` as a user runs it: numbers, files, and what is refused."""
 
+import csv
 import json
 import math
 import re
@@ -11,7 +12,7 @@ import pytest
 from asperity.casefile.schema import keys_of
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
-from asperity.flanks.parameters import Blanks, Disc, Hob, Modification, Mount
+from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
 from asperity.store import read_dataset
 from asperity.units import quantity_of, to_si
 
@@ -116,6 +117,21 @@ def test_without_a_tilt_the_pattern_lies_near_the_edge_of_the_face(asperity, nom
 
 
 @pytest.mark.slow
+def test_what_to_measure_is_told_with_limits_and_what_is_assumed(nominal):
+    found = nominal["measuring"]
+    assert found["pin_diameter_mm"] == 3.5
+    assert found["over_pins_upper_mm"] == pytest.approx(23.154, abs=5e-4)
+    assert found["over_pins_lower_mm"] < found["over_pins_upper_mm"]
+    assert found["over_balls_lower_mm"] < found["over_balls_upper_mm"]
+    assert found["backlash_normal_min_mm"] == nominal["backlash_normal_mm"]
+    assert found["assumed"].keys() == MeasuringOptions.model_fields.keys()
+    assert "DIN 3967" in found["from_memory"]["tolerance of the tooth thickness"]
+    parts = [line["part"] for line in found["drawing"]]
+    assert list(dict.fromkeys(parts)) == ["worm", "wheel", "both"]
+    assert nominal["blank"]["bore_mm"] == 29.0
+    assert "bore" in nominal["blank"]["assumed"]
+
+
 def test_a_reader_is_told_what_was_assumed_and_what_is_from_memory(asperity):
     code, output, _ = asperity(
         "flank", "gearset-3b", "--json",
@@ -193,6 +209,12 @@ def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_pa
     for name in ("tooth.stl", "worm.stl"):
         assert (folder / name).stat().st_size > 10_000
     assert (folder / "gearset.glb").read_bytes().startswith(b"glTF")
+    with (folder / "drawing.csv").open(newline="", encoding="utf-8") as file:
+        drawing = {(row["part"], row["symbol"]): row for row in csv.DictReader(file)}
+    over = drawing["worm", "M_dR1,s"]
+    assert float(over["value"]) == answer["measuring"]["over_pins_upper_mm"]
+    assert over["on the drawing"] == f"{float(over['value']):.3f}"
+    assert drawing["both", "a"]["value"] == "73.66"
     for name in ("tooth.step", "worm.step", "wheel.step", "gearset.step") if in_space else ():
         assert (folder / name).read_text().startswith("ISO-10303-21;")
 
@@ -212,6 +234,8 @@ def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_pa
         (("--set", "gearset.pressure_angle=30 deg"), "the hob's thread is pointed"),
         (("--set", "gearset.wheel_face_width=40 mm"), "gearset.wheel_face_width of at most"),
         (("--set", "gearset.starts=0"), "gearset.starts is 0"),
+        (("--set", "measuring.pin_diameter=9 mm"), "rest on the worm's flanks and stand out of"),
+        (("--set", "measuring.ball_diameter=9 mm"), "take one nearer to 3.66 mm"),
         (("--set", "blank.bore=200 mm"), "blank.bore is 200 mm; the inside of the rim has"),
         (("--set", "blank.shaft_diameter=14 mm"), "the worm's root diameter is 13.84 mm"),
     ],
@@ -265,7 +289,7 @@ def test_what_was_reached_may_be_no_number(capsys, monkeypatch):
     assert one_object(capsys.readouterr().out)["reached"] == {"backlash_mm": None}
 
 
-@pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount, Blanks])
+@pytest.mark.parametrize("table", [Hob, Disc, Modification, Mount, Blanks, MeasuringOptions])
 def test_the_page_has_each_key_with_its_default(table):
     part = re.split(r"^``\[(\w+)\]``", PAGE, flags=re.MULTILINE)
     page = dict(zip(part[1::2], part[2::2], strict=True))[table.table]

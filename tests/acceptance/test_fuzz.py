@@ -87,7 +87,7 @@ ROOMS = {
     "methods": ["gearset", "operation", "rating", "vibration", "friction"],
     "block": ["slider", "friction", "vibration", "solve", "block", "contact"],
     "export": ["slider", "friction", "vibration", "solve", "block", "contact"],
-    "flank": ["gearset", "hob", "disc", "modification", "mount", "blank"],
+    "flank": ["gearset", "hob", "disc", "modification", "mount", "blank", "measuring"],
     "drive": DRIVE,
     "directions": DRIVE,
     "locking": DRIVE,

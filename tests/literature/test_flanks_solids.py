@@ -193,7 +193,7 @@ def test_the_worm_is_a_screw_on_a_shaft(made):
     for start in (0.0, 1.0, 2.0):
         rho, _, _, slope = pair.worm.curve(start + 0.5 * (1.0 + node))
         area += 0.5 * np.sum(weight * rho**2 * slope)
-    ends = [-volume(section) for section in shaft_sections(pair, length, BLANKS)]
+    ends = [-volume(section) for section in shaft_sections(pair, BLANKS)]
     expected = length * pair.worm.starts * area / pair.worm.reduced_lead + sum(ends)
     read = read_step(folder / "worm.step")
     assert read.check.valid

@@ -149,7 +149,7 @@ def test_what_lies_in_one_plane_or_on_one_cylinder_is_one_face(sizes, pieces):
 def test_sizes_that_leave_no_room_are_refused_in_a_line(wheel, sizes, line):
     def both():
         wheel_section(wheel.pair.geometry, Blanks(**sizes))
-        shaft_sections(wheel.pair, 20.0, Blanks(**sizes))
+        shaft_sections(wheel.pair, Blanks(**sizes))
 
     with pytest.raises(InputError, match=line):
         both()

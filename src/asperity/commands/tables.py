@@ -25,6 +25,7 @@ _TABLES = {
     "modification": "asperity.flanks.parameters:Modification",
     "mount": "asperity.flanks.parameters:Mount",
     "blank": "asperity.flanks.parameters:Blanks",
+    "measuring": "asperity.flanks.parameters:MeasuringOptions",
     "rig": "asperity.tribometer.parameters:Rig",
     "steel_disc": "asperity.tribometer.parameters:SteelDisc",
     "bronze_disc": "asperity.tribometer.parameters:BronzeDisc",

@@ -215,3 +215,30 @@ class Blanks(Table):
     drive_end: Annotated[float, _length("60 mm", ge=0.0, le=10.0)] | None = None
     free_end: Annotated[float, _length("40 mm", ge=0.0, le=10.0)] | None = None
     chamfer: Annotated[float, _length("1 mm", ge=0.0, le=0.1)] | None = None
+
+
+class MeasuringOptions(Table):
+    r"""How worm and wheel are measured, and how far their teeth may be thinner than they should.
+
+    Parameters
+    ----------
+    pin_diameter : float or str, optional
+        Of the three pins over which the worm is measured, m. Left out: of a usual series, next to
+        the one that touches the flanks at the reference diameter.
+    ball_diameter : float or str, optional
+        Of the balls over which the wheel is measured, m. Left out: of the same series, next to the
+        one that touches the flanks at the mean circle.
+    thread_tolerance : float or str, optional
+        By how much the worm's threads may be thinner, normal to them, m. Left out: by the worm's
+        reference diameter.
+    tooth_tolerance : float or str, optional
+        By how much the wheel's teeth may be thinner, normal to them, m. Left out: by the wheel's
+        mean diameter.
+    """
+
+    table: ClassVar[str] = "measuring"
+
+    pin_diameter: Annotated[float, _length("3.5 mm", gt=0, le=0.5)] | None = None
+    ball_diameter: Annotated[float, _length("3.5 mm", gt=0, le=0.5)] | None = None
+    thread_tolerance: Annotated[float, _length("0.03 mm", ge=0.0, le=0.01)] | None = None
+    tooth_tolerance: Annotated[float, _length("0.05 mm", ge=0.0, le=0.01)] | None = None

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from asperity.flanks.export.assembly import Assembly
+from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
+from asperity.flanks.measuring.drawing import Datum, csv_of, drawing_data
+from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.meshing.analysis import LABELS, Analysis
 from asperity.flanks.meshing.lubrication import LoadedNumbers
 from asperity.flanks.parameters import Blanks
@@ -18,10 +21,12 @@ from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.results.dataset import to_dataset
 from asperity.results.quantity import text_of
 from asperity.results.table import Column, Table, table_of
+from asperity.store import write_text
 
 if TYPE_CHECKING:
     import xarray as xr
 
+_DRAWING = "drawing.csv"
 _PLOTS = "asperity.flanks.plots"
 _DIRECTIONS = {
     "axial": "worm along its axis",
@@ -78,6 +83,8 @@ class FlankStudy(Result):
         backlash asks for.
     assumed, from_memory : mapping of str to str
         What was not given, and what no document at hand confirms.
+    measuring : Measuring
+        What worm and wheel measure.
     assembly : Assembly
         How both stand in mesh in the files.
     step : bool
@@ -103,6 +110,7 @@ class FlankStudy(Result):
     mesh: ToothMesh
     assumed: Mapping[str, str]
     from_memory: Mapping[str, str]
+    measuring: Measuring
     assembly: Assembly
     step: bool = False
     blanks: Blanks | None = None
@@ -135,6 +143,21 @@ class FlankStudy(Result):
         """Angle of the worm from one tooth to the next, rad."""
         return 2.0 * math.pi / self.analysis.pair.geometry.starts
 
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Sizes of wheel and worm beside their teeth, mm, and which of them were assumed."""
+        pair = self.assembly.pair
+        sizes = wheel_sizes(pair.geometry, self.blanks) | shaft_sizes(pair, self.blanks)
+        given = self.blanks.model_fields_set if self.blanks is not None else set()
+        return {f"{key}_mm": size for key, size in sizes.items()} | {
+            "assumed": [key for key in sizes if key not in given]
+        }
+
+    @property
+    def drawing(self) -> list[Datum]:
+        """The data of worm and wheel that stand on their drawings."""
+        return drawing_data(self.wheel.pair, self.measuring)
+
     def resolution(self, name: str) -> float:
         """Return the size below which a quantity is rounding and shown as none, in its unit."""
         return RESOLVED if name == "backlash" else 0.0
@@ -162,6 +185,9 @@ class FlankStudy(Result):
                 "tip_rounding_mm": pair.worm.tip_rounding,
                 "thread_thickness_mm": 2.0 * (pair.worm.half_pitch - pair.worm.half_space),
             },
+            "measuring": self.measuring.to_json()
+            | {"drawing": [datum._asdict() for datum in self.drawing]},
+            "blank": self.sizes,
             "mesh": self.mesh.to_json(),
             "assumed": dict(self.assumed),
             "from_memory": dict(self.from_memory),
@@ -211,6 +237,7 @@ class FlankStudy(Result):
                 else []
             ),
             Table.of(("part of a vibration, s = +1", *parts), vibration),
+            self.measuring.table(),
             table_of(
                 self.mesh, title=f"mesh of a tooth, {self.mesh.density}", remarks=self._remarks()
             ),
@@ -230,8 +257,11 @@ class FlankStudy(Result):
         """Write numbers, pictures, meshes and bodies to a folder that exists; return names."""
         from asperity.flanks.export.files import write_bodies
 
+        names = super().write(folder, pictures=pictures)
+        write_text(folder / _DRAWING, csv_of(self.drawing))
         return [
-            *super().write(folder, pictures=pictures),
+            *names,
+            _DRAWING,
             *write_bodies(
                 self.wheel,
                 self.mesh.hexahedra,

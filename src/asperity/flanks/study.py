@@ -9,13 +9,14 @@ from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.extras import require_cad, require_view
-from asperity.flanks.export.turned import shaft_sections, wheel_section
+from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
+from asperity.flanks.measuring import measures
 from asperity.flanks.mesh.tooth import element_size, read_density, tooth
 from asperity.flanks.meshing import lubrication
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
-from asperity.flanks.parameters import Blanks, Disc, Hob, Modification, Mount
+from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
 from asperity.flanks.result import FlankStudy, ToothMesh
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
@@ -56,6 +57,7 @@ class Prepared:
     notes: tuple[str, ...] = ()
     step: bool = False
     blanks: Blanks | None = None
+    measuring: MeasuringOptions | None = None
 
 
 def prepare_gearset(
@@ -117,10 +119,17 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     )
     blanks = table(Blanks)
     pair = made.wheel.pair
-    wheel_section(pair.geometry, blanks)
-    shaft_sections(pair, pair.geometry.worm_face_width, blanks)
+    wheel_sizes(pair.geometry, blanks)
+    shaft_sizes(pair, blanks)
     load, notes = _load(case, gearset)
-    return dataclasses.replace(made, load=load, notes=tuple(notes), step=step, blanks=blanks)
+    return dataclasses.replace(
+        made,
+        load=load,
+        notes=tuple(notes),
+        step=step,
+        blanks=blanks,
+        measuring=table(MeasuringOptions),
+    )
 
 
 def answer(prepared: Prepared, run: Run) -> FlankStudy:
@@ -156,6 +165,8 @@ def study(prepared: Prepared) -> FlankStudy:
             raise
         found = analyse(pair, prepared.wheel, worm_speed=load.worm_speed)
         notes.append(f"no load on the contact lines: {error}")
+    wheel = Wheel(found.pair)
+    measured = measures.measure(wheel, found.play, prepared.measuring)
     assembly = Assembly.of(found, made=prepared.step)
     if assembly.thinned:
         less = MICROMETRES * assembly.thinned
@@ -171,7 +182,7 @@ def study(prepared: Prepared) -> FlankStudy:
     assumed = _assumed(prepared.gearset, prepared.hob, prepared.disc)
     return FlankStudy(
         name=prepared.gearset.name,
-        wheel=Wheel(found.pair),
+        wheel=wheel,
         analysis=found,
         mesh=prepared.mesh,
         assumed=assumed,
@@ -179,6 +190,7 @@ def study(prepared: Prepared) -> FlankStudy:
         notes=(*_notes(found, prepared.wheel), *notes),
         seconds=prepared.seconds + time.perf_counter() - began,
         assembly=assembly,
+        measuring=measured,
         step=prepared.step,
         blanks=prepared.blanks,
     )

@@ -1,9 +1,11 @@
 """Tables of a case file that describe how flanks are made and mounted."""
 
 from asperity.casefile import Table
-from asperity.flanks.parameters import Blanks, Disc, Hob, Modification, Mount
+from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
 
 TABLES: dict[str, type[Table]] = {
-    table.table: table for table in (Hob, Disc, Modification, Mount, Blanks)
+    table.table: table for table in (Hob, Disc, Modification, Mount, Blanks, MeasuringOptions)
 }
-"""Hob, grinding disc, modification and mount, and what wheel and worm are beside their teeth."""
+"""Hob, grinding disc, modification and mount; what wheel and worm are beside their teeth, and how
+they are measured.
+"""

@@ -41,8 +41,8 @@ def rim_radius(geometry: Geometry) -> float:
     return geometry.wheel_root_diameter / 2.0 - geometry.rim_thickness
 
 
-def wheel_section(geometry: Geometry, blanks: Blanks | None = None) -> FloatArray:
-    """Return the section of a wheel below its rim, (k, 2), from the lower face to the upper one.
+def wheel_sizes(geometry: Geometry, blanks: Blanks | None = None) -> dict[str, float]:
+    """Return what a wheel has of the sizes of `Blanks`, given or assumed, mm.
 
     Raises
     ------
@@ -76,6 +76,22 @@ def wheel_section(geometry: Geometry, blanks: Blanks | None = None) -> FloatArra
             f"{width:.4g} mm: take a narrower web"
         )
     chamfer = _chamfer(given, bore, min(0.5 * (hub - bore), 0.5 * width))
+    return {
+        "bore": bore,
+        "hub_diameter": hub,
+        "hub_width": width,
+        "web_width": web,
+        "bore_chamfer": chamfer,
+    }
+
+
+def wheel_section(geometry: Geometry, blanks: Blanks | None = None) -> FloatArray:
+    """Return the section of a wheel below its rim, (k, 2), from the lower face to the upper one.
+
+    Errors as in `wheel_sizes`.
+    """
+    bore, hub, width, web, chamfer = wheel_sizes(geometry, blanks).values()
+    rim, face = rim_radius(geometry), geometry.wheel_face_width
     upper = [
         (0.5 * bore, 0.5 * width - chamfer),
         (0.5 * bore + chamfer, 0.5 * width),
@@ -88,15 +104,13 @@ def wheel_section(geometry: Geometry, blanks: Blanks | None = None) -> FloatArra
     return np.array([*lower, *upper])
 
 
-def shaft_sections(pair: Pair, length: float, blanks: Blanks | None = None) -> list[FloatArray]:
-    """Return the sections of a worm's shaft ends, beyond a thread of a length, mm.
-
-    The drive end is where z is positive.
+def shaft_sizes(pair: Pair, blanks: Blanks | None = None) -> dict[str, float]:
+    """Return what a worm has of the sizes of `Blanks`, given or assumed, mm.
 
     Raises
     ------
     InputError
-        The shaft is thicker than the worm's root.
+        The shaft is thicker than the worm's root, or a chamfer has no room.
     """
     given = _millimetres(blanks)
     root = 2.0 * pair.worm.root_radius
@@ -106,21 +120,36 @@ def shaft_sections(pair: Pair, length: float, blanks: Blanks | None = None) -> l
             f"blank.shaft_diameter is {diameter:g} mm; the worm's root diameter is {root:.4g} mm, "
             f"and the thread ends on the shaft: take at most {_LARGEST_SHAFT * root:.4g} mm"
         )
-    bearing = 0.5 * (SPAN * pair.geometry.centre_distance - length)
+    bearing = 0.5 * (SPAN * pair.geometry.centre_distance - pair.geometry.worm_face_width)
     free = given.get("free_end", _rounded(max(bearing, 0.0) + 0.5 * diameter))
     drive = given.get("drive_end", free + JOURNAL * diameter)
+    ends = [end for end in (free, drive) if end > 0.0]
+    return {
+        "shaft_diameter": diameter,
+        "drive_end": drive,
+        "free_end": free,
+        "shaft_chamfer": _chamfer(given, diameter, min([0.5 * diameter, *ends])),
+    }
+
+
+def shaft_sections(pair: Pair, blanks: Blanks | None = None) -> list[FloatArray]:
+    """Return the sections of a worm's shaft ends, the drive end where z is positive, (k, 2).
+
+    Errors as in `shaft_sizes`.
+    """
+    diameter, drive, free, chamfer = shaft_sizes(pair, blanks).values()
+    thread = 0.5 * pair.geometry.worm_face_width
     sections = []
     for side, beyond in ((1.0, drive), (-1.0, free)):
         if beyond == 0.0:
             continue
-        chamfer = _chamfer(given, diameter, min(0.5 * diameter, beyond))
-        end = 0.5 * length + beyond
+        end = thread + beyond
         profile = np.array(
             [
                 (0.0, end),
                 (0.5 * diameter - chamfer, end),
                 (0.5 * diameter, end - chamfer),
-                (0.5 * diameter, 0.5 * length),
+                (0.5 * diameter, thread),
             ]
         )
         sections.append(merged(profile if side > 0.0 else (profile * [1.0, -1.0])[::-1]))

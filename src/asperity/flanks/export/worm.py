@@ -71,7 +71,7 @@ def worm_body(pair: Pair, length: float | None = None, *, spacing: Spacing = EXA
 
 def whole_worm(pair: Pair, blanks: Blanks | None = None, spacing: Spacing = EXACT) -> Body:
     """Return the worm with its shaft ends, in the frame of `worm_body`."""
-    sections = shaft_sections(pair, pair.geometry.worm_face_width, blanks)
+    sections = shaft_sections(pair, blanks)
     thread = worm_body(pair, spacing=spacing)
     shaft = Body("", [], [], sections).moved(np.diag([1.0, 1.0, pair.mirror]))
     return Body(thread.name, thread.patches, thread.rings, shaft.turned)
