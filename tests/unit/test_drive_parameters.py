@@ -114,6 +114,12 @@ def test_what_a_case_lacks_of_a_drive_is_told(name, words):
         DriveProblem.from_case(read_case(name, case_tables()))
 
 
+def test_no_worm_is_marched_faster_than_any_rim_holds():
+    read = read_case("drive-screw", case_tables(), ["operation.worm_speed=1e154 rpm"])
+    with pytest.raises(InputError, match="1e6 rpm at most"):
+        DriveProblem.from_case(read)
+
+
 def test_by_the_standard_friction_is_its_own_whatever_the_table_says_or_lacks():
     def friction(name, *settings):
         read = read_case(name, case_tables(), ["drive.friction=iso14521", *settings])

@@ -20,6 +20,7 @@ from asperity.vibration import Vibration
 from asperity.waveform import Shape
 
 LARGEST_STEP = 0.5e-6
+_FASTEST = 1e6 * math.pi / 30.0  # rad/s: no rim of metal is whole far below
 STEPS_A_CYCLE = 100
 PLACES = {
     "axial": ("worm", "seat"),
@@ -249,6 +250,11 @@ class DriveProblem:
         return self.velocity / self.reference_speed
 
     def _check_vibration(self, vibration: Vibration) -> None:
+        if not self.worm_speed <= _FASTEST:
+            raise InputError(
+                f"operation.worm_speed is {self.worm_speed * 30.0 / math.pi:.4g} rpm; a drive is "
+                "marched at 1e6 rpm at most"
+            )
         if self.drive.friction != "constant" and self.drive.model == "teeth":
             raise InputError(
                 "drive.friction is 'iso14521', which drive.model 'reduced' takes; elastic teeth "
