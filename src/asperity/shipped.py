@@ -42,6 +42,14 @@ def shipped_case(name: str) -> Path | None:
     return shipped_cases().get(SPEAKING.get(name, name))
 
 
+def case_file(name_or_path: str | os.PathLike[str]) -> Path:
+    """Return the file that a case is read from: one of that path before one that ships."""
+    shipped = shipped_case(str(name_or_path))
+    path = Path(name_or_path)
+    # In this order, since the system may refuse to look for a name.
+    return path if shipped is None or path.is_file() else shipped
+
+
 def describe(path: str | os.PathLike[str]) -> str:
     """Return the comment in the first line of a case file."""
     first, _, _ = store.read_text(path).partition("\n")

@@ -127,3 +127,8 @@ def test_a_case_that_is_wrong_by_an_axis_blames_the_axis():
     with pytest.raises(InputError) as caught:
         read_grid("table-4.3", TABLES, [], ["friction.law=splt,vector"])
     assert str(caught.value).startswith("--over friction.law=splt,vector: friction.law is 'splt'")
+
+
+def test_a_grid_over_a_case_whose_name_no_system_takes_is_refused_as_the_case_is():
+    with pytest.raises(InputError, match="cannot be read: file name too long"):
+        read_grid("a" * 300, TABLES, [], ["friction.mu=0.1,0.2"])

@@ -14,7 +14,7 @@ from typing import Any, TypeVar, overload
 from asperity import store
 from asperity.casefile.table import Table, names_file, same_thing, trouble_with
 from asperity.errors import InputError, nearest, plain
-from asperity.shipped import SPEAKING, shipped_case, shipped_cases
+from asperity.shipped import SPEAKING, case_file, shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
 Raw = dict[str, Any]
@@ -189,10 +189,8 @@ def read_raw(
     name_or_path: str | os.PathLike[str], tables: Mapping[str, type[Table]]
 ) -> tuple[Case, str]:
     """Return a case whose tables are not validated yet, and the text of its file."""
-    path = Path(name_or_path)
+    path = case_file(name_or_path)
     source = plain(str(name_or_path))
-    if not path.is_file():
-        path = shipped_case(source) or path
     try:
         text, raw = store.read_toml_text(path, source)
     except InputError as error:

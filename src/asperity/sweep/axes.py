@@ -12,7 +12,7 @@ from typing import NoReturn
 from asperity import store
 from asperity.casefile import Case, Table, bare_unit, names_file, read_case, same_thing
 from asperity.errors import InputError, choices, nearest
-from asperity.shipped import shipped_case
+from asperity.shipped import case_file
 from asperity.sweep.subject import Subject, subject_of
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
@@ -171,9 +171,7 @@ def parse_axes(over: Sequence[str], case: Case) -> list[Axis]:
 def _named_tables(name_or_path: str, settings: Sequence[str]) -> dict[str, object]:
     """Return the names of a case's tables before it is whole; none where it cannot be read."""
     named: dict[str, object] = {setting.partition(".")[0].strip(): 1 for setting in settings}
-    path = Path(name_or_path)
-    if not path.is_file():
-        path = shipped_case(name_or_path) or path
+    path = case_file(name_or_path)
     with contextlib.suppress(InputError):
         named |= store.read_toml(path, name_or_path)
     return named
