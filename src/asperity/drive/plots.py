@@ -193,9 +193,10 @@ def plot_locking(dataset: "xr.Dataset") -> "Figure":
             )
     axes.set_xscale("log")
     fastest = float(np.abs(dataset["creep_over"]).max())
-    axes.set_yscale("symlog", linthresh=max(1e-3 * fastest, 1e-9))
-    if dataset["creep_over"].min() >= -1e-3 * fastest:
-        axes.set_ylim(bottom=-1e-3 * max(fastest, 1e-6))
+    linear = max(1e-3 * fastest, 1e-9)
+    axes.set_yscale("symlog", linthresh=linear)
+    if dataset["creep_over"].min() >= -linear:
+        axes.set_ylim(-0.3 * linear, 2.0 * max(fastest, float(dataset["creep_limit"].max())))
     axes.set_xlabel("amplitude of the vibration (µm)")
     axes.set_ylabel("creep of the wheel (rad/s)")
     word = "holds" if dataset.attrs["locked"] else "does not hold"
