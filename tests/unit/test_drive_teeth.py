@@ -25,6 +25,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import March
 from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
+from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS
 from asperity.drive.teeth.placing import place_worm
@@ -187,6 +188,33 @@ def test_a_cycle_whose_slip_turns_round_is_solved_at_every_step_and_its_powers_b
     assert answer.residual <= 1e-6
     assert answer.closure < 1e-3
     assert answer.steps > 900
+
+
+def test_powers_of_teeth_that_do_not_balance_are_no_answer():
+    model = model_of(
+        "drive.protocol=window", "drive.window=1", "vibration.mode=axial",
+        "vibration.frequency=20 kHz", "vibration.displacement_amplitude=20 um",
+        "drive.contact_damping=1000 s/m",
+    )  # fmt: skip
+    with pytest.raises(ConvergenceError, match="powers") as refused:
+        solve_shaken(model.problem, model, Run())
+    assert refused.value.exit_code == 3
+
+
+@pytest.mark.slow
+def test_a_screw_near_the_resonance_takes_the_same_of_elastic_teeth_and_of_these_reduced():
+    # Of the last three blocks of a march that is nearly settled: spread 0.006.
+    model = model_of(
+        "drive.flanks=driving", "vibration.frequency=4 kHz", "vibration.velocity_ratio=1.2",
+        "solve.duration=9 ms",
+    )  # fmt: skip
+    teeth = solve_shaken(model.problem, model, Run())
+    reduced = solve_shaken(model.problem, ReducedModel(model.problem, GIVEN), Run())
+    assert teeth.torque_ratio == pytest.approx(reduced.torque_ratio, abs=0.02)
+    assert teeth.energy_ratio == pytest.approx(reduced.energy_ratio, abs=0.01)
+    assert teeth.energy_ratio == pytest.approx(0.957, abs=0.01)
+    assert teeth.closure < 1e-4
+    assert teeth.open_share == 0.0
 
 
 def test_a_march_of_teeth_goes_on_to_the_bit_from_where_it_was_left():

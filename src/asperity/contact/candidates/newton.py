@@ -5,9 +5,9 @@ Unknown are the forces :math:`f_q` at the points. Nodes answer to them as
 
 .. math:: f_q = w_q\,t_q(u) .
 
-Points out of contact have no force, so that a step solves as many equations as there are points in
-contact, three each. Which are in contact is found anew in each step; the search along it watches
-the norm of what is missing.
+Points out of contact have no force, so that a step is about those in contact alone
+(`asperity.contact.candidates.tangent`). Which they are is found anew in each step; the search along
+it watches the norm of what is missing.
 """
 
 import math
@@ -15,7 +15,15 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.candidates.inverse import apply, invert
+from asperity.contact.candidates.tangent import (
+    assemble,
+    change,
+    change_by,
+    fits,
+    gather,
+    solved,
+    stiffness_of,
+)
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
 from asperity.contact.interface.tractions import augmented_tractions, tractions
 
@@ -141,90 +149,14 @@ def look(body, candidates, laws, motion, history, answer, work, with_tangent, au
 
 
 @kernel
-def gather(body, candidates, answer, work):
-    """List the points in contact or with a force, and the nodes about them; how many of each."""
-    rule = body.shapes.shape[0]
-    count = 0
-    nodes = 0
-    for i in range(candidates.counts[1]):
-        work.local[candidates.nodes[i]] = -1
-    for q in range(rule * candidates.counts[0]):
-        f = answer.force[q]
-        if answer.pressure[q] <= 0.0 and f[0] == 0.0 and f[1] == 0.0 and f[2] == 0.0:
-            continue
-        work.active[count] = q
-        count += 1
-        for a in range(body.shapes.shape[1]):
-            node = candidates.faces[q // rule, a]
-            if work.local[node] < 0:
-                work.local[node] = nodes
-                work.nodes[nodes] = node
-                nodes += 1
-    return count, nodes
-
-
-@kernel
-def assemble(body, candidates, count, nodes, answer, work):
-    """Return Newton's matrix of the active points, ``1 - w K G``."""
-    a = body.flexibility
-    shapes = body.shapes
-    rule, width = shapes.shape
-    near = work.near[: 9 * count * nodes].reshape(3 * count, 3 * nodes)
-    # Written by columns, as LAPACK takes it.
-    matrix = work.matrix[: 9 * count * count].reshape(3 * count, 3 * count)
-    for i in range(count):
-        q = work.active[i]
-        face = q // rule
-        at = q - face * rule
-        for c in range(3):
-            row = near[3 * i + c]
-            for m in range(3 * nodes):
-                row[m] = 0.0
-            for b in range(width):
-                shape = shapes[at, b]
-                from_row = a[3 * candidates.faces[face, b] + c]
-                for m in range(nodes):
-                    j = 3 * work.nodes[m]
-                    row[3 * m] += shape * from_row[j]
-                    row[3 * m + 1] += shape * from_row[j + 1]
-                    row[3 * m + 2] += shape * from_row[j + 2]
-    for i in range(count):
-        q = work.active[i]
-        k = answer.stiffness[q]
-        w = candidates.weights[q]
-        open_ = answer.pressure[q] <= 0.0
-        for j in range(count):
-            p = work.active[j]
-            face = p // rule
-            at = p - face * rule
-            for e in range(3):
-                gx = 0.0
-                gy = 0.0
-                gz = 0.0
-                if not open_:
-                    for b in range(width):
-                        m = 3 * work.local[candidates.faces[face, b]] + e
-                        shape = shapes[at, b]
-                        gx += shape * near[3 * i, m]
-                        gy += shape * near[3 * i + 1, m]
-                        gz += shape * near[3 * i + 2, m]
-                for c in range(3):
-                    matrix[3 * j + e, 3 * i + c] = -w * (k[c, 0] * gx + k[c, 1] * gy + k[c, 2] * gz)
-        for c in range(3):
-            matrix[3 * i + c, 3 * i + c] += 1.0
-    return matrix.T
-
-
-@kernel
 def _missing(candidates, count, answer, work):
     """Write what is missing of the forces at the active points; their forces are noted."""
-    right = work.right[: 3 * count]
+    right = work.right
     for i in range(count):
         q = work.active[i]
         for c in range(3):
             right[3 * i + c] = candidates.weights[q] * answer.traction[q, c] - answer.force[q, c]
             work.trial[q, c] = answer.force[q, c]
-    return right
 
 
 @kernel
@@ -234,49 +166,6 @@ def _move(count, share, answer, work):
         q = work.active[i]
         for c in range(3):
             answer.force[q, c] = work.trial[q, c] + share * work.change[3 * i + c]
-
-
-@kernel
-def _fits(candidates, count, kept, work):
-    """Whether the inverse that was kept is of the points that are active now."""
-    if kept.size[0] != count:
-        return False
-    for i in range(count):
-        q = work.active[i]
-        if kept.points[i] != 4 * candidates.face[q // 4] + q % 4:
-            return False
-    return True
-
-
-@kernel
-def _change(body, candidates, count, nodes, answer, kept, work):
-    """Write Newton's change of the forces and keep the inverse; False where there is none."""
-    n = 3 * count
-    matrix = assemble(body, candidates, count, nodes, answer, work)
-    if count > kept.points.shape[0]:
-        kept.size[0] = 0
-        return _solved(matrix, work.right[:n], work.change[:n])
-    inverse = kept.inverse[: n * n].reshape(n, n)
-    inverse[:] = matrix
-    kept.size[0] = 0
-    if not invert(inverse, work.order):
-        return False
-    kept.size[0] = count
-    for i in range(count):
-        q = work.active[i]
-        kept.points[i] = 4 * candidates.face[q // 4] + q % 4
-    apply(inverse, work.right[:n], work.change[:n])
-    return True
-
-
-@kernel
-def _solved(matrix, right, change):
-    """Write the solution of equations; False where there is none."""
-    try:
-        change[:] = np.linalg.solve(matrix, right)
-    except Exception:  # of a kernel nothing narrower can be caught
-        return False
-    return True
 
 
 @kernel
@@ -294,12 +183,11 @@ def _plain(body, candidates, laws, motion, history, answer, kept, work):
         if missing <= laws.tolerance * laws.tolerance * whole:
             break
         count, nodes = gather(body, candidates, answer, work)
-        if 9 * count * count > work.matrix.size:
+        if 3 * count > work.change.shape[0]:
             return FULL, iterations
-        n = 3 * count
-        if not anew and _fits(candidates, count, kept, work):
-            right = _missing(candidates, count, answer, work)
-            apply(kept.inverse[: n * n].reshape(n, n), right, work.change[:n])
+        if not anew and fits(candidates, count, kept, work):
+            _missing(candidates, count, answer, work)
+            change_by(body, candidates, count, nodes, kept, work)
             _move(count, 1.0, answer, work)
             now, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
             iterations += 1
@@ -316,7 +204,7 @@ def _plain(body, candidates, laws, motion, history, answer, kept, work):
             iterations += 1
             count, nodes = gather(body, candidates, answer, work)
         _missing(candidates, count, answer, work)
-        if not _change(body, candidates, count, nodes, answer, kept, work):
+        if not change(body, candidates, count, nodes, answer, kept, work):
             break
         steps += 1
         anew = False
@@ -358,12 +246,12 @@ def _augmented(body, candidates, laws, motion, history, answer, work, augmentati
                 return residual, iterations
             look(body, candidates, laws, motion, history, answer, work, True, augmentation)
         count, nodes = gather(body, candidates, answer, work)
-        if 9 * count * count > work.matrix.size:
+        if 3 * count > work.change.shape[0]:
             return FULL, iterations
-        n = 3 * count
         _missing(candidates, count, answer, work)
-        matrix = assemble(body, candidates, count, nodes, answer, work)
-        if not _solved(matrix, work.right[:n], work.change[:n]):
+        stiffness_of(count, answer, work)
+        matrix = assemble(body, candidates, count, nodes, work)
+        if not solved(body, candidates, count, nodes, matrix, work):
             break
         bound = bounds.max()
         share = 1.0

@@ -128,13 +128,17 @@ class Work(NamedTuple):
     assumed: FloatArray  #: (4k, 3): Tractions, Pa
     change: FloatArray  #: (3m,): Newton's change of the active ones
     active: IntArray  #: (4k,): Points in contact, or with a force still
-    order: IntArray  #: (3m,): Of the rows of an inverse
     local: IntArray  #: (n,): Place of a node among those of the active points
     nodes: IntArray  #: (n,): These nodes
-    #: (9mn,): Response of m active points to forces at these nodes, m/N
-    near: FloatArray
-    matrix: FloatArray  #: (9mm,): Newton's equations
-    right: FloatArray  #: (18m,): Their right-hand sides
+    order: IntArray  #: (3n,): Of the rows of an inverse
+    stiffness: FloatArray  #: (4k, 3, 3): Of the active points, Pa/m
+    block: FloatArray  #: (12, 12): Stiffness of a face
+    part: FloatArray  #: (12,): Of a row of the flexibility, m/N
+    load: FloatArray  #: (3n,): Forces on these nodes
+    carried: FloatArray  #: (3n,): Their motion under forces, m
+    move: FloatArray  #: (3n,): Newton's change of their displacement, m
+    matrix: FloatArray  #: (9nn,): Newton's equations
+    right: FloatArray  #: (18m,): Forces at the active points
 
     @classmethod
     def room(cls, body: Body, most: int) -> Work:
@@ -142,19 +146,12 @@ class Work(NamedTuple):
         q, n = len(body.weights), body.nodes
         most = min(most, q)
         return cls(
-            np.zeros(3 * n),
-            np.zeros((q, 3)),
-            np.zeros((q, 3)),
-            np.zeros((q, 3)),
-            np.zeros(3 * most),
-            np.zeros(q, dtype=np.int64),
-            np.zeros(3 * most, dtype=np.int64),
-            np.zeros(n, dtype=np.int64),
-            np.zeros(n, dtype=np.int64),
-            np.zeros(9 * most * n),
-            np.zeros(9 * most * most),
-            np.zeros(18 * most),
-        )
+            np.zeros(3 * n), np.zeros((q, 3)), np.zeros((q, 3)), np.zeros((q, 3)),
+            np.zeros(3 * most), np.zeros(q, np.int64), np.zeros(n, np.int64),
+            np.zeros(n, np.int64), np.zeros(3 * n, np.int64), np.zeros((q, 3, 3)),
+            np.zeros((12, 12)), np.zeros(12), np.zeros(3 * n), np.zeros(3 * n), np.zeros(3 * n),
+            np.zeros(9 * n * n), np.zeros(18 * most),
+        )  # fmt: skip
 
 
 class Kept(NamedTuple):
@@ -162,7 +159,8 @@ class Kept(NamedTuple):
 
     size: IntArray  #: (1,): Points it is of; 0: there is none
     points: IntArray  #: (m,): These points, as the body counts them
-    inverse: FloatArray  #: (9mm,): Without gaps
+    stiffness: FloatArray  #: (m, 3, 3): Theirs, Pa/m
+    inverse: FloatArray  #: (9mm,): Of the nodes about them, without gaps
 
     @classmethod
     def room(cls, body: Body, slots: int, most: int) -> Kept:
@@ -171,6 +169,7 @@ class Kept(NamedTuple):
         return cls(
             np.zeros((slots, 1), dtype=np.int64),
             np.zeros((slots, most), dtype=np.int64),
+            np.zeros((slots, most, 3, 3)),
             np.zeros((slots, 9 * most * most)),
         )
 
@@ -207,4 +206,4 @@ def answer_of(all_, k):
 @kernel
 def kept_of(all_, k):
     """What was kept of one body of several."""
-    return Kept(all_.size[k], all_.points[k], all_.inverse[k])
+    return Kept(all_.size[k], all_.points[k], all_.stiffness[k], all_.inverse[k])

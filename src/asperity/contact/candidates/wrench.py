@@ -3,7 +3,7 @@
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.contact.candidates.newton import assemble, gather
+from asperity.contact.candidates.tangent import assemble, carry, expand, gather, stiffness_of
 
 
 @kernel
@@ -54,9 +54,9 @@ def wrench_slope(body, candidates, answer, work, out):
     count, nodes = gather(body, candidates, answer, work)
     if count == 0:
         return
-    matrix = assemble(body, candidates, count, nodes, answer, work)
+    stiffness_of(count, answer, work)
+    matrix = assemble(body, candidates, count, nodes, work)
     n = 3 * count
-    # Written by columns, as LAPACK takes it.
     right = work.right[: 6 * n].reshape(6, n)
     move = np.empty(3)
     for i in range(count):
@@ -80,14 +80,21 @@ def wrench_slope(body, candidates, answer, work, out):
                 right[c, 3 * i + r] = w * (
                     turned - k[r, 0] * move[0] - k[r, 1] * move[1] - k[r, 2] * move[2]
                 )
-    change = np.linalg.solve(matrix, right.T)
+    carried = np.empty((6, 3 * nodes))
+    for c in range(6):
+        carry(body, candidates, count, nodes, right[c], work, carried[c])
+    moves = np.linalg.solve(matrix, carried.T)
+    change = np.empty((6, n))
+    for c in range(6):
+        work.move[: 3 * nodes] = moves[:, c]
+        expand(body, candidates, count, right[c], work.stiffness, work.move, work, change[c])
     for i in range(count):
         q = work.active[i]
         x, y, z = place_of(candidates, body.shapes, answer.u, q)
         for c in range(6):
-            fx = change[3 * i, c]
-            fy = change[3 * i + 1, c]
-            fz = change[3 * i + 2, c]
+            fx = change[c, 3 * i]
+            fy = change[c, 3 * i + 1]
+            fz = change[c, 3 * i + 2]
             mx, my, mz = _cross(x, y, z, fx, fy, fz)
             out[0, c] += fx
             out[1, c] += fy
