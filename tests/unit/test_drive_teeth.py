@@ -202,17 +202,16 @@ def test_powers_of_teeth_that_do_not_balance_are_no_answer():
 
 
 @pytest.mark.slow
-def test_a_screw_near_the_resonance_takes_the_same_of_elastic_teeth_and_of_these_reduced():
-    # Of the last three blocks of a march that is nearly settled: spread 0.006.
+def test_a_screw_near_the_resonance_begins_of_elastic_teeth_as_of_these_reduced():
+    # Six cycles of its way to the periodic state, which is in `benchmarks/drive_teeth_runs.py`.
     model = model_of(
         "drive.flanks=driving", "vibration.frequency=4 kHz", "vibration.velocity_ratio=1.2",
-        "solve.duration=9 ms",
+        "drive.protocol=window", "drive.window=6",
     )  # fmt: skip
     teeth = solve_shaken(model.problem, model, Run())
     reduced = solve_shaken(model.problem, ReducedModel(model.problem, GIVEN), Run())
     assert teeth.torque_ratio == pytest.approx(reduced.torque_ratio, abs=0.02)
     assert teeth.energy_ratio == pytest.approx(reduced.energy_ratio, abs=0.01)
-    assert teeth.energy_ratio == pytest.approx(0.957, abs=0.01)
     assert teeth.closure < 1e-4
     assert teeth.open_share == 0.0
 
