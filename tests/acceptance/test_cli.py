@@ -62,15 +62,15 @@ def test_a_periodic_slide_has_no_breakaway(asperity):
 
 
 def test_pictures_are_written_as_asked(asperity, tmp_path):
-    periodic = ["--set", "solve.method=periodic", "--out", tmp_path / "out"]
-    code, _, errors = asperity("slide", "table-4.4", *periodic, "--format", "bmp")
+    out = ["--out", tmp_path / "out"]
+    code, _, errors = asperity("sensitivity", "gearset-2", *out, "--format", "bmp")
     assert (code, errors) == (2, "--format bmp: it must be one of 'png', 'svg', 'pdf'\n")
     assert not (tmp_path / "out").exists()
-    code, _, errors = asperity("slide", "table-4.4", *periodic, "--format", "pdf")
+    code, _, errors = asperity("sensitivity", "gearset-2", *out, "--format", "pdf")
     assert code == 0
-    assert "slide.json, slide.nc, slide.pdf" in errors
-    assert (tmp_path / "out" / "slide.pdf").read_bytes().startswith(b"%PDF")
-    assert not (tmp_path / "out" / "slide.png").exists()
+    assert "sensitivity.json, sensitivity.nc, sensitivity.pdf" in errors
+    assert (tmp_path / "out" / "sensitivity.pdf").read_bytes().startswith(b"%PDF")
+    assert not (tmp_path / "out" / "sensitivity.png").exists()
 
 
 def test_a_slide_is_readable_and_names_symbols_and_units(asperity):

@@ -191,13 +191,11 @@ def test_everything_is_written_to_a_folder(timed, tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"result.json", "result.nc", "result.png"}
 
 
-@pytest.mark.parametrize(("kind", "begins"), [("svg", b"<?xml"), ("pdf", b"%PDF")])
-def test_pictures_are_written_as_asked_the_same_bytes_each_time(timed, tmp_path, kind, begins):
-    names = ["result.json", "result.nc", f"result.{kind}"]
+def test_pictures_are_written_as_asked_the_same_bytes_each_time(timed, tmp_path):
     contents = []
     for folder in (tmp_path / "once", tmp_path / "again"):
         folder.mkdir()
-        assert timed.write(folder, pictures=kind) == names
-        contents.append((folder / f"result.{kind}").read_bytes())
-    assert contents[0].startswith(begins)
+        assert timed.write(folder, pictures="svg") == ["result.json", "result.nc", "result.svg"]
+        contents.append((folder / "result.svg").read_bytes())
+    assert contents[0].startswith(b"<?xml")
     assert contents[0] == contents[1]
