@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from asperity import store
+from asperity.errors import InputError, nearest, plain
 
 SPEAKING: Mapping[str, str] = {
     "body-shaken-along": "table-4.3",
@@ -48,6 +49,15 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
     path = Path(name_or_path)
     # In this order, since the system may refuse to look for a name.
     return path if shipped is None or path.is_file() else shipped
+
+
+def case_text(name: str) -> str:
+    """Return the text of a case that ships; raises InputError for another name."""
+    path = shipped_case(name)
+    if path is None:
+        known = nearest(name.removesuffix(".toml"), (*shipped_cases(), *SPEAKING))
+        raise InputError(f"{plain(name)} is not a case that ships{known}")
+    return store.read_text(path)
 
 
 def describe(path: str | os.PathLike[str]) -> str:

@@ -224,6 +224,21 @@ def test_an_export_of_an_oscilloscope_becomes_a_recording(asperity, tmp_path):
     refused(asperity("rig", "reduce", out), "run.nc")
 
 
+def test_a_line_begins_with_the_file_at_fault(asperity, tmp_path):
+    wrong = tmp_path / "wrong.csv"
+    wrong.write_text("Zeit;Kanal A\n(s);(V)\n\n0,0;1,0\n0,1;zwei\n")
+    for answer in (
+        asperity("rig", "import", wrong, "rig-final"),
+        asperity("rig", "import", tmp_path / "none.csv", "rig-final"),
+        asperity("rig", "import", "none.csv", "rig-final"),
+        asperity("fit", wrong, "table-4.3", "--free", "friction.mu"),
+    ):
+        refused(answer)
+        assert answer[2].startswith((str(tmp_path), "none.csv cannot be read: no such file")), (
+            answer
+        )
+
+
 def test_what_was_measured_is_not_written_over(asperity, recording, tmp_path):
     raw, case = tmp_path / "run.csv", "rig-final"
     raw.write_text("measured once")

@@ -123,6 +123,54 @@ def test_in_a_terminal_it_asks_and_asks_again_what_cannot_be(environment, here):
     assert made["gearset"]["wheel_teeth"] / made["gearset"]["starts"] == 20
 
 
+def test_a_rig_of_ones_own_is_begun_from_one_that_ships(asperity, here):
+    code, output, errors = asperity("new", "rig", "--defaults", "--set", "plan.repeats=1")
+    assert (code, errors) == (0, "")
+    assert "asperity rig plan rig.toml" in output
+    made = tomllib.loads((here / "rig.toml").read_text("utf-8"))
+    ships = tomllib.loads(asperity("cases", "rig-final")[1])
+    assert ships["plan"].pop("repeats") == 2
+    assert made["plan"].pop("repeats") == 1
+    assert made == ships
+    assert json.loads(asperity("rig", "plan", "rig.toml", "--json")[1])["cell_count"] == 90
+
+
+@pytest.mark.parametrize("name", ["disc-on-disc", "rig-final"])
+def test_a_case_that_ships_is_printed(asperity, name):
+    path = shipped_cases()["rig-final"]
+    assert asperity("cases", name) == (0, path.read_text("utf-8"), "")
+    answer = json.loads(asperity("cases", name, "--json")[1])
+    assert answer == {"name": name, "text": path.read_text("utf-8")}
+    code, output, errors = asperity("cases", "rig-finl")
+    assert (code, output) == (2, "")
+    assert errors == "rig-finl is not a case that ships (did you mean 'rig-final'?)\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "without"),
+    [
+        (["rate", "table-4.3"], "[gearset] and [operation], which asperity rate needs"),
+        (["rig", "plan", "gearset-2"], "[rig] and [plan], which asperity rig plan needs"),
+    ],
+)
+def test_a_case_of_another_kind_is_named_as_such(asperity, command, without):
+    code, output, errors = asperity(*command)
+    assert (code, output) == (2, "")
+    assert errors == (
+        f"{command[-1]}: it is a case of another kind, without {without}; asperity check "
+        f"{command[-1]} tells which commands take it\n"
+    )
+
+
+def test_check_knows_what_takes_a_rig(asperity, here):
+    assert asperity("check", "rig-final")[1].endswith("asperity rig run, rig plan can take it\n")
+    # To read what was measured elsewhere needs no plan.
+    text = asperity("cases", "rig-final")[1]
+    begin, _, rest = text.partition("[plan]")
+    (here / "read.toml").write_text(begin + rest[rest.index("[twin]") :], "utf-8")
+    assert asperity("check", "read.toml")[:2] == (0, "read.toml: no mistakes\n")
+
+
 def test_check_names_all_mistakes_at_once(asperity, here):
     (here / "eight.toml").write_text(EIGHT)
     code, output, errors = asperity("check", "eight.toml")

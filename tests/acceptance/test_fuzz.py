@@ -55,7 +55,7 @@ RIG = [
 COMMANDS = {
     "slide": (["table-4.3", "table-4.4", "table-4.1-L1", "table-4.1-L6"], BODY, 30),
     "check": (["table-4.3", "gearset-3", "normal-pin", "block-longitudinal"], [], 10),
-    "new": (["gear", "slide", "block", "drive"], [], 2),
+    "new": (["gear", "slide", "block", "drive", "rig"], [], 2),
     "size": (["gearset-3"], [], 2),
     "compare": (["gearset-2", "gearset-3"], [], 2),
     "static": (["normal-pin", "table-4.4"], [], 2),

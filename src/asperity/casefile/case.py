@@ -135,13 +135,22 @@ class Case:
 
 
 @contextlib.contextmanager
-def told(case: Case) -> Iterator[None]:
-    """Let what is refused of a case name the file or the setting that gave it."""
+def told(case: Case, *others: str) -> Iterator[None]:
+    """Let what is refused of a case name the file or the setting that gave it.
+
+    Parameters
+    ----------
+    case : Case
+        What is read.
+    *others : str
+        Names of other files that are read; what begins with one of them is no fault of the case.
+    """
     try:
         yield
     except InputError as error:
         text = str(error)
-        if not text.startswith((f"{case.source}: ", "--")):
+        names = [f"{plain(n)}{end}" for o in others for n in (o, str(Path(o))) for end in ": "]
+        if not text.startswith((f"{case.source}: ", "--", *names)):
             key = _KEY.match(text)
             origin = case.origin(key.group()) if key else case.source
             error.args = (f"{origin}: {text}", *error.args[1:])

@@ -241,11 +241,23 @@ def thesis(
 
 @app.command()
 @reported
-def cases(as_json: JsonOption = False) -> None:
-    """List the cases that ship; their names work wherever a file does."""
+def cases(
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="Print this one, to begin a file of your own.")
+    ] = "",
+    as_json: JsonOption = False,
+) -> None:
+    """List the cases that ship, or print one; their names work wherever a file does."""
     from asperity.cli import show
-    from asperity.shipped import SPEAKING, describe, shipped_cases
+    from asperity.shipped import SPEAKING, case_text, describe, shipped_cases
 
+    if name:
+        text = case_text(name)
+        if as_json:
+            show.print_json({"name": name, "text": text})
+        else:
+            show.print_text(text.rstrip("\n"))
+        return
     speaking = {name: says for says, name in SPEAKING.items()}
     listed = [
         {"name": name, "also": speaking.get(name), "description": describe(path)}
@@ -267,7 +279,7 @@ def cases(as_json: JsonOption = False) -> None:
 @app.command()
 @reported
 def new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide, block or drive.")],
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide, block, drive or rig.")],
     file: Annotated[
         str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")
     ] = "",

@@ -15,7 +15,8 @@ def check(name: str, settings: Sequence[str], *, as_json: bool) -> None:
     case, mistakes = check_case(name, case_tables(), settings)
     takers: list[str] = []
     refusals: dict[str, str] = {}
-    asked = [] if mistakes else _asked(case)
+    able = [] if mistakes else _able(case)
+    asked = [command for command in able if _takes_no_more(command)]
     for command in asked:
         try:
             with told(case):
@@ -28,7 +29,7 @@ def check(name: str, settings: Sequence[str], *, as_json: bool) -> None:
     if asked and asked[0].name in refusals:
         text = refusals[asked[0].name].removeprefix(f"{case.source}: ")
         mistakes, takers = (Mistake(None, "", text),), []
-    elif not mistakes and not asked:
+    elif not mistakes and not able:
         mistakes = tuple(_lacking(case))
     if as_json:
         show.print_json(
@@ -42,8 +43,8 @@ def check(name: str, settings: Sequence[str], *, as_json: bool) -> None:
     else:
         lines = [f"{case.source}:{m.line or ''}: {m.text}".replace(":: ", ": ") for m in mistakes]
         if not mistakes:
-            able = f"; asperity {', '.join(takers)} can take it" if takers else ""
-            lines.append(f"{case.source}: no mistakes{able}")
+            taken = f"; asperity {', '.join(takers)} can take it" if takers else ""
+            lines.append(f"{case.source}: no mistakes{taken}")
         show.print_text("\n".join(lines))
     if mistakes:
         count = len(mistakes)
@@ -55,18 +56,14 @@ def print_schema() -> None:
     show.print_json(schema(case_tables()))
 
 
-def _asked(case: Case) -> list[Command]:
-    """Return the commands whose tables a case has, what needs most first.
+def _takes_no_more(command: Command) -> bool:
+    """Whether a command takes nothing that must be given beside a case."""
+    return not command.arguments and all(option.default is not None for option in command.options)
 
-    Those that take something else beside a case are left out.
-    """
-    able = [
-        command
-        for command in COMMANDS
-        if command.needs
-        and not missing(case, command.needs)
-        and not any(option.default is None for option in command.options)
-    ]
+
+def _able(case: Case) -> list[Command]:
+    """Return the commands whose tables a case has, what needs most first."""
+    able = [c for c in COMMANDS if c.needs and not missing(case, c.needs)]
     return sorted(able, key=lambda command: -len(command.needs))
 
 

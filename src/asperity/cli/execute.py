@@ -44,7 +44,8 @@ def execute(
         found = read_case(case, case_tables(), settings)
     else:
         found = read(case, case_tables(), settings, **options)
-    with told(found):
+    given = [options[argument.name] for argument in command.arguments if not argument.many]
+    with told(found, *given):
         problem = command.prepared(found, **options)
     if out is None and command.into:
         out = Path(options[command.into])
@@ -53,13 +54,15 @@ def execute(
         into = folder if file is None else None
         run = Run(progress=progress, notify=show.note, folder=into, stem=command.stem)
         try:
-            with told(found):
+            with told(found, *given):
                 result = command.solved(problem, run)
         except ConvergenceError as error:
             if as_json:
                 show.print_json({"error": str(error), "reached": jsonable(error.reached)})
             raise
-    shown = _show(found.source, result, as_json=as_json, full=full)
+    # What was measured is what an answer is about, rather than how it is read.
+    source = plain(given[0]) if given else found.source
+    shown = _show(source, result, as_json=as_json, full=full)
     if file is not None:
         show.note(f"written to {result.save(file)}")
     elif folder is not None:

@@ -37,6 +37,11 @@ def new(
             elif question.path not in given:
                 _ask(question, values)
     remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
+    if kind.case:
+        remarks.append(
+            f"What is given is that of {kind.case}; asperity cases {kind.case} prints it with "
+            "where each value comes from. Replace it by your own."
+        )
     if "gearset" in values:
         remarks += _sized(values, given, ratio_of(wanted))
     case = Case(path.name, path.parent.absolute(), {}, values, case_tables()).replace(())

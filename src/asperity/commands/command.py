@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from asperity.commands.place import loaded
+from asperity.errors import InputError
 
 if TYPE_CHECKING:
     from asperity.casefile import Case
@@ -115,6 +116,12 @@ class Command:
 
     def prepared(self, case: "Case", **options: Any) -> Any:
         """Return the problem of a case, refused if it cannot be solved."""
+        if self.needs and case.raw and not any(name in case for name in self.needs):
+            tables = " and ".join(f"[{name}]" for name in self.needs)
+            raise InputError(
+                f"{case.source}: it is a case of another kind, without {tables}, which asperity "
+                f"{self.name} needs; asperity check {case.source} tells which commands take it"
+            )
         return loaded(self.prepare)(case, **options)
 
     def solved(self, problem: Any, run: "Run") -> "Result":

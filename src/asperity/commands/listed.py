@@ -215,6 +215,7 @@ COMMANDS = (
         "With --out also plan.json, plan.nc and plan.png.",
         prepare="asperity.tribometer.plan.study:prepare",
         solve="asperity.tribometer.plan.study:answer",
+        needs=("rig", "plan"),
         case="CONFIG",
     ),
     Command(
@@ -225,6 +226,7 @@ COMMANDS = (
         prepare="asperity.tribometer.procedure.study:prepare",
         solve="asperity.tribometer.procedure.study:answer",
         counts="cells",
+        needs=("rig", "steel_disc", "bronze_disc", "drives", "channels", "plan"),
         case="CONFIG",
         options=(
             Option("backend", "sim, replay, hardware or manual.", "NAME", default="sim"),
@@ -244,6 +246,7 @@ COMMANDS = (
         prepare="asperity.tribometer.importing.study:prepare",
         solve="asperity.tribometer.importing.study:answer",
         arguments=(Argument("file", "FILE", "What the oscilloscope's program exported."),),
+        needs=("rig", "steel_disc", "bronze_disc", "drives", "channels"),
         case="CONFIG",
         draws=False,
         out="REC.nc",

@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from asperity import store
 from asperity.errors import InputError, nearest
+from asperity.shipped import shipped_cases
 
 Values = dict[str, dict[str, Any]]
 
@@ -42,6 +44,8 @@ class Kind(NamedTuple):
         Whose other keys stand in the file as comments.
     then : tuple of str
         Commands to go on with.
+    case : str
+        One that ships and whose values it begins with, in place of `values`.
     """
 
     title: str
@@ -49,9 +53,12 @@ class Kind(NamedTuple):
     questions: tuple[Question, ...]
     tables: tuple[str, ...]
     then: tuple[str, ...]
+    case: str = ""
 
     def begun(self) -> Values:
         """Return a copy of what it begins with."""
+        if self.case:
+            return store.read_toml(shipped_cases()[self.case])
         return {table: dict(keys) for table, keys in self.values.items()}
 
 
@@ -176,6 +183,39 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "actuator",
             ),
             ("drive", "directions", "locking", "rate"),
+        ),
+        "rig": Kind(
+            "A disc-on-disc tribometer and what is to be tested on it",
+            {},
+            (
+                Question(
+                    "rig.platform_mass", "mass of the platform that presses the discs together"
+                ),
+                Question("rig.dead_mass", "mass that is laid on it"),
+                Question("steel_disc.diameter", "diameter of the steel disc"),
+                Question("bronze_disc.diameter", "diameter of the bronze disc"),
+                Question("steel_disc.thickness", "thickness of the steel disc"),
+                Question("bronze_disc.thickness", "thickness of the bronze disc"),
+                Question("lubricant.name", "lubricant"),
+                Question("plan.repeats", "how often each cell of the plan is run"),
+            ),
+            (
+                "rig",
+                "steel_disc",
+                "bronze_disc",
+                "drives",
+                "sonotrode",
+                "channels",
+                "lubricant",
+                "limits",
+                "plan",
+                "reduction",
+                "twin",
+                "controller",
+                "supplies",
+            ),
+            ("rig plan", "rig run"),
+            case="rig-final",
         ),
     }
 )
