@@ -17,19 +17,16 @@ version = release = asperity.__version__
 
 extensions = [
     "case_tables",
+    "mathml",
     "sphinx.ext.autodoc",
-    "sphinx.ext.autosummary",
-    "sphinx.ext.mathjax",
+    "top_names",
     "numpydoc",
     "sphinx_gallery.gen_gallery",
 ]
-templates_path = ["_templates"]
 exclude_patterns = ["_build"]
 
-autosummary_generate = True
+html_math_renderer = "mathml"
 autodoc_typehints = "none"
-# Names of types that take arguments have no signature that could be written.
-suppress_warnings = ["autodoc"]
 autodoc_default_options = {"exclude-members": "model_config"}
 numpydoc_show_class_members = False
 
@@ -42,5 +39,9 @@ sphinx_gallery_conf = {
     "show_memory": False,
 }
 
-html_theme = "alabaster"
-html_theme_options = {"description": "Vibration and friction between sliding surfaces"}
+html_theme = "furo"
+html_title = "asperity"
+html_static_path = ["_static"]
+html_css_files = ["pages.css"]
+html_show_sourcelink = False
+html_copy_source = False

@@ -7,13 +7,16 @@ import numpy as np
 
 from asperity.casefile import read_case
 from asperity.commands import COMMANDS, case_tables
+from asperity.results.figures import BLUE, VERMILION, panels
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve, solve_many
 from asperity.slider.closed_forms import (
     critical_velocity,
+    longitudinal_ratio,
     master_curve,
     master_curve_approximated,
     normal_ratio,
+    transverse_ratio,
 )
 from asperity.slider.plots_normal import plot_directions, plot_master_curve, plot_two_cycles
 from asperity.store import write_atomically
@@ -25,6 +28,32 @@ if TYPE_CHECKING:
 
 PICTURES = Path(__file__).parent / "_static"
 SWINGS = (0.1, 0.5, 0.9)
+
+
+def shaken() -> "Figure":
+    """What is left of the drive force of a body on a base that is shaken along or across."""
+    figure, (axes,) = panels(width=7.2, height=3.9)
+    fast = np.linspace(0.0, 10.0, 401)
+    shown = (
+        ("along the sliding", "table-4.3", longitudinal_ratio(np.fmax(fast, 1.0)), BLUE, (3, 4)),
+        ("across it", "table-4.4", transverse_ratio(fast), VERMILION, (5.4, 42)),
+    )
+    at = np.array([0.5, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
+    for way, name, rigid, colour, place in shown:
+        settings = ["solve.method=periodic", "friction.law=vector", "friction.transfer=1"]
+        case = read_case(name, TABLES, settings)
+        models = [Model.from_case(case.replace_values({"vibration.velocity_ratio": k})) for k in at]
+        left = 100.0 * np.array([solve(model).ratio for model in models])
+        axes.plot(fast, 100.0 * rigid, color=colour, linewidth=1.0, dashes=(4, 2))
+        axes.plot(at, left, "o-", color=colour, markersize=5, linewidth=2.0)
+        axes.annotate(f"shaken {way}", place, color=colour, fontsize=12, fontweight="bold")
+    axes.axhline(100.0, color="black", linewidth=0.8)
+    axes.annotate("not shaken", (10.0, 100.0), (0, 4), textcoords="offset points", ha="right")
+    axes.set(
+        xlabel="how fast it is shaken: peak speed of the vibration over the speed of sliding",
+        ylabel="force that still pulls it (%)", xlim=(0, 10.2), ylim=(0, 112),
+    )  # fmt: skip
+    return figure
 
 
 def one_curve() -> "Figure":
@@ -103,6 +132,7 @@ def of_drive(name: str, shipped: str, *settings: str) -> "Figure":
 
 if __name__ == "__main__":
     drawn = {
+        "shaken": shaken(),
         "directions": FIGURES["4.23"].make().figure,
         "master_curve": one_curve(),
         "in_space": in_space(),
