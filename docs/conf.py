@@ -17,6 +17,7 @@ version = release = asperity.__version__
 
 extensions = [
     "case_tables",
+    "compared",
     "mathml",
     "sphinx.ext.autodoc",
     "top_names",
