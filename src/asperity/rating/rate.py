@@ -69,9 +69,9 @@ class Rated(Result):
     assumed : mapping of str to str
         What was assumed for the keys of a case file that were left out, by ``table.key``.
     levers : tuple of Lever
-        What moves the least safety most.
+        What moves the least safety most, where it was asked for, as ``asperity rate`` does.
     alternatives : tuple of Alternative
-        The oil and the wheel material of those with a name that bring most of it.
+        The oil and the wheel material of those with a name that bring most of it, likewise.
     given : Inputs
         What the formulas started from.
     tables_bs721 : Tables
@@ -245,13 +245,8 @@ def rate(
             if len(wanted) == 1:
                 raise
             notes.append(f"{name}: {error}")
-    first = Verdict.of(found).first
-    moved: tuple[Lever, ...] = ()
-    if first is not None:
-        judge = _judge(first.demand, given.options, tables)
-        moved = levers(judge, given.gearset, given.operation)
     return Rated(
-        levers=moved,
+        levers=(),
         alternatives=(),
         given=given,
         tables_bs721=tables,
@@ -288,16 +283,18 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
 
 
 def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
-    """Rate the gearset of a case, and look for a better oil and wheel material."""
+    """Rate the gearset of a case, and find what moves the least safety."""
     case, standards = problem
     rated = rate_case(case, standards)
-    first = rated.verdict.first
+    first, given = rated.verdict.first, rated.given
     if first is None:
         return rated
-    options = case.require(RatingOptions) if RatingOptions.table in case else RatingOptions()
-    gearset, operation = case.require(Gearset), case.require(Operation)
-    judge = _judge(first.demand, options, tables_of(options, case.folder))
-    return dataclasses.replace(rated, alternatives=alternatives(judge, gearset, operation))
+    judge = _judge(first.demand, given.options, rated.tables_bs721)
+    return dataclasses.replace(
+        rated,
+        levers=levers(judge, given.gearset, given.operation),
+        alternatives=alternatives(judge, given.gearset, given.operation),
+    )
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
