@@ -38,6 +38,8 @@ sphinx_gallery_conf = {
     "abort_on_example_error": True,
     "within_subsection_order": "FileNameSortKey",
     "show_memory": False,
+    # That page asks other sites for its scripts.
+    "write_computation_times": False,
 }
 
 html_theme = "furo"

@@ -1,5 +1,7 @@
 """Formulas as MathML, made while building: a browser needs no script for them."""
 
+from xml.etree import ElementTree
+
 from docutils import nodes
 from docutils.utils.math import MathError, latex2mathml
 from sphinx.util import logging
@@ -9,10 +11,27 @@ _LOG = logging.getLogger(__name__)
 
 def _written(node, *, as_block):
     try:
-        return latex2mathml.tex2mathml(node.astext(), as_block=as_block)
+        return _mended(latex2mathml.tex2mathml(node.astext(), as_block=as_block))
     except MathError as error:
         _LOG.warning("formula %r: %s", node.astext(), error, location=node)
         return ""
+
+
+def _mended(mathml):
+    r"""What docutils sets another way than TeX: the index of ``\dot x_b``, and overlines."""
+    ElementTree.register_namespace("", "http://www.w3.org/1998/Math/MathML")
+    root = ElementTree.fromstring(mathml)
+    space = root.tag.removesuffix("math")
+    for each in root.iter(f"{space}munderover"):
+        base, index, accent = each
+        if base.tag != f"{space}mo" and accent.get("stretchy") == "false":
+            each.tag = f"{space}msub"
+            each[:] = [ElementTree.Element(f"{space}mover", {"accent": "true"}), index]
+            each[0].extend([base, accent])
+    for each in root.iter(f"{space}mover"):
+        if each[-1].text == "_":
+            each[-1].text = "\N{OVERLINE}"
+    return ElementTree.tostring(root, encoding="unicode")
 
 
 def _inline(self, node):
