@@ -34,9 +34,6 @@ CHANGES = (
         for line in ("slide table-4.? --out OUT", "slide table-4.1-L4 * --out OUT")
         for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
     ),
-    ("flank *", "gearset.glb:*", "the whole pair in mesh, in a tenth of the bytes"),
-    ("flank *", "json.blank", "the sizes of wheel and worm beside their teeth are told"),
-    ("flank *", "json.measuring", "what worm and wheel measure is told"),
     ("rate *", "json.verdict", "whether a gearset holds is told as such"),
     ("rate *", "rate.json.verdict", "whether a gearset holds is told as such"),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),

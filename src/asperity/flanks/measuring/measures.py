@@ -23,7 +23,9 @@ from asperity.results.table import Column, Table
 from asperity.sources import Source
 
 _MILLIMETRES = 1e3
-_TRIED = 8
+_TRIED = 12
+# Of pins and balls, in modules.
+_CUSTOMARY = 1.7
 
 SIZES = (
     0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5,
@@ -156,11 +158,11 @@ def measure(wheel: Wheel, play: Play, options: MeasuringOptions | None = None) -
         best = _tried(thick.optimum, contact)
         if asked is not None:
             return best.diameter if best else None, thick.over(asked), thin.over(asked)
-        if best is not None:
-            for size in sorted(SIZES, key=lambda size: abs(size - best.diameter))[:_TRIED]:
-                thickest, thinnest = _tried(thick.over, size), _tried(thin.over, size)
-                if thickest is not None and thinnest is not None:
-                    return best.diameter, thickest, thinnest
+        near = best.diameter if best else _CUSTOMARY * geometry.axial_module
+        for size in sorted(SIZES, key=lambda size: abs(size - near))[:_TRIED]:
+            thickest, thinnest = _tried(thick.over, size), _tried(thin.over, size)
+            if thickest is not None and thinnest is not None:
+                return best.diameter if best else None, thickest, thinnest
         missing.append(f"{what}: none rests on the flanks and stands out of them")
         return best.diameter if best else None, None, None
 

@@ -40,7 +40,13 @@ class Space:
     thinned: float = 0.0
 
     def optimum(self, contact: float) -> Rest:
-        """Return the ball that touches the flanks at a radius, mm; errors as in `over`."""
+        """Return the ball that touches the flanks at a radius, whether or not it stands out.
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            None was found.
+        """
         module = self.wheel.pair.geometry.axial_module
 
         def off(place: FloatArray) -> FloatArray:
@@ -68,8 +74,10 @@ class Space:
         start = np.array([0.5 * geometry.wheel_mean_diameter / module, 0.0])
         try:
             radius, face = self._solved(off, start) * module
-            return self._rest(radius, face, diameter)
-        except InputError:
+            rest = self._rest(radius, face, diameter)
+            self._check(rest)
+            return rest
+        except (InputError, ConvergenceError):
             raise InputError(
                 f"measuring.ball_diameter is {diameter:g} mm; the ball does not rest on the "
                 "wheel's flanks or does not stand out of its teeth: take one nearer to "
@@ -122,16 +130,20 @@ class Space:
         )
 
     def _rest(self, radius: float, face: float, diameter: float) -> Rest:
-        wheel = self.wheel
-        geometry = wheel.pair.geometry
-        _, centre, out = self._off(radius, face, diameter)
-        if out + 0.5 * diameter <= 0.5 * geometry.wheel_throat_diameter or (
-            out - 0.5 * diameter <= 0.5 * geometry.wheel_root_diameter
-        ):
-            raise InputError("the ball is hidden between the teeth or lies on the root")
-        points = wheel.flank(1).grid(_ROWS, _COLUMNS).points
-        if np.linalg.norm(points - centre, axis=-1).min() < 0.5 * diameter * (1.0 - _NEARER):
-            raise InputError("the ball would cut into the flank elsewhere")
-        teeth = geometry.wheel_teeth
+        out = self._off(radius, face, diameter)[2]
+        teeth = self.wheel.pair.geometry.wheel_teeth
         across = math.cos(math.pi / (2.0 * teeth)) if teeth % 2 else 1.0
         return Rest(float(diameter), out, float(radius), float(2.0 * out * across + diameter))
+
+    def _check(self, rest: Rest) -> None:
+        """Refuse a ball that does not stand out of the teeth, lies on the root, or cuts in."""
+        geometry, half = self.wheel.pair.geometry, 0.5 * rest.diameter
+        if rest.radius + half <= 0.5 * geometry.wheel_throat_diameter or (
+            rest.radius - half <= 0.5 * geometry.wheel_root_diameter
+        ):
+            raise InputError("the ball is hidden between the teeth or lies on the root")
+        middle = math.pi / geometry.wheel_teeth + 0.5 * self.thinned
+        centre = rest.radius * np.array([math.sin(middle), math.cos(middle), 0.0])
+        points = self.wheel.flank(1).grid(_ROWS, _COLUMNS).points
+        if np.linalg.norm(points - centre, axis=-1).min() < half * (1.0 - _NEARER):
+            raise InputError("the ball would cut into the flank elsewhere")

@@ -52,12 +52,18 @@ class Groove:
     worm: Helicoid
 
     def optimum(self, contact: float) -> Rest:
-        """Return the pin that touches the flanks at a radius; errors as in `over`."""
+        """Return the pin that touches the flanks at a radius, whether or not it stands out.
+
+        Raises
+        ------
+        InputError
+            None does before it lies on the root.
+        """
         low, high = self._span
         if not self._touch(low)[1] <= contact <= self._touch(high)[1]:
             raise InputError(f"no pin touches the worm's flanks at a radius of {contact:.5g} mm")
-        radius = brentq(lambda r: self._touch(r)[1] - contact, low, high, xtol=_TOLERANCE)
-        return self.over(2.0 * self._touch(radius)[0])
+        radius = float(brentq(lambda r: self._touch(r)[1] - contact, low, high, xtol=_TOLERANCE))
+        return self._rest(radius, 2.0 * self._touch(radius)[0])
 
     def over(self, diameter: float) -> Rest:
         """Return how a pin of a diameter rests, and the dimension over three of them.
@@ -73,7 +79,11 @@ class Groove:
                 f"measuring.pin_diameter is {diameter:g} mm; pins of {least:.4g} to {most:.4g} mm "
                 "rest on the worm's flanks and stand out of its threads"
             )
-        return self._rest(diameter)
+        low, high = self._span
+        half = 0.5 * diameter
+        radius = float(brentq(lambda r: self._touch(r)[0] - half, low, high, xtol=_TOLERANCE))
+        self._check_along(radius, half)
+        return self._rest(radius, diameter)
 
     @functools.cached_property
     def diameters(self) -> tuple[float, float]:
@@ -116,11 +126,7 @@ class Groove:
         x, y = radius - d * gradient[0], -d * gradient[1]
         return float(d), math.hypot(x, y)
 
-    def _rest(self, diameter: float) -> Rest:
-        low, high = self._span
-        half = 0.5 * diameter
-        radius = float(brentq(lambda r: self._touch(r)[0] - half, low, high, xtol=_TOLERANCE))
-        self._check_along(radius, half)
+    def _rest(self, radius: float, diameter: float) -> Rest:
         return Rest(diameter, radius, self._touch(radius)[1], 2.0 * radius + diameter)
 
     def _check_along(self, radius: float, half: float) -> None:
