@@ -1,1 +1,1 @@
-"""What vibration is worth over frequency and amplitude, in an actuator's stroke, over gearsets."""
+"""What vibration is worth in an actuator's stroke, and in which gearsets."""
