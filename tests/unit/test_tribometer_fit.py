@@ -118,14 +118,6 @@ def test_transfer_and_amplitude_are_one_number_in_transverse_data(tmp_path):
 
 
 @pytest.mark.slow
-def test_transfer_and_exponent_go_together_in_transverse_data(tmp_path):
-    path = table(tmp_path / "data.csv", exact("table-4.4"))
-    found = fitted(path, "table-4.4", [LIMIT, TRANSFER, EXPONENT])
-    assert found.correlation[1, 2] < -0.95
-    assert any("goes with" in one.why or one.ci95[1] is None for one in found.parameters)
-
-
-@pytest.mark.slow
 def test_the_law_that_made_the_data_meets_them_best(tmp_path):
     lines = [SHARED]
     for name, force, frequency, direction, mass in BODIES:
@@ -159,7 +151,33 @@ def test_an_uncertain_condition_widens_the_intervals(tmp_path):
     assert spans[1] > 1.1 * spans[0]
 
 
+@pytest.mark.slow
+def test_a_gear_on_a_rig_is_fitted_by_the_drive(tmp_path):
+    frequencies = (10.0, 20.0)
+    given = case("drive-screw")
+    rows = [{"vibration.frequency": 1e3 * one} for one in frequencies]
+    ratios, why = Predictor(given, "drive", forces=False)(rows, {})
+    assert not why
+    lines = [f"{f},{ratio:.10g},0.01" for f, ratio in zip(frequencies, ratios, strict=True)]
+    path = tmp_path / "data.csv"
+    path.write_text("\n".join(["vibration.frequency [kHz],ratio,sd", *lines]))
+    free = ["friction.mu"]
+    found = numbers(fitted(str(path), "drive-screw", free, "friction.mu=0.12", model="drive"))
+    assert found["friction.mu"].value == pytest.approx(0.1344, rel=1e-2)
+
+
+def test_semicolons_and_decimal_commas_are_read(tmp_path):
+    text = "vibration.velocity_ratio;ratio;sd\n2;0,46;0,01\n3;0,26;0,01\n"
+    (tmp_path / "data.csv").write_text(text, "utf-8")
+    data = prepare(case("table-4.3"), data=str(tmp_path / "data.csv"), free=LIMIT).data
+    assert data.values.tolist() == [0.46, 0.26]
+    assert data.conditions[1] == {"vibration.velocity_ratio": 3.0}
+
+
 REFUSED = {
+    "ratio and force": (
+        "vibration.velocity_ratio,ratio,force [N],sd\n2,0.5,3,0.1\n", ["keep one of them"]
+    ),
     "no sd": ("vibration.velocity_ratio,ratio\n2,0.5\n", ["'sd'"]),
     "an unknown key": ("vibration.velocity_rato,ratio,sd\n2,0.5,0.01\n", ["velocity_ratio"]),
     "no unit": ("vibration.frequency,ratio,sd\n2,0.5,0.01\n", ["unit", "kHz"]),
@@ -279,8 +297,10 @@ class Sets:
         predict = Predictor(self.problem.case, "slide", forces=False)
         rows = self.problem.data.conditions
         # The transfer is across the sliding, and nothing to what is along it.
-        along = [key for key in free if key != TRANSFER]
-        parts = [part for part in ((rows[:12], along), (rows[12:], free)) if part[0]]
+        parts = []
+        for place, (_, _, _, direction, _) in enumerate(bodies):
+            keys = free if direction else [key for key in free if key != TRANSFER]
+            parts.append((rows[12 * place : 12 * place + 12], keys))
         self.model = Together(
             {law: [
                 Tabulated(predict, part, {key: box[key] for key in keys}, law, nodes)
@@ -322,6 +342,7 @@ class Sets:
         return np.array(points), np.array(held)
 
 
+@pytest.mark.slow
 def test_400_longitudinal_sets_spread_by_the_bound_and_intervals_cover(tmp_path, monkeypatch):
     sets = Sets(tmp_path, ALONG, bodies=BODIES[:1])
     assert sets.off < 0.03 * NOISE
@@ -339,6 +360,13 @@ def test_400_sets_of_both_directions_spread_by_the_bound_and_cover(tmp_path, mon
     assert sets.bound() == pytest.approx([0.06, 0.02, 0.03], rel=0.25)
     assert points.std(axis=0) == pytest.approx(sets.bound(), rel=0.2)
     assert np.all((held.mean(axis=0) >= 0.92) & (held.mean(axis=0) <= 0.97))
+
+
+@pytest.mark.slow
+def test_transfer_and_exponent_go_together_in_transverse_data(tmp_path, monkeypatch):
+    found = Sets(tmp_path, BOTH, bodies=BODIES[1:]).fitted(1, monkeypatch)
+    assert found.correlation[1, 2] < -0.95
+    assert any("goes with" in one.why or None in one.ci95 for one in found.parameters)
 
 
 @pytest.mark.slow
