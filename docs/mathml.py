@@ -1,5 +1,7 @@
 """Formulas as MathML, made while building: a browser needs no script for them."""
 
+import html
+import re
 from xml.etree import ElementTree
 
 from docutils import nodes
@@ -7,6 +9,7 @@ from docutils.utils.math import MathError, latex2mathml
 from sphinx.util import logging
 
 _LOG = logging.getLogger(__name__)
+_NAMED = re.compile(r"&(?!(?:amp|lt|gt|quot|apos);)\w+;")
 
 
 def _written(node, *, as_block):
@@ -20,7 +23,8 @@ def _written(node, *, as_block):
 def _mended(mathml):
     r"""What docutils sets another way than TeX: the index of ``\dot x_b``, and overlines."""
     ElementTree.register_namespace("", "http://www.w3.org/1998/Math/MathML")
-    root = ElementTree.fromstring(mathml)
+    # XML knows five entities of HTML's.
+    root = ElementTree.fromstring(_NAMED.sub(lambda found: html.unescape(found[0]), mathml))
     space = root.tag.removesuffix("math")
     for each in root.iter(f"{space}munderover"):
         base, index, accent = each
