@@ -7,9 +7,11 @@ import math
 
 import numpy as np
 import pytest
+import xarray
 from apparatus.rig_signals import NOISY, TORQUE, record, run_of
 
 from asperity.results import read
+from asperity.store import write_dataset
 from asperity.tribometer.reduction.wear import path_share
 
 FREQUENCIES, RATIOS, RATE = (250.0, 500.0), (0.31, 0.22), 5e3
@@ -222,6 +224,23 @@ def test_an_export_of_an_oscilloscope_becomes_a_recording(asperity, tmp_path):
     assert answer["samples"] == 2000
     assert answer["channels"][0]["signal"] == "torque_steel"
     refused(asperity("rig", "reduce", out), "run.nc")
+
+
+def test_what_is_refused_is_told_what_to_do(asperity, tmp_path):
+    plan = "rig", "plan", "rig-final", "--set"
+    refused(asperity(*plan, "plan.modes=transverse"), 'it must be a list, as ["transverse"]')
+    inner = asperity(*plan, "channels.torque_bronze.channel=A")
+    refused(inner, "channels.torque_bronze is set as a whole, as channels.torque_bronze={ channel")
+    text = tmp_path / "run.csv"
+    text.write_text("PicoScope export\n\nZeit;Kanal A\n(s);(V)\n0;1\n1;2\n")
+    refused(asperity("rig", "import", text, "rig-final"), "stand in row 3; delete what is above")
+    refused(asperity("rig", "reduce", text), "not a recording", "asperity rig import")
+    beside = write_dataset(xarray.Dataset(attrs={"answer_of": "its"}), tmp_path / "plan.nc")
+    refused(asperity("rig", "reduce", beside), "give the recordings themselves")
+    (tmp_path / "empty").mkdir()
+    refused(asperity("rig", "report", tmp_path / "empty"), "recordings come from asperity rig run")
+    text.write_text("")
+    refused(asperity("fit", text, "table-4.3", "--free", "friction.mu"), "run.csv is empty")
 
 
 def test_a_line_begins_with_the_file_at_fault(asperity, tmp_path):

@@ -291,6 +291,10 @@ def test_validation_waits_for_all_settings(case_file):
         ("body.mass=4", "body.mass is 4 without a unit; it must be a mass such as '0.5 kg'"),
         ("body.sped=4 m/s", "body.sped is not a key of [body] (did you mean 'speed'?)"),
         ("bodi.speed=1 m/s", "[bodi] is not a table of a case file (did you mean 'body'?)"),
+        (
+            "shaking.channel.letter=A",
+            'shaking.channel is set as a whole, as shaking.channel={ letter = "A" }',
+        ),
         ("body.speed", "it must be table.key=value, as in friction.mu=0.1"),
         ("speed=1 m/s", "it must be table.key=value, as in friction.mu=0.1"),
         ("shaking.ratio=nan", "shaking.ratio is nan; it must be a ratio such as 6.0"),

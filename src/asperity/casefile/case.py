@@ -21,6 +21,8 @@ Raw = dict[str, Any]
 
 _TEXT_ONLY = {"text_only": True}
 _KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
+_INNER_KEY = re.compile(rf"({_KEY.pattern})\.([\w.-]+)")
+
 
 T = TypeVar("T", bound=Table)
 
@@ -221,6 +223,12 @@ def apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     path, equals, text = setting.partition("=")
     parts = _KEY.fullmatch(path.strip())
     if not equals or not parts:
+        if equals and (inner := _INNER_KEY.fullmatch(path.strip())):
+            value = json.dumps(_toml_value(text.strip()), ensure_ascii=False, default=str)
+            raise InputError(
+                f"--set {setting}: {inner[1]} is set as a whole, as "
+                f"{inner[1]}={{ {inner[4]} = {value} }}"
+            )
         raise InputError(f"--set {setting}: it must be table.key=value, as in friction.mu=0.1")
     name, key = parts.groups()
     try:

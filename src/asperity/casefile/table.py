@@ -1,5 +1,6 @@
 """A table of a case file: frozen, in SI, refusing in one line what it cannot hold."""
 
+import json
 import re
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
@@ -171,6 +172,9 @@ class Table(pydantic.BaseModel):
             words = re.findall(r"'([^']*)'", allowed)
             hint = suggestion(given, words) if isinstance(given, str) else ""
             reason = f"it must be one of {allowed}{hint}"
+        elif detail["type"] in ("tuple_type", "list_type"):
+            within = json.dumps(given, ensure_ascii=False) if isinstance(given, str) else given
+            reason = f"it must be a list, as [{within}]"
         elif cause is None:
             reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
         place = detail["loc"][1] if len(detail["loc"]) > 1 else None

@@ -110,6 +110,8 @@ def read_measurements(path: Path, case: Case) -> Measurements:
         ]
     except csv.Error as error:
         raise InputError(f"{name} cannot be read: {error}") from None
+    if not lines:
+        raise InputError(f"{name} is empty; it must hold headings, and measurements below them")
     if len(lines) < 2:
         raise InputError(f"{name} holds no rows below its headings; it must hold measurements")
     columns = [_column(place, cell, case, name) for place, cell in enumerate(lines[0][1])]

@@ -9,7 +9,7 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.casefile import Case, told
-from asperity.errors import ConvergenceError, InputError, choices, nearest
+from asperity.errors import ConvergenceError, InputError, choices, nearest, suggestion
 from asperity.friction.dahl import LAWS
 from asperity.runs import Run
 from asperity.slider.parameters import Slider
@@ -87,7 +87,7 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
     if model not in (SLIDE, BLOCK, DRIVE):
         raise InputError(
             f"--model {model}: it must be one of {choices((SLIDE, BLOCK, DRIVE))}"
-            f"{nearest(model, (SLIDE, BLOCK, DRIVE))}"
+            f"{suggestion(model, (SLIDE, BLOCK, DRIVE))}"
         )
     measured = read_measurements(Path(data), case)
     if model == SLIDE and Slider.table not in case and Rig.table in case:

@@ -15,6 +15,7 @@ from asperity.units import to_si
 
 _MOST_BYTES = 4_000_000_000
 _HEAD = 1 << 16
+_MOST_ABOVE = 50
 _SEPARATORS = ("\t", ";", ",")
 _INFINITY = "∞"
 _DECIMAL_COMMA = re.compile(r"\d,\d")
@@ -36,6 +37,8 @@ def read_text(path: Path, name: str) -> Columns:
         raise InputError(f"{name} is empty")
     separator = max(_SEPARATORS, key=head[start].count)
     headings = [cell.strip().strip('"') for cell in head[start].split(separator)]
+    if (row := _headings_at(head, start)) > start:
+        raise InputError(f"{name}: its headings stand in row {row + 1}; delete what is above them")
     if len(headings) < 2:
         raise InputError(
             f"{name}: row {start + 1} is {shown(head[start])}; it must hold headings separated by "
@@ -70,6 +73,22 @@ def read_text(path: Path, name: str) -> Columns:
         tuple(rows[:, place] for place in keep), times=scale * rows[:, time],
         first_row=begin + 1, notes=tuple(notes),
     )  # fmt: skip
+
+
+def _headings_at(lines: list[str], start: int) -> int:
+    """Return the first row that has a row of units below it, or the one that was begun with."""
+    for row in range(start, min(start + _MOST_ABOVE, len(lines) - 1)):
+        separator = max(_SEPARATORS, key=lines[row].count)
+        headings, units = (_cells(lines, n, separator) for n in (row, row + 1))
+        cells = (*headings, *units)
+        told = len(headings) == len(units) > 1 and all(map(_bracketed, units))
+        if told and all(_number(cell, separator) is None for cell in cells):
+            return row
+    return start
+
+
+def _bracketed(cell: str) -> bool:
+    return cell.strip().strip('"')[:1] in ("(", "[")
 
 
 def _decoded(path: Path, name: str) -> str:

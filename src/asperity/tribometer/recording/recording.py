@@ -23,6 +23,7 @@ from asperity.tribometer.signals import SIGNALS
 
 _MOST_SAMPLES_A_BYTE = 1100  # what zeros are compressed to
 _STRETCH = 1 << 16
+_ANSWER = "answer_of"  # an attribute of what Result.save writes
 _LATE = 0.5  # of a block, by which the clock may lead the count before samples are lost
 
 
@@ -167,8 +168,11 @@ class Recording:
 
 def _why(path: Path) -> str:
     """Return what can be told of a file that does not open."""
-    with path.open("rb") as file:
-        head = file.read(48)
+    try:
+        with path.open("rb") as file:
+            head = file.read(48)
+    except OSError as error:
+        return store.reason(error)
     stated = int.from_bytes(head[40:48], "little")
     size = path.stat().st_size
     if head.startswith(b"\x89HDF\r\n\x1a\n\0") and size < stated:
@@ -192,6 +196,10 @@ def _opened(path: Path) -> Any:
 def _read(file: Any, size: int, name: str) -> dict[str, Any]:
     """Return what a recording is made from; anything that is not as it must be raises."""
     attributes = {key: np.asarray(value).ravel()[0] for key, value in file.attrs.items()}
+    if _ANSWER in attributes:
+        raise StorageError(
+            f"{name} is what a command wrote beside recordings; give the recordings themselves"
+        )
     if _text(attributes.get("format", "")) != layout.FORMAT:
         raise StorageError(f"{name} is not a recording; import it: asperity rig import")
     raw = file[layout.RAW]

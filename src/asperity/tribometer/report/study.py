@@ -47,7 +47,11 @@ def read(case: str, known: Mapping[str, Any], settings: Sequence[str], *, folder
                 refused.append((plain(path.name), str(error)))
             found = [one for one in found if one.recording.path != path]
     if not found:
-        why = f": {refused[0][0]}: {refused[0][1]}" if refused else ""
+        why = (
+            f": {refused[0][0]}: {refused[0][1]}"
+            if refused
+            else "; recordings come from asperity rig run or asperity rig import --out"
+        )
         raise InputError(f"{plain(folder)} holds no recording that can be reduced{why}")
     first = found[0].case
     values = {field.name: getattr(first, field.name) for field in dataclasses.fields(Case)}
