@@ -127,8 +127,9 @@ class Case:
 
         Cases that calculate the same have the same text, however they are written.
         """
-        dumped = {name: table.model_dump(mode="json") for name, table in self.tables.items()}
-        for name, table in self.tables.items():
+        counting = {name: table for name, table in self.tables.items() if table.counts}
+        dumped = {name: table.model_dump(mode="json") for name, table in counting.items()}
+        for name, table in counting.items():
             for key, value in table:
                 if isinstance(value, Path) and (self.folder / value).is_file():
                     content = store.read_bytes(self.folder / value)

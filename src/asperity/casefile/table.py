@@ -25,7 +25,7 @@ def _held(value: Any) -> Any:
 class Table(pydantic.BaseModel):
     """Base of the tables of a case file: frozen, no unknown keys, InputError in one line.
 
-    A subclass names its table in `table`. Keys that are forms of the same thing stand together in
+    A subclass names its table in `table`; where `counts` is false no answer depends on it. Keys that are forms of the same thing stand together in
     `alternatives` (at most one is given) or `required_alternatives` (exactly one), and default to
     None. A check over several keys is a ``model_validator(mode="after")`` that raises ValueError
     with a whole sentence beginning with ``table.key``. A file name is a field of type
@@ -43,6 +43,7 @@ class Table(pydantic.BaseModel):
     model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
 
     table: ClassVar[str] = ""
+    counts: ClassVar[bool] = True
     alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
     required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
 

@@ -17,10 +17,12 @@ from asperity.errors import ConvergenceError, InputError, StorageError, plain
 from asperity.results.files import picture_format
 from asperity.results.quantity import plain as jsonable
 from asperity.runs import Run
-from asperity.store import output_folder
+from asperity.store import output_folder, write_text
 
 if TYPE_CHECKING:
     from asperity.results import Result
+
+_REPORT = "report.html"
 
 
 def execute(
@@ -67,6 +69,11 @@ def execute(
         show.note(f"written to {result.save(file)}")
     elif folder is not None:
         names = result.write(folder, pictures=pictures)
+        if result.reported:
+            from asperity.results.report import Heading
+
+            write_text(folder / _REPORT, result.to_html(Heading.of(found), folder))
+            names.append(_REPORT)
         run.finished()
         show.note(f"written to {folder}: {', '.join(names)}")
     if shown is not None:

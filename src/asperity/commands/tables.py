@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from asperity.casefile import Table
 
 _TABLES = {
+    "project": "asperity.casefile.project:Project",
     "slider": "asperity.slider.parameters:Slider",
     "friction": "asperity.friction.parameters:Friction",
     "vibration": "asperity.vibration:Vibration",

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.casefile import Case, told
 from asperity.errors import InputError, choices, require_types, suggestion
@@ -15,6 +15,7 @@ from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.demands import Demand
 from asperity.rating.entries import assumptions
+from asperity.rating.forces import Forces, forces
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
@@ -29,6 +30,9 @@ from asperity.results.quantity import Entry, Label
 from asperity.results.table import Column, Table
 from asperity.runs import Run
 from asperity.store import harmless_cell, write_text
+
+if TYPE_CHECKING:
+    from asperity.results.report import Heading, Section
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
 
@@ -80,6 +84,7 @@ class Rated(Result):
 
     title: ClassVar[str] = "Worm gearset, rated"
     stem: ClassVar[str] = "rate"
+    reported: ClassVar[bool] = True
 
     gearset: Gearset
     geometry: Geometry
@@ -97,6 +102,11 @@ class Rated(Result):
     def verdict(self) -> Verdict:
         """Whether it holds by each standard, and what fails first."""
         return Verdict.of(self.found, self.levers, self.alternatives)
+
+    @property
+    def forces(self) -> tuple[Forces, ...]:
+        """What shafts and bearings carry in each direction of rotation, by ISO/TR 14521."""
+        return () if self.iso14521 is None else forces(self.given, self.iso14521)
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -123,6 +133,7 @@ class Rated(Result):
             "assumed": dict(self.assumed),
             "notes": list(self.notes),
             "verdict": self.verdict.to_json(),
+            "forces": {one.rotation: one.to_json() for one in self.forces} or None,
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -162,11 +173,17 @@ class Rated(Result):
             tables.append(Table((), (), remarks=self.notes))
         return tuple(tables)
 
-    def to_html(self) -> str:
-        """Return a page of its own with the tables of all ratings."""
-        from asperity.results.page import page
+    def sections(self, folder: Path | None = None) -> "tuple[Section, ...]":
+        """Return what its report says."""
+        from asperity.rating.report import sections
 
-        return page(f"{self.heading()}, rated", self.tables(sources=True))
+        return tuple(sections(self))
+
+    def to_html(self, heading: "Heading | None" = None, folder: Path | None = None) -> str:
+        """Return its report: one page without requests, which prints on A4."""
+        from asperity.results.report import report
+
+        return report(f"{self.heading()}, rated", self.sections(folder), heading)
 
     def to_frame(self) -> Any:
         """Return a pandas data frame of all ratings, indexed by standard and key."""
@@ -179,15 +196,14 @@ class Rated(Result):
         return pandas.concat(frames, names=["standard", "key"]) if frames else pandas.DataFrame()
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write JSON, netCDF, a page, and for spreadsheets a table and live formulas."""
+        """Write JSON, netCDF, and for spreadsheets a table and live formulas."""
         from asperity.rating.workbook import write_rating
 
         names = super().write(folder, pictures="")
-        write_text(folder / "rate.html", self.to_html())
         table = self.to_frame().map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
-        return [*names, "rate.html", "rate.csv", "rate.xlsx"]
+        return [*names, "rate.csv", "rate.xlsx"]
 
 
 def rate(

@@ -1,141 +1,77 @@
-"""Tables as HTML: a fragment for a notebook, or a page of its own."""
+"""Pages: tables as HTML, and the templates and the style that every page is made of."""
 
-import base64
-import dataclasses
 import functools
-import io
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from asperity.results.table import Bar, Number
+from asperity.results.typeset import typeset
 
 if TYPE_CHECKING:
-    from jinja2 import Environment, Template
-    from matplotlib.figure import Figure
+    from jinja2 import Environment
+    from markupsafe import Markup
 
     from asperity.results.table import Table
 
-STYLE = """
-body { margin: 0 auto; max-width: 76rem; padding: 1.5rem 1rem 4rem; color: #1a1a1a;
-  font: 1rem/1.45 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
-table.asperity { border-collapse: collapse; margin-top: 2rem; font-size: .9rem; }
-main table.asperity { width: 100%; }
-.asperity caption { text-align: left; font-size: 1.25rem; font-weight: 600; padding-bottom: .4rem; }
-.asperity th, .asperity td { text-align: left; vertical-align: top; padding: .3rem .5rem;
-  border-top: 1px solid #ddd; }
-.asperity .number { text-align: right; font-variant-numeric: tabular-nums; }
-ul { max-width: 56rem; }
-figure { margin: 2rem 0; }
-figure img { max-width: 100%; }
-"""
-
-_FRAGMENT = """\
-{% for table in tables %}
-<table class="asperity">
-{% if table.title %}<caption>{{ table.title }}</caption>
-{% endif %}
-<thead><tr>
-{%- for column in table.columns -%}
-<th{% if column.right %} class="number"{% endif %}>{{ column.heading }}</th>
-{%- endfor -%}
-</tr></thead>
-<tbody>
-{% for row in table.rows %}
-<tr>
-{%- for cell in row -%}
-<td{% if table.columns[loop.index0].right %} class="number"{% endif %}>{{ cell }}</td>
-{%- endfor -%}
-</tr>
-{% endfor %}
-</tbody>
-</table>
-{% if table.remarks %}<ul>
-{% for remark in table.remarks %}<li>{{ remark }}</li>
-{% endfor %}
-</ul>
-{% endif %}
-{% endfor %}
-"""
-
-_PAGE = """\
-<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{{ title }}</title>
-<style>{{ style|safe }}</style>
-</head>
-<body>
-<main>
-<h1>{{ title }}</h1>
-{% if remarks %}<ul>
-{% for remark in remarks %}<li>{{ remark }}</li>
-{% endfor %}
-</ul>
-{% endif %}
-{{ body|safe }}
-{% for picture in pictures %}
-<figure>
-<img alt="{{ picture.title }}" src="data:image/svg+xml;base64,{{ picture.encoded }}">
-<figcaption><b>{{ picture.title }}.</b> {{ picture.caption }}</figcaption>
-</figure>
-{% endfor %}
-</main>
-</body>
-</html>
-"""
+_TEMPLATES = Path(__file__).with_name("templates")
 
 
 @functools.cache
-def _environment() -> "Environment":
+def style() -> str:
+    """Return the style of every page."""
+    return (_TEMPLATES / "page.css").read_text("utf-8")
+
+
+@functools.cache
+def environment() -> "Environment":
+    """Return what templates are rendered in: ``page.html.j2`` is there to be extended."""
     import jinja2
 
-    return jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
-
-
-@functools.cache
-def _template(text: str) -> "Template":
-    return _environment().from_string(text)
+    made = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES), autoescape=True, trim_blocks=True,
+        lstrip_blocks=True, undefined=jinja2.StrictUndefined,
+    )  # fmt: skip
+    made.filters |= {"typeset": typeset, "cell": _cell, "css": _css_text}
+    made.globals["style"] = style()
+    return made
 
 
 def fragment(tables: "Iterable[Table]") -> str:
     """Return tables as HTML without a page around them."""
-    return _template(_FRAGMENT).render(tables=list(tables))
+    made: Any = environment().get_template("tables.html.j2").module
+    return str(made.of(list(tables)))
 
 
-@dataclasses.dataclass(frozen=True)
-class Picture:
-    """A picture within a page, which needs no file beside it.
+def data(number: Number) -> "Markup":
+    """Return a number as HTML that holds all its digits, and its key in JSON."""
+    from markupsafe import Markup
 
-    Attributes
-    ----------
-    title, caption : str
-        Below it.
-    figure : Figure
-        The picture.
-    """
-
-    title: str
-    figure: "Figure"
-    caption: str = ""
-
-    @property
-    def encoded(self) -> str:
-        """It as SVG in letters."""
-        drawn = io.BytesIO()
-        self.figure.savefig(drawn, format="svg", metadata={"Date": None})
-        return base64.b64encode(drawn.getvalue()).decode("ascii")
+    key = Markup(' data-key="{}"').format(number.key) if number.key else ""
+    return Markup('<data value="{!r}"{}>{}</data>').format(number.value, key, str(number))
 
 
-def page(
-    title: str,
-    tables: "Iterable[Table]",
-    remarks: Iterable[str] = (),
-    pictures: Iterable[Picture] = (),
-) -> str:
-    """Return a page of its own with tables, remarks above them and pictures below."""
-    return _template(_PAGE).render(
-        title=title, style=STYLE, remarks=list(remarks), body=fragment(tables),
-        pictures=list(pictures),
-    )  # fmt: skip
+def _cell(text: str, symbols: bool) -> "Markup | str":
+    from markupsafe import Markup
+
+    if isinstance(text, Number):
+        return data(text)
+    if isinstance(text, Bar):
+        length = min(max(text.value, 0.0), Bar.LONGEST) * 100.0
+        return Markup(
+            '<svg class="bar" viewBox="0 0 300 12" preserveAspectRatio="none" aria-hidden="true">'
+            '<rect x="0" y="2" width="300" height="8" fill="none" stroke="#999"/>'
+            '<rect x="0" y="2" width="{:.4g}" height="8" fill="{}" stroke="#000"/>'
+            '<path d="M100 0V12" stroke="#000" stroke-width="3"/></svg>'
+        ).format(length, "#fff" if text.value < 1.0 else "#777")
+    return typeset(text) if symbols else text
+
+
+def _css_text(text: str | None) -> "Markup":
+    """Return a text as a string of CSS, in which nothing can end the string or the style."""
+    from markupsafe import Markup
+
+    made = (
+        sign if sign.isalnum() and sign.isascii() else f"\\{ord(sign):06x}" for sign in text or ""
+    )
+    return Markup('"{}"').format(Markup("".join(made)))

@@ -14,7 +14,7 @@ import dataclasses
 import types
 import typing
 from collections.abc import Callable, Iterator
-from typing import Any, ClassVar, Literal, TypeVar, dataclass_transform
+from typing import Any, ClassVar, Literal, Self, TypeVar, dataclass_transform
 
 import numpy as np
 
@@ -275,7 +275,20 @@ def plain(value: Any) -> Any:
     return value
 
 
-def text_of(value: Any, resolution: float = 0.0) -> str:
+class Number(str):
+    """A number as it is shown, which knows all its digits and its key in JSON."""
+
+    value: float
+    key: str
+
+    def __new__(cls, text: str, value: float, key: str = "") -> Self:
+        """Return a text that stands for a value."""
+        made = super().__new__(cls, text)
+        made.value, made.key = value, key
+        return made
+
+
+def text_of(value: Any, resolution: float = 0.0, key: str = "") -> str:
     """Return a value as a table shows it.
 
     Parameters
@@ -284,7 +297,11 @@ def text_of(value: Any, resolution: float = 0.0) -> str:
         A number, text, truth, a list of them or None.
     resolution : float
         A number that is not larger is rounding: "none" is shown.
+    key : str
+        In JSON, for a number.
     """
+    if isinstance(value, str):
+        return value
     if value is None:
         return "-"
     if isinstance(value, bool):
@@ -292,7 +309,11 @@ def text_of(value: Any, resolution: float = 0.0) -> str:
     if isinstance(value, float):
         if value != value:
             return "-"
-        return "none" if abs(value) <= resolution and value else f"{value + 0.0:.{_DIGITS}g}"
+        if abs(value) <= resolution and value:
+            return "none"
+        return Number(f"{value + 0.0:.{_DIGITS}g}", float(value), key)
+    if isinstance(value, int):
+        return Number(str(value), value, key)
     if isinstance(value, list | tuple):
         return ", ".join(text_of(entry, resolution) for entry in value)
     return str(value)

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from asperity.results.report import Heading, Picture, Section
+
 _ANSWER, _OF = "answer", "answer_of"
 
 _known: dict[str, "type[Result]"] = {}
@@ -39,6 +41,10 @@ class Result(Quantities):
         What its files are called.
     drawings : mapping of str to str
         Name of a picture's file to ``"module:function"``.
+    captions : mapping of str to str
+        What a report says below each of them.
+    reported : bool
+        Whether ``--out`` also leaves ``report.html``.
     labels : mapping
         Of dimensions: the names along them and what they are.
     notes : tuple of str
@@ -49,6 +55,9 @@ class Result(Quantities):
     stem: ClassVar[str] = "result"
     drawings: ClassVar[Mapping[str, str]] = {}
     labels: ClassVar[datasets.Labels] = {}
+
+    captions: ClassVar[Mapping[str, str]] = {}
+    reported: ClassVar[bool] = False
 
     notes: tuple[str, ...] = ()
 
@@ -124,6 +133,51 @@ class Result(Quantities):
         return drawn
 
     plot = figure
+
+    def sections(self, folder: Path | None = None) -> "tuple[Section, ...]":
+        """Return what its report says.
+
+        Parameters
+        ----------
+        folder : path, optional
+            Where its pictures may stand already, which are not drawn again then.
+        """
+        from asperity.results.report import Section
+
+        return (
+            Section("", (self.heading(),) if self.heading() != self.title else ()),
+            Section("Results", tables=self.tables()),
+            Section("Pictures", pictures=self.pictures(folder)),
+        )
+
+    def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
+        """Return its pictures for a page; those that stand in a folder are taken from there."""
+        from asperity.results.report import Picture
+
+        made = []
+        for name in self.kind.drawings:
+            title = name.replace("_", " ").replace("-", " ").capitalize()
+            caption = self.kind.captions.get(name, "")
+            png = None if folder is None else folder / f"{name}.png"
+            if png is not None and png.is_file():
+                made.append(Picture(title, caption=caption, png=png))
+            else:
+                made.append(Picture(title, self.figure(name), caption))
+        return tuple(made)
+
+    def to_html(self, heading: "Heading | None" = None, folder: Path | None = None) -> str:
+        """Return its report: one page without requests, which prints on A4.
+
+        Parameters
+        ----------
+        heading : Heading, optional
+            For whom and by whom, and the case.
+        folder : path, optional
+            As of `sections`.
+        """
+        from asperity.results.report import report
+
+        return report(self.kind.title, self.sections(folder), heading)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write everything as netCDF, whole or not at all; :func:`read` gives it back."""

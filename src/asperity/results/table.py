@@ -2,9 +2,24 @@
 
 import dataclasses
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, ClassVar, Self
 
-from asperity.results.quantity import Quantities, text_of
+from asperity.results.quantity import Number, Quantities, text_of
+
+__all__ = ["Bar", "Column", "Number", "Table", "table_of"]
+
+
+class Bar(str):
+    """A margin as signs, which pages draw: 1 is what is asked."""
+
+    LONGEST: ClassVar[float] = 3.0
+    value: float
+
+    def __new__(cls, text: str, value: float) -> Self:
+        """Return signs that know the margin they stand for."""
+        made = super().__new__(cls, text)
+        made.value = value
+        return made
 
 
 @dataclasses.dataclass(frozen=True)
@@ -19,11 +34,14 @@ class Column:
         Whether it is aligned to the right, as numbers are.
     folds : bool
         Whether its texts are folded where a line would be too long.
+    typeset : bool
+        Whether pages set the symbols in its texts.
     """
 
     heading: str
     right: bool = False
     folds: bool = False
+    typeset: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,11 +86,16 @@ def table_of(answer: Quantities, *, title: str = "", remarks: Iterable[str] = ()
         (
             entry.label.meaning,
             entry.label.symbol,
-            text_of(entry.value, entry.resolution),
+            text_of(entry.value, entry.resolution, entry.key),
             entry.label.unit,
         )
         for entry in answer.entries()
         if entry.label.shown and not entry.label.dims and entry.value is not None
     ]
-    columns = Column("", folds=True), Column("symbol"), Column("value", right=True), Column("unit")
+    columns = (
+        Column("", folds=True),
+        Column("symbol", typeset=True),
+        Column("value", right=True),
+        Column("unit"),
+    )
     return Table(columns, tuple(rows), title, tuple(remarks))

@@ -3,11 +3,12 @@
 import dataclasses
 import importlib.metadata
 import platform
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from asperity.results.page import environment
+from asperity.results.typeset import typeset
 from asperity.thesis import contents
 from asperity.thesis.contents import Chapter, chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE
@@ -15,19 +16,6 @@ from asperity.thesis.products import Cell
 from asperity.thesis.reproduce.files import Shown
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
-_GREEK = {"alpha": "α", "eta": "η", "gamma": "γ", "mu": "µ", "nu": "ν", "sigma": "σ"}
-_SIGNS = {
-    "<=": "≤",
-    r"\+-": "±",
-    r"\bmu\b": "µ",
-    r"\bdegC\b": "°C",
-    r"\bum\b": "µm",
-    r"\bmm2\b": "mm²",
-    # A hyphen that does not break, between the side that drives and the side that is driven.
-    r"\beta_z(\d)_(\d)": r"eta_z\1‑\2",
-    **{rf"\b{name}_": f"{letter}_" for name, letter in _GREEK.items()},
-}
-_INDEXED = r"\b(Ra|[A-Za-zµα-ω])_(\w+(?:[,‑]\w+)?)"
 _TEMPLATE = Path(__file__).with_name("page.html.j2")
 
 
@@ -67,13 +55,9 @@ def render(
     While names of exhibits are still to come it loads itself again now and then; of those that
     could not be made it says why.
     """
-    import jinja2
-
-    environment = jinja2.Environment(
-        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters |= {"typeset": typeset, "cell": cell}
-    template = environment.from_string(_TEMPLATE.read_text("utf-8"))
+    made = environment().overlay()
+    made.filters = made.filters | {"cell": cell}
+    template = made.from_string(_TEMPLATE.read_text("utf-8"))
     versions = {"asperity": version, "Python": platform.python_version()}
     versions |= {name: importlib.metadata.version(name) for name in _PACKAGES}
 
@@ -99,6 +83,7 @@ def render(
         to_come=len(to_come),
         failed=len(failed),
         versions=versions,
+        title="Vibration, sliding friction and worm gears: the thesis, reproduced",
     )
 
 
@@ -115,18 +100,3 @@ def cell(value: Cell) -> Any:
     1.3903 60 m<sub>x1</sub>
     """
     return f"{value:.5g}" if isinstance(value, float) else typeset(str(value))
-
-
-def typeset(text: str) -> Any:
-    """Return a text as HTML with its symbols set: ``mu F_N``, ``eta_y``, ``<=``.
-
-    Examples
-    --------
-    >>> print(typeset("s_max <= 5 % of mu F_N"))
-    s<sub>max</sub> ≤ 5 % of µ F<sub>N</sub>
-    """
-    from markupsafe import Markup, escape
-
-    for plain, sign in _SIGNS.items():
-        text = re.sub(plain, sign, text)
-    return Markup(re.sub(_INDEXED, r"\1<sub>\2</sub>", str(escape(text))))

@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 from asperity.results import Result, quantity
 from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
-from asperity.results.page import Picture, page
+from asperity.results.report import Picture, Section
 from asperity.results.table import Table
-from asperity.store import write_text
 from asperity.tribometer.reduction.plots import changes, mark_simulated
 from asperity.tribometer.reduction.result import REFUSED, Reduced
 
@@ -44,6 +43,7 @@ class Report(Result):
 
     title = "Tests on a disc-on-disc rig"
     stem = "report"
+    reported = True
 
     reduced: Reduced
     conditions: tuple[tuple[str, str], ...]
@@ -68,25 +68,28 @@ class Report(Result):
         recorded = Table(files.columns, files.rows, "Recordings", files.remarks)
         return conditions, named, recorded, *((refused,) if self.refused else ())
 
-    def pictures(self) -> list[Picture]:
+    def pictures(self, folder: Path | None = None) -> tuple[Picture, ...]:
         """Return the pictures, simulated ones marked."""
         dataset = self.reduced.to_dataset()
         made = [
             Picture(title, changes(dataset, name, label), caption)
             for name, (title, label, caption) in _CHANGES.items()
         ]
-        return [*made, Picture(
+        return (*made, Picture(
             "Torque ratio over the velocity ratio", over_velocity(dataset),
             "As figures 6.37, 6.46 and 6.51, measured against the model: k_v counts v_a over the "
             "mean of the sliding velocities before and with vibration. The model's ratio is that "
             "at the velocity with vibration.",
-        )]  # fmt: skip
+        ))  # fmt: skip
+
+    def sections(self, folder: Path | None = None) -> tuple[Section, ...]:
+        """Return notes, tables and pictures."""
+        notes = (Table((), (), remarks=self.notes),)
+        return Section("", tables=(*notes, *self.tables())), Section("", pictures=self.pictures())
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write the page, and beside it the reduced recordings."""
-        text = page(self.title, self.tables(), self.notes, self.pictures() if pictures else ())
-        write_text(folder / "report.html", text)
-        return ["report.html", *self.reduced.write(folder, pictures="")]
+        """Write the reduced recordings, which the page is made of."""
+        return self.reduced.write(folder, pictures="")
 
 
 def over_velocity(dataset: "xr.Dataset") -> "Figure":

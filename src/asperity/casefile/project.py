@@ -1,0 +1,29 @@
+"""The table ``[project]``: for whom and by whom; it heads a report and changes no number."""
+
+from typing import ClassVar
+
+from asperity.casefile.table import Table
+
+
+class Project(Table):
+    """For whom a case is made and by whom, as the report of ``--out`` is headed.
+
+    Parameters
+    ----------
+    name : str, optional
+        What the work is called.
+    customer : str, optional
+        For whom it is done.
+    author : str, optional
+        Who does it.
+    note : str, optional
+        What else a reader of the report should know.
+    """
+
+    table: ClassVar[str] = "project"
+    counts: ClassVar[bool] = False
+
+    name: str | None = None
+    customer: str | None = None
+    author: str | None = None
+    note: str | None = None

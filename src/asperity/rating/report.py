@@ -1,0 +1,189 @@
+"""What the report of a rating says, from verdict to sources."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from asperity.gearset.drawing import along_the_wheel, through_the_wheel
+from asperity.rating.forces import MEANINGS
+from asperity.rating.power_flow import power_flow
+from asperity.rating.result import Rating
+from asperity.rating.verdict import NAMES, bar
+from asperity.results.quantity import text_of
+from asperity.results.report import Picture, Section
+from asperity.results.table import Bar, Column, Table
+from asperity.sources import Source
+
+if TYPE_CHECKING:
+    from asperity.rating.rate import Rated
+
+_NAMED = ("symbol", "value", "unit", "meaning", "equation", "source")
+_FRAME = (
+    "Under the rated torque, the worm driving, by ISO/TR 14521. x points along the worm to the end "
+    "it is driven at, y from the wheel's axis to the worm's, z completes a right-handed system; "
+    "the rotation is the worm's, seen from the end it is driven at. Each bearing of the worm "
+    "carries what is across it, the fixed one its axial force too. The wheel's bearings are not "
+    "part of a case: its shaft takes the wheel's forces at the reference circle."
+)
+
+
+def sections(rated: "Rated") -> Iterator[Section]:
+    """Yield the sections of the report of a rating."""
+    cited: dict[Source, int] = {}
+    yield Section(
+        "Verdict", tuple(rated.verdict.sentences()), tables=tuple(_verdict(rated))
+    )  # fmt: skip
+    g = rated.geometry
+    views = (Picture("", svg=svg, caption=said)
+             for svg, said in (along_the_wheel(g), through_the_wheel(g)))  # fmt: skip
+    yield Section("The gearset", pictures=tuple(views), tables=(_geometry(rated),))
+    if rated.iso14521 is not None:
+        flow = Picture("", svg=power_flow(rated.iso14521),
+                       caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
+        yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
+        said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
+        yield Section("Forces on shafts and bearings", (said,), tables=(_forces(rated),))
+    yield Section("Self-locking", tables=(_self_locking(rated),))
+    limits = tuple(
+        Table((), (), title, rating.violations or ("no limit of validity is violated",))
+        for title, rating in ((rating.standard, rating) for rating in rated.ratings)
+    )
+    texts = tuple(line for t in limits for line in (f"{t.title}: {'; '.join(t.remarks)}.",))
+    notes = Table((), (), remarks=(*rated.notes, *(n for r in rated.ratings for n in r.notes)))
+    yield Section("Limits and notes", texts, tables=(notes,))
+    yield Section("Assumed", tables=(_assumed(rated),))
+    yield Section("From memory: check before use", tables=(_from_memory(rated),))
+    for name, rating in rated.found.items():
+        yield Section(f"Calculation by {rating.standard}", tables=(_numbers(name, rating, cited),))
+    yield Section("Sources", tables=(_sources(cited),))
+
+
+def _columns(*names: str) -> tuple[Column, ...]:
+    return tuple(
+        Column(name, right=name == "value", typeset=name in ("symbol", "equation", "unit"))
+        for name in names
+    )
+
+
+def _verdict(rated: "Rated") -> Iterator[Table]:
+    rows = []
+    for place, safety in enumerate(rated.verdict.safeties):
+        d, key = safety.demand, f"verdict.safeties.{place}"
+        rows.append(
+            (
+                f"{NAMES[d.standard]} {d.name}",
+                d.symbol,
+                text_of(safety.value, key=f"{key}.value"),
+                text_of(d.asked, key=f"{key}.asked"),
+                Bar(bar(safety.margin), safety.margin),
+                "holds" if safety.holds else "FAILS",
+            )
+        )
+    columns = (
+        Column("safety"), Column("symbol", typeset=True), Column("value", right=True),
+        Column("asked", right=True), Column(""), Column(""),
+    )  # fmt: skip
+    said = "Bars end at three times what is asked; the mark is what is asked."
+    unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
+    yield Table(columns, tuple(rows), remarks=(said, *unrated))
+
+
+def _geometry(rated: "Rated") -> Table:
+    rows = []
+    values = rated.geometry.to_json()
+    for name, field in type(rated.geometry).__dataclass_fields__.items():
+        known = field.metadata
+        unit = {"rad": "deg"}.get(known["unit"], known["unit"])
+        suffix = f"_{unit.replace('/', '_per_')}" if unit else ""
+        key = f"{name}{suffix}"
+        if values.get(key) is not None:
+            number = text_of(values[key], key=f"geometry.{key}")
+            rows.append((known["symbol"], number, unit, known["meaning"]))
+    return Table(_columns("symbol", "value", "unit", "meaning"), tuple(rows))
+
+
+def _power(iso: Rating) -> Table:
+    keys = (
+        "input_power_W", "loss_meshing_W", "loss_idle_W", "loss_bearing_W", "loss_seal_W",
+        "loss_total_W", "output_power_W", "eta_z1_2", "eta_ges", "input_torque_Nm",
+        "output_torque_Nm",
+    )  # fmt: skip
+    rows = []
+    for entry in (iso.entry(key) for key in keys if key in iso):
+        value = text_of(entry.value, key=f"iso14521.{entry.key}")
+        rows.append((entry.symbol, value, entry.unit, entry.meaning))
+    return Table(_columns("symbol", "value", "unit", "meaning"), tuple(rows))
+
+
+def _forces(rated: "Rated") -> Table:
+    found = {one.rotation: one.to_json() for one in rated.forces}
+    rows = tuple(
+        (
+            meaning,
+            symbol,
+            *(text_of(own[key], key=f"forces.{name}.{key}") for name, own in found.items()),
+            "N",
+            equation,
+        )
+        for key, (meaning, symbol, equation) in MEANINGS.items()
+    )
+    columns = (
+        Column("force"), Column("symbol", typeset=True),
+        *(Column(name, right=True) for name in found), Column("unit"),
+        Column("equation", typeset=True),
+    )  # fmt: skip
+    return Table(columns, rows)
+
+
+def _self_locking(rated: "Rated") -> Table:
+    rows = []
+    for place, one in enumerate(rated.self_locking):
+        key = f"self_locking.verdicts.{place}"
+        numbers = (
+            text_of(getattr(one, name), key=f"{key}.{name}")
+            for name in ("friction", "limit", "efficiency")
+        )
+        named = NAMES.get(one.standard, one.standard)
+        rows.append((named, one.state, *numbers, "yes" if one.locks else "no"))
+    headings = "friction of", "state", "friction", "limit", "efficiency, wheel driving", "locks"
+    return Table.of(headings, rows, left=2)
+
+
+def _assumed(rated: "Rated") -> Table:
+    return Table.of(("key", "what was assumed"), rated.assumed.items(), left=2)
+
+
+def _from_memory(rated: "Rated") -> Table:
+    rows = [
+        (NAMES[name], entry.symbol or entry.key, entry.meaning, str(entry.source.name))
+        for name, rating in rated.found.items()
+        for entry in rating
+        if entry.from_memory
+    ]
+    table = Table.of(("standard", "symbol", "meaning", "source"), rows, left=4)
+    columns = tuple(
+        Column(column.heading, typeset=column.heading == "symbol") for column in table.columns
+    )
+    return Table(columns, table.rows)
+
+
+def _numbers(name: str, rating: Rating, cited: dict[Source, int]) -> Table:
+    rows = []
+    for entry in rating:
+        number = cited.setdefault(entry.source, len(cited) + 1)
+        value = text_of(entry.value, key=f"{name}.{entry.key}")
+        rows.append(
+            (
+                entry.symbol or entry.key,
+                value,
+                entry.unit,
+                entry.meaning,
+                entry.shown_equation,
+                f"{entry.trust} [{number}]",
+            )
+        )
+    return Table(_columns(*_NAMED), tuple(rows))
+
+
+def _sources(cited: dict[Source, int]) -> Table:
+    rows = [(f"[{n}]", s.name, s.confidence, s.note) for s, n in cited.items()]
+    return Table.of(("", "source", "confidence", "note"), rows, left=4)

@@ -1,0 +1,172 @@
+"""A report: one page that prints, headed by what it is of, for whom and by whom."""
+
+import base64
+import dataclasses
+import datetime
+import io
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from asperity.casefile.case import Case
+from asperity.casefile.project import Project
+from asperity.results.page import environment
+from asperity.results.table import Table
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+    from matplotlib.figure import Figure
+
+
+@dataclasses.dataclass(frozen=True)
+class Picture:
+    """A picture within a page, which needs no file beside it.
+
+    Attributes
+    ----------
+    title, caption : str
+        Below it.
+    figure : Figure or None
+        What is drawn as SVG ...
+    png : path or None
+        ... or a file that holds it ...
+    svg : str
+        ... or SVG itself, of this package's own making.
+    """
+
+    title: str
+    figure: "Figure | None" = None
+    caption: str = ""
+    png: Path | None = None
+    svg: str = ""
+
+    @property
+    def html(self) -> "Markup":
+        """It as an element of HTML."""
+        from markupsafe import Markup
+
+        if self.svg:
+            return Markup(self.svg)
+        kind, content = "svg+xml", b""
+        if self.png is not None:
+            kind, content = "png", self.png.read_bytes()
+        elif self.figure is not None:
+            drawn = io.BytesIO()
+            self.figure.savefig(drawn, format="svg", metadata={"Date": None})
+            content = drawn.getvalue()
+        encoded = base64.b64encode(content).decode("ascii")
+        return Markup('<img alt="{}" src="data:image/{};base64,{}">').format(
+            self.title, kind, encoded
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class Section:
+    """A part of a report.
+
+    Attributes
+    ----------
+    title : str
+        Above it; empty for none.
+    texts : tuple of str
+        Sentences below the title.
+    pictures, tables
+        Below these.
+    """
+
+    title: str
+    texts: tuple[str, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    tables: tuple[Table, ...] = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class Heading:
+    """What a report is headed by.
+
+    Attributes
+    ----------
+    project : Project
+        For whom and by whom.
+    case : str
+        The case's file or name.
+    given : mapping of str to str
+        What the case says, as it is written, by ``table.key``.
+    settings : mapping of str to str
+        The settings among it, by the same.
+    date : datetime.date
+        Of the report.
+    """
+
+    project: Project = dataclasses.field(default_factory=Project)
+    case: str = ""
+    given: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    settings: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    date: datetime.date = dataclasses.field(default_factory=lambda: datetime.datetime.now().date())
+
+    @classmethod
+    def of(cls, case: Case) -> "Heading":
+        """Return the heading of what is made of a case."""
+        project = case.require(Project) if Project.table in case else Project()
+        given = {
+            f"{table}.{key}": value if isinstance(value, str) else _written(value)
+            for table, entries in case.raw.items()
+            if table != Project.table
+            for key, value in entries.items()
+        }
+        return cls(project, case.source, given, case.settings)
+
+    @property
+    def signed(self) -> str:
+        """Below each printed page: who, when, with what, of what."""
+        from asperity import __version__
+
+        parts = (
+            self.project.author, self.date.isoformat(), f"asperity {__version__}", self.case,
+        )  # fmt: skip
+        return ", ".join(part for part in parts if part)
+
+    @property
+    def lines(self) -> tuple[tuple[str, str], ...]:
+        """What stands below the title, by what it is."""
+        from asperity import __version__
+
+        project = self.project
+        lines = (
+            ("Customer", project.customer), ("Author", project.author),
+            ("Date", self.date.isoformat()), ("Case file", self.case),
+            ("Made with", f"asperity {__version__}"), ("Note", project.note),
+        )  # fmt: skip
+        return tuple((name, text) for name, text in lines if text)
+
+    def table(self) -> Table:
+        """Return what the case says."""
+        rows = [
+            (key, value, f"--set {self.settings[key]}" if key in self.settings else "case file")
+            for key, value in self.given.items()
+        ]
+        return Table.of(("key", "as written", "from"), rows, left=3)
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict):
+        return ", ".join(f"{key} = {_written(part)}" for key, part in value.items())
+    if isinstance(value, list | tuple):
+        return "; ".join(map(_written, value))
+    return str(value)
+
+
+def report(title: str, sections: Iterable[Section], heading: Heading | None = None) -> str:
+    """Return a report as text: a page without requests, which prints on A4."""
+    heading = heading or Heading()
+    template = environment().get_template("report.html.j2")
+    named = f"{heading.project.name}: {title}" if heading.project.name else title
+    parts = [*sections, *_given(heading)]
+    return template.render(title=named, heading=heading, sections=parts)
+
+
+def _given(heading: Heading) -> Iterator[Section]:
+    if heading.given:
+        yield Section("The case file", tables=(heading.table(),))
