@@ -201,7 +201,7 @@ def test_files_hold_the_same_numbers(asperity, own, tmp_path):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity("rate", own, "--json", "--out", folder)
     assert code == 0
-    assert errors == f"written to {folder}: rate.json, rate.nc, rate.html, rate.csv, rate.xlsx\n"
+    assert errors == f"written to {folder}: rate.json, rate.nc, rate.csv, rate.xlsx, report.html\n"
     answer = one_object(output)
     assert json.loads((folder / "rate.json").read_text()) == answer
     with (folder / "rate.csv").open(newline="") as file:
@@ -210,7 +210,7 @@ def test_files_hold_the_same_numbers(asperity, own, tmp_path):
         for key in KEYS[name]:
             assert float(rows[name, key]["value"]) == answer[name][key]
     assert rows["iso14521", "mu_zm"]["symbol"] == "mu_zm"
-    assert "<table" in (folder / "rate.html").read_text("utf-8")
+    assert "<table" in (folder / "report.html").read_text("utf-8")
 
 
 def test_a_spreadsheet_takes_no_source_for_a_formula(asperity, environment, own, tmp_path):

@@ -25,11 +25,12 @@ def _held(value: Any) -> Any:
 class Table(pydantic.BaseModel):
     """Base of the tables of a case file: frozen, no unknown keys, InputError in one line.
 
-    A subclass names its table in `table`; where `counts` is false no answer depends on it. Keys that are forms of the same thing stand together in
-    `alternatives` (at most one is given) or `required_alternatives` (exactly one), and default to
-    None. A check over several keys is a ``model_validator(mode="after")`` that raises ValueError
-    with a whole sentence beginning with ``table.key``. A file name is a field of type
-    :class:`pathlib.Path`, so that :meth:`Case.canonical` follows the file's content.
+    A subclass names its table in `table`; no answer depends on one whose `counts` is false. Keys
+    that are forms of the same thing stand together in `alternatives` (at most one is given) or
+    `required_alternatives` (exactly one), and default to None. A check over several keys is a
+    ``model_validator(mode="after")`` that raises ValueError with a whole sentence beginning with
+    ``table.key``. A file name is a field of type :class:`pathlib.Path`, so that
+    :meth:`Case.canonical` follows the file's content.
 
     Parameters
     ----------

@@ -70,9 +70,11 @@ def execute(
     elif folder is not None:
         names = result.write(folder, pictures=pictures)
         if result.reported:
+            from asperity import __version__
             from asperity.results.report import Heading
 
-            write_text(folder / _REPORT, result.to_html(Heading.of(found), folder))
+            heading = Heading.of(found, __version__)
+            write_text(folder / _REPORT, result.to_html(heading, folder))
             names.append(_REPORT)
         run.finished()
         show.note(f"written to {folder}: {', '.join(names)}")

@@ -81,8 +81,8 @@ COMMANDS = (
     Command(
         "rate",
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
-        "With --out also rate.json, rate.nc, rate.html, rate.csv and rate.xlsx, a workbook of live "
-        "formulas.",
+        "With --out also report.html, rate.json, rate.nc, rate.csv and rate.xlsx, a workbook of "
+        "live formulas.",
         prepare="asperity.rating.rate:prepare",
         solve="asperity.rating.rate:answer",
         brief=True,
@@ -149,8 +149,8 @@ COMMANDS = (
     Command(
         "flank",
         "Cut a worm wheel exactly: its contact, transmission error, backlash and mesh.",
-        "With --out also flank.json, flank.nc, pictures, tooth and worm as mesh and surface, and "
-        "gearset.glb, both turning.",
+        "With --out also report.html, flank.json, flank.nc, pictures, tooth and worm as mesh and "
+        "surface, and gearset.glb, both turning.",
         prepare="asperity.flanks.study:prepare",
         solve="asperity.flanks.study:answer",
         needs=("gearset",),
@@ -167,7 +167,7 @@ COMMANDS = (
     Command(
         "drive",
         "Load a worm gearset, and shake it: torque, powers, contact lost, what it is worth.",
-        "With --out also drive.json, drive.nc and pictures.",
+        "With --out also report.html, drive.json, drive.nc and pictures.",
         prepare="asperity.drive.solve:prepare",
         solve="asperity.drive.solve:answer",
         needs=("gearset", "operation", "drive"),

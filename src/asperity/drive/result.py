@@ -88,6 +88,12 @@ class DriveResult(Result):
         "drive_powers": "asperity.drive.plots:plot_powers",
     }
 
+    captions: ClassVar[Mapping[str, str]] = {
+        "drive": "The worm's torque over the last cycles, and its means from the start on.",
+        "drive_powers": "Mean powers over the window: what is put in, and where it goes.",
+    }
+    reported: ClassVar[bool] = True
+
     problem: DriveProblem
     k_w: float = quantity("k_w", "", "peak velocity of the vibration over the sliding", key="k_w")
     torque_static: float = quantity("T_Bs", "N m", "torque without vibration")

@@ -102,6 +102,14 @@ class FlankStudy(Result):
         "transmission-error": f"{_PLOTS}:transmission_error",
         "vibration": f"{_PLOTS}:vibration",
     }
+    captions: ClassVar[Mapping[str, str]] = {
+        "pattern": "Where the marking compound is squeezed out: bare where the gap is least.",
+        "ease-off": "How much less material the wheel has than one cut by an identical hob.",
+        "contact-lines": "Lines in touch by angle of the worm; a pitch apart they touch at once.",
+        "transmission-error": "How far the wheel is ahead of an even turn.",
+        "vibration": "Parts of a vibration's velocity on the flank s = +1.",
+    }
+    reported: ClassVar[bool] = True
     labels = LABELS
 
     name: str

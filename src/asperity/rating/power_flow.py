@@ -28,7 +28,7 @@ def power_flow(iso: Rating) -> str:
         start = x + wide
         drawing.line([(start, bottom), (start, depth)])
         middle = x + wide / 2.0
-        drawing.arrow((middle, depth + 2.0), (middle, depth))
+        drawing.line([(x, depth), (middle, depth + 2.5), (start, depth)])
         words = f"{name} ", _watts(n, f"loss_{key}_W"), " W"
         drawing.text((start + 1.5, depth + 1.0), words, anchor="start")
     end = max(_LENGTH, start + 8.0)

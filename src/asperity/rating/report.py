@@ -1,7 +1,7 @@
 """What the report of a rating says, from verdict to sources."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import Any
 
 from asperity.gearset.drawing import along_the_wheel, through_the_wheel
 from asperity.rating.forces import MEANINGS
@@ -13,9 +13,6 @@ from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
 from asperity.sources import Source
 
-if TYPE_CHECKING:
-    from asperity.rating.rate import Rated
-
 _NAMED = ("symbol", "value", "unit", "meaning", "equation", "source")
 _FRAME = (
     "Under the rated torque, the worm driving, by ISO/TR 14521. x points along the worm to the end "
@@ -26,7 +23,11 @@ _FRAME = (
 )
 
 
-def sections(rated: "Rated") -> Iterator[Section]:
+Reported = Any
+"""A `asperity.rating.rate.Rated`, whose module imports this one."""
+
+
+def sections(rated: Reported) -> Iterator[Section]:
     """Yield the sections of the report of a rating."""
     cited: dict[Source, int] = {}
     yield Section(
@@ -64,7 +65,7 @@ def _columns(*names: str) -> tuple[Column, ...]:
     )
 
 
-def _verdict(rated: "Rated") -> Iterator[Table]:
+def _verdict(rated: Reported) -> Iterator[Table]:
     rows = []
     for place, safety in enumerate(rated.verdict.safeties):
         d, key = safety.demand, f"verdict.safeties.{place}"
@@ -87,7 +88,7 @@ def _verdict(rated: "Rated") -> Iterator[Table]:
     yield Table(columns, tuple(rows), remarks=(said, *unrated))
 
 
-def _geometry(rated: "Rated") -> Table:
+def _geometry(rated: Reported) -> Table:
     rows = []
     values = rated.geometry.to_json()
     for name, field in type(rated.geometry).__dataclass_fields__.items():
@@ -114,7 +115,7 @@ def _power(iso: Rating) -> Table:
     return Table(_columns("symbol", "value", "unit", "meaning"), tuple(rows))
 
 
-def _forces(rated: "Rated") -> Table:
+def _forces(rated: Reported) -> Table:
     found = {one.rotation: one.to_json() for one in rated.forces}
     rows = tuple(
         (
@@ -134,7 +135,7 @@ def _forces(rated: "Rated") -> Table:
     return Table(columns, rows)
 
 
-def _self_locking(rated: "Rated") -> Table:
+def _self_locking(rated: Reported) -> Table:
     rows = []
     for place, one in enumerate(rated.self_locking):
         key = f"self_locking.verdicts.{place}"
@@ -148,11 +149,11 @@ def _self_locking(rated: "Rated") -> Table:
     return Table.of(headings, rows, left=2)
 
 
-def _assumed(rated: "Rated") -> Table:
+def _assumed(rated: Reported) -> Table:
     return Table.of(("key", "what was assumed"), rated.assumed.items(), left=2)
 
 
-def _from_memory(rated: "Rated") -> Table:
+def _from_memory(rated: Reported) -> Table:
     rows = [
         (NAMES[name], entry.symbol or entry.key, entry.meaning, str(entry.source.name))
         for name, rating in rated.found.items()

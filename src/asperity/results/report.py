@@ -94,6 +94,8 @@ class Heading:
         What the case says, as it is written, by ``table.key``.
     settings : mapping of str to str
         The settings among it, by the same.
+    version : str
+        Of this package.
     date : datetime.date
         Of the report.
     """
@@ -102,11 +104,12 @@ class Heading:
     case: str = ""
     given: Mapping[str, str] = dataclasses.field(default_factory=dict)
     settings: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    version: str = ""
     date: datetime.date = dataclasses.field(default_factory=lambda: datetime.datetime.now().date())
 
     @classmethod
-    def of(cls, case: Case) -> "Heading":
-        """Return the heading of what is made of a case."""
+    def of(cls, case: Case, version: str = "") -> "Heading":
+        """Return the heading of what a version of this package makes of a case."""
         project = case.require(Project) if Project.table in case else Project()
         given = {
             f"{table}.{key}": value if isinstance(value, str) else _written(value)
@@ -114,28 +117,29 @@ class Heading:
             if table != Project.table
             for key, value in entries.items()
         }
-        return cls(project, case.source, given, case.settings)
+        return cls(project, case.source, given, case.settings, version)
+
+    @property
+    def made_with(self) -> str:
+        """Name and version of this package."""
+        return f"asperity {self.version}".rstrip()
 
     @property
     def signed(self) -> str:
         """Below each printed page: who, when, with what, of what."""
-        from asperity import __version__
-
         parts = (
-            self.project.author, self.date.isoformat(), f"asperity {__version__}", self.case,
+            self.project.author, self.date.isoformat(), self.made_with, self.case,
         )  # fmt: skip
         return ", ".join(part for part in parts if part)
 
     @property
     def lines(self) -> tuple[tuple[str, str], ...]:
         """What stands below the title, by what it is."""
-        from asperity import __version__
-
         project = self.project
         lines = (
             ("Customer", project.customer), ("Author", project.author),
             ("Date", self.date.isoformat()), ("Case file", self.case),
-            ("Made with", f"asperity {__version__}"), ("Note", project.note),
+            ("Made with", self.made_with), ("Note", project.note),
         )  # fmt: skip
         return tuple((name, text) for name, text in lines if text)
 

@@ -12,7 +12,7 @@ from asperity.results.quantity import Number
 from asperity.results.typeset import typeset
 
 Point = tuple[float, float]
-Words = Iterable[str]
+Words = Sequence[str]
 
 LETTERS = 3.0
 _ARROW = 2.0
@@ -139,10 +139,14 @@ class Drawing:
                 start = end[0] + sign * out[0], end[1] + sign * out[1]
                 self.line([start, end], "narrow")
                 self.arrow(end, start)
+        length = 0.58 * LETTERS * sum(len(word) for word in words)
+        beside = max(length - math.dist(*ends), 0.0) and (length / 2.0 + 2.0 * _ARROW + 1.0)
         if upright:
-            self.text((middle[0] - 0.8, middle[1]), words, turned=True)
+            place = middle[1] if not beside else ends[0][1] - beside
+            self.text((at - 0.8, place), words, turned=True)
         else:
-            self.text((middle[0], middle[1] - 0.8), words)
+            place = middle[0] if not beside else ends[1][0] + beside
+            self.text((place, at - 0.8), words)
 
     def hatch(self, corners: Sequence[Point], step: float = 1.6) -> None:
         """Draw lines at 45 degrees over what is cut: a polygon, by even and odd crossings."""

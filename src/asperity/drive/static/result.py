@@ -40,6 +40,13 @@ class StaticResult(Result):
         "drive_stiffness": f"{_PLOTS}:stiffness",
     }
 
+    captions: ClassVar[Mapping[str, str]] = {
+        "drive": "Torque, transmission error and the teeth's shares over a pitch of the worm.",
+        "drive_pattern": "Where a flank bears over a pitch, and how hard, at three torques.",
+        "drive_stiffness": "What gives way between motor and wheel.",
+    }
+    reported: ClassVar[bool] = True
+
     problem: DriveProblem
     sector: Sector
     nodal_force: FloatArray
