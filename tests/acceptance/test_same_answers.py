@@ -36,6 +36,8 @@ CHANGES = (
     ),
     ("rate *", "json.verdict", "whether a gearset holds is told as such"),
     ("rate *", "rate.json.verdict", "whether a gearset holds is told as such"),
+    ("rate *", "json.forces", "forces on shafts and bearings are told"),
+    ("rate *", "rate.html", "the report takes its place"),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
     ("*", "json*.assumed.rating.iso14521_face_width", "b_2H is offered both ways, one is assumed"),
     ("rate *--out*", "rate.csv:equation", "equations come from the formulas, in all their pieces"),
