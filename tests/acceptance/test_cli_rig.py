@@ -40,6 +40,15 @@ def reduced(asperity, recording):
     return json.loads(output)
 
 
+@pytest.fixture(scope="module")
+def written(asperity, recording, tmp_path_factory):
+    """The files of a reduction."""
+    folder = tmp_path_factory.mktemp("written") / "out"
+    code, _, errors = asperity("rig", "reduce", recording, "--out", folder)
+    assert code == 0, errors
+    return folder
+
+
 def test_a_reduction_has_the_keys_of_the_contract(reduced):
     assert reduced.keys() >= {"segments", "runout_percent", "noise_Nm", "gaps", "notes"}
     assert [list(one) for one in reduced["segments"]] == [KEYS, KEYS]
@@ -62,16 +71,14 @@ def test_segments_hold_what_was_put_in(reduced):
         assert one["k_v"] == pytest.approx({250.0: 20.0, 500.0: 33.0}[frequency] / 4.0, rel=0.02)
 
 
-def test_files_of_a_reduction_hold_its_numbers(asperity, recording, reduced, tmp_path):
-    code, _, errors = asperity("rig", "reduce", recording, "--out", tmp_path / "out")
-    assert code == 0, errors
-    with (tmp_path / "out" / "reduce.csv").open(newline="", encoding="utf-8") as file:
+def test_files_of_a_reduction_hold_its_numbers(written, reduced):
+    with (written / "reduce.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     for row, one in zip(rows, reduced["segments"], strict=True):
         assert float(row["torque_change_percent"]) == one["torque_change_percent"]
         assert float(row["low_percent"]) == one["torque_change_ci95_percent"][0]
         assert float(row["k_v_before"]) > one["k_v"] > float(row["k_v_with"])
-    saved = read(tmp_path / "out" / "reduce.nc")
+    saved = read(written / "reduce.nc")
     assert saved.dataset["torque_change"].values == pytest.approx(
         [one["torque_change_percent"] for one in reduced["segments"]]
     )
@@ -124,13 +131,11 @@ def test_path_along_the_sliding_is_no_longer_below_k_of_one():
         assert path_share(k, "transverse") == pytest.approx(across, rel=1e-6)
 
 
-def test_a_reduction_is_fitted_as_it_is(asperity, recording, tmp_path):
-    code, _, errors = asperity("rig", "reduce", recording, "--out", tmp_path / "out")
-    assert code == 0, errors
+def test_a_reduction_is_fitted_as_it_is(asperity, written):
     law = ("mu=0.1", "max_deflection=70 nm", "law=split", "transfer=0.7")
     settings = [part for one in law for part in ("--set", f"friction.{one}")]
     code, output, errors = asperity(
-        "fit", tmp_path / "out" / "measurements.csv", "rig-final", *settings,
+        "fit", written / "measurements.csv", "rig-final", *settings,
         "--free", "friction.transfer", "--json",
     )  # fmt: skip
     assert code == 0, errors
