@@ -36,6 +36,8 @@ CHANGES = (
     ),
     ("rate *", "json.verdict", "whether a gearset holds is told as such"),
     ("rate *", "rate.json.verdict", "whether a gearset holds is told as such"),
+    ("compare *", "*results.forces.*", "forces on shafts and bearings are told"),
+    ("schema", "json.properties.project*", "a case says for whom it is made"),
     ("rate *", "json.forces", "forces on shafts and bearings are told"),
     ("rate *", "rate.html", "the report takes its place"),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
