@@ -114,9 +114,16 @@ def test_what_a_case_lacks_of_a_drive_is_told(name, words):
         DriveProblem.from_case(read_case(name, case_tables()))
 
 
-def test_no_worm_is_marched_faster_than_any_rim_holds():
-    read = read_case("drive-screw", case_tables(), ["operation.worm_speed=1e154 rpm"])
-    with pytest.raises(InputError, match="1e6 rpm at most"):
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("operation.worm_speed=1e154 rpm", "1e6 rpm at most"),
+        ("operation.output_torque=2.5e288 N m", r"at most 1e\+09 N m"),
+    ],
+)
+def test_no_worm_is_marched_faster_or_loaded_more_than_any_gear_holds(setting, words):
+    read = read_case("drive-screw", case_tables(), [setting])
+    with pytest.raises(InputError, match=words):
         DriveProblem.from_case(read)
 
 

@@ -20,6 +20,7 @@ from asperity.vibration import Vibration
 from asperity.waveform import Shape
 
 LARGEST_STEP = 0.5e-6
+_LARGEST_TORQUE = 1e9  # N m: above that of any gear that was made
 _FASTEST = 1e6 * math.pi / 30.0  # rad/s: no rim of metal is whole far below
 STEPS_A_CYCLE = 100
 PLACES = {
@@ -82,6 +83,11 @@ class DriveProblem:
             raise InputError(
                 f"solve.method is '{self.solve.method}' and solve.scheme '{self.solve.scheme}'; a "
                 "gearset is marched: leave both out"
+            )
+        if not abs(self.load) <= _LARGEST_TORQUE:
+            raise InputError(
+                f"operation.output_torque is {self.load:.4g} N m; a drive carries at most "
+                f"{_LARGEST_TORQUE:.0e} N m"
             )
         if self.vibration is not None:
             self._check_vibration(self.vibration)
