@@ -267,6 +267,11 @@ def test_a_bare_number_takes_the_unit_set_before(case_file):
     assert case["shaking"].direction == 2.0
 
 
+def test_the_unit_that_a_bare_number_takes_is_told(case_file):
+    case = read_case(case_file, TABLES, ["body.speed=2", "body.mass=1 kg", "shaking.ratio=3"])
+    assert list(case.units_taken()) == ["--set body.speed=2 is taken as 2 mm/s"]
+
+
 def test_a_setting_adds_a_table(case_file):
     case_file.write_text("")
     case = read_case(case_file, TABLES, ["body.speed=1 m/s", "body.mass=1 kg"])

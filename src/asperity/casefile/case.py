@@ -79,6 +79,15 @@ class Case:
         setting = self.settings.get(key)
         return self.source if setting is None else f"--set {setting}"
 
+    def units_taken(self) -> Iterator[str]:
+        """Yield a line for each setting that is a number whose unit is that of what it replaced."""
+        for path, setting in self.settings.items():
+            name, _, key = path.partition(".")
+            taken = self.raw[name].get(key)
+            bare = split_unit(setting.partition("=")[2]) or ("", "")
+            if bare[0] and not bare[1] and isinstance(taken, str):
+                yield f"--set {setting} is taken as {taken}"
+
     def replace(self, settings: Iterable[str]) -> "Case":
         """Return the case with ``table.key=value`` settings applied, all validated afterwards."""
         raw = {name: dict(entries) for name, entries in self.raw.items()}

@@ -46,6 +46,8 @@ def execute(
         found = read_case(case, case_tables(), settings)
     else:
         found = read(case, case_tables(), settings, **options)
+    for note in found.units_taken():
+        show.note(note)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     with told(found, *given):
         problem = command.prepared(found, **options)
