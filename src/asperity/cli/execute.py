@@ -46,8 +46,6 @@ def execute(
         found = read_case(case, case_tables(), settings)
     else:
         found = read(case, case_tables(), settings, **options)
-    for note in found.units_taken():
-        show.note(note)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     with told(found, *given):
         problem = command.prepared(found, **options)
@@ -64,6 +62,9 @@ def execute(
             if as_json:
                 show.print_json({"error": str(error), "reached": jsonable(error.reached)})
             raise
+    # Only now, for what is refused is told in one line.
+    for note in found.units_taken():
+        show.note(note)
     # What was measured is what an answer is about, rather than how it is read.
     source = plain(given[0]) if given else found.source
     shown = _show(source, result, as_json=as_json, full=full)
