@@ -85,7 +85,8 @@ class Case:
             name, _, key = path.partition(".")
             taken = self.raw[name].get(key)
             bare = split_unit(setting.partition("=")[2]) or ("", "")
-            if bare[0] and not bare[1] and isinstance(taken, str):
+            # An angle is in degrees wherever nothing else is said.
+            if bare[0] and not bare[1] and isinstance(taken, str) and not taken.endswith(" deg"):
                 yield f"--set {setting} is taken as {taken}"
 
     def replace(self, settings: Iterable[str]) -> "Case":

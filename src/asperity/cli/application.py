@@ -37,8 +37,6 @@ SetOption = Annotated[
 JsonOption = Annotated[
     bool, typer.Option("--json", help="Print one JSON object to standard output, nothing else.")
 ]
-
-
 FullOption = Annotated[
     bool, typer.Option("--full", help="Print every number, not one screen with the verdict.")
 ]
@@ -55,8 +53,6 @@ OutOption = Annotated[
     Path | None,
     typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
 ]
-
-
 FormatOption = Annotated[
     str, typer.Option("--format", metavar="FORMAT", help="Of pictures: png, svg or pdf.")
 ]
@@ -248,32 +244,12 @@ def cases(
     as_json: JsonOption = False,
 ) -> None:
     """List the cases that ship, or print one; their names work wherever a file does."""
-    from asperity.cli import show
-    from asperity.shipped import SPEAKING, case_text, describe, shipped_cases
+    from asperity.cli.cases import print_case, print_cases
 
     if name:
-        text = case_text(name)
-        if as_json:
-            show.print_json({"name": name, "text": text})
-        else:
-            show.print_text(text.rstrip("\n"))
-        return
-    speaking = {name: says for says, name in SPEAKING.items()}
-    listed = [
-        {"name": name, "also": speaking.get(name), "description": describe(path)}
-        for name, path in shipped_cases().items()
-    ]
-    if as_json:
-        show.print_json({"cases": listed})
+        print_case(name, as_json=as_json)
     else:
-        # Without the tables of answers, which take numpy.
-        widths = [max(len(case[key] or "") for case in listed) + 2 for key in ("name", "also")]
-        show.print_text(
-            "\n".join(
-                f"{case['name']:{widths[0]}}{case['also'] or '':{widths[1]}}{case['description']}"
-                for case in listed
-            )
-        )
+        print_cases(as_json=as_json)
 
 
 @app.command()
