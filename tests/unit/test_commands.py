@@ -1,6 +1,7 @@
 """The registry of commands and of the tables that a case file may have."""
 
 from asperity.block.tables import TABLES as BLOCK
+from asperity.casefile.project import Project
 from asperity.commands import case_tables
 from asperity.drive.tables import TABLES as DRIVE
 from asperity.flanks.tables import TABLES as FLANKS
@@ -11,7 +12,8 @@ from asperity.tribometer.tables import TABLES as TRIBOMETER
 
 def test_a_case_file_may_have_every_table_of_every_room():
     tables = case_tables()
-    assert dict(tables) == {**SLIDER, **RATING, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER}
+    rooms = {**SLIDER, **RATING, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER}
+    assert dict(tables) == {**rooms, "project": Project}
     assert len(tables) == len(list(tables))
     assert all(name in tables and table.table == name for name, table in tables.items())
     assert "oil" not in tables

@@ -186,7 +186,7 @@ REFUSED = {
     "a word": ("vibration.velocity_ratio,ratio,sd\n2,x,0.1\n", ["row 2", "'x'"]),
     "a short row": ("vibration.velocity_ratio,ratio,sd\n2,0.5\n", ["row 2", "2 cells"]),
     "too few": ("vibration.velocity_ratio,ratio,sd\n2,0.5,0.01\n", ["fewer than the 2 free"]),
-    "empty": ("", ["no rows"]),
+    "empty": ("", ["is empty", "headings"]),
     "twice": ("ratio,ratio,sd\n1,1,1\n", ["twice"]),
 }  # fmt: skip
 
