@@ -1,4 +1,6 @@
-"""The directive ``compared``: a table of comparisons, calculated while building."""
+"""The directives ``compared`` and ``sized``: tables of comparisons, calculated while building."""
+
+import math
 
 import comparisons
 from docutils import nodes
@@ -19,15 +21,38 @@ class ComparedTable(Directive):
             rows.append(
                 (each.quantity, f"{each.theirs:.6g}{unit}", f"{each.ours:.6g}{unit}", differ)
             )
-        lines = [".. list-table::", "   :header-rows: 1", "   :widths: 46 18 18 18", ""]
-        for row in rows:
-            lines += [f"   {'  -' if place else '* -'} {cell}" for place, cell in enumerate(row)]
-        holder = nodes.container()
-        self.state.nested_parse(StringList(lines, "compared"), 0, holder)
-        return holder.children
+        return _table(self, (46, 18, 18, 18), rows)
+
+
+class SizedTable(Directive):
+    """A row for each published gearset: theirs, ours, and what differs."""
+
+    def run(self):
+        rows = [("gearset", "ratio, torque, speed", "theirs (mm)", "ours (mm)", "what differs")]
+        for each in comparisons.published():
+            ours = f"{each.ours:g}" if math.isfinite(each.ours) else "none"
+            said = each.fails or each.differs
+            if each.differs:
+                said += f": then {each.changed:g} mm"
+            memory = " *(from memory)*" if each.trust == "from memory" else ""
+            name = f"{each.name}: {each.source}{memory}"
+            rows.append((name, each.asked, f"{each.theirs:g}", ours, said or "\\ "))
+        return _table(self, (36, 18, 9, 9, 28), rows)
+
+
+def _table(directive, widths, rows):
+    """Return the nodes of a table whose first row is its heading."""
+    widths = " ".join(map(str, widths))
+    lines = [".. list-table::", "   :header-rows: 1", f"   :widths: {widths}", ""]
+    for row in rows:
+        lines += [f"   {'  -' if place else '* -'} {cell}" for place, cell in enumerate(row)]
+    holder = nodes.container()
+    directive.state.nested_parse(StringList(lines, "compared"), 0, holder)
+    return holder.children
 
 
 def setup(app):
     """Make the directive known."""
     app.add_directive("compared", ComparedTable)
+    app.add_directive("sized", SizedTable)
     return {"parallel_read_safe": True}

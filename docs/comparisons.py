@@ -4,11 +4,15 @@ The tests hold the same comparisons to their limits.
 """
 
 import math
+import tomllib
+from pathlib import Path
 from typing import NamedTuple
 
+import asperity
 from asperity.casefile import read_case
 from asperity.gearset import Gearset
 from asperity.rating import Operation, agma6034, rate
+from asperity.rating.demands import DEMANDS
 from asperity.slider import TABLES, Model, solve
 from asperity.slider.closed_forms import directed_ratio
 
@@ -28,6 +32,77 @@ class Compared(NamedTuple):
     @property
     def deviation(self):
         return self.ours / self.theirs - 1.0
+
+
+class Sized(NamedTuple):
+    """A published gearset, and the smallest that holds by every standard for the same.
+
+    Centre distances in mm; ours is infinite where none holds. Changed is ours with the assumption
+    that differs, and lacking the safeties, as ``standard.key``, of the gearset that was published.
+    """
+
+    name: str
+    source: str
+    trust: str
+    asked: str
+    theirs: float
+    ours: float
+    differs: str = ""
+    changed: float = math.inf
+    fails: str = ""
+    lacking: tuple[str, ...] = ()
+
+
+def published():
+    """Published gearsets, sized again from ratio, torque and speed."""
+    file = Path(__file__).with_name("published_gearsets.toml")
+    for entry in tomllib.loads(file.read_text("utf-8"))["gearset"]:
+        differs, fails = entry.get("differs", ""), entry.get("fails", "")
+        yield Sized(
+            entry["name"],
+            entry["source"],
+            entry["trust"],
+            f"{entry['ratio']:.4g}, {entry['output_torque']}, {entry['worm_speed']}",
+            entry["centre_distance"],
+            smallest(entry),
+            differs,
+            smallest({"settings": [], **entry, **entry["instead"]}) if differs else math.inf,
+            fails,
+            tuple(lacking(entry)) if fails else (),
+        )
+
+
+def smallest(entry):
+    """Return the least centre distance that is proposed and holds by every standard, in mm."""
+    found = asperity.size(
+        entry["ratio"],
+        entry["output_torque"],
+        entry["worm_speed"],
+        settings=entry.get("settings", ()),
+    )
+    return found.found[0].centre_distance_mm if found.holding else math.inf
+
+
+def lacking(entry):
+    """Yield the safeties that the published gearset does not have, by the same assumptions."""
+    settings = [s.partition("=") for s in entry["settings"]]
+    given = {"gearset": {}, "operation": {}}
+    for path, _, value in settings:
+        table, _, key = path.partition(".")
+        given[table][key] = value
+    gearset = Gearset(
+        **entry["own"],
+        worm_material="case-hardened steel",
+        wheel_material="CuSn12Ni2-C-GZ",
+        **given["gearset"],
+    )
+    operation = Operation(
+        worm_speed=entry["worm_speed"], output_torque=entry["output_torque"], **given["operation"]
+    )
+    found = rate(gearset, operation)
+    for demand in DEMANDS:
+        if getattr(found, demand.standard)[demand.key] < demand.asked:
+            yield demand.path
 
 
 def closed_forms():

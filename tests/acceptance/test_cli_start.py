@@ -256,6 +256,41 @@ def test_a_load_that_nothing_bears_is_told_with_what_comes_nearest(asperity):
     assert answer["holding"] == 0
     assert all(math.isfinite(p["margin"]) and p["margin"] < 1 for p in answer["proposals"])
     assert "none holds by every standard; these come nearest" in answer["notes"]
+    shown = asperity("size", *heavy)[1]
+    assert shown.startswith("None holds by every standard; these come nearest\n")
+    assert shown.count("these come nearest") == 1
+
+
+def test_proposals_that_a_standard_cannot_rate_are_not_said_to_hold_by_every_one(asperity):
+    asked = ("--ratio", "4", "--output-torque", "20 N m", "--worm-speed", "1500 rpm")
+    answer = json.loads(asperity("size", *asked, "--json")[1])
+    assert answer["holding"] == 0
+    assert asperity("size", *asked)[1].startswith("None holds by every standard, since one or")
+
+
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        ((), "--output-torque 300 is taken as 300 N m\n"),
+        (
+            ("--set", "operation.life=9000"),
+            "--output-torque 300 is taken as 300 N m\n"
+            "--set operation.life=9000 is taken as 9000 h\n",
+        ),
+        (
+            ("--set", "operation.output_torque=200"),
+            "--set operation.output_torque=200 is taken as 200 N m\n",
+        ),
+    ],
+)
+def test_the_unit_that_a_bare_torque_takes_is_told(asperity, settings, told):
+    asked = ("--ratio", "40", "--output-torque", "300", "--worm-speed", "1500 rpm")
+    assert asperity("size", *asked, *settings)[2] == told
+
+
+def test_the_unit_that_a_bare_number_takes_is_told_where_a_case_is_begun(asperity, here):
+    code, _, errors = asperity("new", "gear", "--set", "operation.output_torque=200", "--defaults")
+    assert (code, errors) == (0, "--set operation.output_torque=200 is taken as 200 N m\n")
 
 
 @pytest.mark.parametrize(

@@ -81,13 +81,7 @@ class Case:
 
     def units_taken(self) -> Iterator[str]:
         """Yield a line for each setting that is a number whose unit is that of what it replaced."""
-        for path, setting in self.settings.items():
-            name, _, key = path.partition(".")
-            taken = self.raw[name].get(key)
-            bare = split_unit(setting.partition("=")[2]) or ("", "")
-            # An angle is in degrees wherever nothing else is said.
-            if bare[0] and not bare[1] and isinstance(taken, str) and not taken.endswith(" deg"):
-                yield f"--set {setting} is taken as {taken}"
+        return units_taken(self.raw, self.settings)
 
     def replace(self, settings: Iterable[str]) -> "Case":
         """Return the case with ``table.key=value`` settings applied, all validated afterwards."""
@@ -145,6 +139,31 @@ class Case:
                     content = store.read_bytes(self.folder / value)
                     dumped[name][key] = f"sha256:{hashlib.sha256(content).hexdigest()}"
         return json.dumps(dumped, sort_keys=True, allow_nan=False)
+
+
+def units_taken(
+    raw: Raw, settings: Mapping[str, str], options: Mapping[str, str] | None = None
+) -> Iterator[str]:
+    """Yield a line for each setting that is a number whose unit is that of what it replaced.
+
+    Parameters
+    ----------
+    raw : dict of str to dict
+        The tables with the settings applied.
+    settings : mapping of str to str
+        The setting that gave a ``table.key``.
+    options : mapping of str to str, optional
+        Of a setting that was not given by ``--set`` the option that it was given by.
+    """
+    for path, setting in settings.items():
+        name, _, key = path.partition(".")
+        taken, given = raw[name].get(key), setting.partition("=")[2].strip()
+        bare = split_unit(given) or ("", "")
+        # An angle is in degrees wherever nothing else is said.
+        if bare[0] and not bare[1] and isinstance(taken, str) and not taken.endswith(" deg"):
+            option = (options or {}).get(setting)
+            written = f"{option} {given}" if option else f"--set {setting}"
+            yield f"{written} is taken as {taken}"
 
 
 @contextlib.contextmanager

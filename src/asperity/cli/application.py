@@ -302,8 +302,11 @@ def size(
     """
     from asperity.cli.new import size as run
 
-    asked = (f"operation.output_torque={output_torque}", f"operation.worm_speed={worm_speed}")
-    run(ratio, (*asked, *(settings or ())), rank, as_json=as_json, out=out)
+    asked = {
+        "--output-torque": f"operation.output_torque={output_torque}",
+        "--worm-speed": f"operation.worm_speed={worm_speed}",
+    }
+    run(ratio, asked, settings or (), rank, as_json=as_json, out=out)
 
 
 @app.command()

@@ -1,10 +1,10 @@
 """What ``asperity new`` and ``asperity size`` do."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from asperity.casefile.case import Case, apply
+from asperity.casefile.case import Case, apply, units_taken
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain
@@ -28,7 +28,8 @@ def new(
     if path.exists():
         raise InputError(f"{plain(str(path))} is there already; name another file")
     values = kind.begun()
-    given = {apply(values, setting, case_tables()) for setting in settings}
+    given = {apply(values, setting, case_tables()): setting for setting in settings}
+    units = [*units_taken(values, given)]
     wanted = ratio or RATIO
     if not defaults and sys.stdin is not None and sys.stdin.isatty() and not as_json:
         for question in kind.questions:
@@ -52,16 +53,28 @@ def new(
         show.print_json({"file": str(path), "tables": list(case.tables)})
     else:
         show.print_text(_told(path, kind))
+    for note in units:
+        show.note(note)
 
 
 def size(
-    ratio: str, settings: Sequence[str], rank: str, *, as_json: bool, out: Path | None
+    ratio: str,
+    asked: Mapping[str, str],
+    settings: Sequence[str],
+    rank: str,
+    *,
+    as_json: bool,
+    out: Path | None,
 ) -> None:
-    """Print gearsets for a ratio, a torque and a speed, and write the first one as a case."""
-    values = begun()
-    for setting in settings:
-        apply(values, setting, case_tables())
+    """Print gearsets for a ratio and settings, and write each one as a case.
+
+    What is asked are settings by the options that they were given by.
+    """
+    values, options = begun(), {setting: option for option, setting in asked.items()}
+    given = {apply(values, each, case_tables()): each for each in (*options, *settings)}
     found = proposals(values, ratio_of(ratio), rank)
+    for note in units_taken(values, given, options):
+        show.note(note)
     if as_json:
         show.print_json(found.to_json())
     else:
@@ -77,7 +90,7 @@ def size(
     show.note(f"written to {folder}: {', '.join(names)}")
 
 
-def _sized(values: Values, given: set[str], ratio: float) -> list[str]:
+def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
     """Fill in the macro-geometry that is not given; returns what is to be said of it."""
     if any(f"gearset.{key}" in given for key in MACRO):
         return []
@@ -88,7 +101,7 @@ def _sized(values: Values, given: set[str], ratio: float) -> list[str]:
     values["gearset"] = {"name": gearset.pop("name", ""), **best.keys, **gearset}
     judged = (
         "the smallest that holds by every standard"
-        if best.holds
+        if found.holding
         else "which does not hold by every standard, but comes nearest"
     )
     return [

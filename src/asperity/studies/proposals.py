@@ -122,11 +122,12 @@ class Proposals(Result):
             f"{self.rated} gearsets rated, {self.holding} hold by every standard; shown are those "
             f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
             f"the first one: {first}",
-            *self.notes,
+            *(self.notes if self.holding else self.notes[:-1]),
         ]
         if len(self.found) > MOST:
             remarks.insert(1, f"{len(self.found) - MOST} more with --json")
-        return (Table.of(headings, rows, remarks=remarks),)
+        title = "" if self.holding else self.notes[-1].capitalize()
+        return (Table.of(headings, rows, title=title, remarks=remarks),)
 
 
 def propose(
@@ -201,7 +202,10 @@ def propose(
     if holding.any():
         kept = kept[_undominated(worth[kept])]
         if not rated_by_all[kept].all():
-            notes.append("not all of these are rated by every standard; rate them to see why")
+            notes.append(
+                "none holds by every standard, since one or another cannot rate these; they hold "
+                "by those that can"
+            )
     else:
         kept = kept[np.argsort(-margins[kept], kind="stable")[:MOST]]
         notes.append("none holds by every standard; these come nearest")
@@ -227,7 +231,7 @@ def propose(
     )
     return Proposals(
         rated=len(grid),
-        holding=int(holding.sum()),
+        holding=int((holding & rated_by_all).sum()),
         ranked_by=rank,
         found=found,
         notes=tuple(notes),
