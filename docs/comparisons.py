@@ -78,7 +78,11 @@ def smallest(entry):
         entry["ratio"],
         entry["output_torque"],
         entry["worm_speed"],
-        settings=entry.get("settings", ()),
+        # They run with this torque all the time, not with a third of it as an actuator.
+        settings=(
+            *entry.get("settings", ()),
+            f"operation.through_travel_torque={entry['output_torque']}",
+        ),
     )
     return found.found[0].centre_distance_mm if found.holding else math.inf
 
@@ -97,7 +101,10 @@ def lacking(entry):
         **given["gearset"],
     )
     operation = Operation(
-        worm_speed=entry["worm_speed"], output_torque=entry["output_torque"], **given["operation"]
+        worm_speed=entry["worm_speed"],
+        output_torque=entry["output_torque"],
+        through_travel_torque=entry["output_torque"],
+        **given["operation"],
     )
     found = rate(gearset, operation)
     for demand in DEMANDS:

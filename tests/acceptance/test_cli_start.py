@@ -261,6 +261,14 @@ def test_a_load_that_nothing_bears_is_told_with_what_comes_nearest(asperity):
     assert shown.count("these come nearest") == 1
 
 
+def test_the_torque_that_wear_is_judged_by_is_told_where_it_is_assumed(asperity):
+    assumed = json.loads(asperity("size", *SIZE, "--json")[1])["notes"]
+    assert any(note.startswith("BS 721 judges wear by a third of the torque") for note in assumed)
+    whole = ("--set", "operation.through_travel_torque=300 N m")
+    given = json.loads(asperity("size", *SIZE, *whole, "--json")[1])["notes"]
+    assert not any("a third of the torque" in note for note in given)
+
+
 def test_proposals_that_a_standard_cannot_rate_are_not_said_to_hold_by_every_one(asperity):
     asked = ("--ratio", "4", "--output-torque", "20 N m", "--worm-speed", "1500 rpm")
     answer = json.loads(asperity("size", *asked, "--json")[1])

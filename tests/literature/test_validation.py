@@ -53,5 +53,6 @@ def test_where_nothing_as_small_holds_the_published_gearset_lacks_safeties_too(s
     assert failing.lacking == (
         "iso14521.safety_pitting",
         "iso14521.safety_temperature",
+        "bs721.safety_wear",
         "agma6034.safety_torque",
     )

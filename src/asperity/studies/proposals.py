@@ -199,6 +199,11 @@ def propose(
         )
     worth = np.stack([-distance, efficiency, margins], axis=-1)
     notes = list(rated.notes)
+    if operation.through_travel_torque is None and operation.duty_cycle is None:
+        notes.append(
+            "BS 721 judges wear by a third of the torque, which is assumed for the travel; where "
+            "it is the whole one, give operation.through_travel_torque"
+        )
     if holding.any():
         kept = kept[_undominated(worth[kept])]
         if not rated_by_all[kept].all():
