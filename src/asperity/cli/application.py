@@ -5,20 +5,14 @@ Everything heavy is imported inside the commands, so that the help is there at o
 
 import inspect
 import sys
+import types
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from asperity.cli.outcome import (
-    USAGE_ERROR,
-    hold_streams,
-    reported,
-    silence_standard_output,
-    tell,
-    unwritten,
-    usage,
-)
+from asperity.cli import outcome
+from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.commands import COMMANDS, GROUPS, Argument, Command, Option
 
 app = typer.Typer(
@@ -374,13 +368,18 @@ def lubricants(as_json: JsonOption = False) -> None:
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line; returns its exit code."""
-    hold_streams()
+    outcome.hold_streams()
     command: Any = typer.main.get_command(app)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}
     for name, one in command.commands.items():
-        within = dict.fromkeys(getattr(one, "commands", {}), no_help.copy())
+        within = {each: {"help": False} for each in getattr(one, "commands", {})}
         no_help[name] = {"help": False, **within}
+    # Nor is text converted, of what needs nothing else.
+    as_given = types.SimpleNamespace(coerce=lambda value, **_: value)
+    for parameter in (*command.params, *command.commands["cases"].params):
+        if parameter.name in ("files", "name"):
+            parameter._runtime_param = as_given
     try:
         code: int | None = command.main(
             arguments, prog_name="asperity", standalone_mode=False, default_map=no_help
@@ -390,11 +389,11 @@ def run(arguments: list[str] | None = None) -> int:
         code = 2
     except OSError as error:
         # Of what is left, the help that cannot be printed.
-        tell(unwritten(error))
+        tell(outcome.unwritten(error))
         code = 2
     try:
         sys.stdout.flush()
     except OSError:
         # What refused it has been told; Python would complain at its own last flush.
-        silence_standard_output()
+        outcome.silence_standard_output()
     return code or 0
