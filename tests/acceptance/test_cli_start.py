@@ -296,6 +296,14 @@ def test_the_unit_that_a_bare_torque_takes_is_told(asperity, settings, told):
     assert asperity("size", *asked, *settings)[2] == told
 
 
+def test_a_folder_that_cannot_be_written_is_one_line_beside_a_bare_torque(asperity, here):
+    (here / "file").write_text("")
+    asked = ("--ratio", "40", "--output-torque", "300", "--worm-speed", "1500 rpm")
+    code, _, errors = asperity("size", *asked, "--out", here / "file")
+    assert code == 2
+    assert errors.count("\n") == 1
+
+
 def test_the_unit_that_a_bare_number_takes_is_told_where_a_case_is_begun(asperity, here):
     code, _, errors = asperity("new", "gear", "--set", "operation.output_torque=200", "--defaults")
     assert (code, errors) == (0, "--set operation.output_torque=200 is taken as 200 N m\n")

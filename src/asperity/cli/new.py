@@ -12,6 +12,7 @@ from asperity.start.gear import MACRO, begun, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
 from asperity.store import output_folder, write_text
+from asperity.studies.proposals import Proposals
 
 
 def new(
@@ -73,21 +74,27 @@ def size(
     values, options = begun(), {setting: option for option, setting in asked.items()}
     given = {apply(values, each, case_tables()): each for each in (*options, *settings)}
     found = proposals(values, ratio_of(ratio), rank)
-    for note in units_taken(values, given, options):
-        show.note(note)
     if as_json:
         show.print_json(found.to_json())
     else:
         show.print_tables(found.tables())
-    if out is None:
-        return
+    written = None if out is None else _written(found, values, out)
+    # Only now, for what is refused is told in one line.
+    for note in units_taken(values, given, options):
+        show.note(note)
+    if written is not None:
+        show.note(written)
+
+
+def _written(found: Proposals, values: Values, out: Path) -> str:
+    """Write proposals to a folder, each also as a case; returns what is to be said of it."""
     folder = output_folder(out)
     kind, names = kind_of("gear"), found.write(folder, pictures="")
     for place, proposal in enumerate(found.found, 1):
         mine = {**values, "gearset": {**values["gearset"], **proposal.keys}}
         text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
-    show.note(f"written to {folder}: {', '.join(names)}")
+    return f"written to {folder}: {', '.join(names)}"
 
 
 def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
