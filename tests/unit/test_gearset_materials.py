@@ -9,7 +9,7 @@ from asperity.gearset import library
 from asperity.gearset.bearings import Bearings
 from asperity.gearset.library import VARIABLE, find, resolve
 from asperity.gearset.lubricants import BaseOil, Lubricant
-from asperity.gearset.materials import WheelMaterial, WormMaterial
+from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial, worm_material
 
 OWN = """
 [source.maker]
@@ -45,7 +45,7 @@ def names(model):
 
 
 def test_every_value_that_ships_has_a_source():
-    for model in (WheelMaterial, WormMaterial, Lubricant, BaseOil, Bearings):
+    for model in (WheelMaterial, WormMaterial, Steel, Lubricant, BaseOil, Bearings):
         assert names(model)
         for name in names(model):
             thing = find(model, name)
@@ -172,3 +172,51 @@ def test_a_lubricant_that_is_none_is_refused(changes, message):
     given = {"base_oil": "mineral", "viscosity_40": "68 mm^2/s", "viscosity_100": "8.7 mm^2/s"}
     with pytest.raises(InputError, match=rf"^operation\.lubricant\.{message}"):
         resolve(Lubricant, {**given, **changes}, {"text_only": True})
+
+
+def test_every_steel_stands_by_name_and_number_for_a_class_and_says_so():
+    numbers = {}
+    for name in names(Steel):
+        steel = find(Steel, name)
+        worm, of_class = worm_material(name), find(WormMaterial, steel.worm)
+        assert (worm.name, worm.bs721, worm.hardened) == (name, of_class.bs721, of_class.hardened)
+        assert worm.youngs_modulus == of_class.youngs_modulus
+        assert f"{name} ({steel.number}) is taken for {steel.worm}" in worm.taken_for.note
+        assert worm.source("bs721").confidence == "from memory"
+        numbers.setdefault(steel.number, steel)
+    for number, steel in numbers.items():
+        assert worm_material(number).name == steel.name
+    assert find(WormMaterial, "0.4C steel").taken_for is None
+
+
+@pytest.mark.parametrize(
+    ("name", "taken"),
+    [("1.7131", "case-hardened steel"), ("20MnCr5", "case-hardened steel"),
+     ("18CrNiMo7-6", "case-hardened steel"), ("17CrNiMo6", "case-hardened steel"),
+     ("42CrMo4", "0.4C steel"), ("34CrNiMo6", "0.4C steel"), ("C45", "0.4C steel"),
+     ("C60", "0.55C steel")],
+)  # fmt: skip
+def test_a_steel_is_taken_for_the_class_of_its_treatment_and_carbon(name, taken):
+    assert worm_material(name).bs721 == find(WormMaterial, taken).bs721
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [("16MnCr6", "did you mean '16MnCr5'"), ("17131", "did you mean '1.7131'"),
+     ("granite", "allowed: 'case-hardened steel', '0.55C"), (1.581, "in quotes as '1.7131'")],
+)  # fmt: skip
+def test_a_steel_that_is_not_known_is_told_the_nearest(given, said):
+    with pytest.raises(InputError, match=said):
+        worm_material(given)
+
+
+def test_a_steel_of_ones_own_stands_for_its_class(tmp_path, monkeypatch):
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[steel.ours]\nnumber = "9"\nworm = "0.55C steel"\ntreatment = "tempered"\n'
+        '[steel.wrong]\nnumber = "8"\nworm = "0.5C steel"\ntreatment = "tempered"\n'
+    )
+    monkeypatch.setenv(VARIABLE, str(own))
+    assert worm_material("ours").bs721 == "0.55C steel"
+    with pytest.raises(InputError, match=r"steel.wrong.worm is '0.5C steel'.*'0.55C steel'"):
+        worm_material("wrong")

@@ -351,9 +351,9 @@ def schema(as_json: JsonOption = False) -> None:
 def materials(as_json: JsonOption = False) -> None:
     """List the materials of worms and wheels, with source and trust."""
     from asperity.cli.lists import print_library
-    from asperity.gearset.materials import WheelMaterial, WormMaterial
+    from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial
 
-    print_library((WheelMaterial, WormMaterial), as_json=as_json)
+    print_library((WheelMaterial, WormMaterial, Steel), as_json=as_json)
 
 
 @app.command()

@@ -2,8 +2,9 @@
 
 A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
 ``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
-``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]`` or ``[motor.NAME]``, with the keys of
-its class. Its key ``from`` names the source of each value by key, with ``"*"`` for all others::
+``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]`` or
+``[motor.NAME]``, with the keys of its class. Its key ``from`` names the source of each value by
+key, with ``"*"`` for all others::
 
     [source.maker]
     name = "data sheet of the foundry, 2024"
@@ -30,13 +31,14 @@ from pydantic import Field
 
 from asperity import store
 from asperity.casefile import Table
-from asperity.errors import InputError, nearest, shown
+from asperity.errors import InputError, nearest, shown, suggestion
 from asperity.sources import Source
 
 VARIABLE = "ASPERITY_MATERIALS"
 SECTIONS: Mapping[str, str] = {
     "wheel": "wheel material",
     "worm": "worm material",
+    "steel": "steel",
     "base_oil": "base oil",
     "lubricant": "lubricant",
     "bearings": "arrangement of bearings",
@@ -58,9 +60,12 @@ class Sourced(Table):
     ----------
     section : str
         The table of a data file that holds it.
+    also : str
+        The table of those that may stand for it by their name or number; ``""`` for none.
     """
 
     section: ClassVar[str]
+    also: ClassVar[str] = ""
 
     name: str = ""
     sources: Annotated[Mapping[str, Source], Field(exclude=True)] = {}
@@ -125,7 +130,14 @@ def _find(model: type[Sourced], name: str, stamps: _Stamps) -> Sourced:
     section, library = model.section, _library(stamps)
     if (section, name) not in library:
         known = [other for kind, other in library if kind == section]
-        raise InputError(f"no {SECTIONS[section]} of that name is known{nearest(name, known)}")
+        others = [
+            word
+            for (kind, other), entry in library.items()
+            if kind == model.also
+            for word in (other, str(entry.values.get("number", "")))
+        ]
+        near = suggestion(name, (*known, *others)) or nearest(name, known)
+        raise InputError(f"no {SECTIONS[section]} of that name is known{near}")
     entry = library[section, name]
     try:
         return model.model_validate(

@@ -1,9 +1,11 @@
 """What the wheel and the worm are made of, in SI units, each value with its source."""
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
-from asperity.gearset.library import Sourced
+from asperity.errors import InputError
+from asperity.gearset.library import Sourced, every, find, resolve
+from asperity.sources import Source, weakest
 from asperity.units import Quantity
 
 Modulus = Annotated[float, Quantity("Pa", what="a modulus", example="122.6 GPa", gt=0)]
@@ -91,6 +93,72 @@ class WormMaterial(Material):
 
     table: ClassVar[str] = "gearset.worm_material"
     section: ClassVar[str] = "worm"
+    also: ClassVar[str] = "steel"
 
     bs721: WormClass | None = None
     hardened: bool = False
+
+    @property
+    def taken_for(self) -> Source | None:
+        """What it was taken for and by whom, where it was named by its steel; else None."""
+        return self.sources.get("name")
+
+
+class Steel(Sourced):
+    """Steels of worms and the class each is taken for.
+
+    Parameters
+    ----------
+    name : str
+        Its name by the standard of the steel.
+    number : str
+        Its material number.
+    worm : str
+        The worm material that stands for it.
+    treatment : str
+        What it is taken to have undergone.
+    """
+
+    table: ClassVar[str] = "gearset.worm_material"
+    section: ClassVar[str] = "steel"
+
+    number: str
+    worm: str
+    treatment: str
+
+    def as_worm(self) -> WormMaterial:
+        """Return the material of its class; raises InputError if there is no such class."""
+        try:
+            worm = find(WormMaterial, self.worm)
+        except InputError as error:
+            raise InputError(f"steel.{self.name}.worm is {self.worm!r}; {error}") from None
+        said = f"{self.name} ({self.number}) is taken for {self.worm}, {self.treatment}"
+        mine = self.source("worm")
+        # What the class decides is trusted no more than the choice of the class.
+        chosen = {
+            key: Source(own.name, weakest(own, mine).confidence, said)
+            for key, own in ((key, worm.source(key)) for key in ("bs721", "hardened"))
+        }
+        named = {"name": Source(mine.name, mine.confidence, said)}
+        return worm.model_copy(
+            update={"name": self.name, "sources": {**worm.sources, **chosen, **named}}
+        )
+
+
+def worm_material(value: object, context: Any = None) -> WormMaterial:
+    """Return what a name, a steel's name or number, or an inline table of a case stands for."""
+    if isinstance(value, float):
+        raise InputError(
+            f"{WormMaterial.table} is {value:g}; a steel's number is text, in quotes as '1.7131', "
+            "and otherwise it must be a name or a table of values"
+        )
+    steel = _steel(value) if isinstance(value, str) else None
+    return resolve(WormMaterial, value, context) if steel is None else steel.as_worm()
+
+
+def _steel(name: str) -> Steel | None:
+    try:
+        find(WormMaterial, name)
+    except InputError:
+        return next((steel for steel in every(Steel) if name in (steel.name, steel.number)), None)
+    return None

@@ -13,7 +13,7 @@ from asperity.errors import InputError
 from asperity.gearset.geometry import Flank, Geometry, Rule
 from asperity.gearset.library import resolve
 from asperity.gearset.macro import LARGEST_SHIFT, complete
-from asperity.gearset.materials import WheelMaterial, WormMaterial
+from asperity.gearset.materials import WheelMaterial, WormMaterial, worm_material
 from asperity.gearset.relations import centre_distance
 from asperity.units import Quantity
 
@@ -99,7 +99,8 @@ class Gearset(Table):
     worm_roughness : float or str
         Mean roughness of the worm's flanks :math:`Ra_1`, m; 0.5 um if left out.
     worm_material, wheel_material : str or table
-        A name that ``asperity materials`` lists, or a table with its keys.
+        A name that ``asperity materials`` lists, or a table with its keys; for the worm a steel's
+        name or number as well.
     worm_face_width : float or str, optional
         Length of the threaded worm :math:`b_1`, m. Left out: all that the wheel can touch.
     wheel_face_width : float or str, optional
@@ -153,10 +154,10 @@ class Gearset(Table):
         if not isinstance(data, Mapping):
             return data
         named = dict(data)
-        for model in (WormMaterial, WheelMaterial):
-            key = f"{model.section}_material"
-            if key in named:
-                named[key] = resolve(model, named[key], info.context)
+        if "worm_material" in named:
+            named["worm_material"] = worm_material(named["worm_material"], info.context)
+        if "wheel_material" in named:
+            named["wheel_material"] = resolve(WheelMaterial, named["wheel_material"], info.context)
         return named
 
     @model_validator(mode="after")

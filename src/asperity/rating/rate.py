@@ -16,6 +16,7 @@ from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.demands import Demand
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
+from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
@@ -69,7 +70,7 @@ class Rated(Result):
     self_locking : SelfLocking
         Whether the worm locks itself, by the friction of each of them.
     notes : tuple of str
-        Why a standard could not be applied.
+        Why a standard could not be applied, and what a steel was taken for.
     assumed : mapping of str to str
         What was assumed for the keys of a case file that were left out, by ``table.key``.
     levers : tuple of Lever
@@ -109,6 +110,11 @@ class Rated(Result):
         return () if self.iso14521 is None else forces(self.given, self.iso14521)
 
     @property
+    def holding(self) -> tuple[Holding, ...]:
+        """What a brake on the worm must bring to hold the load when the motor stops."""
+        return holding(self.given, self.self_locking)
+
+    @property
     def found(self) -> dict[str, Rating]:
         """The ratings that there are, by standard."""
         ratings = {name: getattr(self, name) for name in STANDARDS}
@@ -134,6 +140,7 @@ class Rated(Result):
             "notes": list(self.notes),
             "verdict": self.verdict.to_json(),
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
+            "holding": [one.to_json() for one in self.holding],
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -169,6 +176,8 @@ class Rated(Result):
             columns = tuple(Column(name) for name in rows[0])
             title = f"Self-locking at a lead angle of {degrees:.4g} deg"
             tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
+        if self.holding:
+            tables.append(held_table(self.holding))
         if self.notes:
             tables.append(Table((), (), remarks=self.notes))
         return tuple(tables)
@@ -253,7 +262,12 @@ def rate(
     _require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
-    notes = []
+    steel = gearset.worm_material.taken_for
+    notes = (
+        []
+        if steel is None
+        else [f"worm material: {steel.note}, by {steel.name} ({steel.confidence})"]
+    )
     for name in wanted:
         try:
             found[name] = _rate(name, given, tables)

@@ -5,6 +5,7 @@ from typing import Any
 
 from asperity.gearset.drawing import along_the_wheel, through_the_wheel
 from asperity.rating.forces import MEANINGS
+from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
 from asperity.rating.verdict import NAMES, bar
@@ -43,7 +44,7 @@ def sections(rated: Reported) -> Iterator[Section]:
         yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
         yield Section("Forces on shafts and bearings", (said,), tables=(_forces(rated),))
-    yield Section("Self-locking", tables=(_self_locking(rated),))
+    yield Section("Self-locking", tables=(_self_locking(rated), *_held(rated)))
     limits = tuple(
         Table((), (), title, rating.violations or ("no limit of validity is violated",))
         for title, rating in ((rating.standard, rating) for rating in rated.ratings)
@@ -147,6 +148,10 @@ def _self_locking(rated: Reported) -> Table:
         rows.append((named, one.state, *numbers, "yes" if one.locks else "no"))
     headings = "friction of", "state", "friction", "limit", "efficiency, wheel driving", "locks"
     return Table.of(headings, rows, left=2)
+
+
+def _held(rated: Reported) -> tuple[Table, ...]:
+    return (held_table(rated.holding, "holding"),) if rated.holding else ()
 
 
 def _assumed(rated: Reported) -> Table:
