@@ -78,6 +78,8 @@ class Command:
         Reads the case where that takes more than a name and settings.
     needs : tuple of str
         Tables that its case must have.
+    either : tuple of str
+        Tables of which one makes a case that it takes as well.
     brief : bool
         Whether a terminal shows a screen of it unless ``--full`` is given.
     arguments : tuple of Argument
@@ -102,6 +104,7 @@ class Command:
     counts: str = ""
     read: str = ""
     needs: tuple[str, ...] = ()
+    either: tuple[str, ...] = ()
     brief: bool = False
     arguments: tuple[Argument, ...] = ()
     case: str = "CASE"
@@ -116,8 +119,9 @@ class Command:
 
     def prepared(self, case: "Case", **options: Any) -> Any:
         """Return the problem of a case, refused if it cannot be solved."""
-        if self.needs and case.raw and not any(name in case for name in self.needs):
+        if self.needs and case.raw and not any(name in case for name in self.needs + self.either):
             tables = " and ".join(f"[{name}]" for name in self.needs)
+            tables += "".join(f" or [{name}]" for name in self.either)
             raise InputError(
                 f"{case.source}: it is a case of another kind, without {tables}, which asperity "
                 f"{self.name} needs; asperity check {case.source} tells which commands take it"

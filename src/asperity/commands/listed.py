@@ -42,6 +42,7 @@ COMMANDS = (
         prepare="asperity.sweep.run:prepare",
         solve="asperity.sweep.run:answer",
         needs=("slider", "friction"),
+        either=("gearset",),
         read="asperity.sweep.axes:read_first",
         counts="points",
         options=(

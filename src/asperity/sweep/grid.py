@@ -25,7 +25,7 @@ class Point:
     """One point of a grid, ready to be solved."""
 
     index: int
-    model: Any  # the problem, of the kind that is swept
+    model: Any  # the problem, of the kind that is swept; why there is none, where that is a gap
     key: str  # its result is kept under: of the tables and of the sources it follows from
     kind: tuple[object, ...]  # what two points must share to be marched in one batch
 
@@ -66,14 +66,18 @@ class Grid:
         Raises
         ------
         InputError
-            A point cannot be: one line that names it.
+            A point cannot be, and is no gap: one line that names it.
         """
         places = np.stack(np.unravel_index(np.asarray(indices), self.shape), axis=1)
         for index, row in zip(indices, places.tolist(), strict=True):
             try:
                 yield self._point(index, row)
             except AsperityError as error:
-                raise InputError(f"{self.describe(index)}: {error}") from None
+                # A word that is not known is a slip; numbers within their bounds may not agree.
+                if not (self.subject.gaps and all(axis.numeric for axis in self.axes)):
+                    raise InputError(f"{self.describe(index)}: {error}") from None
+                name = key(self.subject.name, self.describe(index), str(error))
+                yield Point(index, error, name, ())
 
     def _point(self, index: int, places: list[int]) -> Point:
         tables = dict(self.case.tables)

@@ -37,8 +37,9 @@ def plot_map(dataset: "xr.Dataset") -> "Figure":
         # The closed form has the colours of what it stands beside, and no state of its own.
         scale = _ENERGY if name == _ENERGY else _TORQUE
         settled = (order["settled"].values > 0.0) | (name == _FORM)
-        _plane(panel, order[name].values, order[scale].values, settled)
-        _ticks(panel, order, down, across)
+        plane(panel, order[name].values, order[scale].values)
+        _cross_out(panel, ~settled)
+        ticks(panel, order, down, across)
         panel.set_title(_TITLES[name], fontsize=11.0)
     _mark_resonances(axes[: shown.index(_TORQUE) + 1], order, down)
     figure.suptitle(balances(dataset), fontsize=11.0)
@@ -66,42 +67,65 @@ def _axes(dataset: "xr.Dataset") -> tuple[str, str]:
     return (second, first) if second == "frequency" else (first, second)
 
 
-def _plane(
-    panel: "Axes", values: FloatArray, scaled_by: FloatArray, settled: npt.NDArray[np.bool_]
+def plane(
+    panel: "Axes", values: FloatArray, ratios: FloatArray | None, colours: str = "RdBu_r"
 ) -> None:
-    from matplotlib.colors import TwoSlopeNorm
+    """Draw values over a grid, told in numbers where there is room.
 
+    Parameters
+    ----------
+    ratios : ndarray or None
+        What has the same colours, which part at 1; None for values that are no ratios.
+    colours : str
+        Name of a colour map.
+    """
+    from matplotlib.colors import Normalize, TwoSlopeNorm
+
+    scaled_by = values if ratios is None else ratios
     finite = scaled_by[np.isfinite(scaled_by)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (1.0, 1.0)
-    norm = TwoSlopeNorm(1.0, min(low, 0.95), min(max(high, 1.05), 2.0))
-    image = panel.imshow(values, cmap="RdBu_r", norm=norm, origin="lower", aspect="auto")
+    norm: Normalize = TwoSlopeNorm(1.0, min(low, 0.95), min(max(high, 1.05), 2.0))
+    if ratios is None:
+        norm = Normalize(low, high)
+    image = panel.imshow(values, cmap=colours, norm=norm, origin="lower", aspect="auto")
     if values.size <= _MOST_WORDS:
         for (row, column), value in np.ndenumerate(values):
             # Told by its size, so that no ratio is read by colour alone.
-            dark = abs(float(norm(value)) - 0.5) > _DARK
+            place = float(norm(value))
+            dark = place < 0.5 if ratios is None else abs(place - 0.5) > _DARK
             word = f"{value:.2f}" if np.isfinite(value) else "none"
             panel.annotate(
                 word, (column, row), ha="center", va="center", fontsize=8.0,
                 color="white" if dark else BLACK,
             )  # fmt: skip
-    loose = np.argwhere(~settled)
-    panel.plot(loose[:, 1], loose[:, 0], "x", color=ORANGE, markersize=14, markeredgewidth=2.0)
     panel.grid(visible=False)
     figure = panel.get_figure()
     assert figure is not None
     figure.colorbar(image, ax=panel)
 
 
-def _ticks(panel: "Axes", dataset: "xr.Dataset", down: str, across: str) -> None:
+def _cross_out(panel: "Axes", which: npt.NDArray[np.bool_]) -> None:
+    loose = np.argwhere(which)
+    panel.plot(loose[:, 1], loose[:, 0], "x", color=ORANGE, markersize=14, markeredgewidth=2.0)
+
+
+def ticks(panel: "Axes", dataset: "xr.Dataset", down: str, across: str) -> None:
+    """Label the cells of a grid by the values of its axes."""
     for name, axis in ((across, panel.xaxis), (down, panel.yaxis)):
         values = dataset[name].values
         every = -(-values.size // _MOST_TICKS)
         axis.set_ticks(
             range(0, values.size, every), labels=[f"{value:.4g}" for value in values[::every]]
         )
-        about = dataset[name].attrs
-        unit = "" if about["units"] == "1" else f" ({about['units'].replace('um', 'µm')})"
-        axis.set_label_text(f"{about['long_name']}{unit}")
+        axis.set_label_text(axis_label(dataset[name]))
+
+
+def axis_label(axis: "xr.DataArray") -> str:
+    """Return the name of an axis with its unit."""
+    unit = axis.attrs["units"]
+    # Micro is an axis's letter, not a word's.
+    shown = "" if unit == "1" else f" ({unit.replace('um', 'µm')})"
+    return f"{axis.attrs['long_name']}{shown}"
 
 
 def resonances(dataset: "xr.Dataset", axis: str) -> list[tuple[str, float]]:

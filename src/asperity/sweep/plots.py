@@ -6,6 +6,7 @@ import numpy as np
 
 from asperity.errors import InputError
 from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
+from asperity.sweep.gear_plots import plot_along, plot_plane
 from asperity.sweep.maps import balances, plot_map, resonances
 from asperity.sweep.result import MOST_AXES
 
@@ -16,19 +17,26 @@ if TYPE_CHECKING:
 
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _MOST_MARKED = 40
+_LABELS = {
+    "ratio": r"mean drive force over $\mu F_N$",
+    "torque_ratio": "mean torque over that without vibration",
+    "margin": "least safety over what is asked",
+}
 
 
 def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     """Draw the ratio over the longer numeric axis, one line for each value of the other.
 
-    Of drives over two numeric axes it is a map, see `asperity.sweep.maps`.
+    Of drives over two numeric axes it is a map, see `asperity.sweep.maps`; of gearsets safeties and
+    efficiency, see `asperity.sweep.gear_plots`.
 
     Raises
     ------
     InputError
         The sweep has more than two axes.
     """
-    ratio = dataset["ratio" if "ratio" in dataset else "torque_ratio"]
+    shown = next(name for name in _LABELS if name in dataset)
+    ratio = dataset[shown]
     axes = [dataset[dim] for dim in ratio.dims]
     if len(axes) > MOST_AXES:
         raise InputError(
@@ -37,6 +45,10 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     drives = "torque_balance" in dataset
     if drives and len(axes) == MOST_AXES and all(map(_is_numeric, axes)):
         return plot_map(dataset)
+    if shown == "margin" and len(axes) == 1:
+        return plot_along(dataset)
+    if shown == "margin" and all(map(_is_numeric, axes)):
+        return plot_plane(dataset)
     along = max(axes, key=lambda axis: (_is_numeric(axis), axis.size))
     curves = ratio.transpose(along.name, ...).values.reshape(along.size, -1)
     figure, (panel,) = panels()
@@ -50,13 +62,11 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
             legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
         _many_lines(panel, along, curves, across)
-    label = r"mean drive force over $\mu F_N$"
     if drives:
-        label = "mean torque over that without vibration"
         _mark_unsettled(panel, along, dataset, ratio)
         if across is None and _is_numeric(along):
             _closed_form(panel, along, dataset)
-    panel.set(xlabel=_label(along), ylabel=label)
+    panel.set(xlabel=_label(along), ylabel=_LABELS[shown])
     least = float(np.nanmin(ratio)) if np.isfinite(ratio).any() else 0.0
     if least < 0.0:
         # Below it the vibration drives the body.

@@ -40,7 +40,7 @@ class SweepResult(Result):
     arrays : dict of str to ndarray
         Every variable over the grid in SI, NaN where there is none.
     status : ndarray of int8
-        0 solved, 1 not converged.
+        0 solved, 1 not.
     failures : dict of str to str
         The first points that did not converge, and why.
     shared : mapping of str to float or str
@@ -118,7 +118,8 @@ class SweepResult(Result):
             return None
         point, why = next(iter(self.failures.items()))
         return ConvergenceError(
-            f"{self.failed} of {self.points} points did not converge, the first at {point}: {why}"
+            f"{self.failed} of {self.points} points {self._of.unsolved}, the first at {point}: "
+            f"{why}"
         )
 
     def to_dataset(self) -> "xr.Dataset":
@@ -141,7 +142,7 @@ class SweepResult(Result):
             "units": "1",
             "long_name": "whether the point was solved",
             "flag_values": np.array([SOLVED, NOT_CONVERGED], dtype=np.int8),
-            "flag_meanings": "solved not_converged",
+            "flag_meanings": f"solved {self._of.flag}",
         }
         variables["status"] = (self.dims, self.status, flags)
         coordinates = {
@@ -161,12 +162,12 @@ class SweepResult(Result):
 
     def to_json(self) -> dict[str, Any]:
         """The ratio over the grid, None where there is none, and what was done for it."""
+        told = self.arrays if self._of.whole else (self._of.shown, *self.beside)
         return {
             "dims": [axis.path for axis in self.axes],
             "coords": {axis.path: list(axis.shown) for axis in self.axes},
             "units": {axis.path: axis.unit for axis in self.axes},
-            self._of.shown: _listed(self.arrays[self._of.shown]),
-            **{name: _listed(self.arrays[name]) for name in self.beside},
+            **{name: _listed(self.arrays[name]) for name in told},
             "points": self.points,
             "failed": self.failed,
             "cached": self.cached,
@@ -189,7 +190,8 @@ class SweepResult(Result):
                 "of each what is known",
             )
         beside = {self._of.beside[name]: self.arrays[name] for name in self.beside}
-        return (_table(self.axes, self.arrays[self._of.shown], remarks, beside),)
+        columns = {self._of.column: self.arrays[self._of.shown], **beside}
+        return (_table(self.axes, columns, remarks),)
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
@@ -236,20 +238,18 @@ def _listed(values: FloatArray) -> list[Any]:
 
 
 def _table(
-    axes: Sequence[Axis],
-    values: FloatArray,
-    remarks: tuple[str, ...],
-    beside: Mapping[str, FloatArray],
+    axes: Sequence[Axis], variables: Mapping[str, FloatArray], remarks: tuple[str, ...]
 ) -> Table:
-    """Return a variable over a grid of at most some rows; what is left out is remarked."""
-    matrix = not beside and len(axes) == 2 and len(axes[1].shown) <= _MOST_COLUMNS
+    """Return variables by heading over a grid, of at most some rows."""
+    values = next(iter(variables.values()))
+    matrix = len(variables) == 1 and len(axes) == 2 and len(axes[1].shown) <= _MOST_COLUMNS
     if matrix:
         headings = [" \\ ".join(map(_heading, axes)), *map(_text, axes[1].shown)]
         rows = [[shown, *row] for shown, row in zip(axes[0].shown, values.tolist(), strict=True)]
     else:
-        headings = [*map(_heading, axes), "ratio", *beside]
+        headings = [*map(_heading, axes), *variables]
         places = itertools.product(*(axis.shown for axis in axes))
-        columns = np.stack([values.ravel(), *(each.ravel() for each in beside.values())], axis=1)
+        columns = np.stack([each.ravel() for each in variables.values()], axis=1)
         pairs = zip(places, columns.tolist(), strict=True)
         rows = [[*place, *numbers] for place, numbers in itertools.islice(pairs, _MOST_ROWS + 1)]
     more = len(axes[0].shown) if matrix else values.size

@@ -11,10 +11,14 @@ from asperity.errors import AsperityError
 from asperity.results import Result
 from asperity.results.quantity import Entry
 
-# By the table that a case has; a sliding body where it has none of them. A room above this one is
-# named and not imported.
-_BY_TABLE = {"drive": "asperity.drive.swept:DRIVE"}
 _ELSE = "asperity.sweep.bodies:BODY"
+# By the first of these tables that a case has; a sliding body where it has none of them. A room
+# above this one is named and not imported.
+_BY_TABLE = {
+    "drive": "asperity.drive.swept:DRIVE",
+    "slider": _ELSE,
+    "gearset": "asperity.sweep.gearsets:GEARSET",
+}
 
 
 class Subject:
@@ -30,12 +34,22 @@ class Subject:
         Of a sweep's answer, and of the number that is shown.
     shown : str
         The variable that is shown.
+    column : str
+        Its heading in a table.
     beside : mapping of str to str
         What that is never shown without, by its heading in a table.
     tables : mapping of str to type of Table
         Whose keys may be axes.
     variables : tuple of Entry
         What is kept of each point.
+    whole : bool
+        Whether JSON has all of them, and not only what is shown.
+    gaps : bool
+        Whether a point that cannot be leaves a gap with its reason; the sweep is refused if not.
+    unsolved : str
+        What is said of points without an answer.
+    flag : str
+        The same in a word, for the status in a file.
     """
 
     name: ClassVar[str]
@@ -43,9 +57,14 @@ class Subject:
     title: ClassVar[str]
     heading: ClassVar[str]
     shown: ClassVar[str]
+    column: ClassVar[str] = "ratio"
     beside: ClassVar[Mapping[str, str]]
     tables: ClassVar[Mapping[str, type[Table]]]
     variables: ClassVar[tuple[Entry, ...]]
+    whole: ClassVar[bool] = False
+    gaps: ClassVar[bool] = False
+    unsolved: ClassVar[str] = "did not converge"
+    flag: ClassVar[str] = "not_converged"
 
     @property
     def module(self) -> str:

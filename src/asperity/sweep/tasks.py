@@ -61,6 +61,6 @@ def _row(subject: Subject, answer: Result | AsperityError) -> Row:
         reached = ", ".join(f"{name} {value:.3g}" for name, value in answer.reached.items())
         return {FAILED: f"{answer} ({reached})" if reached else str(answer)}
     if isinstance(answer, AsperityError):
-        return {REFUSED: str(answer)}
+        return {FAILED if subject.gaps else REFUSED: str(answer)}
     # What a body does not have at all, as one without normal freedom, is not in its row.
     return subject.scalars(answer)
