@@ -10,7 +10,7 @@ from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.rating.rate import rate_case
 from asperity.results import read
-from asperity.sweep import read_grid, run
+from asperity.sweep import branches, read_grid, run
 
 FACTORS = "gearset.diameter_factor=9.5:10.5:0.5"
 TORQUES = "operation.output_torque=200,300 N m"
@@ -101,3 +101,9 @@ def test_a_key_that_is_none_is_refused_in_one_line(axis, said):
 def test_a_word_that_is_not_known_is_no_gap():
     with pytest.raises(InputError, match=r"gearset.flank=ZX: .*must be one of 'ZI'"):
         run(*grid("gearset.flank=ZI,ZX"), cache=False)
+
+
+def test_a_gearset_has_no_branches():
+    case, _ = grid(TORQUES)
+    with pytest.raises(InputError, match="this is a case of a worm gearset that is rated"):
+        branches.prepare(case, over=[TORQUES])

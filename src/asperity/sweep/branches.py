@@ -21,6 +21,7 @@ from asperity.slider.model import Model
 from asperity.slider.periodic import cycle_steps
 from asperity.slider.result import SlideResult, inputs
 from asperity.sweep.axes import Axis, parse_axes
+from asperity.sweep.bodies import Bodies
 from asperity.sweep.grid import Grid
 
 _WAYS = ("there", "back")
@@ -164,6 +165,8 @@ def prepare(case: Case, *, over: Sequence[str]) -> tuple[Case, Axis, list[Model]
             "--over vibration.frequency=2000:5000:50"
         )
     grid = Grid(case, axes)
+    if not isinstance(grid.subject, Bodies):
+        raise InputError(f"this is a case of {grid.subject.what}; branches are of a sliding body")
     models = [point.model for point in grid.points(range(grid.size))]
     for model in models:
         if not model.vibrates:
