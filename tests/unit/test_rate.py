@@ -8,6 +8,7 @@ import re
 
 import numpy as np
 import pytest
+from apparatus.gearsets import MINIMAL, RUN
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -37,16 +38,6 @@ PLAIN = {
     "sum", "table", "the", "through", "times", "turns", "value", "wheel", "with", "without", "worm",
     "y",
 }  # fmt: skip
-MINIMAL = {
-    "starts": 2,
-    "wheel_teeth": 40,
-    "centre_distance": "100 mm",
-    "axial_module": "4 mm",
-    "diameter_factor": 10,
-    "worm_material": "case-hardened steel",
-    "wheel_material": "CuSn12-C-GZ",
-}
-RUN = {"worm_speed": "1500 rpm", "output_torque": "300 N m", "lubricant": "ISO VG 220 mineral"}
 
 
 def case(name, *settings):

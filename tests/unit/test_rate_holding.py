@@ -3,25 +3,15 @@
 import math
 
 import pytest
+from apparatus.gearsets import MINIMAL, RUN
 
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 
-GEARSET = {
-    "starts": 2,
-    "wheel_teeth": 40,
-    "centre_distance": "100 mm",
-    "axial_module": "4 mm",
-    "diameter_factor": 10,
-    "worm_material": "case-hardened steel",
-    "wheel_material": "CuSn12-C-GZ",
-}
-RUN = {"worm_speed": "1500 rpm", "output_torque": "300 N m", "lubricant": "ISO VG 220 mineral"}
-
 
 def held(gearset=(), options=()):
     rated = rate(
-        Gearset(**{**GEARSET, **dict(gearset)}, units="SI"),
+        Gearset(**{**MINIMAL, **dict(gearset)}, units="SI"),
         Operation(**RUN, units="SI"),
         RatingOptions(**dict(options), units="SI"),
     )
