@@ -99,6 +99,7 @@ def size(
     *,
     rank: str = "size",
     settings: Sequence[str] = (),
+    cut: bool = True,
 ) -> "Proposals":
     """Propose worm gearsets for a ratio, a torque and a speed.
 
@@ -112,8 +113,10 @@ def size(
         What the first one is best in.
     settings : sequence of str
         Of materials, lubricant and life, as with ``--set``.
+    cut : bool
+        Whether to leave out what no hob cuts.
     """
-    from asperity.casefile.case import apply
+    from asperity.casefile.case import apply, listed
     from asperity.rating.parameters import Operation
     from asperity.start.gear import begun, proposals, ratio_of
     from asperity.units import Named, quantity_of
@@ -127,9 +130,9 @@ def size(
         except InputError as error:
             raise InputError(f"{key} is {shown(value)}; {error}") from None
         values["operation"][key] = f"{number!r} {quantity.unit}"
-    for setting in settings:
+    for setting in listed(settings):
         apply(values, setting, case_tables())
-    return proposals(values, ratio_of(ratio), rank)
+    return proposals(values, ratio_of(ratio), rank, cut=cut)
 
 
 def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":
@@ -191,6 +194,5 @@ def as_case(what: Sequence[What], settings: Sequence[str] = ()) -> Case:
 
 def _answer(name: str, what: Sequence[What], settings: Sequence[str], **options: Any) -> "Result":
     command = next(command for command in COMMANDS if command.name == name)
-    defaults = {option.name: option.default for option in command.options}
-    problem = command.prepared(as_case(what, settings), **defaults | options)
+    problem = command.prepared(as_case(what, settings), **command.defaults | options)
     return command.solved(problem, Run())

@@ -31,11 +31,20 @@ SPEAKING: Mapping[str, str] = {
 
 def shipped_cases() -> dict[str, Path]:
     """Return the files of the cases that ship, by the name of the file."""
+    return _shipped(".toml")
+
+
+def shipped_points() -> dict[str, Path]:
+    """Return the tables of points that ship, by the name of the file: that of their case."""
+    return _shipped(".csv")
+
+
+def _shipped(kind: str) -> dict[str, Path]:
     package = Path(__file__).parent
     # In an editable checkout the folder stands at the root, beside `src`.
     folders = [package / "cases", package.parents[1] / "cases"]
     folder = next((folder for folder in folders if folder.is_dir()), folders[0])
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+    return {path.stem: path for path in sorted(folder.glob(f"*{kind}"))}
 
 
 def shipped_case(name: str) -> Path | None:
@@ -48,6 +57,13 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
     shipped = shipped_case(str(name_or_path))
     path = Path(name_or_path)
     # In this order, since the system may refuse to look for a name.
+    return path if shipped is None or path.is_file() else shipped
+
+
+def points_file(name_or_path: str | os.PathLike[str]) -> Path:
+    """Return the file that points of a sweep are read from: as `case_file`."""
+    path = Path(name_or_path)
+    shipped = shipped_points().get(str(name_or_path))
     return path if shipped is None or path.is_file() else shipped
 
 

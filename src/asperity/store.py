@@ -337,6 +337,26 @@ def read_dataset(path: str | os.PathLike[str]) -> "xarray.Dataset":
         raise StorageError(f"{path} cannot be read: not a netCDF file, or damaged") from error
 
 
+def require_whole(file: Any, name: str) -> None:
+    """Refuse an open HDF5 file of which a part lies in another: whoever made it would say which.
+
+    Raises
+    ------
+    StorageError
+        A link leads out of it, or numbers of it are kept elsewhere.
+    """
+    import h5py
+
+    for key in file:
+        link, part = file.get(key, getlink=True), None
+        if isinstance(link, h5py.HardLink):
+            part = file[key]
+            if isinstance(part, h5py.Group):
+                require_whole(part, name)
+        if part is None or (isinstance(part, h5py.Dataset) and (part.external or part.is_virtual)):
+            raise StorageError(f"{name}: {plain(key)} lies in another file; save a whole one")
+
+
 def output_folder(path: str | os.PathLike[str]) -> Path:
     """Return a folder that exists and can be written to, created where needed.
 

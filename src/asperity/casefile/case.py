@@ -13,7 +13,7 @@ from typing import Any, TypeVar, overload
 
 from asperity import store
 from asperity.casefile.table import Table, names_file, same_thing, trouble_with
-from asperity.errors import InputError, nearest, plain
+from asperity.errors import InputError, nearest, plain, shown
 from asperity.shipped import SPEAKING, case_file, shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
@@ -79,15 +79,11 @@ class Case:
         setting = self.settings.get(key)
         return self.source if setting is None else f"--set {setting}"
 
-    def units_taken(self) -> Iterator[str]:
-        """Yield a line for each setting that is a number whose unit is that of what it replaced."""
-        return units_taken(self.raw, self.settings)
-
     def replace(self, settings: Iterable[str]) -> "Case":
         """Return the case with ``table.key=value`` settings applied, all validated afterwards."""
         raw = {name: dict(entries) for name, entries in self.raw.items()}
         given = dict(self.settings)
-        for setting in settings:
+        for setting in listed(settings):
             given[apply(raw, setting, self.known)] = " ".join(setting.split())
         case = dataclasses.replace(self, tables={}, raw=raw, settings=given)
         with told(case):
@@ -126,6 +122,13 @@ class Case:
                 tables[name] = self.known[name].model_validate(entries)
         return dataclasses.replace(self, tables=tables, raw=raw)
 
+    def files(self) -> Iterator[tuple[str, Path]]:
+        """Yield every file that a table names, with its ``table.key``."""
+        for name, table in self.tables.items():
+            for key, value in table:
+                for path in _paths(value):
+                    yield f"{name}.{key}", self.folder / path
+
     def canonical(self) -> str:
         """Return all values in SI, and the content of the files they name, as one fixed text.
 
@@ -141,29 +144,17 @@ class Case:
         return json.dumps(dumped, sort_keys=True, allow_nan=False)
 
 
-def units_taken(
-    raw: Raw, settings: Mapping[str, str], options: Mapping[str, str] | None = None
-) -> Iterator[str]:
-    """Yield a line for each setting that is a number whose unit is that of what it replaced.
-
-    Parameters
-    ----------
-    raw : dict of str to dict
-        The tables with the settings applied.
-    settings : mapping of str to str
-        The setting that gave a ``table.key``.
-    options : mapping of str to str, optional
-        Of a setting that was not given by ``--set`` the option that it was given by.
-    """
-    for path, setting in settings.items():
-        name, _, key = path.partition(".")
-        taken, given = raw[name].get(key), setting.partition("=")[2].strip()
-        bare = split_unit(given) or ("", "")
-        # An angle is in degrees wherever nothing else is said.
-        if bare[0] and not bare[1] and isinstance(taken, str) and not taken.endswith(" deg"):
-            option = (options or {}).get(setting)
-            written = f"{option} {given}" if option else f"--set {setting}"
-            yield f"{written} is taken as {taken}"
+def _paths(value: object) -> Iterator[Path]:
+    """Yield the names of files in a value, however deep they stand in it."""
+    if isinstance(value, Path):
+        yield value
+    parts: Iterable[object] = ()
+    if isinstance(value, Table):
+        parts = (each for _, each in value)
+    elif isinstance(value, Mapping | list | tuple):
+        parts = value.values() if isinstance(value, Mapping) else value
+    for part in parts:
+        yield from _paths(part)
 
 
 @contextlib.contextmanager
@@ -203,9 +194,9 @@ def read_case(
     tables : mapping of str to type of Table
         Every table a case file may have; all that are present are validated.
     settings : sequence of str
-        ``table.key=value`` to add or replace. A bare number takes the unit of the text it
-        replaces; for an angle without one it is in degrees. A relative file name starts at the
-        working directory, where one in the file starts at the file's folder.
+        ``table.key=value`` to add or replace. What has a unit needs it, as in the file; an angle
+        without one is in degrees. A relative file name starts at the working directory, where one
+        in the file starts at the file's folder.
 
     Raises
     ------
@@ -248,6 +239,13 @@ def _known_table(name: str, known: Mapping[str, type[Table]]) -> type[Table]:
     return known[name]
 
 
+def listed(settings: Iterable[str]) -> Iterable[str]:
+    """Return settings as they are; raises InputError for a single text, whose parts are letters."""
+    if isinstance(settings, str):
+        raise InputError(f"settings is {shown(settings)}; it must be a list: [{shown(settings)}]")
+    return settings
+
+
 def apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     """Apply a ``table.key=value`` to what is to be validated; returns the key."""
     path, equals, text = setting.partition("=")
@@ -266,7 +264,7 @@ def apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
     except InputError as error:
         raise InputError(f"--set {setting}: {error}") from None
     entries = raw.setdefault(name, {})
-    value = _with_unit(model, key, _toml_value(text.strip()), entries.get(key), setting)
+    value = _with_unit(model, key, _toml_value(text.strip()), setting)
     if isinstance(value, str) and names_file(model, key):
         value = str(Path(value).absolute())
     for other in same_thing(model, key):
@@ -283,7 +281,7 @@ def _toml_value(text: str) -> Any:
     return text if len(parsed) > 1 or trouble_with(parsed) else parsed["value"]
 
 
-def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str) -> Any:
+def _with_unit(model: type[Table], key: str, value: Any, setting: str) -> Any:
     quantity = quantity_of(model, key)
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     written = setting.partition("=")[2].strip()
@@ -291,7 +289,7 @@ def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str)
     parts = (number, "") if is_number else split_unit(value) if isinstance(value, str) else None
     if not (quantity and quantity.unit and parts and not parts[1]):
         return value
-    unit = bare_unit(quantity, old)
+    unit = bare_unit(quantity)
     if not unit:
         path = f"{model.table}.{key}"
         raise InputError(
@@ -300,10 +298,9 @@ def _with_unit(model: type[Table], key: str, value: Any, old: Any, setting: str)
     return f"{parts[0]} {unit}"
 
 
-def bare_unit(quantity: Quantity, old: object) -> str:
-    """Return the unit of a number without one: that of the text it replaces, deg for an angle."""
-    replaced = split_unit(old) if isinstance(old, str) else None
-    return (replaced and replaced[1]) or ("deg" if quantity.unit == "rad" else "")
+def bare_unit(quantity: Quantity) -> str:
+    """Return the unit of a number without one on the command line: deg for an angle, else none."""
+    return "deg" if quantity.unit == "rad" else ""
 
 
 def _as_text(model: type[Table], key: str, value: object) -> object:

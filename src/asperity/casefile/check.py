@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import pydantic
 
-from asperity.casefile.case import Case, apply, read_raw
+from asperity.casefile.case import Case, apply, listed, read_raw
 from asperity.casefile.table import Table
 from asperity.errors import InputError, nearest
 
@@ -63,7 +63,7 @@ def check_case(
     case, text = read_raw(name_or_path, tables)
     lines = lines_of(text)
     found: list[tuple[str, str]] = []
-    for setting in settings:
+    for setting in listed(settings):
         try:
             case.settings[apply(case.raw, setting, tables)] = " ".join(setting.split())
         except InputError as error:

@@ -3,7 +3,6 @@
 Everything heavy is imported inside the commands, so that the help is there at once.
 """
 
-import inspect
 import sys
 import types
 from pathlib import Path
@@ -13,7 +12,14 @@ import typer
 
 from asperity.cli import outcome
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
-from asperity.commands import COMMANDS, GROUPS, Argument, Command, Option
+from asperity.cli.registered import (
+    CaseArgument,
+    JsonOption,
+    OutOption,
+    SetOption,
+    folder_of,
+    register,
+)
 
 app = typer.Typer(
     add_completion=False,
@@ -21,42 +27,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="What imposed vibration does to friction between sliding surfaces.",
 )
-
-_CASE_HELP = "A case file, or the name of a case that ships."
-CaseArgument = Annotated[str, typer.Argument(metavar="CASE", help=_CASE_HELP)]
-SetOption = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Change the case; as often as needed."),
-]
-JsonOption = Annotated[
-    bool, typer.Option("--json", help="Print one JSON object to standard output, nothing else.")
-]
-FullOption = Annotated[
-    bool, typer.Option("--full", help="Print every number, not one screen with the verdict.")
-]
-
-
-def _folder(given: str) -> Path:
-    # Python takes "" for the working directory; it is a variable of the shell that was not set.
-    if not given:
-        raise typer.BadParameter("it is empty; give a folder, or . for the working directory")
-    return Path(given)
-
-
-OutOption = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
-]
-FormatOption = Annotated[
-    str, typer.Option("--format", metavar="FORMAT", help="Of pictures: png, svg or pdf.")
-]
-
-
-def _out(command: Command) -> Any:
-    if command.out == "DIR":
-        return OutOption
-    said = typer.Option("--out", metavar=command.out, parser=_folder, help="File to write.")
-    return Annotated[Path | None, said]
+_TORQUE = typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
+_SPEED = typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
 
 
 @app.callback(invoke_without_command=True)
@@ -90,65 +62,7 @@ def asperity(
         print_text(text)
 
 
-def _command(command: Command) -> None:
-    """Give the application a command of the registry."""
-
-    @reported
-    def run(
-        settings: list[str] | None, as_json: bool, out: Path | None, case: str = "", **options: Any
-    ) -> None:
-        from asperity.cli.execute import execute
-
-        execute(command, case, settings or (), as_json=as_json, out=out, **options)
-
-    case = Annotated[str, typer.Argument(metavar=command.case, help=_CASE_HELP)]
-    parameters = {
-        **{
-            argument.name: (_placed(argument), inspect.Parameter.empty)
-            for argument in command.arguments
-        },
-        **({"case": (case, inspect.Parameter.empty)} if command.case else {}),
-        **{option.name: _typed(option) for option in command.options},
-        **({"full": (FullOption, False)} if command.brief else {}),
-        **({"pictures": (FormatOption, "png")} if command.draws else {}),
-        "settings": (SetOption, None),
-        "as_json": (JsonOption, False),
-        "out": (_out(command), None),
-    }
-    keyword = inspect.Parameter.KEYWORD_ONLY
-    run.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
-        [
-            inspect.Parameter(name, keyword, annotation=kind, default=default)
-            for name, (kind, default) in parameters.items()
-        ]
-    )
-    run.__doc__ = f"{command.summary}\n\n{command.files}"
-    # Typer looks at the function behind a decorator.
-    del run.__wrapped__  # type: ignore[attr-defined]
-    group, _, name = command.name.rpartition(" ")
-    (_groups[group] if group else app).command(name=name)(run)
-
-
-def _placed(argument: Argument) -> Any:
-    kind: Any = list[str] if argument.many else str
-    return Annotated[kind, typer.Argument(metavar=argument.metavar, help=argument.help)]
-
-
-def _typed(option: Option) -> tuple[Any, Any]:
-    kind: Any = list[str] if option.many else str if option.metavar else bool
-    metavar = option.metavar or None
-    said = typer.Option(f"--{option.name}", metavar=metavar, help=option.help)
-    default: Any = inspect.Parameter.empty if option.default is None else option.default
-    if option.many and default == "":
-        kind, default = list[str] | None, None
-    return Annotated[kind, said], default
-
-
-_groups = {name: typer.Typer(help=about) for name, about in GROUPS.items()}
-for _name, _group in _groups.items():
-    app.add_typer(_group, name=_name, no_args_is_help=True)
-for _listed in COMMANDS:
-    _command(_listed)
+register(app)
 
 
 @app.command()
@@ -176,7 +90,7 @@ def export(
         typer.Option(
             "--out",
             metavar="DIR",
-            parser=_folder,
+            parser=folder_of,
             help="Folder to write to; out/PROGRAM if left out.",
         ),
     ] = None,
@@ -201,7 +115,7 @@ def thesis(
         typer.Option("--only", metavar="NUMBER", help="Only what has this number, as 4.17."),
     ] = None,
     out: Annotated[
-        Path, typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write to.")
+        Path, typer.Option("--out", metavar="DIR", parser=folder_of, help="Folder to write to.")
     ] = Path("out/thesis"),
     full: Annotated[
         bool,
@@ -256,6 +170,8 @@ def new(
     ratio: Annotated[
         str, typer.Option("--ratio", metavar="RATIO", help="Of a gear's speeds; 40 if left out.")
     ] = "",
+    output_torque: Annotated[str | None, _TORQUE] = None,
+    worm_speed: Annotated[str | None, _SPEED] = None,
     settings: SetOption = None,
     defaults: Annotated[bool, typer.Option("--defaults", help="Ask nothing.")] = False,
     as_json: JsonOption = False,
@@ -267,40 +183,36 @@ def new(
     from asperity.cli.new import new as run
 
     path = Path(file) if file else None
-    run(kind, path, settings or (), ratio, defaults=defaults, as_json=as_json)
+    asked = {"output_torque": output_torque, "worm_speed": worm_speed}
+    run(kind, path, asked, settings or (), ratio, defaults=defaults, as_json=as_json)
 
 
 @app.command()
 @reported
 def size(
     ratio: Annotated[str, typer.Option("--ratio", metavar="RATIO", help="Of the speeds.")],
-    output_torque: Annotated[
-        str, typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
-    ],
-    worm_speed: Annotated[
-        str, typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
-    ],
+    output_torque: Annotated[str, _TORQUE],
+    worm_speed: Annotated[str, _SPEED],
     rank: Annotated[
         str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
     ] = "size",
+    uncut: Annotated[
+        bool, typer.Option("--uncut", help="Do not look whether a hob cuts each wheel.")
+    ] = False,
     settings: SetOption = None,
     as_json: JsonOption = False,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
-    ] = None,
+    out: OutOption = None,
 ) -> None:
     """Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.
+
+    The wheels of those that are shown are cut; the first time of all that takes half a minute.
 
     With --out also size.json, size.nc and a case file for each proposal.
     """
     from asperity.cli.new import size as run
 
-    asked = {
-        "--output-torque": f"operation.output_torque={output_torque}",
-        "--worm-speed": f"operation.worm_speed={worm_speed}",
-    }
-    run(ratio, asked, settings or (), rank, as_json=as_json, out=out)
+    asked = {"output_torque": output_torque, "worm_speed": worm_speed}
+    run(ratio, asked, settings or (), rank, cut=not uncut, as_json=as_json, out=out)
 
 
 @app.command()
@@ -311,10 +223,7 @@ def compare(
     ],
     settings: SetOption = None,
     as_json: JsonOption = False,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", parser=_folder, help="Folder to write files to."),
-    ] = None,
+    out: OutOption = None,
 ) -> None:
     """Put gearsets or bodies side by side: what differs in what is asked and in what comes of it.
 
@@ -323,6 +232,41 @@ def compare(
     from asperity.cli.compare import compare as run
 
     run(cases, settings or (), as_json=as_json, out=out)
+
+
+@app.command()
+@reported
+def page(
+    case: Annotated[
+        str, typer.Argument(metavar="CASE", help="One to open; another can be chosen there.")
+    ] = "",
+    port: Annotated[
+        int,
+        typer.Option(
+            "--port",
+            metavar="N",
+            show_default=False,
+            help="Where to listen; 8321, or any that is free, if left out.",
+        ),
+    ] = 0,
+    folder: Annotated[
+        Path | None,
+        typer.Option(
+            "--folder",
+            metavar="DIR",
+            parser=folder_of,
+            help="Of cases, uploads and jobs; that of CASE, or this one, if left out.",
+        ),
+    ] = None,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Print the address and open nothing.")
+    ] = False,
+) -> None:
+    """Open the page: see it, turn it, shake it. It is on this machine alone, until Ctrl-C."""
+    from asperity.cli.show import print_text
+    from asperity.web.serve import serve
+
+    serve(case, port, folder, print_text, browser=not no_browser)
 
 
 @app.command()

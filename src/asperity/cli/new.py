@@ -1,13 +1,14 @@
 """What ``asperity new`` and ``asperity size`` do."""
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from pathlib import Path
 
-from asperity.casefile.case import Case, apply, units_taken
+from asperity.casefile.case import Case, apply
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain
+from asperity.rating.parameters import Operation
 from asperity.start.gear import MACRO, begun, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
@@ -18,19 +19,26 @@ from asperity.studies.proposals import Proposals
 def new(
     name: str,
     file: Path | None,
+    asked: Mapping[str, str | None],
     settings: Sequence[str],
     ratio: str,
     *,
     defaults: bool,
     as_json: bool,
 ) -> None:
-    """Write a case file of a kind, asking what is not given where there is somebody to ask."""
-    kind, path = kind_of(name), file or Path(f"{name}.toml")
+    """Write a case file of a kind, asking what is not given where there is somebody to ask.
+
+    What is asked is by key of the operation, None where it is not; a file without an ending gets
+    one.
+    """
+    kind, path = kind_of(name), file or Path(name)
+    path = path if path.suffix else path.with_name(f"{path.name}.toml")
+    if any(each is not None for each in asked.values()) and Operation.table not in kind.tables:
+        raise InputError(f"--output-torque and --worm-speed are of a gear; {name} has neither")
     if path.exists():
         raise InputError(f"{plain(str(path))} is there already; name another file")
     values = kind.begun()
-    given = {apply(values, setting, case_tables()): setting for setting in settings}
-    units = [*units_taken(values, given)]
+    given = _given(values, asked, settings)
     wanted = ratio or RATIO
     if not defaults and sys.stdin is not None and sys.stdin.isatty() and not as_json:
         for question in kind.questions:
@@ -54,8 +62,8 @@ def new(
         show.print_json({"file": str(path), "tables": list(case.tables)})
     else:
         show.print_text(_told(path, kind))
-    for note in units:
-        show.note(note)
+        if Operation.table in case and (wear := case.require(Operation).wear_assumed):
+            show.print_text(f"\n{wear}")
 
 
 def size(
@@ -64,24 +72,22 @@ def size(
     settings: Sequence[str],
     rank: str,
     *,
+    cut: bool,
     as_json: bool,
     out: Path | None,
 ) -> None:
     """Print gearsets for a ratio and settings, and write each one as a case.
 
-    What is asked are settings by the options that they were given by.
+    What is asked is by key of the operation; ``cut`` leaves out what no hob cuts.
     """
-    values, options = begun(), {setting: option for option, setting in asked.items()}
-    given = {apply(values, each, case_tables()): each for each in (*options, *settings)}
-    found = proposals(values, ratio_of(ratio), rank)
+    values = begun()
+    _given(values, asked, settings)
+    found = proposals(values, ratio_of(ratio), rank, cut=cut)
     if as_json:
         show.print_json(found.to_json())
     else:
         show.print_tables(found.tables())
     written = None if out is None else _written(found, values, out)
-    # Only now, for what is refused is told in one line.
-    for note in units_taken(values, given, options):
-        show.note(note)
     if written is not None:
         show.note(written)
 
@@ -95,6 +101,19 @@ def _written(found: Proposals, values: Values, out: Path) -> str:
         text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
     return f"written to {folder}: {', '.join(names)}"
+
+
+def _given(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
+    """Apply what is asked of the operation, and settings; returns their keys."""
+    keys = set()
+    for key, text in asked.items():
+        if text is not None:
+            setting, option = f"operation.{key}={text}", f"--{key.replace('_', '-')} {text}"
+            try:
+                keys.add(apply(values, setting, case_tables()))
+            except InputError as error:
+                raise InputError(str(error).replace(f"--set {setting}", option)) from None
+    return keys | {apply(values, setting, case_tables()) for setting in settings}
 
 
 def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:

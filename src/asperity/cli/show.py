@@ -3,6 +3,7 @@
 import contextlib
 import json
 import sys
+import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -13,9 +14,17 @@ if TYPE_CHECKING:
     from asperity.results.table import Table
 
 
+_WIDTH = 79
+
+
 def note(line: str) -> None:
     """Print a line to standard error."""
     tell(line)
+
+
+def wrapped(sentence: str) -> str:
+    """Return a sentence in lines of the terminal's least width."""
+    return textwrap.fill(sentence, _WIDTH, subsequent_indent="  ", break_on_hyphens=False)
 
 
 def print_text(text: str) -> None:

@@ -1,11 +1,12 @@
 """What a command is: its name, what it reads, how it refuses and how it solves."""
 
 import dataclasses
-from collections.abc import Callable
+import shlex
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from asperity.commands.place import loaded
-from asperity.errors import InputError
+from asperity.errors import InputError, nearest, shown
 
 if TYPE_CHECKING:
     from asperity.casefile import Case
@@ -29,6 +30,10 @@ class Option:
         Where it is left out; None: it must be given.
     many : bool
         Whether it may be given several times.
+    one_of : str
+        A name that it has in common with others of which one at least must be given.
+    elsewhere : tuple of str, optional
+        What of it may be asked from anywhere but a terminal, which has all; None: anything.
     """
 
     name: str
@@ -36,6 +41,19 @@ class Option:
     metavar: str = ""
     default: str | bool | None = ""
     many: bool = False
+    one_of: str = ""
+    elsewhere: tuple[str, ...] | None = None
+
+    def allowed(self, value: object) -> None:
+        """Refuse what may not be asked but from a terminal."""
+        if self.elsewhere is None or value in self.elsewhere:
+            return
+        if not self.elsewhere:
+            raise InputError(f"{self.name} is not for a page; a terminal has it")
+        raise InputError(
+            f"{self.name} is {shown(value)}; on a page it is {' or '.join(self.elsewhere)}: "
+            "a terminal has the others"
+        )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -134,6 +152,81 @@ class Command:
         return answer
 
     @property
-    def reader(self) -> Callable[..., "Case"] | None:
-        """What reads its case, None for a name and settings."""
-        return loaded(self.read) if self.read else None
+    def defaults(self) -> dict[str, Any]:
+        """What it does if nothing is said, by option."""
+        return {one.name: None if one.many else one.default for one in self.options}
+
+    def case_of(self, name: str, settings: Sequence[str], **options: Any) -> "Case":
+        """Return the case it is asked for, read as it reads cases."""
+        from asperity.casefile import read_case
+        from asperity.commands.tables import case_tables
+
+        read: Callable[..., Case] = loaded(self.read) if self.read else read_case
+        return read(name, case_tables(), settings, **(options if self.read else {}))
+
+    def given(self, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what is given beside a case from a page, as the command line would have read it.
+
+        Raises
+        ------
+        InputError
+            A name means nothing here, a value is of another kind or for a terminal alone, or
+            something is missing.
+        """
+        places = {argument.name: argument for argument in self.arguments}
+        known = {option.name: option for option in self.options}
+        for names, what in ((arguments, places), (options, known)):
+            for name in names:
+                if name not in what:
+                    kind = "arguments" if what is places else "options"
+                    raise InputError(
+                        f"{shown(name)} is none of the {kind} of {self.name}{nearest(name, what)}"
+                    )
+        made: dict[str, Any] = {}
+        for name, argument in places.items():
+            made[name] = _texts(name, arguments.get(name), argument.help, many=argument.many)
+            if not made[name]:
+                raise InputError(f"{name} is empty: {argument.help}")
+        for name, value in options.items():
+            option = known[name]
+            option.allowed(value)
+            if option.metavar:
+                made[name] = _texts(name, value, option.help, many=option.many)
+            elif isinstance(value, bool):
+                made[name] = value
+            else:
+                raise InputError(f"{name} is {shown(value)}; it must be true or false")
+        missing = [o for o in self.options if o.default is None and not made.get(o.name)]
+        if missing:
+            raise InputError(f"{self.name} needs {missing[0].name}: {missing[0].help}")
+        return made
+
+    def line(self, case: str, settings: Iterable[str], given: Mapping[str, Any]) -> str:
+        """Return what does the same on a terminal, and prints it as JSON."""
+        words = ["asperity", *self.name.split()]
+        for argument in self.arguments:
+            words += given[argument.name] if argument.many else [given[argument.name]]
+        words += [case] if self.case else []
+        for setting in settings:
+            words += ["--set", setting]
+        for option in self.options:
+            value = given.get(option.name, False)
+            for each in value if isinstance(value, list) else [value]:
+                if each not in (False, ""):
+                    words += [
+                        f"--{option.name.replace('_', '-')}",
+                        *([] if each is True else [each]),
+                    ]
+        return shlex.join([*words, "--json"])
+
+
+def _texts(name: str, value: object, about: str, *, many: bool) -> Any:
+    """Return a text, or some where there may be several; refuses anything else."""
+    if many and isinstance(value, str):
+        return [value]
+    if isinstance(value, list) if many else isinstance(value, str):
+        each = value if isinstance(value, list) else [value]
+        if all(isinstance(one, str) for one in each):
+            return value
+    kind = "a list of texts" if many else "a text"
+    raise InputError(f"{name} is {shown(value)}; it must be {kind}: {about}")

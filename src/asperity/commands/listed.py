@@ -50,13 +50,20 @@ COMMANDS = (
                 "over",
                 "An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
                 "TABLE.KEY=VALUES",
-                default=None,
                 many=True,
+                one_of="axes",
+            ),
+            Option(
+                "points",
+                "Values that change together, a row a point, under headings table.key [unit].",
+                "POINTS.csv",
+                one_of="axes",
             ),
             Option(
                 "cluster",
                 "A Dask scheduler to send the work to, instead of this machine's cores.",
                 "ADDRESS",
+                elsewhere=(),
             ),
         ),
     ),
@@ -84,12 +91,19 @@ COMMANDS = (
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
         "With --out also report.html, rate.json, rate.nc, rate.csv and rate.xlsx, a workbook of "
         "live formulas.",
-        prepare="asperity.rating.rate:prepare",
-        solve="asperity.rating.rate:answer",
+        prepare="asperity.flanks.rated:prepare",
+        solve="asperity.flanks.rated:answer",
         brief=True,
         needs=("gearset", "operation"),
         draws=False,
-        options=(Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),),
+        options=(
+            Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),
+            Option(
+                "pattern",
+                "Show contact pattern and lines in the report of --out: cuts the flanks.",
+                default=False,
+            ),
+        ),
     ),
     Command(
         "sensitivity",
@@ -230,13 +244,21 @@ COMMANDS = (
         needs=("rig", "steel_disc", "bronze_disc", "drives", "channels", "plan"),
         case="CONFIG",
         options=(
-            Option("backend", "sim, replay, hardware or manual.", "NAME", default="sim"),
+            # From a page nothing is moved that somebody's hands may be in.
+            Option(
+                "backend",
+                "sim, replay, hardware or manual.",
+                "NAME",
+                default="sim",
+                elsewhere=("sim", "replay"),
+            ),
             Option("recordings", "The folder of the run that a replay plays.", "DIR"),
             Option("resume", "Go on with the run in --out, at its cell.", default=False),
             Option(
                 "acknowledge",
                 "Who has looked at the rig after an interlock latched, and what was done.",
                 "TEXT",
+                elsewhere=(),
             ),
         ),
     ),

@@ -15,6 +15,7 @@ BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK = (
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 DASHES: tuple[Any, ...] = ((), (5, 2), (2, 2), (7, 2, 2, 2), (1, 1))
 STYLE: dict[Any, Any] = {
+    "axes.prop_cycle": f"cycler('color', {list(COLOURS)})",
     "font.size": 11.0,
     "axes.labelsize": 11.0,
     "axes.titlesize": 11.0,

@@ -48,3 +48,8 @@ def write_picture(figure: "Figure", path: Path) -> Path:
             figure.savefig(target, dpi=DOTS_PER_INCH, metadata=_UNDATED.get(path.suffix))
 
     return write_atomically(path, write)
+
+
+def write_content(path: Path, content: bytes) -> Path:
+    """Write bytes, whole or not at all."""
+    return write_atomically(path, lambda target: target.write_bytes(content))

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from asperity.results.quantity import Sentence
 from asperity.results.table import Bar, Number
 from asperity.results.typeset import typeset
 
@@ -48,14 +49,19 @@ def data(number: Number) -> "Markup":
     from markupsafe import Markup
 
     key = Markup(' data-key="{}"').format(number.key) if number.key else ""
-    return Markup('<data value="{!r}"{}>{}</data>').format(number.value, key, str(number))
+    times = Markup(' data-times="{:g}"').format(number.times) if number.times != 1.0 else ""
+    return Markup('<data value="{!r}"{}{}>{}</data>').format(number.value, key, times, str(number))
 
 
-def _cell(text: str, symbols: bool) -> "Markup | str":
+def _cell(text: str, symbols: bool = False) -> "Markup | str":
     from markupsafe import Markup
 
     if isinstance(text, Number):
         return data(text)
+    if isinstance(text, Sentence):
+        # A number of a sentence that stands in JSON as it is has no key of its own.
+        parts = (p if getattr(p, "key", True) else str(p) for p in text.parts)
+        return Markup("").join(_cell(part, symbols) for part in parts)
     if isinstance(text, Bar):
         length = min(max(text.value, 0.0), Bar.LONGEST) * 100.0
         return Markup(

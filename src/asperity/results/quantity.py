@@ -13,8 +13,8 @@ The class is a frozen dataclass without further ado.
 import dataclasses
 import types
 import typing
-from collections.abc import Callable, Iterator
-from typing import Any, ClassVar, Literal, Self, TypeVar, dataclass_transform
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeVar, dataclass_transform
 
 import numpy as np
 
@@ -72,6 +72,22 @@ class Part:
     prefix: str
 
 
+class Origin(Protocol):
+    """Where a number comes from."""
+
+    @property
+    def equation(self) -> str:
+        """Which it follows from."""
+
+    @property
+    def source(self) -> object:
+        """Where that stands, or whoever measured it."""
+
+    @property
+    def trust(self) -> str:
+        """How far it can be relied upon."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Entry:
     """A quantity of one answer, or of a class of them, which have no value.
@@ -86,12 +102,15 @@ class Entry:
         None where it does not exist.
     resolution : float
         Size below which it is rounding, in its unit.
+    origin : Origin, optional
+        Where it comes from, if that is known of each number.
     """
 
     name: str
     label: Label
     value: Any = None
     resolution: float = 0.0
+    origin: "Origin | None" = None
 
     @property
     def key(self) -> str:
@@ -175,6 +194,12 @@ class Quantities:
     def entries(self) -> Iterator[Entry]:
         """Yield every quantity with its value, those of parts behind their prefix."""
         yield from _entries(type(self), self, "")
+
+    def keyed(self) -> Iterator[tuple[str, Entry]]:
+        """Yield the numbers of JSON by where they stand in it."""
+        for entry in self.entries():
+            if entry.in_json:
+                yield entry.key, entry
 
     @classmethod
     def declared(cls) -> Iterator[Entry]:
@@ -276,16 +301,43 @@ def plain(value: Any) -> Any:
 
 
 class Number(str):
-    """A number as it is shown, which knows all its digits and its key in JSON."""
+    """A number as it is shown, which knows all its digits and its key in JSON.
+
+    What is shown may be so many ``times`` as large, as percent are.
+    """
 
     value: float
     key: str
+    times: float
 
-    def __new__(cls, text: str, value: float, key: str = "") -> Self:
+    def __new__(cls, text: str, value: float, key: str = "", times: float = 1.0) -> Self:
         """Return a text that stands for a value."""
         made = super().__new__(cls, text)
-        made.value, made.key = value, key
+        made.value, made.key, made.times = value, key, times
         return made
+
+    @classmethod
+    def of(cls, value: float, form: str, key: str = "", times: float = 1.0) -> Self:
+        """Return a value by a format."""
+        return cls(format(times * value, form), float(value), key, times)
+
+
+class Sentence(str):
+    """A text with numbers in it, which pages mark as such."""
+
+    parts: tuple[str, ...]
+
+    def __new__(cls, *parts: str) -> Self:
+        """Return texts and numbers as one text."""
+        made = super().__new__(cls, "".join(parts))
+        made.parts = tuple(p for part in parts for p in getattr(part, "parts", (part,)))
+        return made
+
+    @classmethod
+    def joined(cls, parts: Iterable[str], between: str = ", ") -> Self:
+        """Return texts with another one between them."""
+        found = [piece for part in parts for piece in (between, part)]
+        return cls(*found[1:])
 
 
 def text_of(value: Any, resolution: float = 0.0, key: str = "") -> str:
@@ -296,7 +348,7 @@ def text_of(value: Any, resolution: float = 0.0, key: str = "") -> str:
     value : object
         A number, text, truth, a list of them or None.
     resolution : float
-        A number that is not larger is rounding: "none" is shown.
+        A number that is not larger is rounding: it is shown as zero within that.
     key : str
         In JSON, for a number.
     """
@@ -310,10 +362,13 @@ def text_of(value: Any, resolution: float = 0.0, key: str = "") -> str:
         if value != value:
             return "-"
         if abs(value) <= resolution and value:
-            return "none"
+            return f"0 within {resolution:.0g}"
         return Number(f"{value + 0.0:.{_DIGITS}g}", float(value), key)
     if isinstance(value, int):
         return Number(str(value), value, key)
     if isinstance(value, list | tuple):
-        return ", ".join(text_of(entry, resolution) for entry in value)
+        return Sentence.joined(
+            text_of(entry, resolution, f"{key}.{place}" if key else "")
+            for place, entry in enumerate(value)
+        )
     return str(value)

@@ -31,7 +31,12 @@ class Picture:
     png : path or None
         ... or a file that holds it ...
     svg : str
-        ... or SVG itself, of this package's own making.
+        ... or SVG itself, of this package's own making ...
+    moving : path or None
+        ... or a file of WebP that moves; where that is not wanted, and on paper, its first frame
+        stands.
+    beside : str
+        A file that may stand beside the page, to open what is drawn with.
     """
 
     title: str
@@ -39,6 +44,8 @@ class Picture:
     caption: str = ""
     png: Path | None = None
     svg: str = ""
+    moving: Path | None = None
+    beside: str = ""
 
     @property
     def html(self) -> "Markup":
@@ -47,6 +54,14 @@ class Picture:
 
         if self.svg:
             return Markup(self.svg)
+        if self.moving is not None:
+            shown = ("moving", self.moving.read_bytes()), ("still", _first_frame(self.moving))
+            return Markup("\n").join(
+                Markup('<img class="{}" alt="{}" src="data:image/webp;base64,{}">').format(
+                    name, self.title, base64.b64encode(content).decode("ascii")
+                )
+                for name, content in shown
+            )
         kind, content = "svg+xml", b""
         if self.png is not None:
             kind, content = "png", self.png.read_bytes()
@@ -58,6 +73,15 @@ class Picture:
         return Markup('<img alt="{}" src="data:image/{};base64,{}">').format(
             self.title, kind, encoded
         )
+
+
+def _first_frame(path: Path) -> bytes:
+    from PIL import Image
+
+    drawn = io.BytesIO()
+    with Image.open(path) as picture:
+        picture.convert("RGB").save(drawn, "WEBP", quality=80)
+    return drawn.getvalue()
 
 
 @dataclasses.dataclass(frozen=True)

@@ -110,6 +110,22 @@ class Result(Quantities):
         """Return the line above the tables."""
         return self.title
 
+    def headline(self) -> tuple[str, ...]:
+        """Return what the answer comes to, in few sentences above its tables."""
+        return ()
+
+    def traces(self, points: int) -> Mapping[str, Any]:
+        """Return what is drawn of it at once, in so many numbers each, by name."""
+        return {}
+
+    def views(self) -> Mapping[str, str]:
+        """Return drawings to scale of what it is about, as SVG by name."""
+        return {}
+
+    def attached(self) -> Mapping[str, bytes]:
+        """Return files that a program draws from, by name; `write` leaves them out."""
+        return {}
+
     def brief(self) -> str:
         """Return what a terminal shows in place of the tables unless all is asked for."""
         return ""
@@ -145,7 +161,9 @@ class Result(Quantities):
         from asperity.results.report import Section
 
         return (
-            Section("", (self.heading(),) if self.heading() != self.title else ()),
+            Section(
+                "", (*((self.heading(),) if self.heading() != self.title else ()), *self.headline())
+            ),
             Section("Results", tables=self.tables()),
             Section("Pictures", pictures=self.pictures(folder)),
         )

@@ -80,13 +80,19 @@ class Table:
         return cls(columns, tuple(tuple(map(text_of, row)) for row in rows), title, tuple(remarks))
 
 
-def table_of(answer: Quantities, *, title: str = "", remarks: Iterable[str] = ()) -> Table:
-    """Return the scalars of an answer: what each is, its symbol, value and unit."""
+def table_of(
+    answer: Quantities, *, title: str = "", remarks: Iterable[str] = (), within: str = ""
+) -> Table:
+    """Return the scalars of an answer: what each is, its symbol, value and unit.
+
+    The answer may stand within another one's JSON, by a key.
+    """
+    path = f"{within}." if within else ""
     rows = [
         (
             entry.label.meaning,
             entry.label.symbol,
-            text_of(entry.value, entry.resolution, entry.key),
+            text_of(entry.value, entry.resolution, f"{path}{entry.key}"),
             entry.label.unit,
         )
         for entry in answer.entries()

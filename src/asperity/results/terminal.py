@@ -57,7 +57,11 @@ def _lines(table: "Table", width: int) -> Iterator[str]:
 def _grid(columns: "Sequence[Column]", rows: Iterable[Sequence[str]], width: int) -> Iterator[str]:
     texts = [[column.heading for column in columns], *rows]
     widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
-    _squeeze(widths, columns, width - len(_GAP) * (len(columns) - 1))
+    words = [
+        max(len(word) for text in column for word in text.split() or [""])
+        for column in zip(*texts, strict=True)
+    ]
+    _squeeze(widths, words, columns, width - len(_GAP) * (len(columns) - 1))
     cells = [[_folded(*cell) for cell in zip(row, widths, strict=True)] for row in texts]
     widths = [
         max(len(line) for cell in column for line in cell) for column in zip(*cells, strict=True)
@@ -71,14 +75,22 @@ def _grid(columns: "Sequence[Column]", rows: Iterable[Sequence[str]], width: int
             yield _GAP.join(placed).rstrip()
 
 
-def _squeeze(widths: list[int], columns: "Sequence[Column]", room: int) -> None:
-    """Take what is too much from the widest of the columns that fold."""
+def _squeeze(
+    widths: list[int], words: Sequence[int], columns: "Sequence[Column]", room: int
+) -> None:
+    """Take what is too much from the columns that fold, the widest first.
+
+    Words are broken only where that makes the table fit.
+    """
     folding = [place for place, column in enumerate(columns) if column.folds]
-    while folding and sum(widths) > room:
-        widest = max(folding, key=widths.__getitem__)
-        if widths[widest] <= _NARROWEST:
+    least = {place: min(widths[place], _NARROWEST) for place in folding}
+    if sum(widths) + sum(least[place] - widths[place] for place in folding) > room:
+        least = {place: min(widths[place], max(words[place], _NARROWEST)) for place in folding}
+    while sum(widths) > room:
+        wider = [place for place in folding if widths[place] > least[place]]
+        if not wider:
             break
-        widths[widest] -= 1
+        widths[max(wider, key=widths.__getitem__)] -= 1
 
 
 def _folded(text: str, width: int) -> list[str]:

@@ -1,5 +1,6 @@
 """Texts with their symbols set: what is written as ``mu F_N`` in plain text, as HTML."""
 
+import functools
 import re
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,7 @@ _INDEXED = r"\b(Ra|[A-Za-zµα-ω])_(\w+(?:[,‑]\w+)?)"
 _RAISED = r"\^(\([^()]*\)|-?[\d.]+)"
 
 
+@functools.lru_cache(maxsize=4096, typed=True)
 def typeset(text: str) -> "Markup":
     """Return a text as HTML with its symbols set: ``mu F_N``, ``eta_y``, ``<=``, ``q^0.5``.
 
@@ -34,8 +36,13 @@ def typeset(text: str) -> "Markup":
     s<sub>max</sub> ≤ 5 % of µ F<sub>N</sub>
     >>> print(typeset("d_m1^2 n_1^(4/3)"))
     d<sub>m1</sub><sup>2</sup> n<sub>1</sub><sup>(4/3)</sup>
+    >>> print(typeset("gamma"))
+    γ
     """
     from markupsafe import Markup, escape
+
+    if text in _GREEK:
+        return Markup(_GREEK[text])
 
     for plain, sign in _SIGNS.items():
         text = re.sub(plain, sign, text)

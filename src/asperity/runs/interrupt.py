@@ -1,8 +1,10 @@
 """Ctrl-C heard between two steps of a work, so that it stands whole when it is kept."""
 
 import contextlib
+import os
 import signal
 import threading
+import time
 from collections.abc import Iterator
 
 
@@ -72,3 +74,24 @@ def terminable() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, before)
+
+
+def stop_of(error: BaseException) -> KeyboardInterrupt | None:
+    """Return the Ctrl-C that an exception is, or that it came of: None if it is an error."""
+    # Before Python 3.12 what interrupts the making of a class, as imports do, is wrapped.
+    cause = error if isinstance(error, KeyboardInterrupt) else error.__cause__
+    return cause if isinstance(cause, KeyboardInterrupt) else None
+
+
+def stop_with_input(grace: float) -> None:
+    """Stop as by Ctrl-C when standard input ends, and for certain so many seconds later."""
+
+    def listen() -> None:
+        # Not by its stream, which Python would wait for at its end.
+        while os.read(0, 1):
+            pass
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(grace)
+        os._exit(1)
+
+    threading.Thread(target=listen, daemon=True).start()

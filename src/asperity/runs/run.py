@@ -13,6 +13,7 @@ from asperity.runs.tree import Tree
 
 Progress = Callable[[int, int], None]
 Notify = Callable[[str], None]
+Watch = Callable[[Callable[[], Any]], None]
 
 
 # A work that takes a minute is announced: before, where there is a forecast, else once it has been
@@ -50,6 +51,8 @@ class Run:
         Where files of the answer go; the state is kept there.
     stem : str
         What those files are called.
+    watch : callable, optional
+        Takes what makes an answer of as much as is there, whenever there is more.
 
     Attributes
     ----------
@@ -64,10 +67,13 @@ class Run:
         notify: Notify | None = None,
         folder: Path | None = None,
         stem: str = "run",
+        watch: Watch | None = None,
     ) -> None:
         self.notify = notify or _silent
+        self.watch = watch or _silent
         self._progress = progress or _silent
         self._begun: tuple[float, int] | None = None
+        self._marks: list[tuple[float, int]] = []
         self._announced = False
         self.folder = folder
         self.detailed = folder is not None
@@ -95,10 +101,17 @@ class Run:
         now = time.monotonic()
         if self._begun is None:
             self._begun = now, done
+            self._marks = [(now, 0), (now, 0)]
         began, first = self._begun
-        if self._announced or now - began < _LOOK_SECONDS or done <= first:
+        steps = done - first
+        # What the first steps take says nothing: kernels may be compiled in them. What is measured
+        # begins where a quarter to a half of what is done now was done, not before two steps.
+        if steps >= max(1, 2 * self._marks[1][1]):
+            self._marks = [self._marks[1], (now, steps)]
+        since, before = self._marks[0]
+        if self._announced or now - began < _LOOK_SECONDS or not 1 < before < steps:
             return
-        left = (now - began) / (done - first) * (total - done)
+        left = (now - since) / (steps - before) * (total - done)
         if now - began + left > _LONG_SECONDS:
             self._announced = True
             self.notify(f"this will take about {duration(left)}")

@@ -1,9 +1,12 @@
 """A gearset's case from ratio, torque and speed alone."""
 
+import functools
+from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Table
-from asperity.errors import InputError
+from asperity.commands import Command, Option
+from asperity.errors import ConvergenceError, InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.start.kinds import KINDS, Values
@@ -16,6 +19,24 @@ MACRO = ("starts", "wheel_teeth", "centre_distance", "axial_module", "diameter_f
 _STAND_IN = {"starts": 1, "wheel_teeth": 40, "centre_distance": "100 mm", "axial_module": "4 mm"}
 
 
+SIZE = Command(
+    "size",
+    "Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.",
+    "With --out also size.json, size.nc and a case file for each proposal.",
+    prepare="",
+    solve="",
+    case="",
+    options=(
+        Option("ratio", "of the speeds", "RATIO", default=None),
+        Option("output_torque", "of the wheel", "TORQUE", default=None),
+        Option("worm_speed", "of the worm", "SPEED", default=None),
+        Option("rank", "size, efficiency or margin", "BY", default="size"),
+        Option("uncut", "whether the wheels of those that hold are not cut", default=False),
+    ),
+)
+"""As it is asked from a page."""
+
+
 def ratio_of(text: object) -> float:
     """Return a ratio that somebody gave; raises InputError."""
     try:
@@ -25,7 +46,7 @@ def ratio_of(text: object) -> float:
 
 
 def proposals(
-    values: Values, ratio: float, rank: str = "size", *, exact: bool = False
+    values: Values, ratio: float, rank: str = "size", *, exact: bool = False, cut: bool = False
 ) -> Proposals:
     """Propose gearsets for what a case file begins with.
 
@@ -38,13 +59,34 @@ def proposals(
         Of the speeds.
     rank, exact
         As in `asperity.studies.proposals.propose`.
+    cut : bool
+        Whether to cut the wheel of each one that is shown, and leave out what no hob cuts.
     """
     drop = (*MACRO, "worm_pitch_diameter", "profile_shift")
     kept = {key: value for key, value in values["gearset"].items() if key not in drop}
     gearset = _table(Gearset, kept | _STAND_IN)
     operation = _table(Operation, values["operation"])
     options = _table(RatingOptions, values.get("rating", {}))
-    return propose(ratio, gearset, operation, options, rank=rank, exact=exact)
+    return propose(
+        ratio,
+        gearset,
+        operation,
+        options,
+        rank=rank,
+        exact=exact,
+        can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
+    )
+
+
+def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
+    from asperity.flanks.wheel.enveloped import Wheel
+    from asperity.flanks.worm.setting import Pair
+
+    try:
+        Wheel.cut(Pair.of(_table(Gearset, {**values, **keys})))
+    except (InputError, ConvergenceError):
+        return False
+    return True
 
 
 def begun() -> Values:

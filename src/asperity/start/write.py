@@ -3,10 +3,13 @@
 import json
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+from asperity.casefile.case import Case, read_raw
 from asperity.casefile.schema import Key, keys_of, table_schema
 from asperity.casefile.table import Table, same_thing
+from asperity.shipped import describe
 from asperity.start.kinds import Values
 
 _WIDTH = 98
@@ -92,3 +95,39 @@ def toml(value: Any) -> str:
         return f"[{', '.join(map(toml, value))}]"
     # What JSON writes of a text, a number and a truth is TOML too.
     return json.dumps(value, ensure_ascii=False)
+
+
+def written(raw: Mapping[str, Mapping[str, Any]], title: str = "") -> str:
+    """Return tables as the text of a case file, as they are."""
+    lines = [f"# {title}"] if title else []
+    for name, given in raw.items():
+        lines += ["", f"[{name}]", *(f"{key} = {toml(value)}" for key, value in given.items())]
+    return "\n".join(lines).lstrip() + "\n"
+
+
+def as_set(case: Case) -> str:
+    """Return a case with its settings as the text of a file of the working directory."""
+    raw = {name: dict(given) for name, given in case.raw.items()}
+    for path in case.settings:
+        name, _, key = path.partition(".")
+        value = raw[name].get(key)
+        if isinstance(value, str) and Path(value).is_relative_to(Path.cwd()):
+            raw[name][key] = str(Path(value).relative_to(Path.cwd()))
+    return written(raw, f"{case.source}, with what was set on the page" if case.settings else "")
+
+
+def as_written(path: Path, tables: Mapping[str, type[Table]]) -> dict[str, Any]:
+    """Return title, tables and text of a case file, whether or not it can be used.
+
+    Values are texts, as a form has them.
+    """
+    case, text = read_raw(path, tables)
+    texts = {
+        name: {
+            str(key): value if isinstance(value, str) else toml(value)
+            for key, value in given.items()
+        }
+        for name, given in case.raw.items()
+        if isinstance(given, Mapping)
+    }
+    return {"title": describe(path), "tables": texts, "toml": text}

@@ -76,10 +76,10 @@ def _span(text: str) -> tuple[str, tuple[float, float]]:
             for number, own in (lower, upper)
         ]
     except InputError:
-        example = quantity.example
+        number, unit = split_unit(quantity.example) or ("1", "")
         raise InputError(
             f"--bounds {text}: it must be {name}=low:high with a unit, as in "
-            f"{name}={(split_unit(example) or ('1',))[0]}:{example}"
+            f"{name}={number}:{1.25 * float(number):g} {unit}".rstrip()
         ) from None
     if ends[0] > ends[1]:
         raise InputError(f"--bounds {text}: give the lower one first")

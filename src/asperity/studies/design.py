@@ -16,6 +16,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.threads import CLOSED_FORMS, thread_room
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import STANDARDS, rate
 from asperity.rating.variants import variants
@@ -44,6 +45,12 @@ _NUMBERS = {
 
 WORTH = ("eta_z1_2", "M_w_Nm", "M_s_Nm", "profile_shift")
 """What a design is judged by."""
+
+THREADS = "thread_room"
+"""What is left of the pitch where the threads of worm and hob are thinnest."""
+
+LEAST_THREADS = 1e-3
+"""Below it a design counts as pointed: above zero, so that what lies on the limit can be cut."""
 
 Span = tuple[float, float]
 
@@ -109,6 +116,8 @@ class Space:
         Bounds of the `VARIABLES` in SI.
     profile_shift : tuple of float
         Bounds of the profile shift.
+    least_threads : float or None
+        Least `THREADS` of a design; None where it is not looked at.
     start : ndarray
         The gearset as it is, as a point.
     """
@@ -125,6 +134,9 @@ class Space:
         self.gearset, self.operation = gearset, operation
         self.options, self.folder = options or RatingOptions(), folder
         self.least = dict(least or {})
+        # The thesis (3.3.5), which asks for torques alone, looks at no threads.
+        knows = least is not None and gearset.flank in CLOSED_FORMS
+        self._judged = (*WORTH, *((THREADS,) if knows else ()), *self.least)
         asked = {path.partition(".")[0] for path in self.least}
         self._standards = tuple(name for name in STANDARDS if name in {*NEEDED, *asked})
         for standard in NEEDED:
@@ -149,6 +161,8 @@ class Space:
             min(bounds.profile_shift[0], shift),
             max(bounds.profile_shift[1], shift),
         )
+        own = self.threads_of(geometry.diameter_factor, gearset.pressure_angle)
+        self.least_threads = min(LEAST_THREADS, float(own)) if knows else None
         self._free = np.flatnonzero(self.upper > self.lower)
         self.start = ((now - self.lower)[self._free]) / (self.upper - self.lower)[self._free]
 
@@ -182,12 +196,15 @@ class Space:
         shift = np.broadcast_to(found.given.profile_shift, found.shape)
         paths = _NUMBERS | {path: path for path in self.least}
         numbers = {key: found[path] for key, path in paths.items()} | {"profile_shift": shift}
+        if self.least_threads is not None:
+            q, alpha = found.given.diameter_factor, self.values(points)["pressure_angle"]
+            numbers[THREADS] = np.broadcast_to(self.threads_of(q, alpha), found.shape)
         return numbers | {"M_permissible_Nm": np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"])}
 
     def worth(self, points: FloatArray) -> FloatArray:
         """Return efficiency, permitted torques, profile shift and asked safeties, in rows."""
         found = self.numbers(points)
-        return np.stack([found[key] for key in (*WORTH, *self.least)], axis=-1)
+        return np.stack([found[key] for key in self._judged], axis=-1)
 
     def merit(self, rows: FloatArray, least: Mapping[str, float]) -> FloatArray:
         """Return from rows of worth the efficiency, and the room of torques and profile shift.
@@ -199,7 +216,7 @@ class Space:
         least : mapping of str to float
             Least torques by key.
         """
-        found = dict(zip((*WORTH, *self.least), rows.T, strict=True))
+        found = dict(zip(self._judged, rows.T, strict=True))
         room = [found[key] / bound - 1.0 for key, bound in least.items()]
         return np.stack([rows[:, 0], *room, *self.room(found)], axis=-1)
 
@@ -230,7 +247,14 @@ class Space:
         """Return by how much profile shift and safeties keep their bounds, none below zero."""
         shift = found["profile_shift"]
         safeties = [found[path] / bound - 1.0 for path, bound in self.least.items()]
+        if self.least_threads is not None:
+            safeties.append(found[THREADS] - self.least_threads)
         return [shift - self.profile_shift[0], self.profile_shift[1] - shift, *safeties]
+
+    def threads_of(self, diameter_factor: Any, pressure_angle: Any) -> FloatArray:
+        """Return the `THREADS` of designs."""
+        rule, starts = self.gearset.tooth_proportions, self.gearset.starts
+        return thread_room(self.gearset.flank, rule, starts, diameter_factor, pressure_angle)
 
     def points(self, designs: FloatArray) -> FloatArray:
         """Return the points of designs that are rows of `VARIABLES` in SI."""

@@ -14,6 +14,12 @@ SHOWN = {
 }
 """Numbers of a rating that are shown of a design, by standard."""
 
+EFFICIENCIES = {
+    "iso14521.eta_ges": "the efficiency of the gearbox by ISO/TR 14521",
+    "agma6034.eta": "the efficiency by AGMA 6034",
+}
+"""What may fall although the efficiency of the teeth by ISO/TR 14521 rises."""
+
 _FALL = 1e-3
 
 
@@ -64,7 +70,7 @@ def safeties_json(before: Rated, after: Rated, made: Rated | None) -> list[dict[
 
 
 def falls(before: Rated, after: Rated) -> list[str]:
-    """Return a sentence for each safety that falls, is lost, or does not hold."""
+    """Return a sentence for each safety that falls, is lost, or does not hold, and efficiency."""
     said = []
     for path, asked, old, new in safety_rows(before, after):
         if new is None:
@@ -73,4 +79,11 @@ def falls(before: Rated, after: Rated) -> list[str]:
             said.append(f"{path} does not hold: {new:.3g}; at least {asked:g} is asked")
         elif old is not None and new < old * (1.0 - _FALL):
             said.append(f"{path} falls from {old:.3g} to {new:.3g}; {asked:g} is asked")
+    for path, what in EFFICIENCIES.items():
+        standard, _, key = path.partition(".")
+        if not all(standard in rated.found for rated in (before, after)):
+            continue
+        old, new = (float(rated.found[standard][key]) for rated in (before, after))
+        if new < old - _FALL:
+            said.append(f"{what} falls from {100 * old:.1f} to {100 * new:.1f} %")
     return said

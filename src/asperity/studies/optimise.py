@@ -23,7 +23,7 @@ from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.studies.asked import bounds_of, known_safeties, least_safeties
 from asperity.studies.climb import climb, spread
-from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
+from asperity.studies.design import ASSUMED, THREADS, VARIABLES, Bounds, Space
 from asperity.studies.designs import (
     SHOWN,
     design_numbers,
@@ -188,12 +188,15 @@ class Optimum(Result):
         rows += [
             [f"{path} (asked {asked:g})", *values] for path, asked, *values in safety_rows(*designs)
         ]
+        symbols = [limit.symbol for limit in self.limits if limit.relation != "<="]
         active = [[limit.key, limit.relation, limit.bound, limit.value] for limit in self.active]
         remarks = [
             f"eta_z {points(self.gain)} points; {self.agreed} of {self.starts} starts agree",
             "other constraints do not hold it back: "
             + ", ".join(
-                f"{limit.symbol} {limit.relation} {limit.bound:.4g}"
+                # Two standards may have one symbol for what each of them asks.
+                f"{limit.key if symbols.count(limit.symbol) > 1 else limit.symbol} "
+                f"{limit.relation} {limit.bound:.4g}"
                 for limit in self.limits
                 if not limit.active
             ),
@@ -351,6 +354,11 @@ def _limits(space: Space, capacity: Mapping[str, float], after: Rated) -> tuple[
             bound = space.least[demand.path]
             active = value - bound < _ACTIVE * bound
             limits.append(Limit(demand.path, demand.symbol, ">=", bound, value, active))
+    if space.least_threads is not None:
+        g = after.geometry
+        room = float(space.threads_of(g.diameter_factor, g.pressure_angle))
+        active = room - space.least_threads < _ACTIVE
+        limits.append(Limit(THREADS, "thread room", ">=", space.least_threads, room, active))
     h_star = _number(after, "h_star")
     limits.append(Limit("h_star", "h*", ">", 0.0, h_star, h_star < _ACTIVE))
     spans = {

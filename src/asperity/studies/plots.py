@@ -93,6 +93,8 @@ def plot_comparison(dataset: "xr.Dataset") -> "Figure":
         axes.annotate(
             f"{efficiency[row]:.1f}", (efficiency[row], place), (4, 0),
             textcoords="offset points", va="center",
+            # The line of the first may pass behind the number, not through it.
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
         )  # fmt: skip
     if shaken.size:
         axes.plot(
@@ -103,7 +105,7 @@ def plot_comparison(dataset: "xr.Dataset") -> "Figure":
     axes.set_yticks(places, list(dataset["name"].values))
     axes.tick_params(axis="y", length=0.0)
     axes.grid(visible=False, axis="y")
-    axes.set_xlim(0.0, 105.0)
+    axes.set_xlim(0.0, 110.0)
     axes.set_ylim(-0.6, count - 0.4)
     axes.set_xlabel(r"efficiency of the teeth $\eta_{z1-2}$ (%)")
     if shaken.size:

@@ -6,6 +6,7 @@ and margin together; where none holds, the nearest ones are told as such.
 """
 
 import math
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.sizing import possible_starts
+from asperity.gearset.threads import thread_room
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import STANDARDS
@@ -117,11 +119,13 @@ class Proposals(Result):
              f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", p.limited_by)
             for place, p in enumerate(self.found[:MOST], 1)
         ]  # fmt: skip
-        first = " ".join(f'--set "{setting}"' for setting in self.found[0].settings)
+        best = self.found[0]
+        first = " ".join(f'--set "{setting}"' for setting in best.settings)
         remarks = [
             f"{self.rated} gearsets rated, {self.holding} hold by every standard; shown are those "
             f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
-            f"the first one: {first}",
+            # One that breaks is nobody's first one.
+            *([f"the first one: {first}"] if best.holds else []),
             *(self.notes if self.holding else self.notes[:-1]),
         ]
         if len(self.found) > MOST:
@@ -138,6 +142,7 @@ def propose(
     *,
     rank: str = "size",
     exact: bool = False,
+    can_be_cut: Callable[[Mapping[str, Any]], bool] | None = None,
 ) -> Proposals:
     """Propose gearsets for a ratio, by the torque and the speed of an operation.
 
@@ -156,6 +161,9 @@ def propose(
     exact : bool
         Whether the teeth must give the ratio as nearly as they can; else a tooth more or less is
         proposed too.
+    can_be_cut : callable, optional
+        Whether a hob cuts the wheel of a gearset with the keys of a `Proposal`. What is shown is
+        asked for, and others take the place of what cannot be cut.
 
     Raises
     ------
@@ -174,7 +182,16 @@ def propose(
             f"ratio is {gear_ratio:g}, which no whole numbers of starts and teeth give within "
             f"{100 * _RATIO_OFF:g} %; choose another"
         )
-    starts, teeth, distance, module, factor, shift = np.array(grid).T
+    tried = np.array(grid).T
+    room = thread_room(
+        gearset.flank, gearset.tooth_proportions, tried[0], tried[4], gearset.pressure_angle
+    )
+    starts, teeth, distance, module, factor, shift = tried[:, room > 0.0]
+    if not starts.size:
+        raise InputError(
+            f"gearset.pressure_angle is {math.degrees(gearset.pressure_angle):.4g} deg, with which "
+            f"every thread for a ratio of {gear_ratio:g} is pointed: take a smaller one"
+        )
     rated = variants(
         gearset,
         operation,
@@ -198,29 +215,9 @@ def propose(
             "no gearset of the series can be rated for this; look for a value with a wrong unit"
         )
     worth = np.stack([-distance, efficiency, margins], axis=-1)
-    notes = list(rated.notes)
-    if operation.through_travel_torque is None and operation.duty_cycle is None:
-        notes.append(
-            "BS 721 judges wear by a third of the torque, which is assumed for the travel; where "
-            "it is the whole one, give operation.through_travel_torque"
-        )
-    if holding.any():
-        kept = kept[_undominated(worth[kept])]
-        if not rated_by_all[kept].all():
-            notes.append(
-                "none holds by every standard, since one or another cannot rate these; they hold "
-                "by those that can"
-            )
-    else:
-        kept = kept[np.argsort(-margins[kept], kind="stable")[:MOST]]
-        notes.append("none holds by every standard; these come nearest")
-    order = {"size": (-efficiency, distance), "efficiency": (distance, -efficiency),
-             "margin": (distance, -margins)}[rank]  # fmt: skip
-    if holding.any():
-        kept = kept[np.lexsort(tuple(keys[kept] for keys in order))]
-    paths = [demand.path for demand in DEMANDS]
-    found = tuple(
-        Proposal(
+
+    def proposal(n: int) -> Proposal:
+        return Proposal(
             int(starts[n]),
             int(teeth[n]),
             float(distance[n]),
@@ -229,16 +226,40 @@ def propose(
             float(f"{shift[n]:.12g}"),
             float(efficiency[n]),
             float(margins[n]),
-            paths[least[n]],
+            DEMANDS[least[n]].path,
             bool(holding[n]),
         )
-        for n in kept
-    )
+
+    def best(of: Any) -> Any:
+        if holding.any():
+            return of[_undominated(worth[of])]
+        return of[np.argsort(-margins[of], kind="stable")[:MOST]]
+
+    shown, uncut = _that_can_be_cut(kept, best, proposal, can_be_cut)
+    notes = list(rated.notes)
+    if pointed := len(grid) - starts.size:
+        notes.append(f"left out: {pointed} whose worm or hob would have pointed threads")
+    if uncut:
+        notes.append(f"left out: {uncut} whose wheel no hob cuts (asperity flank tells why)")
+    if operation.wear_assumed:
+        notes.append(operation.wear_assumed)
+    if holding.any():
+        if not rated_by_all[shown].all():
+            notes.append(
+                "none holds by every standard, since one or another cannot rate these; they hold "
+                "by those that can"
+            )
+    else:
+        notes.append("none holds by every standard; these come nearest")
+    order = {"size": (-efficiency, distance), "efficiency": (distance, -efficiency),
+             "margin": (distance, -margins)}[rank]  # fmt: skip
+    if holding.any():
+        shown = shown[np.lexsort(tuple(keys[shown] for keys in order))]
     return Proposals(
-        rated=len(grid),
+        rated=starts.size,
         holding=int((holding & rated_by_all).sum()),
         ranked_by=rank,
-        found=found,
+        found=tuple(map(proposal, shown)),
         notes=tuple(notes),
     )
 
@@ -259,6 +280,28 @@ def _grid(gear_ratio: float, *, exact: bool) -> list[tuple[float, ...]]:
                         if abs(shift) <= MOST_SHIFT:
                             found.append((starts, teeth, distance, module, factor, shift))
     return found
+
+
+def _that_can_be_cut(
+    kept: Any,
+    best: Callable[[Any], Any],
+    proposal: Callable[[int], Proposal],
+    can_be_cut: Callable[[Mapping[str, Any]], bool] | None,
+) -> tuple[Any, int]:
+    """Return the best of what is kept, all of which a hob can cut, and how many it cannot."""
+    if can_be_cut is None:
+        return best(kept), 0
+    cut: dict[int, bool] = {}
+    while len(kept):
+        shown = best(kept)
+        cut |= {n: can_be_cut(proposal(n).keys) for n in shown if n not in cut}
+        if all(cut[n] for n in shown):
+            return shown, sum(not good for good in cut.values())
+        kept = np.array([n for n in kept if cut.get(n, True)], dtype=int)
+    raise InputError(
+        "no hob cuts the wheel of any gearset that could be proposed (asperity flank tells why): "
+        "take another gearset.flank, pressure angle or ratio"
+    )
 
 
 def _margins(rated: Variants) -> tuple[FloatArray, Any, Any]:

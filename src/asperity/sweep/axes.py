@@ -11,13 +11,15 @@ from typing import NoReturn
 
 from asperity import store
 from asperity.casefile import Case, Table, bare_unit, names_file, read_case, same_thing
-from asperity.errors import InputError, choices, nearest
-from asperity.shipped import case_file
+from asperity.casefile.columns import HEADING, KEY, read_rows
+from asperity.errors import InputError, choices, nearest, shown
+from asperity.shipped import case_file, points_file
 from asperity.sweep.subject import Subject, subject_of
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 MOST_POINTS = 1_000_000  # some 300 MB, and a quarter of an hour where each takes a millisecond
-_PATH = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
+_PATH = re.compile(KEY)
+_POINT = "point"  # the dimension of values that change together
 _FORMS = "1,2,3 or start:stop:step"
 _GRAIN = Decimal("1e-9")
 
@@ -38,12 +40,15 @@ class Axis:
         The same as the user wrote them, in `unit`.
     unit : str
         Unit of `shown`; empty for a ratio or for words.
+    along : str
+        The dimension that it shares with others, which change together with it; empty: its own.
     """
 
     path: str
     values: tuple[Value, ...]
     shown: tuple[Value, ...]
     unit: str = ""
+    along: str = ""
 
     @property
     def table(self) -> str:
@@ -67,6 +72,21 @@ class Axis:
         return f"{self.path}={number} {self.unit}".rstrip()
 
 
+def spanned(axes: Sequence[Axis]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the shape of a grid, and of each axis which of its dimensions it runs along."""
+    shape: list[int] = []
+    runs: list[int] = []
+    shared: dict[str, int] = {}
+    for axis in axes:
+        place = shared.get(axis.along, len(shape))
+        if place == len(shape):
+            shape.append(len(axis.values))
+        if axis.along:
+            shared[axis.along] = place
+        runs.append(place)
+    return tuple(shape), tuple(runs)
+
+
 @dataclasses.dataclass(frozen=True)
 class _Written:
     """An axis as it was written, with the key it belongs to."""
@@ -75,7 +95,8 @@ class _Written:
     model: type[Table]
     key: str
     parts: tuple[str, ...]
-    is_range: bool
+    is_range: bool = False
+    along: str = ""
 
     @property
     def path(self) -> str:
@@ -86,7 +107,7 @@ class _Written:
         return quantity_of(self.model, self.key)
 
     def refuse(self, reason: str) -> NoReturn:
-        raise InputError(f"--over {self.text}: {reason}")
+        raise InputError(f"{self.text}: {reason}")
 
     def unit_given(self) -> str:
         """Return the unit that counts for all parts that have none of their own."""
@@ -107,6 +128,7 @@ def read_grid(
     tables: Mapping[str, type[Table]],
     settings: Sequence[str],
     over: Sequence[str],
+    points: str = "",
 ) -> tuple[Case, list[Axis]]:
     """Read a case and the axes of a grid over it.
 
@@ -120,6 +142,8 @@ def read_grid(
     over : sequence of str
         ``table.key=1,2,3`` or ``table.key=start:stop:step``, the stop included where it falls on
         the grid; a unit with each number, or after the last one for all.
+    points : str
+        A file of values that change together, see `_columns`.
 
     Raises
     ------
@@ -127,15 +151,14 @@ def read_grid(
         One line that names the file, setting or axis, the key, the value and what is allowed.
     """
     subject = subject_of(_named_tables(name_or_path, settings))
-    written = [_split(text, tables, subject) for text in over]
-    _distinct(written)
+    written = _written(over, points, tables, subject)
     first = [axis.first_setting() for axis in written]
     try:
         case = read_case(name_or_path, tables, [*settings, *first])
     except InputError as error:
         message = str(error)
         for setting, axis in zip(first, written, strict=True):
-            message = message.replace(f"--set {setting}:", f"--over {axis.text}:")
+            message = message.replace(f"--set {setting}:", f"{axis.text}:")
         raise InputError(message) from None
     return case, _within_bounds([_axis(axis, case) for axis in written])
 
@@ -145,26 +168,25 @@ def read_first(
     tables: Mapping[str, type[Table]],
     settings: Sequence[str],
     *,
-    over: Sequence[str],
+    over: Sequence[str] | None,
+    points: str = "",
     **_: object,
 ) -> Case:
     """Return the first point of a grid, as `read_grid`."""
-    return read_grid(name_or_path, tables, settings, over)[0]
+    return read_grid(name_or_path, tables, settings, over or (), points)[0]
 
 
-def parse_axes(over: Sequence[str], case: Case) -> list[Axis]:
+def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
     """Parse the axes of a grid over a case that is complete without them.
 
     Parameters
     ----------
-    over : sequence of str
+    over, points
         As for `read_grid`.
     case : Case
         Gives the tables, and the unit of a number without one.
     """
-    subject = subject_of(case)
-    written = [_split(text, case.known, subject) for text in over]
-    _distinct(written)
+    written = _written(over, points, case.known, subject_of(case))
     return _within_bounds([_axis(axis, case) for axis in written])
 
 
@@ -177,35 +199,74 @@ def _named_tables(name_or_path: str, settings: Sequence[str]) -> dict[str, objec
     return named
 
 
+def _written(
+    over: Sequence[str], points: str, tables: Mapping[str, type[Table]], subject: Subject
+) -> list[_Written]:
+    columns = _columns(points_file(points), tables, subject) if points else []
+    written = [*columns, *(_split(text, tables, subject) for text in over)]
+    _distinct(written)
+    return written
+
+
+def _columns(path: Path, tables: Mapping[str, type[Table]], subject: Subject) -> list[_Written]:
+    """Return the axes of a table in CSV whose rows are points: keys with their units above."""
+    name, rows = read_rows(path, "points")
+    found = []
+    for place, text in enumerate(rows[0][1]):
+        heading = HEADING.fullmatch(text)
+        if heading is None:
+            raise InputError(
+                f"{name}: the column {shown(text)} must be a key of the case with its unit, as in "
+                "'vibration.frequency [Hz]'"
+            )
+        where = f"{name}: the column {heading[1]}"
+        model, key = _key_of(heading[1], where, tables, subject)
+        unit = (heading[2] or "").strip()
+        parts = tuple(f"{cells[place].strip()} {unit}".strip() for _, cells in rows[1:])
+        written = _Written(where, model, key, parts, along=_POINT)
+        if empty := next((row for row, cells in rows[1:] if not cells[place].strip()), None):
+            written.refuse(f"row {empty} is empty; give every row a value")
+        if unit and written.quantity is None:
+            written.refuse(f"it holds words, which have no unit; leave out [{unit}]")
+        found.append(written)
+    return found
+
+
 def _split(text: str, tables: Mapping[str, type[Table]], subject: Subject) -> _Written:
     text = " ".join(text.split())
     path, equals, values = (part.strip() for part in text.partition("="))
-    names = _PATH.fullmatch(path)
-    if not equals or not names:
-        raise InputError(f"--over {text}: it must be table.key={_FORMS}, as in friction.mu=0.1,0.2")
-    name, key = names.groups()
-    if name not in tables:
-        raise InputError(
-            f"--over {text}: [{name}] is not a table of a case file{nearest(name, tables)}"
-        )
-    if name not in subject.tables:
-        raise InputError(
-            f"--over {text}: [{name}] has no part in {subject.what}; take one of "
-            f"{choices(subject.tables)}"
-        )
-    model = tables[name]
-    if key not in model.model_fields:
-        raise InputError(
-            f"--over {text}: {path} is not a key of [{name}]{nearest(key, model.model_fields)}"
-        )
+    where = f"--over {text}"
+    if not equals or not _PATH.fullmatch(path):
+        raise InputError(f"{where}: it must be table.key={_FORMS}, as in friction.mu=0.1,0.2")
+    model, key = _key_of(path, where, tables, subject)
     is_range = ":" in values and quantity_of(model, key) is not None
     parts = tuple(part.strip() for part in values.split(":" if is_range else ","))
-    written = _Written(text, model, key, parts, is_range)
+    written = _Written(where, model, key, parts, is_range)
     if is_range and (len(parts) != 3 or "," in values):
         written.refuse(f"{path} is {values!r}; it must be {_FORMS}")
     if not all(parts):
         written.refuse(f"{path} has an empty value; it must be {_FORMS}")
     return written
+
+
+def _key_of(
+    path: str, where: str, tables: Mapping[str, type[Table]], subject: Subject
+) -> tuple[type[Table], str]:
+    """Return the table and the key of a path that may be swept."""
+    name, _, key = path.partition(".")
+    if name not in tables:
+        raise InputError(f"{where}: [{name}] is not a table of a case file{nearest(name, tables)}")
+    if name not in subject.tables:
+        raise InputError(
+            f"{where}: [{name}] has no part in {subject.what}; take one of "
+            f"{choices(subject.tables)}"
+        )
+    model = tables[name]
+    if key not in model.model_fields:
+        raise InputError(
+            f"{where}: {path} is not a key of [{name}]{nearest(key, model.model_fields)}"
+        )
+    return model, key
 
 
 def _distinct(axes: Sequence[_Written]) -> None:
@@ -214,11 +275,12 @@ def _distinct(axes: Sequence[_Written]) -> None:
             if other.model is axis.model and other.key in same_thing(axis.model, axis.key):
                 both = "twice" if other.key == axis.key else f"and so is {other.path}"
                 again = f"{axis.path} is given {both}"
-                axis.refuse(f"{again}; give one --over for the same thing")
+                only = "column" if axis.along else "--over"
+                axis.refuse(f"{again}; give one {only} for the same thing")
 
 
 def _within_bounds(axes: list[Axis]) -> list[Axis]:
-    points = math.prod(len(axis.values) for axis in axes)
+    points = math.prod(spanned(axes)[0])
     if points > MOST_POINTS:
         raise InputError(
             f"--over: the grid has {points} points; at most {MOST_POINTS} are allowed: take "
@@ -231,12 +293,11 @@ def _axis(written: _Written, case: Case) -> Axis:
     quantity = written.quantity
     if quantity is None:
         return _words(written)
-    old = case.raw.get(written.model.table, {}).get(written.key)
     unit = written.unit_given()
     parts = [_number(written, part, quantity) for part in written.parts]
     if any(given for _, given in parts) and not unit and quantity.unit:
         written.refuse("some values have a unit; give it with the last one, or with each")
-    unit = unit or (bare_unit(quantity, old) if quantity.unit else "")
+    unit = unit or (bare_unit(quantity) if quantity.unit else "")
     if quantity.unit and not unit:
         written.refuse(f"{written.path} is without a unit; {quantity.expected()}")
     numbers = [_in_unit(written, quantity, *part, unit) for part in parts]
@@ -265,7 +326,8 @@ def _words(written: _Written) -> Axis:
 
 def _once(written: _Written, axis: Axis) -> Axis:
     seen: set[Value] = set()
-    for index, value in enumerate(axis.values):
+    axis = dataclasses.replace(axis, along=written.along)
+    for index, value in enumerate(axis.values if not axis.along else ()):
         if value in seen:
             written.refuse(f"{axis.text(index)} is given twice; give every value once")
         seen.add(value)

@@ -162,7 +162,7 @@ def prepare(case: Case, *, over: Sequence[str]) -> tuple[Case, Axis, list[Model]
         given = " ".join(f"--over {text}" for text in over)
         raise InputError(
             f"{given}: states are followed along one axis of two numbers or more, as in "
-            "--over vibration.frequency=2000:5000:50"
+            "--over 'vibration.frequency=2000:5000:50 Hz'"
         )
     grid = Grid(case, axes)
     if not isinstance(grid.subject, Bodies):

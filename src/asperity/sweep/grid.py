@@ -11,7 +11,7 @@ import numpy as np
 from asperity.casefile import Case, Table
 from asperity.errors import AsperityError, InputError
 from asperity.runs.key import code_key, key
-from asperity.sweep.axes import Axis
+from asperity.sweep.axes import Axis, spanned
 from asperity.sweep.subject import subject_of
 
 # Enough for the inner axis of a large grid; more would let memory grow with the grid.
@@ -38,11 +38,13 @@ class Grid:
 
     def __init__(self, case: Case, axes: Sequence[Axis]) -> None:
         if not axes:
-            raise InputError("the sweep has no axis; give one, as in --over friction.mu=0.1,0.2")
+            raise InputError(
+                "the sweep has no axis; give one, as in --over friction.mu=0.1,0.2, or --points"
+            )
         self.case = case
         self.subject = subject_of(case)
         self.axes = tuple(axes)
-        self.shape = tuple(len(axis.values) for axis in axes)
+        self.shape, self._runs = spanned(axes)
         self.size = math.prod(self.shape)
         self._table = functools.lru_cache(maxsize=_KEPT_TABLES)(self._make_table)
         self._members = {
@@ -58,7 +60,8 @@ class Grid:
     def describe(self, index: int) -> str:
         """Return the point in words: ``vibration.direction=45 deg, friction.law=split``."""
         places = np.unravel_index(index, self.shape)
-        return ", ".join(axis.text(int(at)) for axis, at in zip(self.axes, places, strict=True))
+        at = [int(places[run]) for run in self._runs]
+        return ", ".join(axis.text(place) for axis, place in zip(self.axes, at, strict=True))
 
     def points(self, indices: Sequence[int]) -> Iterator[Point]:
         """Yield points by index.
@@ -69,6 +72,7 @@ class Grid:
             A point cannot be, and is no gap: one line that names it.
         """
         places = np.stack(np.unravel_index(np.asarray(indices), self.shape), axis=1)
+        places = places[:, self._runs]
         for index, row in zip(indices, places.tolist(), strict=True):
             try:
                 yield self._point(index, row)

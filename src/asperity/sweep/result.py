@@ -14,7 +14,7 @@ from asperity.errors import ConvergenceError
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.slider.periodic import UNSTABLE
-from asperity.sweep.axes import Axis
+from asperity.sweep.axes import Axis, spanned
 from asperity.sweep.subject import Subject, named
 
 if TYPE_CHECKING:
@@ -90,13 +90,23 @@ class SweepResult(Result):
         return int(np.count_nonzero(self.status != SOLVED))
 
     @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions: the last part of the path, the whole where that is shared."""
+    def names(self) -> tuple[str, ...]:
+        """Names of the axes: the last part of the path, the whole where that is shared."""
         keys = [axis.key for axis in self.axes]
         return tuple(
             axis.key if keys.count(axis.key) == 1 else f"{axis.table}_{axis.key}"
             for axis in self.axes
         )
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions: of their axis, or that which several change along."""
+        return tuple(dict.fromkeys(self._along))
+
+    @property
+    def _along(self) -> tuple[str, ...]:
+        """Name of the dimension that each axis runs along."""
+        return tuple(axis.along or name for axis, name in zip(self.axes, self.names, strict=True))
 
     @property
     def beside(self) -> tuple[str, ...]:
@@ -145,13 +155,22 @@ class SweepResult(Result):
             "flag_meanings": f"solved {self._of.flag}",
         }
         variables["status"] = (self.dims, self.status, flags)
-        coordinates = {
-            dim: (
+        coordinates: dict[str, Any] = {
+            axis.along: (
+                axis.along,
+                np.arange(1, len(axis.shown) + 1),
+                {"units": "1", "long_name": f"number of the {axis.along}"},
+            )
+            for axis in self.axes
+            if axis.along
+        }
+        coordinates |= {
+            name: (
                 dim,
                 np.array(axis.shown, dtype=float if axis.numeric else object),
                 {"units": axis.unit or "1", "long_name": axis.key.replace("_", " ")},
             )
-            for dim, axis in zip(self.dims, self.axes, strict=True)
+            for name, dim, axis in zip(self.names, self._along, self.axes, strict=True)
         }
         attributes = {
             "title": self._of.title,
@@ -164,7 +183,7 @@ class SweepResult(Result):
         """The ratio over the grid, None where there is none, and what was done for it."""
         told = self.arrays if self._of.whole else (self._of.shown, *self.beside)
         return {
-            "dims": [axis.path for axis in self.axes],
+            "dims": list(dict.fromkeys(axis.along or axis.path for axis in self.axes)),
             "coords": {axis.path: list(axis.shown) for axis in self.axes},
             "units": {axis.path: axis.unit for axis in self.axes},
             **{name: _listed(self.arrays[name]) for name in told},
@@ -195,7 +214,7 @@ class SweepResult(Result):
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
-        return super().write(folder, pictures=pictures if len(self.axes) <= MOST_AXES else "")
+        return super().write(folder, pictures=pictures if len(self.dims) <= MOST_AXES else "")
 
 
 class Answers:
@@ -242,13 +261,18 @@ def _table(
 ) -> Table:
     """Return variables by heading over a grid, of at most some rows."""
     values = next(iter(variables.values()))
-    matrix = len(variables) == 1 and len(axes) == 2 and len(axes[1].shown) <= _MOST_COLUMNS
+    shape, runs = spanned(axes)
+    plain = len(variables) == 1 and len(shape) == len(axes) == 2
+    matrix = plain and len(axes[1].shown) <= _MOST_COLUMNS
     if matrix:
         headings = [" \\ ".join(map(_heading, axes)), *map(_text, axes[1].shown)]
         rows = [[shown, *row] for shown, row in zip(axes[0].shown, values.tolist(), strict=True)]
     else:
         headings = [*map(_heading, axes), *variables]
-        places = itertools.product(*(axis.shown for axis in axes))
+        places = (
+            [axis.shown[at[run]] for axis, run in zip(axes, runs, strict=True)]
+            for at in np.ndindex(*shape)
+        )
         columns = np.stack([each.ravel() for each in variables.values()], axis=1)
         pairs = zip(places, columns.tolist(), strict=True)
         rows = [[*place, *numbers] for place, numbers in itertools.islice(pairs, _MOST_ROWS + 1)]

@@ -76,9 +76,11 @@ class Problem:
     cache: bool = True
 
 
-def prepare(case: Case, *, over: Sequence[str], cluster: str = "") -> Problem:
+def prepare(
+    case: Case, *, over: Sequence[str] | None = (), points: str = "", cluster: str = ""
+) -> Problem:
     """Return the problem of a grid over a case; raises InputError for axes that cannot be."""
-    return Problem(case, tuple(parse_axes(over, case)), cluster)
+    return Problem(case, tuple(parse_axes(over or (), case, points)), cluster)
 
 
 def answer(problem: Problem, doing: Run) -> SweepResult:
@@ -89,10 +91,29 @@ def answer(problem: Problem, doing: Run) -> SweepResult:
     doing.forecast(_seconds(grid, first, bool(problem.cluster)), f"{grid.size} points")
     kept = Rows.of_this_user("sweep", doing.notify) if problem.cache else None
     sweep = _Sweep(grid, kept, doing)
+    varied = {axis.path for axis in grid.axes}
+    inputs = grid.subject.inputs(first)
+
+    def found() -> SweepResult:
+        answers = sweep.answers
+        return SweepResult(
+            source=problem.case.source,
+            axes=grid.axes,
+            arrays={name: array.reshape(grid.shape) for name, array in answers.arrays.items()},
+            status=answers.status.reshape(grid.shape),
+            failures={grid.describe(at): why for at, why in sorted(answers.reasons.items())},
+            shared={path: value for path, value in inputs.items() if path not in varied},
+            subject=grid.subject.name,
+            cached=grid.size - len(sweep.missing),
+            seconds=time.perf_counter() - began,
+            file=None if doing.folder is None else doing.folder / "sweep.nc",
+        )
+
     try:
         sweep.look_up()
         if sweep.missing:
-            sweep.solve(problem.cluster)
+            doing.watch(found)
+            sweep.solve(problem.cluster, lambda: doing.watch(found))
     except KeyboardInterrupt:
         count = sweep.done if kept is not None and kept.usable else 0
         raise Interrupted(
@@ -103,22 +124,7 @@ def answer(problem: Problem, doing: Run) -> SweepResult:
     finally:
         if kept is not None:
             kept.close()
-    varied = {axis.path for axis in grid.axes}
-    answers = sweep.answers
-    return SweepResult(
-        source=problem.case.source,
-        axes=grid.axes,
-        arrays={name: array.reshape(grid.shape) for name, array in answers.arrays.items()},
-        status=answers.status.reshape(grid.shape),
-        failures={grid.describe(index): why for index, why in sorted(answers.reasons.items())},
-        shared={
-            path: value for path, value in grid.subject.inputs(first).items() if path not in varied
-        },
-        subject=grid.subject.name,
-        cached=grid.size - len(sweep.missing),
-        seconds=time.perf_counter() - began,
-        file=None if doing.folder is None else doing.folder / "sweep.nc",
-    )
+    return found()
 
 
 class _Sweep:
@@ -156,12 +162,12 @@ class _Sweep:
                     self.missing.append(index)
         self.doing.checkpoint(self.done, self.grid.size, what="points")
 
-    def solve(self, cluster: str) -> None:
-        """Solve what is missing."""
+    def solve(self, cluster: str, more: Callable[[], None]) -> None:
+        """Solve what is missing; tell whenever there is more."""
         workers = pool(cluster, self.doing.notify, self.grid.subject.name)
         waiting: dict[cf.Future[list[Row]], list[Point]] = {}
         try:
-            self._feed(workers, waiting)
+            self._feed(workers, waiting, more)
         except BaseException:
             workers.stop()
             for future, points in waiting.items():
@@ -171,7 +177,12 @@ class _Sweep:
         finally:
             workers.close()
 
-    def _feed(self, workers: Pool, waiting: dict[cf.Future[list[Row]], list[Point]]) -> None:
+    def _feed(
+        self,
+        workers: Pool,
+        waiting: dict[cf.Future[list[Row]], list[Point]],
+        more: Callable[[], None],
+    ) -> None:
         tasks = self._tasks()
         while True:
             while len(waiting) < workers.room and (indices := next(tasks, None)):
@@ -190,6 +201,8 @@ class _Sweep:
                     raise workers.failure(error) from None
                 self._accept(waiting[future], rows)
                 del waiting[future]
+            if done:
+                more()
 
     def _tasks(self) -> Iterator[list[int]]:
         # Points of one kind together, so that they fill a compiled batch.

@@ -1,0 +1,47 @@
+"""An answer as a program shows it: its JSON, what is behind each number, and what is drawn."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from asperity.results.quantity import plain
+from asperity.results.result import Result
+from asperity.results.variables import rounded
+
+_POINTS = 129
+
+
+def told(result: Result) -> dict[str, Any]:
+    """Return everything that is told of a result.
+
+    Returns
+    -------
+    dict
+        ``answer``, the JSON; ``entries``, its numbers each with symbol, unit, meaning, equation,
+        source, trust and below what it is rounding; ``notes``; ``series``, numbers to draw; and
+        ``svg``, drawings to scale.
+    """
+    traces = result.traces(_POINTS)
+    return {
+        "answer": result.to_json(),
+        "entries": list(_entries(result)),
+        "notes": list(result.notes),
+        "series": {name: rounded(values) for name, values in traces.items()},
+        "svg": dict(result.views()),
+    }
+
+
+def _entries(result: Result) -> Iterator[dict[str, Any]]:
+    how = result.heading()
+    for key, entry in result.keyed():
+        label, origin = entry.label, entry.origin
+        yield {
+            "key": key,
+            "symbol": label.symbol,
+            "value": plain(entry.value),
+            "unit": label.unit,
+            "meaning": label.meaning,
+            "equation": origin.equation if origin else "",
+            "source": str(origin.source) if origin else how,
+            "trust": origin.trust if origin else "computed",
+            "resolution": entry.resolution,
+        }
