@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 _GROUND = "#F2F2F2"
 _LINES = 12
+# More than any part of a velocity.
+_BEYOND = 9.0
 _SIDES = {1: BLUE, -1: VERMILION}
 _MICROMETRES = 1e3
 _SHAKEN = {"axial": "worm, axial", "torsional": "worm, torsional", "wheel_axial": "wheel, axial"}
@@ -56,7 +58,7 @@ def ease_off(dataset: "xr.Dataset") -> "Figure":
     rounding = _MICROMETRES * RESOLVED
     if max(-low, high) <= rounding:
         for panel in axes:
-            _none(panel)
+            _zero(panel, f"zero within {rounding:.0g} µm:\nan identical hob cut the wheel")
         return figure
     if high - low <= rounding:
         low, high = low - 1.0, high + 1.0
@@ -114,9 +116,10 @@ def transmission_error(dataset: "xr.Dataset") -> "Figure":
             dashes=(1, 0) if side > 0 else (4, 2),
         )  # fmt: skip
     axes.margins(y=0.25)
-    if peak <= RESOLVED / float(dataset["radius"].max()):
+    least = RESOLVED / float(dataset["radius"].max())
+    if peak <= least:
         axes.set_ylim(-1.0, 1.0)
-        _none(axes)
+        _zero(axes, f"zero within {1e6 * least:.0g} µrad: the wheel turns evenly")
     axes.set_xlim(angle[0], angle[-1])
     axes.set_xlabel("angle of the worm (°)")
     axes.set_ylabel("error of the wheel (µrad)")
@@ -139,10 +142,14 @@ def vibration(dataset: "xr.Dataset") -> "Figure":
         for column, part in enumerate(parts):
             panel = axes[row * len(parts) + column]
             panel.grid(visible=False)
+            share = flank["vibration"].sel(direction=direction, part=part).values
             filled = panel.contourf(
-                face, radius, flank["vibration"].sel(direction=direction, part=part),
-                levels=levels, cmap="RdBu_r", extend="both",
-            )  # fmt: skip
+                face, radius, share, levels=levels, cmap="RdBu_r", extend="both"
+            )
+            # In black and white red is as dark as blue.
+            panel.contourf(
+                face, radius, share, levels=[-_BEYOND, levels[10]], colors="none", hatches=["////"]
+            )
             panel.plot(*outline(face, radius), color=BLACK, linewidth=1.0)
             if row == 0:
                 panel.set_title(part)
@@ -154,7 +161,8 @@ def vibration(dataset: "xr.Dataset") -> "Figure":
                 panel.set_ylabel(f"{name}\nradius (mm)")
             else:
                 panel.tick_params(labelleft=False)
-    _bar(figure, filled, axes, "part of the vibration's velocity", location="right")
+    said = "part of the vibration's velocity, hatched below zero"
+    _bar(figure, filled, axes, said, location="right")
     figure.axes[-1].set_yticks(np.linspace(-1.0, 1.0, 5))
     return figure
 
@@ -189,8 +197,8 @@ def _flanks(dataset: "xr.Dataset") -> "tuple[Figure, list[Axes]]":
     return figure, axes
 
 
-def _none(panel: "Axes") -> None:
-    panel.text(0.5, 0.55, "none", transform=panel.transAxes, ha="center", va="center", color=BLACK)
+def _zero(panel: "Axes", why: str) -> None:
+    panel.text(0.5, 0.6, why, transform=panel.transAxes, ha="center", va="center", color=BLACK)
 
 
 def _levels(low: float, high: float) -> FloatArray:

@@ -1,5 +1,6 @@
 """What is found of the flanks of a worm gearset."""
 
+import functools
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -7,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from asperity.errors import AsperityError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
 from asperity.flanks.measuring.drawing import Datum, csv_of, drawing_data
@@ -16,15 +18,20 @@ from asperity.flanks.meshing.lubrication import LoadedNumbers
 from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
+from asperity.gearset import Geometry
+from asperity.gearset.drawn import Drawn
 from asperity.mesh import HexMesh
-from asperity.results import Quantities, Result, labelled, part, quantity
+from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset
-from asperity.results.quantity import text_of
+from asperity.results.quantity import Entry, Number, text_of
 from asperity.results.table import Column, Table, table_of
 from asperity.store import write_text
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from asperity.flanks.export.cad.solids import Solids
+    from asperity.results.report import Picture
 
 _DRAWING = "drawing.csv"
 _PLOTS = "asperity.flanks.plots"
@@ -73,7 +80,7 @@ class ToothMesh(Quantities):
         )
 
 
-class FlankStudy(Result):
+class FlankStudy(Drawn):
     """The flanks of a worm gearset: how they were made, how they touch, and a mesh.
 
     Attributes
@@ -125,6 +132,11 @@ class FlankStudy(Result):
     seconds: float = quantity("", "s", "time it took", key="seconds", only="json", shown=False)
 
     @property
+    def geometry(self) -> Geometry:
+        """What follows from the gearset's numbers."""
+        return self.analysis.pair.geometry
+
+    @property
     @labelled(
         "j_n", "mm", "backlash, normal, least over a pitch",
         key="backlash_normal_mm", variable="backlash_normal_least",
@@ -161,13 +173,25 @@ class FlankStudy(Result):
             "assumed": [key for key in sizes if key not in given]
         }
 
+    @functools.cached_property
+    def solids(self) -> "Solids | None":
+        """Tooth, worm and wheel as the STEP files hold them, where they are asked for."""
+        from asperity.flanks.export.cad.solids import Solids
+
+        return Solids.of(self.wheel, self.assembly, self.blanks) if self.step else None
+
+    @property
+    def failure(self) -> AsperityError | None:
+        """Which STEP files cannot be written, and why."""
+        return None if self.solids is None else self.solids.failure
+
     @property
     def drawing(self) -> list[Datum]:
         """The data of worm and wheel that stand on their drawings."""
         return drawing_data(self.wheel.pair, self.measuring)
 
     def resolution(self, name: str) -> float:
-        """Return the size below which a quantity is rounding and shown as none, in its unit."""
+        """Return the size below which a quantity is rounding and shown as zero, in its unit."""
         return RESOLVED if name == "backlash" else 0.0
 
     def to_json(self) -> dict[str, Any]:
@@ -227,32 +251,54 @@ class FlankStudy(Result):
         """Return what it is of."""
         return self.name or self.title
 
+    def keyed(self) -> Iterator[tuple[str, Entry]]:
+        """Yield the numbers of JSON, those of both flanks under their side."""
+        yield from super().keyed()
+        for side, flank in self.analysis.flanks.items():
+            for key, entry in flank.keyed():
+                yield f"flanks.{side:+d}.{key}", entry
+
+    def attached(self) -> dict[str, bytes]:
+        """Return the file that the gearset is drawn from in space."""
+        from asperity.flanks.export.space.packed import drawn_from
+
+        parts = self.wheel, self.analysis, self.assembly, self.blanks
+        return {"flanks.bin": drawn_from(self.heading(), *parts)}
+
     def tables(self) -> tuple[Table, ...]:
         """Return tables of gearset, flanks, load, vibrations and mesh, and the notes."""
         pair, flanks = self.analysis.pair, self.analysis.flanks
         parts = list(flanks[1].vibration["axial"])
         vibration = [
-            (_DIRECTIONS[direction], *(_share(value) for value in by_part.values()))
+            (
+                _DIRECTIONS[direction],
+                *(_share(value, f"{direction}.{name}") for name, value in by_part.items()),
+            )
             for direction, by_part in flanks[1].vibration.items()
         ]
         loaded = [flank.loaded for flank in flanks.values()]
         return (
             table_of(self, title=f"{pair.flank}, {pair.hand} hand"),
-            _by_side("flank", map(_texts, flanks.values())),
+            _by_side("flank", map(_texts, flanks, flanks.values())),
             *(
-                [_by_side("under load, worst over a pitch", map(_worst, loaded))]
+                [_by_side("under load, worst over a pitch", map(_worst, flanks, loaded))]
                 if all(loaded)
                 else []
             ),
             Table.of(("part of a vibration, s = +1", *parts), vibration),
             self.measuring.table(),
             table_of(
-                self.mesh, title=f"mesh of a tooth, {self.mesh.density}", remarks=self._remarks()
+                self.mesh,
+                title=f"mesh of a tooth, {self.mesh.density}",
+                remarks=self._remarks(),
+                within="mesh",
             ),
         )
 
     def _remarks(self) -> Iterator[str]:
         yield from self.notes
+        if abs(self.backlash) <= RESOLVED:
+            yield "there is no backlash, since none is asked for: give mount.backlash for play"
         for words, group in (
             ("from memory, check before use", self.from_memory),
             ("assumed, give them to replace the defaults", self.assumed),
@@ -260,6 +306,18 @@ class FlankStudy(Result):
             if group:
                 listed = "; ".join(f"{key} ({text})" for key, text in group.items())
                 yield f"{words}: {listed}"
+
+    def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
+        """Return its pictures for a page, first of them the gearset as it turns."""
+        from asperity.flanks.export.files import GEARSET, TURNING
+        from asperity.results.report import Picture
+
+        others = super().pictures(folder)
+        path = None if folder is None else folder / TURNING
+        if path is None or not path.is_file():
+            return others
+        said = "It turns on by a pitch. From all sides, in any viewer of GLB:"
+        return Picture("In mesh", caption=said, moving=path, beside=GEARSET), *others
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write numbers, pictures, meshes and bodies to a folder that exists; return names."""
@@ -277,29 +335,31 @@ class FlankStudy(Result):
                 folder,
                 blanks=self.blanks,
                 name=self.heading(),
-                step=self.step,
+                solids=self.solids,
             ),
         ]
 
 
-def _texts(answer: Quantities) -> dict[tuple[str, str], str]:
-    """What is shown of an answer by meaning and unit."""
+def _texts(side: int, answer: Quantities) -> dict[tuple[str, str], str]:
+    """What is shown of a flank by meaning and unit."""
     return {
-        (entry.label.meaning, entry.label.unit): text_of(entry.value, entry.resolution)
+        (entry.label.meaning, entry.label.unit): text_of(
+            entry.value, entry.resolution, f"flanks.{side:+d}.{entry.key}"
+        )
         for entry in answer.entries()
         if entry.label.shown and not entry.label.dims
     }
 
 
-def _worst(loaded: tuple[Any, ...]) -> dict[tuple[str, str], str]:
-    numbers = [lines.numbers for lines in loaded]
-    labels = {entry.name: entry.label for entry in LoadedNumbers.declared()}
-    return {
-        (labels[name].meaning, labels[name].unit): text_of(
-            choose(getattr(each, name) for each in numbers)
-        )
-        for name, choose in _WORST.items()
-    }
+def _worst(side: int, loaded: tuple[Any, ...]) -> dict[tuple[str, str], str]:
+    known = {entry.name: entry for entry in LoadedNumbers.declared()}
+    shown = {}
+    for name, choose in _WORST.items():
+        values = [getattr(lines.numbers, name) for lines in loaded]
+        worst, entry = choose(values), known[name]
+        key = f"flanks.{side:+d}.loaded.{values.index(worst)}.{entry.key}"
+        shown[entry.label.meaning, entry.label.unit] = text_of(worst, key=key)
+    return shown
 
 
 def _by_side(title: str, sides: Iterator[dict[tuple[str, str], str]]) -> Table:
@@ -313,5 +373,5 @@ def _by_side(title: str, sides: Iterator[dict[tuple[str, str], str]]) -> Table:
     return Table(columns, rows)
 
 
-def _share(value: float) -> str:
-    return "none" if value < RESOLVED else f"{value:.3f}"
+def _share(value: float, name: str) -> str:
+    return "0" if value < RESOLVED else Number(f"{value:.3f}", value, f"vibration.{name}")

@@ -10,6 +10,7 @@ from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.rating.levers import Judge
 from asperity.rating.parameters import Operation
+from asperity.results.quantity import Number, Sentence
 
 _NOTHING = 0.01
 _WORDS = {"operation.lubricant": "oil", "gearset.wheel_material": "wheel"}
@@ -32,11 +33,11 @@ class Alternative(NamedTuple):
     value: str
     safety: float
 
-    def told(self, asked: float) -> str:
+    def told(self, asked: float, key: str = "") -> Sentence:
         """In words, beside what is asked: beyond ten times that, how far says nothing."""
-        much = 10.0 * asked
-        safety = f"{self.safety:.3g}" if self.safety < much else f"over {much:g}"
-        return f"{_WORDS[self.key]} {self.value} ({safety})"
+        much, near = 10.0 * asked, Number.of(self.safety, ".3g", key and f"{key}.safety")
+        safety = near if self.safety < much else f"over {much:g}"
+        return Sentence(f"{_WORDS[self.key]} {self.value} (", safety, ")")
 
 
 def alternatives(judge: Judge, gearset: Gearset, operation: Operation) -> tuple[Alternative, ...]:

@@ -10,7 +10,7 @@ import math
 from asperity.arrays import Real, smaller
 from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
-from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
+from asperity.rating.parameters import DEFAULT_LIFE, THROUGH_TRAVEL, Operation, RatingOptions
 
 Values = dict[str, Real]
 """What a standard's calculation found, by the keys of a rating; NaN where there is no answer."""
@@ -19,8 +19,6 @@ _HOUR = 3600.0
 _ZERO_CELSIUS = 273.15
 RPM = 60.0 / (2.0 * math.pi)
 """Turns a minute in a radian a second."""
-THROUGH_TRAVEL = 1.0 / 3.0
-"""Torque through the travel over the rated one, where it is left out (thesis 3.2.1)."""
 
 _SPAN = 1.5
 _STRENGTH_SHARE = 0.1

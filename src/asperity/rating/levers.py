@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from asperity.errors import AsperityError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import DEFAULT_LIFE, Operation
+from asperity.results.quantity import Number, Sentence
 
 _STEP = 1.01
 # Of ISO 3448. Within a step of a percent the sump's temperature of ISO/TR 14521 says nothing of an
@@ -36,10 +37,11 @@ class Lever(NamedTuple):
     keys: tuple[str, ...]
     exponent: float
 
-    @property
-    def text(self) -> str:
+    def told(self, key: str = "") -> Sentence:
         """In words: what to do for more safety, and what a percent of it brings."""
-        return f"{'more' if self.exponent > 0 else 'less'} {self.name} ({abs(self.exponent):.1f})"
+        word, times = ("more", 1.0) if self.exponent > 0 else ("less", -1.0)
+        brings = Number.of(self.exponent, ".1f", key and f"{key}.exponent", times)
+        return Sentence(f"{word} {self.name} (", brings, ")")
 
 
 def levers(judge: Judge, gearset: Gearset, operation: Operation) -> tuple[Lever, ...]:

@@ -12,10 +12,14 @@ from asperity.errors import InputError, shown
 from asperity.gearset.bearings import Bearings
 from asperity.gearset.library import find, resolve
 from asperity.gearset.lubricants import Lubricant
+from asperity.results.quantity import Number, Sentence
 from asperity.units import Quantity
 
 DEFAULT_LIFE = 25000.0 * 3600.0
 """Life in seconds where none is required: that of AGMA 6034 and of ISO/TR 14521's own tests."""
+
+THROUGH_TRAVEL = 1.0 / 3.0
+"""Torque through the travel over the rated one, where it is left out (thesis 3.2.1)."""
 
 _ASSUMED = {
     "through_travel_torque": "a third of output_torque",
@@ -172,6 +176,27 @@ class Operation(Table):
                 f"not exceed operation.output_torque, {self.output_torque:g} N m"
             )
         return self
+
+    @property
+    def wear_assumed(self) -> str:
+        """What is to be said of the torque that wear is judged by; empty where it is given."""
+        return self.wear_told()
+
+    def wear_told(self, within: str = "") -> Sentence | str:
+        """As `wear_assumed`, its numbers by where they stand ``within`` an answer's JSON."""
+        if self.through_travel_torque is not None:
+            return ""
+        of_wear, rated = (
+            Number.of(value, ".4g", within and f"{within}.{name}_torque_Nm")
+            for name, value in (
+                ("through_travel", THROUGH_TRAVEL * self.output_torque),
+                ("output", self.output_torque),
+            )
+        )
+        return Sentence(
+            "wear is judged at T_2 = ", of_wear, " N m, assumed a third of the ", rated,
+            " N m given: of a constant load give operation.through_travel_torque",
+        )  # fmt: skip
 
     @property
     def assumed(self) -> Mapping[str, str]:

@@ -81,6 +81,8 @@ class Rated(Result):
         What the formulas started from.
     tables_bs721 : Tables
         Those of BS 721.
+    contact : Section or None
+        What its report shows of how the flanks touch, where that was asked for.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -98,11 +100,14 @@ class Rated(Result):
     alternatives: tuple[Alternative, ...] = ()
     given: Inputs
     tables_bs721: Tables
+    contact: "Section | None" = None
 
     @property
     def verdict(self) -> Verdict:
         """Whether it holds by each standard, and what fails first."""
-        return Verdict.of(self.found, self.levers, self.alternatives)
+        return Verdict.of(
+            self.found, self.levers, self.alternatives, self.given.operation.wear_assumed
+        )
 
     @property
     def forces(self) -> tuple[Forces, ...]:
@@ -154,7 +159,15 @@ class Rated(Result):
                     key=f"{standard}.{number.key}",
                     variable=f"{standard}_{number.key}",
                 )
-                yield Entry(f"{standard}.{number.symbol or number.key}", label, number.value)
+                name = f"{standard}.{number.symbol or number.key}"
+                yield Entry(name, label, number.value, origin=number)
+
+    def views(self) -> dict[str, str]:
+        """Return the gearset drawn to scale."""
+        from asperity.gearset.drawing import along_the_wheel, through_the_wheel
+
+        along, through = along_the_wheel(self.geometry), through_the_wheel(self.geometry)
+        return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
         """Return the gearset's name."""
@@ -278,6 +291,7 @@ def rate(
     return Rated(
         levers=(),
         alternatives=(),
+        contact=None,
         given=given,
         tables_bs721=tables,
         gearset=gearset,

@@ -12,6 +12,7 @@ import math
 from typing import Any, NamedTuple
 
 from asperity.rating.result import Rating
+from asperity.results.quantity import Number, Sentence
 
 _MIXED, _FULL = 1.0, 3.0
 _RMS = math.sqrt(math.pi / 2.0)  # over the arithmetic mean, of heights normally distributed
@@ -59,10 +60,14 @@ class Film(NamedTuple):
         """Return it by key."""
         return {"thickness_um": self.thickness, "lambda": self.ratio, "regime": self.regime}
 
-    def sentence(self) -> str:
-        """Return it in words."""
+    def sentence(self, key: str = "") -> Sentence:
+        """Return it in words, the numbers by where they stand in JSON if it is there."""
         kind = self.regime if self.regime == "full film" else f"{self.regime} lubrication"
-        return (
-            f"{kind}: film {self.thickness:.2g} um, lambda {self.ratio:.2g} (wheel as rough as the "
-            "worm)"
+        thickness, ratio = (f"{key}.thickness_um", f"{key}.lambda") if key else ("", "")
+        return Sentence(
+            f"{kind}: film ",
+            Number.of(self.thickness, ".2g", thickness),
+            " um, lambda ",
+            Number.of(self.ratio, ".2g", ratio),
+            " (wheel as rough as the worm)",
         )

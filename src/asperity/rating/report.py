@@ -1,14 +1,15 @@
 """What the report of a rating says, from verdict to sources."""
 
+import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
-from asperity.gearset.drawing import along_the_wheel, through_the_wheel
+from asperity.gearset.drawn import drawn
 from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
-from asperity.rating.verdict import NAMES, bar
+from asperity.rating.verdict import NAMES, bar, locking_line, power_lines
 from asperity.results.quantity import text_of
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
@@ -23,6 +24,11 @@ _FRAME = (
     "part of a case: its shaft takes the wheel's forces at the reference circle."
 )
 
+_NO_CONTACT = (
+    "The standards need none, so that no flanks were cut: asperity rate CASE --out FOLDER "
+    "--pattern shows them here, and asperity flank CASE --out FOLDER tells all of the flanks."
+)
+
 
 Reported = Any
 """A `asperity.rating.rate.Rated`, whose module imports this one."""
@@ -31,19 +37,15 @@ Reported = Any
 def sections(rated: Reported) -> Iterator[Section]:
     """Yield the sections of the report of a rating."""
     cited: dict[Source, int] = {}
-    yield Section(
-        "Verdict", tuple(rated.verdict.sentences()), tables=tuple(_verdict(rated))
-    )  # fmt: skip
-    g = rated.geometry
-    views = (Picture("", svg=svg, caption=said)
-             for svg, said in (along_the_wheel(g), through_the_wheel(g)))  # fmt: skip
-    yield Section("The gearset", pictures=tuple(views), tables=(_geometry(rated),))
+    yield Section("Verdict", tuple(_come_to(rated)), tables=tuple(_verdict(rated)))
+    yield dataclasses.replace(drawn(rated.geometry), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
         flow = Picture("", svg=power_flow(rated.iso14521),
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
         yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
         yield Section("Forces on shafts and bearings", (said,), tables=(_forces(rated),))
+    yield rated.contact or Section("Contact pattern and lines", (_NO_CONTACT,))
     yield Section("Self-locking", tables=(_self_locking(rated), *_held(rated)))
     limits = tuple(
         Table((), (), title, rating.violations or ("no limit of validity is violated",))
@@ -57,6 +59,17 @@ def sections(rated: Reported) -> Iterator[Section]:
     for name, rating in rated.found.items():
         yield Section(f"Calculation by {rating.standard}", tables=(_numbers(name, rating, cited),))
     yield Section("Sources", tables=(_sources(cited),))
+
+
+def _come_to(rated: Reported) -> Iterator[str]:
+    """Yield the sentences of the verdict: strength, power, film, self-locking."""
+    verdict = rated.verdict
+    yield from verdict.sentences()
+    if rated.iso14521 is not None:
+        yield from power_lines(rated.iso14521)
+    if verdict.film is not None:
+        yield verdict.film.sentence("verdict.film")
+    yield locking_line(rated.self_locking)
 
 
 def _columns(*names: str) -> tuple[Column, ...]:
@@ -85,8 +98,10 @@ def _verdict(rated: Reported) -> Iterator[Table]:
         Column("asked", right=True), Column(""), Column(""),
     )  # fmt: skip
     said = "Bars end at three times what is asked; the mark is what is asked."
+    told = rated.given.operation.wear_told("iso14521" if rated.iso14521 is not None else "")
+    wear = (told,) if rated.verdict.wear_assumed else ()
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
-    yield Table(columns, tuple(rows), remarks=(said, *unrated))
+    yield Table(columns, tuple(rows), remarks=(said, *wear, *unrated))
 
 
 def _geometry(rated: Reported) -> Table:

@@ -32,12 +32,11 @@ from asperity.gearset.proportions import RULES, Heights
 from asperity.rating.inputs import (
     GEOMETRY,
     RPM,
-    THROUGH_TRAVEL,
     Inputs,
     face_width_that_carries,
     inputs,
 )
-from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.parameters import THROUGH_TRAVEL, Operation, RatingOptions
 
 _FROM_SI = {"mm": 1e3, "um": 1e6, "rpm": RPM}
 
@@ -139,36 +138,11 @@ def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Rea
         else:
             z2 = z1 * given["gear_ratio"]
     a, m, q = now("centre_distance"), now("axial_module"), now("diameter_factor")
-    if "profile_shift" not in given:
-        return {
-            "starts": z1,
-            "wheel_teeth": z2,
-            "gear_ratio": z2 / z1,
-            "centre_distance": a,
-            "axial_module": m,
-            "diameter_factor": q,
-            "profile_shift": relations.profile_shift(a, m, q, z2),
-        }
-    x2 = given["profile_shift"]
-    follows = [n for n in ("axial_module", "diameter_factor", "centre_distance") if n not in given]
-    if not follows:
-        raise InputError(
-            "profile_shift, centre_distance, axial_module and diameter_factor are given; keep "
-            "three of them"
-        )
-    shifted = q + z2 + 2.0 * x2
-    if follows[0] == "axial_module":
-        possible = shifted > 0.0
-        m = np.where(possible, 2.0 * a / np.where(possible, shifted, 1.0), base.axial_module)
-    elif follows[0] == "diameter_factor":
-        q = 2.0 * a / m - z2 - 2.0 * x2
-        possible = q > 0.0
-        q = np.where(possible, q, base.diameter_factor)
+    if "profile_shift" in given:
+        x2 = given["profile_shift"]
+        a, m, q = _with_shift(base, given, mask, (a, m, q), z2 + 2.0 * x2)
     else:
-        a = 0.5 * m * shifted
-        possible = a > 0.0
-        a = np.where(possible, a, base.centre_distance)
-    mask.refuse(~possible, f"with this profile_shift the {follows[0]} is not positive")
+        x2 = relations.profile_shift(a, m, q, z2)
     return {
         "starts": z1,
         "wheel_teeth": z2,
@@ -178,6 +152,32 @@ def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Rea
         "diameter_factor": q,
         "profile_shift": x2,
     }
+
+
+def _with_shift(
+    base: Inputs, given: Mapping[str, Real], mask: Mask, now: tuple[Real, Real, Real], teeth: Real
+) -> tuple[Real, Real, Real]:
+    """Centre distance, module and diameter factor, of which one follows from shifted teeth."""
+    a, m, q = now
+    follows = [n for n in ("axial_module", "diameter_factor", "centre_distance") if n not in given]
+    if not follows:
+        raise InputError(
+            "profile_shift, centre_distance, axial_module and diameter_factor are given; keep "
+            "three of them"
+        )
+    if follows[0] == "axial_module":
+        possible = q + teeth > 0.0
+        m = np.where(possible, 2.0 * a / np.where(possible, q + teeth, 1.0), base.axial_module)
+    elif follows[0] == "diameter_factor":
+        q = 2.0 * a / m - teeth
+        possible = q > 0.0
+        q = np.where(possible, q, base.diameter_factor)
+    else:
+        a = 0.5 * m * (q + teeth)
+        possible = a > 0.0
+        a = np.where(possible, a, base.centre_distance)
+    mask.refuse(~possible, f"with this profile_shift the {follows[0]} is not positive")
+    return a, m, q
 
 
 def derived(

@@ -11,6 +11,7 @@ from asperity.rating.levers import Lever
 from asperity.rating.regime import Film
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
+from asperity.results.quantity import Number, Sentence
 
 NAMES = {"iso14521": "ISO/TR 14521", "bs721": "BS 721", "agma6034": "AGMA 6034"}
 """What people call the standards."""
@@ -47,6 +48,12 @@ class Safety(NamedTuple):
         """Whether it is enough."""
         return self.value >= self.demand.asked
 
+    @property
+    def said(self) -> str:
+        """What there is of what is asked, and that it fails where it does."""
+        d = self.demand
+        return f"{d.symbol} {self.value:.3g} of {d.asked:g}{'' if self.holds else '  FAILS'}"
+
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""
         d = self.demand
@@ -69,6 +76,8 @@ class Verdict(NamedTuple):
         The oil and the wheel material of those with a name that bring most of it.
     film : Film or None
         The oil between the teeth, by ISO/TR 14521.
+    wear_assumed : str
+        What is to be said of the torque that wear is judged by.
     """
 
     safeties: tuple[Safety, ...]
@@ -76,6 +85,7 @@ class Verdict(NamedTuple):
     levers: tuple[Lever, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
     film: Film | None = None
+    wear_assumed: str = ""
 
     @classmethod
     def of(
@@ -83,6 +93,7 @@ class Verdict(NamedTuple):
         found: Mapping[str, Rating],
         levers: tuple[Lever, ...] = (),
         alternatives: tuple[Alternative, ...] = (),
+        wear_assumed: str = "",
     ) -> "Verdict":
         """Return the verdict of ratings by standard."""
         asked = [demand for demand in DEMANDS if demand.standard in found]
@@ -93,6 +104,7 @@ class Verdict(NamedTuple):
             levers,
             alternatives,
             Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
+            wear_assumed if any(demand.name == "wear" for demand in rated) else "",
         )
 
     def __repr__(self) -> str:
@@ -135,8 +147,8 @@ class Verdict(NamedTuple):
             "film": None if self.film is None else self.film.to_json(),
         }
 
-    def sentences(self) -> Iterator[str]:
-        """Yield whether it holds, and what fails first."""
+    def sentences(self, within: str = "verdict") -> Iterator[str]:
+        """Yield whether it holds, and what fails first; it stands ``within`` that in JSON."""
         holds = [NAMES[name] for name, holds in self.holds.items() if holds]
         fails = [NAMES[name] for name, holds in self.holds.items() if not holds]
         parts = [f"does not hold by {_and(fails)}"] if fails else []
@@ -145,20 +157,34 @@ class Verdict(NamedTuple):
         first = self.first
         if first is None:
             return
-        d = first.demand
-        begin = "nearest to its limit" if first.holds else "first to fail"
-        said = f"{begin}: {d.name} by {NAMES[d.standard]}, {d.symbol} {first.value:.3g} of the "
-        said += f"{d.asked:g} asked"
+        d, own = first.demand, f"{within}.safeties.{self.safeties.index(first)}"
+        said: list[str] = [
+            f"{'nearest to its limit' if first.holds else 'first to fail'}: {d.name} by "
+            f"{NAMES[d.standard]}, {d.symbol} ",
+            Number.of(first.value, ".3g", f"{own}.value"),
+            " of the ",
+            Number.of(d.asked, "g", f"{own}.asked"),
+            " asked",
+        ]
         if self.levers:
-            strongest = ", ".join(lever.text for lever in self.levers[:_MOST_LEVERS])
-            said += f"; a percent of it brings most: {strongest}"
-        yield said
+            strongest = (
+                lever.told(f"{within}.moved_by.{place}")
+                for place, lever in enumerate(self.levers[:_MOST_LEVERS])
+            )
+            said += ["; a percent of it brings most: ", Sentence.joined(strongest)]
+        yield Sentence(*said)
         if self.alternatives:
-            better = ", ".join(other.told(d.asked) for other in self.alternatives)
-            yield f"best listed: {better}"
+            better = (
+                other.told(d.asked, f"{within}.alternatives.{place}")
+                for place, other in enumerate(self.alternatives)
+            )
+            yield Sentence("best listed: ", Sentence.joined(better))
 
     def bars(self) -> Iterator[str]:
-        """Yield a line each safety: its bar up to three times what is asked, and numbers."""
+        """Yield a line each safety: its bar up to three times what is asked, and numbers.
+
+        Below them what the bars of wear are judged by, where it is assumed.
+        """
         if not self.safeties:
             return
         unit = _BAR // int(_LONGEST)
@@ -167,8 +193,8 @@ class Verdict(NamedTuple):
         for safety in self.safeties:
             d = safety.demand
             name = f"{NAMES[d.standard]} {d.name}"
-            said = f"{d.symbol} {safety.value:.3g} of {d.asked:g}"
-            yield f"{name:25} {bar(safety.margin)} {said}{'' if safety.holds else '  FAILS'}"
+            yield f"{name:25} {bar(safety.margin)} {safety.said}"
+        yield from _wrapped(self.wear_assumed)
 
 
 def bar(margin: float) -> str:
@@ -190,19 +216,25 @@ def bar(margin: float) -> str:
 
 def power_lines(iso: Rating) -> Iterator[str]:
     """Yield efficiency and losses of a rating by ISO/TR 14521."""
-    n = {entry.key: entry.value for entry in iso}
+
+    def number(key: str, form: str, times: float = 1.0) -> Number:
+        return Number.of(float(iso[key]), form, f"iso14521.{key}", times)
+
     parts = {"teeth": "meshing", "idling": "idle", "bearings": "bearing", "seals": "seal"}
-    losses = {name: float(n[f"loss_{key}_W"]) for name, key in parts.items()}
+    keys = {name: f"loss_{key}_W" for name, key in parts.items()}
     # Three digits say enough, and the line stays one.
-    shares = " + ".join(
-        f"{name} {value:.0f}" if value >= 100.0 else f"{name} {value:.3g}"
-        for name, value in losses.items()
+    shares = (
+        Sentence(f"{name} ", number(key, ".0f" if float(iso[key]) >= 100.0 else ".3g"))
+        for name, key in keys.items()
     )
-    yield (
-        f"efficiency {100 * float(n['eta_ges']):.1f} % of the gearbox, "
-        f"{100 * float(n['eta_z1_2']):.1f} % of the teeth (ISO/TR 14521)"
-    )
-    yield (f"losses {sum(losses.values()):.4g} W of {float(n['input_power_W']):.4g} W: {shares}")
+    yield Sentence(
+        "efficiency ", number("eta_ges", ".1f", 100.0), " % of the gearbox, ",
+        number("eta_z1_2", ".1f", 100.0), " % of the teeth (ISO/TR 14521)",
+    )  # fmt: skip
+    yield Sentence(
+        "losses ", number("loss_total_W", ".4g"), " W of ", number("input_power_W", ".4g"), " W: ",
+        Sentence.joined(shares, " + "),
+    )  # fmt: skip
 
 
 def locking_line(locking: SelfLocking) -> str:
@@ -216,9 +248,9 @@ def locking_line(locking: SelfLocking) -> str:
             said.append(f"{words}{alone}")
     locked = f"locks itself {', '.join(said)}" if said else "does not lock itself"
     angles = [math.degrees(math.atan(v.friction)) for v in locking]
-    lead = math.degrees(locking.lead_angle)
+    lead = Number.of(math.degrees(locking.lead_angle), ".3g", "self_locking.lead_angle_deg")
     spread = f", friction {min(angles):.2g} to {max(angles):.2g} deg" if angles else ""
-    return f"{locked} (lead angle {lead:.3g} deg{spread})"
+    return Sentence(f"{locked} (lead angle ", lead, f" deg{spread})")
 
 
 def screen(

@@ -21,8 +21,9 @@ from asperity.rating.bs721.rating import rated as rated_bs721
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import Fact, facts
-from asperity.rating.inputs import THROUGH_TRAVEL, Inputs, Values
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
+from asperity.rating.parameters import THROUGH_TRAVEL
 from asperity.rating.result import Rating
 from asperity.rating.variation import derived
 from asperity.results.xlsx import Formula, Input, Sheet, place, write_workbook

@@ -14,11 +14,12 @@ from asperity.results.ledger import PowerLedger
 from asperity.runs import Stopped
 from asperity.slider.batch import solve_many
 from asperity.slider.friction_map import FrictionMap
+from asperity.slider.history import History
 from asperity.slider.homogenised import HomogenisedLaw, homogenise
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.parameters import Slider, Solve
-from asperity.slider.result import History, SlideResult
+from asperity.slider.result import SlideResult
 from asperity.slider.tables import TABLES
 
 __all__ = [

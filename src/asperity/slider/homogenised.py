@@ -17,6 +17,7 @@ from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
 from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.slider import homogenised_law as hl
+from asperity.slider.history import History
 from asperity.slider.homogenised_law import (
     HomogenisedLaw,
     homogenise,
@@ -26,7 +27,7 @@ from asperity.slider.homogenised_law import (
 from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.march import March
 from asperity.slider.model import Model
-from asperity.slider.result import History, SlideResult
+from asperity.slider.result import SlideResult
 from asperity.slider.timetable import march_notes
 from asperity.slider.wear import wear_and_heat
 

@@ -10,9 +10,10 @@ from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
+from asperity.slider.history import History
 from asperity.slider.integrators import integrator
 from asperity.slider.model import Model
-from asperity.slider.result import History, SlideResult
+from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import Timetable, march_notes

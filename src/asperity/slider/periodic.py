@@ -8,11 +8,12 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import kernels as k
+from asperity.slider.history import History
 from asperity.slider.integrators import Pressed, integrator
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.pressed import march_pressed
-from asperity.slider.result import History, SlideResult
+from asperity.slider.result import SlideResult
 from asperity.slider.shooting import ACCEPTED, SETTLING, differentiated, most_unknowns, shoot
 from asperity.slider.summary import history_of, summarise
 

@@ -44,17 +44,19 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     ratio = float(dataset["ratio"])
     upper.set_title(rf"Drive force, mean {ratio:.4g} $\mu F_N$", loc="left")
     upper.margins(x=0.0, y=0.12)
+    if upper.get_ylim()[0] > 0.0:
+        upper.set_ylim(bottom=0.0)
     last = slice(None)
     if frequency and not periodic:
         last = slice(int(np.searchsorted(time, time[-1] - _CYCLES / frequency)), None)
-    shown = 1e3 * (time[last] - time[last][0])
+    shown = 1e3 * (time[last] - (0.0 if periodic else time[last][0]))
     for axis, label, style in _FRICTION:
         if axis == "x" or np.any(dataset["friction"].sel(axis=axis)):
             along = dataset.sel(axis=axis).isel(time=last)
             _band(lower, shown, along, "friction", style["color"])
             lower.plot(shown, along["friction"], label=label, **style)
-    last_time = "time in the last cycles (ms)" if frequency else "time (ms)"
-    lower.set_xlabel(last_time)
+    whole = not frequency or periodic
+    lower.set_xlabel("time (ms)" if whole else "time in the last cycles (ms)")
     lower.set_ylabel("friction (N)")
     lower.set_title("Friction on the body", loc="left")
     lower.margins(x=0.0)
@@ -68,7 +70,7 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
         )
         for each in (lower, axes):
             shade_flight(each, shown, load, "in flight" if each is axes else None)
-        axes.set(xlabel=last_time, ylabel="normal force (N)")
+        axes.set(xlabel=lower.get_xlabel(), ylabel="normal force (N)")
         share = float(dataset["open_share"])
         axes.set_title(f"Normal force, {100.0 * share:.3g} % of the time in flight", loc="left")
         axes.margins(x=0.0)

@@ -9,9 +9,10 @@ from asperity.friction.loaded import STIFFNESS
 from asperity.friction.springs import stored_in_springs
 from asperity.normal import elastic_energy
 from asperity.results.ledger import PowerLedger, PressedLedger, guard
+from asperity.slider.history import History, PressedHistory
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
-from asperity.slider.result import History, PressedHistory, SlideResult
+from asperity.slider.result import SlideResult
 from asperity.slider.scaled import DAHL, LUGRE, NODE, PRESSED_NODE, SPRINGS, Parameters, Pressing
 from asperity.slider.space import normal_motion, remarks
 from asperity.slider.wear import wear_and_heat

@@ -114,6 +114,12 @@ class Body:
 
     def surface(self) -> Surface:
         """Return the body's skin as triangles, closed, with its outside outside."""
+        whole = self.skin()
+        size = float(np.ptp(whole.points, axis=0).max())
+        return whole.welded(_SAME * size)
+
+    def skin(self) -> Surface:
+        """Return the same in smooth pieces: points on the edges between them stand for each."""
         parts = [Surface.of_grid(patch.points, "mm") for patch in self.patches]
         circles = {}
         for ring in self.rings:
@@ -125,10 +131,9 @@ class Body:
             sectors, angles = _sectors(ring, hole)
             parts += sectors
             circles[float(ring[0][0, 2])] = angles
-        parts += [_revolved(section, circles) for section in self.turned]
-        whole = joined(parts)
-        size = float(np.ptp(whole.points, axis=0).max())
-        return whole.welded(_SAME * size)
+        for section in self.turned:
+            parts += _revolved(section, circles)
+        return joined(parts)
 
 
 def _sectors(ring: Sequence[FloatArray], hole: float) -> tuple[list[Surface], FloatArray]:
@@ -158,8 +163,8 @@ def _sectors(ring: Sequence[FloatArray], hole: float) -> tuple[list[Surface], Fl
     return parts, np.append(found, found[0] + 2.0 * math.pi)
 
 
-def _revolved(section: FloatArray, circles: Mapping[float, FloatArray]) -> Surface:
-    """Return a turned surface whose ends have the points of the circles that they lie on."""
+def _revolved(section: FloatArray, circles: Mapping[float, FloatArray]) -> list[Surface]:
+    """Return a turned surface by its edges; its ends have the points of circles they lie on."""
     ends = [
         next((circles[z] for z in circles if abs(z - height) < _SAME), None) if radius > 0 else None
         for radius, height in (section[0], section[-1])
@@ -171,7 +176,8 @@ def _revolved(section: FloatArray, circles: Mapping[float, FloatArray]) -> Surfa
     angle = first + share * (last - first)
     radius, z = section[:, :1], section[:, 1:]
     points = [radius * np.cos(angle), radius * np.sin(angle), z + 0.0 * angle]
-    return Surface.of_grid(np.stack(points, axis=-1), "mm")
+    rows = np.stack(points, axis=-1)
+    return [Surface.of_grid(rows[n : n + 2], "mm") for n in range(len(rows) - 1)]
 
 
 def _degree(count: int) -> int:

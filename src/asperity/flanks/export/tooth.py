@@ -1,6 +1,7 @@
 """The body of a wheel tooth with its share of the rim, of several teeth, of the whole wheel."""
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -123,16 +124,28 @@ def shown_tooth(wheel: Wheel) -> Body:
     return made.moved(np.diag([1.0, 1.0, wheel.pair.mirror]))
 
 
+def beside_flanks(wheel: Wheel, z: FloatArray) -> Body:
+    """Return an open surface for pictures: `shown_tooth` without its flanks.
+
+    Its columns are at ``z``, so that it meets grids of the flanks at the same columns.
+    """
+    grids = _outline(wheel, z, SHOWN.rows(1), SHOWN.on_arc)
+    left_out = (*_BELOW, "flank_plus", "flank_minus")
+    patches = [Patch(grid) for name, grid in grids.items() if name not in left_out]
+    made = Body("tooth", patches, _ends([grids]))
+    return made.moved(np.diag([1.0, 1.0, wheel.pair.mirror]))
+
+
 def _bands(wheel: Wheel, spacing: Spacing) -> list[dict[str, FloatArray]]:
-    """Return the grids round the first tooth, for each part of the face between kinks."""
+    """Return the grids round the first tooth, for each part of the face between kinks.
+
+    All have the same rows: where two meet, the curve that they share is through the same points.
+    """
     half, kink = wheel.blank.face_width / 2.0, wheel.blank.kink
     if kink is None:
-        return [_fitted(wheel, -half, half, spacing.across_throat, spacing)]
-    return [
-        _fitted(wheel, -half, -kink, spacing.across_rim, spacing),
-        _fitted(wheel, -kink, kink, spacing.across_throat, spacing),
-        _fitted(wheel, kink, half, spacing.across_rim, spacing),
-    ]
+        return _fitted(wheel, [(-half, half, spacing.across_throat)], spacing)
+    rim, throat = spacing.across_rim, spacing.across_throat
+    return _fitted(wheel, [(-half, -kink, rim), (-kink, kink, throat), (kink, half, rim)], spacing)
 
 
 def _ends(
@@ -147,24 +160,39 @@ def _ends(
 
 
 def _fitted(
-    wheel: Wheel, low: float, high: float, columns: int, spacing: Spacing
-) -> dict[str, FloatArray]:
-    """Return the grids round one tooth over a part of its face, fine enough for the splines."""
-    grids = _outline(wheel, np.linspace(low, high, columns), spacing.rows(1), spacing.on_arc)
+    wheel: Wheel, parts: Sequence[tuple[float, float, int]], spacing: Spacing
+) -> list[dict[str, FloatArray]]:
+    """Return the grids round one tooth over parts of its face, fine enough for the splines.
+
+    A part is its lower and its upper end, mm, and the columns it has at least.
+    """
+
+    def made(part: int, columns: int, rows: int) -> dict[str, FloatArray]:
+        low, high, least = parts[part]
+        z = np.linspace(low, high, _rows(least, columns))
+        return _outline(wheel, z, spacing.rows(rows), spacing.on_arc)
+
+    def coarse(grids: dict[str, FloatArray], finer: dict[str, FloatArray]) -> bool:
+        return any(_error(grids[name], finer[name]) > error for name, error in allowed.items())
+
     allowed = {
         f"{part}_{side}": error
         for part, error in (("flank", spacing.flank_error), ("fillet", spacing.fillet_error))
         for side in ("plus", "minus")
         if math.isfinite(error)
     }
+    columns = [1] * len(parts)
+    bands = [made(part, 1, 1) for part in range(len(parts))]
     for halving in range(1, _HALVINGS + 1 if allowed else 1):
-        steps = 2**halving
-        z = np.linspace(low, high, _rows(columns, steps))
-        finer = _outline(wheel, z, spacing.rows(steps), spacing.on_arc)
-        if all(_error(grids[name], finer[name]) <= error for name, error in allowed.items()):
+        finer = [made(part, 2 * columns[part], 2**halving) for part in range(len(parts))]
+        rough = list(map(coarse, bands, finer))
+        if not any(rough):
             break
-        grids = finer
-    return grids
+        # A part that is fine already takes the rows of its neighbours, no columns.
+        for part, halved in enumerate(rough):
+            columns[part] *= 2 if halved else 1
+            bands[part] = finer[part] if halved else made(part, columns[part], 2**halving)
+    return bands
 
 
 def _error(grid: FloatArray, finer: FloatArray) -> float:

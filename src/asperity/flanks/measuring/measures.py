@@ -19,6 +19,7 @@ from asperity.flanks.parameters import MeasuringOptions
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.results import Quantities, quantity
+from asperity.results.quantity import Number
 from asperity.results.table import Column, Table
 from asperity.sources import Source
 
@@ -120,7 +121,12 @@ class Measuring(Quantities):
     def table(self) -> Table:
         """Return a table in thousandths of a mm, as they are measured."""
         rows = [
-            (entry.label.meaning, entry.label.symbol, f"{entry.value + 0.0:.3f}", entry.label.unit)
+            (
+                entry.label.meaning,
+                entry.label.symbol,
+                Number(f"{round(entry.value, 3) + 0.0:.3f}", entry.value, f"measuring.{entry.key}"),
+                entry.label.unit,
+            )
             for entry in self.entries()
             if entry.value is not None
         ]

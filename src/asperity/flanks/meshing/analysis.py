@@ -1,11 +1,12 @@
 """Tooth contact analysis of a worm and its wheel: one call for all that is known of both flanks."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.flanks.meshing.backlash import Play, play, set_backlash
 from asperity.flanks.meshing.contact_lines import ContactLines, contact_lines
 from asperity.flanks.meshing.ease_off import EaseOff, ease_off
@@ -41,6 +42,9 @@ LABELS: Labels = {
     "part": (PARTS, "along and across the sliding velocity, along the normal"),
 }
 
+ANGLES = 32
+"""Angles of the worm over a pitch at which the load is found for maps."""
+
 _ANGLES = 8
 # What changes its sign in the mirror image Z -> -Z. Across the sliding is a normal times a
 # velocity, and turns round.
@@ -65,6 +69,8 @@ class FlankAnalysis(Quantities):
         Velocities and curvatures where each point is nearest to the worm.
     loaded : tuple of LoadedLines
         Contact lines under load at angles of the worm over a pitch; empty without a load.
+    load : Load, optional
+        What they are under.
     """
 
     transmission: Transmission = part(Transmission)
@@ -78,6 +84,7 @@ class FlankAnalysis(Quantities):
     side: int
     play: Play
     loaded: tuple[LoadedLines, ...] = ()
+    load: Load | None = None
 
     @property
     @labelled("", "mm", "centre of the pattern: face, radial", only="json")
@@ -139,6 +146,31 @@ class FlankAnalysis(Quantities):
     def contact_lines(self, worm_angle: float) -> ContactLines:
         """Return the contact lines of all teeth at an angle of the worm, rad."""
         return contact_lines(self.motion, self.grid, self.pair.geometry.starts, worm_angle)
+
+    def under_load(self, angles: int = ANGLES) -> tuple[LoadedLines, ...]:
+        """Return the contact lines under load at so many angles of the worm over a pitch.
+
+        None without a load. Errors as of `loaded_lines`.
+        """
+        if self.load is None:
+            return ()
+        pitch = 2.0 * math.pi / self.pair.geometry.starts
+        return tuple(
+            loaded_lines(self.transmission, self.contact_lines(pitch * n / angles), self.load)
+            for n in range(angles)
+        )
+
+    def line_load(self, loaded: Sequence[LoadedLines]) -> FloatArray:
+        """Return the line load on the grid, N/mm: each point's when it lies on a contact line.
+
+        How far the wheel yields is known at angles of the worm over a pitch, and linear between; 0
+        where the worm does not touch.
+        """
+        assert self.load is not None
+        pitch = 2.0 * math.pi / self.pair.geometry.starts
+        at, twist = zip(*((lines.lines.worm_angle, lines.twist) for lines in loaded), strict=True)
+        yields = np.interp(self.motion.phase, at, twist, period=pitch)
+        return self.load.line_load(self.motion, yields)
 
     def resolution(self, name: str) -> float:
         """Return the size below which a quantity is rounding and shown as none, in its unit."""
@@ -263,4 +295,5 @@ def _flank(
         undercut=bool(flank.undercut_at(grid.z[0]).any()),
         conjugacy_residual=float(np.abs(flank.conjugacy_residual(grid)).max()),
         loaded=tuple(loaded),
+        load=load,
     )

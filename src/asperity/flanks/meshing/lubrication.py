@@ -23,7 +23,7 @@ import numpy as np
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
 from asperity.flanks.meshing.contact_lines import ContactLines
-from asperity.flanks.meshing.kinematics import kinematics
+from asperity.flanks.meshing.kinematics import Kinematics, kinematics
 from asperity.flanks.meshing.transmission import Transmission
 from asperity.gearset import Gearset
 from asperity.rating import Operation
@@ -92,6 +92,16 @@ class Load:
             dynamic_viscosity=float(oil.dynamic_viscosity(oil_temperature)),
             pressure_viscosity=oil.base.pressure_viscosity,
         )
+
+    def line_load(self, motion: Kinematics, twist: FloatArray | float) -> FloatArray:
+        r"""Return :math:`w` where the wheel has yielded by :math:`\vartheta` (rad), N/mm.
+
+        0 where the worm does not touch, or from within.
+        """
+        lever = _lever(motion)
+        some = motion.on_flank & (lever > 0.0)
+        closed = np.maximum(lever * twist - motion.gap, 0.0)
+        return np.where(some, self.line_stiffness * closed, 0.0)
 
 
 class LoadedNumbers(Quantities):
@@ -190,8 +200,7 @@ def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedL
         raise InputError(
             f"worm_angle is {lines.worm_angle:g} rad; there is no contact line: take another"
         )
-    place, normal = motion.position, motion.normal
-    lever = np.abs(place[:, 0] * normal[:, 1] - place[:, 1] * normal[:, 0])
+    lever = _lever(motion)
     # A piece that the worm's core meets from within has no lever, and carries nothing.
     length = np.where(lever > 0.0, length, 0.0)
     if not length.sum() > 0.0:
@@ -201,8 +210,7 @@ def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedL
         )
     torque = load.wheel_torque * 1e3
     twist = _twist(torque / load.line_stiffness, length, lever, motion.gap)
-    closed = np.maximum(lever * twist - motion.gap, 0.0)
-    w = np.where(length > 0.0, load.line_stiffness * closed, 0.0)
+    w = np.where(length > 0.0, load.line_load(motion, twist), 0.0)
     # Where worm and wheel fit each other better than a plane a plane, they do as the latter.
     radius = 1.0 / np.maximum(motion.line_curvature, 1e-9)
     return LoadedLines(
@@ -234,6 +242,13 @@ def film_thickness(
         * w**-0.13
     )
     return np.asarray(np.where(some, metres * 1e6, 0.0))
+
+
+def _lever(motion: Kinematics) -> FloatArray:
+    """Lever of the normal about the wheel's axis, mm."""
+    place, normal = motion.position, motion.normal
+    across = place[..., 0] * normal[..., 1] - place[..., 1] * normal[..., 0]
+    return np.asarray(np.abs(across))
 
 
 def _twist(torque: float, length: FloatArray, lever: FloatArray, gap: FloatArray) -> float:

@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from asperity.arrays import FloatArray
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.wheel.cutting.bracket import minimum
@@ -188,11 +188,7 @@ class Transmission(Quantities):
         What is nearer than the ``gap``, normal to the flanks, mm, counts as bearing; 0 is for rigid
         teeth.
         """
-        pair = self.search.pair
-        worm = pair.worm
-        normal = worm.reduced_lead * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
-        allowed = max(gap / normal, _RIGID)
-        missing = self.tooth_lead - self.along_tooth() - allowed
+        missing = self._missing(gap)
         before, after = missing[:-1], missing[1:]
         steps = np.where((before <= 0.0) & (after <= 0.0), 1.0, 0.0)
         # Between two places the line between both, or half the way from where a tooth bears itself.
@@ -200,6 +196,18 @@ class Transmission(Quantities):
         low, high = np.minimum(before, after)[cross], np.maximum(before, after)[cross]
         steps[cross] = np.where(low > -2.0 * _RIGID, 0.5, -low / (high - low))
         return float(steps.sum()) / self.wheel_angle.size
+
+    def teeth(self, gap: float = 0.0) -> IntArray:
+        """Return how many teeth count as bearing at each place of the pitch."""
+        counts = np.zeros(self.wheel_angle.size, dtype=np.int64)
+        np.add.at(counts, self._index()[self._missing(gap) <= 0.0], 1)
+        return counts
+
+    def _missing(self, gap: float) -> FloatArray:
+        """By how much the worm would have to turn further for the tooth to count, rad."""
+        worm = self.search.pair.worm
+        normal = worm.reduced_lead * math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+        return self.tooth_lead - self.along_tooth() - max(gap / normal, _RIGID)
 
     def with_worm(self, half_space: float) -> "Transmission":
         """Return the same with worm threads of another thickness; half the space in mm.
@@ -217,10 +225,13 @@ class Transmission(Quantities):
 
     def along_tooth(self) -> FloatArray:
         """`lead` at the places of ``tooth_angle``."""
+        return np.asarray(self.lead[self._index()])
+
+    def _index(self) -> IntArray:
+        """Place of the pitch that each of ``tooth_angle`` is."""
         samples = self.wheel_angle.size
-        step = self.search.pitch / samples
-        index = np.rint(self.tooth_angle / step).astype(np.int64)
-        return np.asarray(self.lead[np.mod(index, samples)])
+        steps = np.rint(self.tooth_angle / (self.search.pitch / samples))
+        return np.asarray(np.mod(steps.astype(np.int64), samples))
 
 
 def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Transmission:

@@ -21,10 +21,9 @@ from asperity.flanks.worm.curve import FORM, Thread
 from asperity.flanks.worm.profiles import AxialProfile, record, sampled
 from asperity.flanks.worm.types import profile
 from asperity.gearset.geometry import Flank, Geometry
+from asperity.gearset.threads import LEAST_LAND, LEAST_SPACE
 
 _MILLIMETRES = 1e3
-_LEAST_LAND = 0.01
-_LEAST_SPACE = 0.02
 # Of the root's radius: far enough below it to be no neighbour of the wheel.
 _DEEP = 0.5
 
@@ -212,7 +211,7 @@ class Helicoid:
 
     def largest_rounding(self) -> float:
         """Return the largest rounding that the tip has room for, mm, leaving a little land."""
-        limit = self.half_pitch * (1.0 - _LEAST_LAND)
+        limit = self.half_pitch * (1.0 - LEAST_LAND)
 
         def over(r: float) -> float:
             return self._tip_arc(self.thread, r)[1] - limit
@@ -300,7 +299,7 @@ def _pointed(helicoid: Helicoid) -> str:
 
 def _opened(draft: Helicoid, needed: float) -> Helicoid:
     """Lift the root to where the thread space has some width, if it closes above it."""
-    least = _LEAST_SPACE * draft.half_pitch
+    least = LEAST_SPACE * draft.half_pitch
 
     def room(radius: float) -> float:
         return float(draft.width(radius)[0]) - least

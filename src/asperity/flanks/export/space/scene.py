@@ -22,15 +22,10 @@ _SECONDS = 6.0
 """For a turn of the worm."""
 
 
-def write_gearset(
-    path: str | os.PathLike[str],
-    wheel: Wheel,
-    assembly: Assembly,
-    blanks: Blanks | None = None,
-) -> Path:
-    """Write worm and whole wheel in mesh as a GLB that turns both by their ratio, atomically.
+def gearset_scene(wheel: Wheel, assembly: Assembly, blanks: Blanks | None = None) -> Node:
+    """Return worm and whole wheel in mesh, upright, z being up.
 
-    A tooth is stored once. In a cycle the worm turns once, and the wheel by as many teeth as the
+    A tooth is there once. In a cycle the worm turns once, and the wheel by as many teeth as the
     worm has starts, so that the end is as the beginning.
     """
     pair = assembly.pair
@@ -61,5 +56,9 @@ def write_gearset(
     ]
     # Upright, the worm above: the file's z is up, which in the gearset's own frame is y.
     upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-    whole = Node("gearset", rotation=upright, children=nodes)
-    return write_glb(path, [whole], seconds=_SECONDS)
+    return Node("gearset", rotation=upright, children=nodes)
+
+
+def write_gearset(path: str | os.PathLike[str], scene: Node) -> Path:
+    """Write a scene as a GLB that turns worm and wheel by their ratio, atomically."""
+    return write_glb(path, [scene], seconds=_SECONDS)

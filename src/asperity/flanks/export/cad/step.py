@@ -11,7 +11,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import StorageError
-from asperity.flanks.export.brep import Solid, solid
+from asperity.flanks.export.cad.brep import Solid, solid
 from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body
 from asperity.store import write_atomically

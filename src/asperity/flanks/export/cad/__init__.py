@@ -1,0 +1,1 @@
+"""Bodies as solids: boundary representations and STEP."""

@@ -1,0 +1,1 @@
+"""Worm and wheel as they are seen in space."""
