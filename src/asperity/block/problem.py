@@ -25,6 +25,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.block.parameters import Block, Contact
 from asperity.casefile import Case
+from asperity.contact.compliance import BaseCompliance, base_compliance
 from asperity.contact.elastic import (
     CondensedBody,
     ElasticBody,
@@ -39,7 +40,6 @@ from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.contact.motion import mechanism as mo
-from asperity.contact.motion.compliance import BaseCompliance, base_compliance
 from asperity.contact.motion.system import Shaking, System
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
@@ -50,7 +50,6 @@ from asperity.vibration import Vibration
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""
 
-_SHIFT_X, _SHIFT_Y, _SHIFT_Z, _TURNS = 0, 1, 2, slice(3, 6)
 _GRAVITY, _PRESSURE, _DRIVE = "gravity_z", "pressure", "drive"
 
 
@@ -190,7 +189,8 @@ class BlockProblem:
     @functools.cached_property
     def nodal_loads(self) -> FloatArray:
         """Nodal forces of gravity and pressure on the whole block, shape (3 N,), N."""
-        down: FloatArray = -STANDARD_GRAVITY * self.uncondensed.inertia[:, _SHIFT_Z]
+        _, _, upwards, *_ = self.uncondensed.inertia.T
+        down: FloatArray = -STANDARD_GRAVITY * upwards
         return down + self.top_pressure * Pressure("top").forces(self.mesh).ravel()
 
     @functools.cached_property
@@ -315,10 +315,8 @@ def mechanism(
 
 def held_coordinates(body: CondensedBody, *, rigid: bool, guided: bool) -> npt.NDArray[np.bool_]:
     """Return which coordinates a rigid drive and a guide hold."""
-    held = np.zeros(6 + len(body.mode_frequency), dtype=bool)
-    held[_SHIFT_X] = rigid
-    held[_SHIFT_Y] = held[_TURNS] = guided
-    return held
+    shifts, turns = (rigid, guided, False), (guided, guided, guided)
+    return np.array([*shifts, *turns, *np.zeros(len(body.mode_frequency), dtype=bool)])
 
 
 def shaking(model: Model) -> Shaking | None:

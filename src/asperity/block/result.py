@@ -10,7 +10,8 @@ from asperity.block.series import Frame, write_block_series
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
-from asperity.slider.result import History, SlideResult, table_inputs
+from asperity.slider.history import History
+from asperity.slider.result import SlideResult, table_inputs
 from asperity.slider.result import inputs as slider_inputs
 
 

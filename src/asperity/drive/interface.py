@@ -8,12 +8,12 @@ A mesh is a named tuple of numbers and arrays with a compiled function
 
 ``q`` and ``v`` are the poses and rates at the end of a step of length ``dt``, with everything that
 is imposed: the worm's angle :math:`\beta`, its shift :math:`x` along its axis, the wheel's angle
-:math:`\varphi`, its shift :math:`y` along its own axis. Positive are: :math:`\beta` and
-:math:`\varphi` as the gearset runs forward; :math:`x` as the threads move forward, so that the
-flank that drives pushes on; :math:`y` as the surface of the turning worm moves at the mesh. A
-left-handed gearset has the same equations, since :math:`y` turns its sign with the hand. A worm
-that turns by :math:`\beta` and shifts by :math:`x = -p\beta`, the reduced lead :math:`p`, slides in
-itself.
+:math:`\varphi`, its shift :math:`y` along its own axis as the worm sees it, the worm's shift
+:math:`z` towards the wheel's axis. Positive are: :math:`\beta` and :math:`\varphi` as the gearset
+runs forward; :math:`x` as the threads move forward, so that the flank that drives pushes on;
+:math:`y` as the surface of the turning worm moves at the mesh. A left-handed gearset has the same
+equations, since :math:`y` turns its sign with the hand. A worm that turns by :math:`\beta` and
+shifts by :math:`x = -p\beta`, the reduced lead :math:`p`, slides in itself.
 
 ``committed`` holds what the mesh remembers (contacts, asperities) and is read, ``trial`` is
 written: an iteration never moves history. ``out`` is filled, its places are those of `AT`.
@@ -21,8 +21,8 @@ written: an iteration never moves history. ``out`` is filled, its places are tho
 
 from typing import NamedTuple
 
-POSES = 4
-"""Worm angle, worm shift, wheel angle, wheel shift."""
+POSES = 5
+"""Worm angle, worm shift, wheel angle, wheel shift, worm shift towards the wheel."""
 
 
 class Places(NamedTuple):
@@ -30,8 +30,8 @@ class Places(NamedTuple):
 
     Attributes
     ----------
-    worm_torque, worm_force, wheel_torque, wheel_force : int
-        What the mesh does to the four poses, N m, N, N m, N.
+    worm_torque, worm_force, wheel_torque, wheel_force, worm_radial : int
+        What the mesh does to the five poses, N m, N, N m, N, N.
     driving, back : int
         Normal force on the flank that drives and on the other, N.
     stored : int
@@ -48,13 +48,14 @@ class Places(NamedTuple):
     worm_force: int = 1
     wheel_torque: int = 2
     wheel_force: int = 3
-    driving: int = 4
-    back: int = 5
-    stored: int = 6
-    friction: int = 7
-    damping: int = 8
-    residual: int = 9
-    approach: int = 10
+    worm_radial: int = 4
+    driving: int = 5
+    back: int = 6
+    stored: int = 7
+    friction: int = 8
+    damping: int = 9
+    residual: int = 10
+    approach: int = 11
 
 
 AT = Places()

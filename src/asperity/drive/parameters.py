@@ -48,8 +48,8 @@ class Drive(Table):
         :math:`J_1`, of worm and shaft about their axis, kg m2. Left out: that of steel cylinders
         of the threads' and the shaft's size.
     worm_mass : float or str, optional
-        Of worm and shaft, kg; counts where ``shaft.bearing_axial`` or ``shaft.seat`` is given. Left
-        out: as the inertia.
+        Of worm and shaft, kg; counts where bearings or a seat are given, or a shaft that bends.
+        Left out: as the inertia.
     contact_damping : float or str, optional
         :math:`c` in :math:`N = f(d)(1 + c\dot d)`, s/m. Needed with a vibration.
     flanks : {'both', 'driving'}
@@ -58,6 +58,8 @@ class Drive(Table):
         Teeth of the sector that is condensed, 1, 3, 5, 7 or 9.
     density : {'coarse', 'intermediate', 'fine'}
         Of the teeth's mesh.
+    threads : {'rigid', 'elastic'}
+        Whether the worm's threads give where they are pressed, as a half-space of their steel.
     phases : int
         Positions of the worm over a pitch, 1 to 360.
     friction : {'constant', 'iso14521'}
@@ -100,6 +102,7 @@ class Drive(Table):
     flanks: Literal["both", "driving"] = "both"
     teeth: Annotated[int, Field(strict=True, ge=1, le=9)] = 5
     density: Literal["coarse", "intermediate", "fine"] = "coarse"
+    threads: Literal["rigid", "elastic"] = "rigid"
     phases: Annotated[int, Field(strict=True, ge=1, le=360)] = 24
     friction: Literal["constant", "iso14521"] = "constant"
     stroke: Annotated[
@@ -172,14 +175,14 @@ class Shaft(Table):
         Between the worm and where the motor's speed is imposed, :math:`k_p`, N m/rad; thesis
         7.2.2. Left out: of a steel shaft of ``diameter`` over ``span``, or rigid without these.
     diameter, span : float or str, optional
-        Of the shaft, and between the worm's bearings, m.
+        Of the shaft, and between the worm's bearings, m: it bends, with the worm's mass.
     bearing_axial, bearing_radial : float or str, optional
         Stiffness of the worm's bearings, N/m; of the radial ones with their seats.
     seat : float or str, optional
         Stiffness along the axis of what the axial bearing sits in, N/m: in series with it. A
         vibration ``applied_to`` the seat moves what is behind both.
     damping_ratio : float
-        Of the shaft's torsion with the worm's inertia, and of the seat with the worm's mass, 0..1.
+        Of the shaft's torsion with the worm's inertia, of seat and bending with its mass, 0..1.
     """
 
     table: ClassVar[str] = "shaft"

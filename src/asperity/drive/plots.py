@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.drive.headline import state_of
 from asperity.results.figures import (
     BLACK,
     BLUE,
@@ -45,8 +46,7 @@ def _percent(share: float) -> str:
 
 def _state(dataset: "xr.Dataset") -> str:
     """Return what a ratio is to be read with."""
-    settled = "settled" if dataset.attrs["settled"] else "not settled"
-    return f"{settled}, wheel out of balance by {_percent(float(dataset['torque_balance']))}"
+    return state_of(bool(dataset.attrs["settled"]), float(dataset["torque_balance"]))
 
 
 def _ratio(dataset: "xr.Dataset") -> str:
@@ -80,7 +80,7 @@ def plot_torque(dataset: "xr.Dataset") -> "Figure":
     floor = float(dataset["floor_reversed"])
     course.axhline(floor, color=BLACK, dashes=(2, 2), linewidth=1.0, label="friction reversed")
     course.set_xlabel("time (ms)")
-    course.set_ylabel("torque, mean of a cycle")
+    course.set_ylabel("mean of a cycle,\ntorque over static or load")
     title = "From the start of the vibration on"
     if not banded and "torque_ratio" in dataset:
         title += f"; {_ratio(dataset)}"
@@ -123,8 +123,6 @@ def plot_powers(dataset: "xr.Dataset") -> "Figure":
     """Draw the power ledger: what is put in to the right of zero, and where it goes."""
     figure, (axes,) = panels(height=3.4)
     values = [float(dataset[name]) for name, _, _ in _POWERS]
-    # What is a ten-thousandth of the largest is none to speak of.
-    values = [value if abs(value) > 1e-4 * max(map(abs, values)) else 0.0 for value in values]
     bars = axes.barh(
         [name for _, name, _ in _POWERS], values, color=[colour for *_, colour in _POWERS],
         height=0.6,

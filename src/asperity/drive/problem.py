@@ -10,6 +10,7 @@ from asperity.casefile import Case, Table, told
 from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
+from asperity.drive.shafts import bends
 from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
@@ -308,7 +309,7 @@ class DriveProblem:
     def _check_moved(self) -> None:
         """Refuse a worm whose inertia or mass counts and is not known."""
         turns = self.shaft.torsion is not None or self.drive.protocol in _WORM_FREED
-        shifts = self.shaft.axial is not None
+        shifts = self.shaft.axial is not None or bends(self.shaft)
         if self.actuator is not None and self.amplitude > 0.0:
             # What the actuator takes follows from what it moves; of a wheel nothing tells the mass.
             both = self.drive.protocol == "tangential" or self.mode == "screw"

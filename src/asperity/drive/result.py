@@ -4,9 +4,13 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray
+from asperity.drive.headline import state_of
 from asperity.drive.problem import DriveProblem
-from asperity.results import Quantities, Result, labelled, part, quantity
+from asperity.gearset import Geometry
+from asperity.gearset.drawn import Drawn
+from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.ledger import Ledger
+from asperity.results.quantity import Number, Sentence
 from asperity.slider.result import table_inputs
 
 _OVER_TIME, _CYCLES = ("time",), ("cycle",)
@@ -74,7 +78,7 @@ class Course(Quantities):
     )
 
 
-class DriveResult(Result):
+class DriveResult(Drawn):
     """The answer for a gearset under vibration.
 
     A torque ratio means nothing without ``torque_balance`` and ``settled``: while the wheel coasts
@@ -148,6 +152,10 @@ class DriveResult(Result):
     resonance_wheel: float | None = quantity(
         "f_2", "Hz", "natural frequency of the wheel on the teeth, the worm held"
     )
+    tooth_mode: float | None = quantity(
+        "f_t", "Hz", "lowest natural frequency of a tooth, cut out with its rim", optional=True,
+        default=None,
+    )  # fmt: skip
     creep: float | None = quantity(
         "",
         "rad/s",
@@ -175,6 +183,11 @@ class DriveResult(Result):
     )  # fmt: skip
 
     @property
+    def geometry(self) -> Geometry:
+        """What follows from the gearset's numbers."""
+        return self.problem.geometry
+
+    @property
     @labelled("", "", "of the powers, what is missing over what is put in", swept=True)
     def closure(self) -> float:
         """Residual of the power ledger."""
@@ -185,10 +198,73 @@ class DriveResult(Result):
         """What was asked: values in SI and texts by ``table.key``."""
         return inputs(self.problem)
 
+    def headline(self) -> tuple[str, ...]:
+        """Return what vibration does to torque, energy and contact."""
+        lines = (_torque(self), _energy(self), _contact(self))
+        return tuple(line for line in lines if line)
+
     def heading(self) -> str:
         """Return what was asked, and whether the answer is a periodic state."""
         state = "settled" if self.settled else "not settled"
         return f"{self.problem.drive.protocol}, {self.problem.mode}: {state}"
+
+
+def _torque(answer: DriveResult) -> str:
+    state = state_of(answer.settled, answer.torque_balance)
+    protocol = answer.problem.drive.protocol
+    if answer.creep is not None:
+        creep = Number.of(answer.creep, ".3g", "creep_rad_s")
+        return Sentence(
+            "with the motor off the wheel creeps at ", creep, " rad/s under the vibration (",
+            state, ")",
+        )  # fmt: skip
+    if answer.torque_ratio is None:
+        return Sentence("no torque of a motor to compare (", state, ")")
+    ratio = Number.of(answer.torque_ratio, ".3g", "torque_ratio")
+    if protocol == "held-wheel":
+        return Sentence("a held wheel takes 1/", ratio, " of its load's torque (", state, ")")
+    torque = Sentence(ratio, " of the torque without vibration (", state, ")")
+    if protocol == "window":
+        return Sentence("over its first cycles alone ", torque)
+    return torque if answer.settled else Sentence(torque, ": a ratio that need not last")
+
+
+def _energy(answer: DriveResult) -> str:
+    ratio = answer.energy_ratio
+    if ratio is None:
+        return ""
+    said = Sentence(
+        "motor and actuator put in ", Number.of(ratio, ".3g", "energy_ratio"),
+        " of the power without vibration",
+    )  # fmt: skip
+    efficiency = answer.system_efficiency
+    if efficiency is not None:
+        before = answer.efficiency_static
+        word = "saves energy" if efficiency > before else "saves no energy"
+        return Sentence(
+            said, ", efficiency ", Number.of(efficiency, ".3g", "system_efficiency"), " for ",
+            Number.of(before, ".3g", "efficiency_static"),
+            f" with the actuator's electrical side: it {word}",
+        )  # fmt: skip
+    word = "saves power" if ratio < 1.0 else "saves no power"
+    return Sentence(said, f": it {word}, the actuator's electrical side ([actuator]) not counted")
+
+
+def _contact(answer: DriveResult) -> str:
+    said = []
+    if answer.open_share > 0.0:
+        share = Number.of(answer.open_share, ".2g", "open_share", 100.0)
+        said.append(Sentence("contact is lost for ", share, " % of the time"))
+    most, before = _newtons(answer, "force_max"), _newtons(answer, "force_static")
+    said.append(Sentence("the flanks take at most ", most, " N, without vibration ", before, " N"))
+    if answer.held_after is not None:
+        said.append(Sentence("holds after it" if answer.held_after else "does not hold after it"))
+    return Sentence.joined(said, "; ")
+
+
+def _newtons(answer: DriveResult, name: str) -> Number:
+    force = float(getattr(answer, name))
+    return Number.of(force, ".3g" if force < 1e3 else ".0f", f"{name}_N")
 
 
 class HeldWheel(DriveResult):

@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import math
 import time
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,16 +17,17 @@ from asperity.block.series import Frame
 from asperity.block.solution.notes import block_notes
 from asperity.block.solution.stability import Flutter, Stability
 from asperity.contact.increment.solver import SolverMemory
-from asperity.contact.motion.ledger import Energies, Sums, energies, power_ledger
+from asperity.contact.motion.ledger import Energies, energies, power_ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Snapshot, Stepper
+from asperity.contact.motion.sums import Sums
 from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree, from_tree, to_tree
+from asperity.slider.history import History
 from asperity.slider.kernels import condense
-from asperity.slider.result import History
 from asperity.slider.summary import of_stretches
 from asperity.slider.timetable import Timetable
 
@@ -163,7 +165,8 @@ class BlockMarch:
             while self.done < table.steps:
                 self._begin_half()
                 # The first increment of a program may have compiled kernels.
-                self._increment(timed=self.done > first)
+                timed = self.done > first
+                self._increments(self._until(told + _REPORTS) if timed else 1, timed=timed)
                 now = time.perf_counter()
                 if now - told >= _REPORTS or self.done == table.steps:
                     told = now
@@ -198,30 +201,43 @@ class BlockMarch:
             stepper.clear()
             self._go_on(first_half=sums, first_pressure=pressure)
 
-    def _increment(self, *, timed: bool) -> None:
+    def _until(self, report: float) -> int:
+        """Increments up to the next at which something is due, as far as they end by a time."""
+        progress, table = self.progress, self.problem.timetable
+        due = {table.window_start, table.middle, table.steps, *self._frame_steps}
+        left = min(number for number in due if number > progress.done) - progress.done
+        if not progress.timed:
+            return 1
+        each = progress.march_seconds / progress.timed
+        return max(1, min(left, int((report - time.perf_counter()) / each)))
+
+    def _increments(self, most: int, *, timed: bool) -> None:
         began, progress, step = time.perf_counter(), self.progress, self.problem.timetable.step
-        self.stepper.step_to((progress.done + 1) * step, step)
+        ends = step * np.arange(progress.done + 1, progress.done + most + 1, dtype=np.float64)
+        rows = self.stepper.steps_to(ends, step)
         solved = time.perf_counter()
-        recorded = self._recorded(progress)
+        taken = len(rows)
+        recorded = self._recorded(progress, rows)
         self._go_on(
-            done=progress.done + 1,
+            done=progress.done + taken,
             march_seconds=progress.march_seconds + timed * (solved - began),
-            timed=progress.timed + timed,
+            timed=progress.timed + timed * taken,
             seconds=progress.seconds + time.perf_counter() - began,
             **recorded,
         )
 
-    def _recorded(self, progress: Progress) -> dict[str, Any]:
-        """What is recorded of the state after an increment."""
-        state, number = self.stepper.state, progress.done + 1
-        rows, nodes, frames = progress.rows, progress.nodes, progress.frames
+    def _recorded(self, progress: Progress, taken: FloatArray) -> dict[str, Any]:
+        """What is recorded of increments, by the rows of their ends."""
+        rows, nodes, frames = [*progress.rows], [*progress.nodes], progress.frames
         if self._ends is not None:
-            nodes = (*nodes, _node(state))
-            if number == self._ends[len(rows)]:
-                rows, nodes = (*rows, _condensed(nodes)), ()
-        if number in self._frame_steps:
-            frames = (*frames, _frame(state))
-        return {"rows": rows, "nodes": nodes, "frames": frames}
+            for number, node in enumerate(taken, start=progress.done + 1):
+                nodes.append(node)
+                if number == self._ends[len(rows)]:
+                    rows.append(_condensed(nodes))
+                    nodes = []
+        if progress.done + len(taken) in self._frame_steps:
+            frames = (*frames, _frame(self.stepper.state))
+        return {"rows": tuple(rows), "nodes": tuple(nodes), "frames": frames}
 
     @property
     def history(self) -> History:
@@ -329,17 +345,9 @@ def _stretch_ends(table: Timetable) -> npt.NDArray[np.int64]:
     return np.union1d(np.arange(stride, fine, stride), np.arange(fine, table.steps + 1))
 
 
-def _node(state: SystemState) -> FloatArray:
-    forces, body = state.forces, state.coordinates
-    return np.array([
-        state.drive.force, forces.friction_x, forces.friction_y, forces.deflection_x,
-        forces.deflection_y, *body.place[:2], *body.velocity[:2],
-    ])  # fmt: skip
-
-
-def _condensed(nodes: tuple[FloatArray, ...] | FloatArray) -> FloatArray:
+def _condensed(nodes: Sequence[FloatArray] | FloatArray) -> FloatArray:
     """Mean, least and greatest of each number of some nodes, shape (3, numbers)."""
-    rows = np.empty((3, len(nodes[0])))
+    rows: FloatArray = np.empty((3, len(nodes[0])))
     condense(np.array(nodes), *rows)
     return rows
 

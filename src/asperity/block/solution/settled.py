@@ -22,6 +22,7 @@ from asperity.block.problem import BlockProblem, shaking
 from asperity.block.result import inputs
 from asperity.block.solution.notes import GAINS
 from asperity.block.solution.stability import Stability, flutter_note
+from asperity.contact.motion.march import Row
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 from asperity.contact.motion.system import Shaking, System, SystemState
@@ -142,14 +143,13 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
     taken, length = 0, _SHORTEST
     expected = _CALM_CYCLES * _CALM_STEPS + (_SETTLE_CYCLES + _WINDOWS * length) * STEPS
 
-    def between() -> None:
+    def between(steps: int) -> None:
         nonlocal taken, expected, length
-        taken += 1
+        taken += steps
         if taken > expected:
             length *= 2
             expected += _WINDOWS * length * STEPS
-        if taken % _CALM_STEPS == 0:
-            run.checkpoint(taken, expected, what="increments")
+        run.checkpoint(taken, expected, what="increments")
 
     with run.going_on():
         body = (system, rest_under_load(system, problem.loads))
@@ -236,13 +236,14 @@ def read_settled(
     bodies: Sequence[tuple[System, SystemState]],
     slider: SlideResult,
     slope: float,
-    between: Callable[[], None] = lambda: None,
+    between: Callable[[int], None] = lambda steps: None,
 ) -> Reading:
     """Let bodies settle under vibration, and read their ratios, all over the same cycles.
 
     The bodies are at rest under their loads; ``slider`` is the periodic state of the sliding body
-    they are, with its history, ``slope`` that of `slope_over_velocity`. ``between`` is called after
-    each increment. The drive force has not settled at the end, but it stands alike for all.
+    they are, with its history, ``slope`` that of `slope_over_velocity`. ``between`` is told of
+    increments that were taken. The drive force has not settled at the end, but it stands alike for
+    all.
     """
     steppers = [_calmed(*body, slider, between) for body in bodies]
     length = _SHORTEST
@@ -256,7 +257,7 @@ def read_settled(
 
 
 def _calmed(
-    system: System, rest: SystemState, slider: SlideResult, between: Callable[[], None]
+    system: System, rest: SystemState, slider: SlideResult, between: Callable[[int], None]
 ) -> Stepper:
     """A body on its way from the sliding body's periodic state, most of its rocking gone."""
     model = slider.model
@@ -269,7 +270,7 @@ def _calmed(
 
 
 def _read(
-    stepper: Stepper, model: Model, slope: float, length: int, between: Callable[[], None]
+    stepper: Stepper, model: Model, slope: float, length: int, between: Callable[[int], None]
 ) -> tuple[FloatArray, float, FloatArray]:
     """Ratio in each window, brought to the drive's velocity; how much slower the body was.
 
@@ -278,17 +279,12 @@ def _read(
     # The rocking comes round in other than whole cycles. Weights that fade in and out let it
     # cancel within a window, where equal ones would leave what is cut off at its ends.
     weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    last: list[tuple[float, ...]] = []
-
-    def seen() -> None:
-        last.append(stepper.state.forces[:2])
-        between()
-
-    cycles = np.array([_cycle(stepper, model, seen) for _ in range(_WINDOWS * length)])
+    read = [_cycle(stepper, model, between) for _ in range(_WINDOWS * length)]
+    cycles = np.array([means for means, _ in read])
     means = np.average(cycles.reshape(_WINDOWS, length, 2), axis=1, weights=weights)
     late = 1.0 - means[:, 1] / model.slider.drive_velocity
     ratios = means[:, 0] / model.full_friction + slope * late
-    return ratios, float(late.mean()), np.array(last[-STEPS:])
+    return ratios, float(late.mean()), read[-1][1]
 
 
 def _over_a_cycle(slider: SlideResult) -> FloatArray:
@@ -327,19 +323,27 @@ def _begin(system: System, rest: SystemState, slider: SlideResult) -> SystemStat
 
 
 def _cycles(
-    stepper: Stepper, model: Model, count: int, steps: int, between: Callable[[], None]
-) -> None:
+    stepper: Stepper, model: Model, count: int, steps: int, between: Callable[[int], None]
+) -> FloatArray:
+    """Take cycles of so many steps; their rows."""
     step = 1.0 / (model.frequency * steps)
     first = round(stepper.state.time / step)
-    for n in range(first + 1, first + count * steps + 1):
-        stepper.step_to(n * step, step)
-        between()
+    ends = step * np.arange(first + 1, first + count * steps + 1, dtype=np.float64)
+    taken = []
+    for rows in stepper.through(ends, step):
+        taken.append(rows)
+        between(len(rows))
+    return np.concatenate(taken)
 
 
-def _cycle(stepper: Stepper, model: Model, between: Callable[[], None]) -> tuple[float, float]:
-    """Friction along the drive and velocity, averaged over a cycle."""
+def _cycle(
+    stepper: Stepper, model: Model, between: Callable[[int], None]
+) -> tuple[tuple[float, float], FloatArray]:
+    """Friction along the drive and velocity, averaged over a cycle; and friction, (steps, 2)."""
     stepper.clear()
     begin, place = stepper.state.time, stepper.state.coordinates.place[0]
-    _cycles(stepper, model, 1, STEPS, between)
+    rows = _cycles(stepper, model, 1, STEPS, between)
     way = stepper.state.coordinates.place[0] - place
-    return stepper.sums.friction_x / stepper.sums.time, float(way / (stepper.state.time - begin))
+    friction = np.stack([Row(*rows.T).friction_x, Row(*rows.T).friction_y], axis=1)
+    velocity = float(way / (stepper.state.time - begin))
+    return (stepper.sums.friction_x / stepper.sums.time, velocity), friction

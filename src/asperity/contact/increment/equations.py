@@ -8,7 +8,6 @@ nothing is asked of them, so that a contact may begin and end in any increment.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -16,13 +15,11 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.contact.increment.iterations import product
+from asperity.contact.increment.iterations import product, reach_of
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.contact.interface.records import Committed, ContactPoints
 from asperity.contact.interface.tractions import augmented_tractions, tractions
-
-_ROUNDING = 16.0 * np.finfo(float).eps
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +132,5 @@ class Increment:
         return self._last_digits(trial.u) / scale if scale > 0.0 else 0.0
 
     def _last_digits(self, u: FloatArray) -> float:
-        problem = self.problem
-        reach = problem.reach + float(np.abs(u).max())
-        reach += math.hypot(*self.motion.translation)
-        return _ROUNDING * reach * problem.normal.stiffness * problem.area_norm
+        reach: float = reach_of(self.problem.reach, u, self.motion.translation)
+        return reach * self.problem.by_digits

@@ -34,6 +34,9 @@ in contact at nodes that the tangent does not know."""
 # Steps that Anderson's method looks back.
 DEPTH = 4
 
+# Iterations of an increment from which on another tangent would be better.
+MANY = 8
+
 # A step that leaves more than this of the residual is slow; two in a row are given up.
 _SLOW = 0.5
 
@@ -227,3 +230,28 @@ def modified_newton(
             h, room.change, room.last_h, room.last_change, room.steps_h, room.steps_change, kept
         )
     return SLOW, most, last
+
+
+@kernel
+def by_tangent(
+    free, assumed, start, tangent, committed, interface, motion, tolerance, floor, most, u, force,
+    points,
+):  # fmt: skip
+    """`modified_newton` from the predicted forces, N, and displacement, m; both (3n,)."""
+    stiffness_forces(
+        tangent.stiffness, interface.faces, interface.shapes, interface.weights, start - free, force
+    )
+    h = (assumed - force)[tangent.dofs]
+    return modified_newton(
+        free, h, tangent, committed, interface, motion, tolerance, floor, most, u, force, points
+    )
+
+
+@kernel
+def reach_of(reach, u, translation):
+    """Greatest coordinate of a displaced body, m, and of the surface that it meets."""
+    most = 0.0
+    for i in range(u.size):
+        most = max(most, abs(u[i]))
+    x, y, z = translation[0], translation[1], translation[2]
+    return reach + most + math.sqrt(x * x + y * y + z * z)

@@ -17,10 +17,9 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.increment.equations import Increment, Trial
-from asperity.contact.increment.iterations import CONVERGED, modified_newton
+from asperity.contact.increment.iterations import CONVERGED, MANY, by_tangent
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.increment.tangents import Tangent, factored, outer
-from asperity.contact.interface.active_set import stiffness_forces
 from asperity.contact.interface.records import ContactPoints
 
 # Mean stiffness times mean flexibility below which a direction needs no stiffness, and the factor
@@ -28,9 +27,8 @@ from asperity.contact.interface.records import ContactPoints
 _WEAK = 0.1
 _FACTOR = 4.0
 
-# Iterations with one tangent, and how many make it worth while to look for a better one.
-_MOST = 20
-_MANY = 8
+# Iterations with one tangent at most.
+MOST = 20
 
 _MOST_TANGENTS = 24
 _MOST_BYTES = 256e6
@@ -74,12 +72,20 @@ class TangentCache:
     seen: dict[bytes, tuple[int, float]] = field(default_factory=dict)
     last: KeptTangent | None = None  #: Used last
 
-    def ended_with(self, active: bytes) -> None:
-        """Count an increment that ended with these points in contact."""
+    def ended_with(self, active: bytes, times: int = 1) -> None:
+        """Count increments that ended with these points in contact."""
         count, flexibility = self.seen.pop(active, (0, 0.0))
         if len(self.seen) >= _MOST_SETS:
             del self.seen[next(iter(self.seen))]
-        self.seen[active] = (count + 1, flexibility)
+        self.seen[active] = (count + times, flexibility)
+
+    def marched(self, kept: KeptTangent, steps: int, iterations: int, active: bytes) -> None:
+        """Count increments that one tangent solved, and with what points the last one ended."""
+        kept.stale = iterations > MANY
+        if active != kept.active:
+            self.ended_with(kept.active, steps - 1)
+            steps = 1
+        self.ended_with(active, steps)
 
     def fitting(self, active: bytes) -> KeptTangent | None:
         """Tangent used last, if it is for these points and converged fast."""
@@ -224,7 +230,7 @@ def solve(
                 break
         trial, residual, status, count = _iterate(increment, assumed, start, entry.tangent)
         evaluations += count
-        entry.stale = status != CONVERGED or count > _MANY
+        entry.stale = status != CONVERGED or count > MANY
         if status == CONVERGED:
             tangents.ended_with(trial.touching.tobytes())
             return trial, residual, evaluations
@@ -236,17 +242,11 @@ def _iterate(
     increment: Increment, assumed: FloatArray, start: FloatArray, tangent: Tangent
 ) -> tuple[Trial, float, int, int]:
     problem, free = increment.problem, increment.free
-    interface = problem.interface
     force, u = np.empty_like(free), np.empty_like(free)
-    stiffness_forces(
-        tangent.stiffness, interface.faces, interface.shapes, interface.weights, start - free,
-        force,
-    )  # fmt: skip
-    h = (assumed - force)[tangent.dofs]
     points = ContactPoints.empty(problem.points)
-    status, took, residual = modified_newton(
-        free, h, tangent, increment.committed, interface, increment.motion, problem.tolerance,
-        increment.floor, _MOST, u, force, points,
+    status, took, residual = by_tangent(
+        free, assumed, start, tangent, increment.committed, problem.interface, increment.motion,
+        problem.tolerance, increment.floor, MOST, u, force, points,
     )  # fmt: skip
     trial = Trial(force, u - free, u, force, points, increment.floor)
     return trial, residual, status, took

@@ -10,7 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 
 # Increments that are looked back at: enough for constant, linear and quadratic extrapolation.
-_DEPTH = 3
+DEPTH = 3
 
 
 @kernel
@@ -23,7 +23,7 @@ def _ahead(order, latest, second, third):
 
 
 @kernel
-def _continued(order, latest, second, third):
+def continued(order, latest, second, third):
     """Vectors continued by an extrapolation of an order."""
     out = np.empty_like(latest)
     for i in range(out.size):
@@ -32,7 +32,7 @@ def _continued(order, latest, second, third):
 
 
 @kernel
-def _best_order(vector, latest, second, third, orders):
+def best_order(vector, latest, second, third, orders):
     """Which of so many orders would have met a vector best from those before it."""
     best = 0
     least = np.inf
@@ -63,17 +63,17 @@ class Predictor:
         """Return the predictor with one more increment."""
         if mark != self.mark or not self.forces:
             return Predictor((force,), (displacement,), 0, mark)
-        order = _best_order(force, *_last(self.forces), len(self.forces))
+        order = best_order(force, *_last(self.forces), len(self.forces))
         forces, displacements = (force, *self.forces), (displacement, *self.displacements)
-        return Predictor(forces[:_DEPTH], displacements[:_DEPTH], order, mark)
+        return Predictor(forces[:DEPTH], displacements[:DEPTH], order, mark)
 
     def predicted(self, mark: tuple[float, float]) -> tuple[FloatArray, FloatArray] | None:
         """Forces and displacement of the coming increment; None without a past."""
         if mark != self.mark or not self.forces:
             return None
         return (
-            _continued(self.order, *_last(self.forces)),
-            _continued(self.order, *_last(self.displacements)),
+            continued(self.order, *_last(self.forces)),
+            continued(self.order, *_last(self.displacements)),
         )
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
@@ -21,10 +22,12 @@ from asperity.arrays import FloatArray
 from asperity.contact.increment.predictor import Predictor
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
-from asperity.contact.interface.records import Committed, Interface
+from asperity.contact.interface.records import Committed, ContactPoints, Interface
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import ContactSurface
 from asperity.errors import InputError
+
+_ROUNDING = 16.0 * float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +85,11 @@ class IncrementProblem:
     def area_norm(self) -> float:
         """Norm of the areas that belong to the nodes, m^2."""
         return float(np.linalg.norm(self.surface.nodal_area))
+
+    @cached_property
+    def by_digits(self) -> float:
+        """Forces that the last digits of the positions make, N over the greatest in m."""
+        return _ROUNDING * self.normal.stiffness * self.area_norm
 
     @cached_property
     def body_stiffness(self) -> float:
@@ -188,6 +196,19 @@ class IncrementResult:
     #: tractions, over the norm of the forces
     residual: float
 
+    @classmethod
+    def of(
+        cls, displacement: FloatArray, force: FloatArray, points: ContactPoints,
+        multiplier: FloatArray, predictor: Predictor, iterations: int, residual: float,
+    ) -> Self:  # fmt: skip
+        """Return what an increment ends with."""
+        state = ContactState(
+            displacement, force, points.deflection, points.size, multiplier, points.pressure,
+            points.traction, predictor,
+        )  # fmt: skip
+        distance, normal = points.distance, points.normal
+        return cls(state, distance, normal, points.slip_1, points.slip_2, iterations, residual)
+
     @property
     def displacement(self) -> FloatArray:
         """Of the contact nodes, m, shape (3n,)."""
@@ -207,6 +228,15 @@ class IncrementResult:
     def traction(self) -> FloatArray:
         """On the body, Pa, shape (q, 3)."""
         return self.state.traction
+
+    @property
+    def points(self) -> ContactPoints:
+        """The contact at its points."""
+        state = self.state
+        return ContactPoints(
+            state.pressure, self.distance, self.normal, state.traction, self.slip_1, self.slip_2,
+            state.deflection, state.size,
+        )  # fmt: skip
 
     @property
     def active(self) -> int:

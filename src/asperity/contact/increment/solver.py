@@ -29,6 +29,7 @@ from asperity.contact.increment.multipliers import (
     classical,
     multiplier_tangent,
 )
+from asperity.contact.increment.predictor import DEPTH
 from asperity.contact.increment.problem import ContactState, IncrementProblem, IncrementResult
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.errors import ConvergenceError, InputError
@@ -88,6 +89,15 @@ class IncrementSolver:
         """Go on with what another solver of the same problem has learnt."""
         self.tangents = modified_newton.TangentCache.recalled(self.problem, memory.tangents)
         self.multiplier_tangent = memory.multiplier_tangent
+
+    def kept_tangent(self, state: ContactState) -> modified_newton.KeptTangent | None:
+        """Return the tangent that the next increment begins with, if that is all it may need."""
+        past = state.predictor
+        if past.mark != self.problem.mark or len(past.forces) < DEPTH:
+            return None
+        if self.problem.normal.name == "hard":
+            return None
+        return self.tangents.fitting(state.touching.tobytes())
 
     def solve(
         self, free: FloatArray, motion: SurfaceMotion, state: ContactState
@@ -207,12 +217,7 @@ class IncrementSolver:
         self, state: ContactState, trial: Trial, multiplier: FloatArray, iterations: int,
         residual: float,
     ) -> IncrementResult:  # fmt: skip
-        points = trial.points
         predictor = state.predictor.followed_by(trial.force, trial.u, self.problem.mark)
-        end = ContactState(
-            trial.u, trial.force, points.deflection, points.size, multiplier, points.pressure,
-            points.traction, predictor,
-        )  # fmt: skip
-        return IncrementResult(
-            end, points.distance, points.normal, points.slip_1, points.slip_2, iterations, residual
+        return IncrementResult.of(
+            trial.u, trial.force, trial.points, multiplier, predictor, iterations, residual
         )

@@ -18,123 +18,15 @@ the states at both ends, so that one that is wrong leaves the balance open.
 from __future__ import annotations
 
 import dataclasses
-import operator
-from typing import NamedTuple
-
-import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.motion.hht import Coordinates
 from asperity.contact.motion.mechanism import DriveState, Mechanism
-from asperity.contact.motion.system import BaseMotion, System, SystemState
-from asperity.contact.motion.works import surface_energies, works
+from asperity.contact.motion.sums import Sums
+from asperity.contact.motion.system import System, SystemState
+from asperity.contact.motion.works import surface_energies
 from asperity.results.ledger import PowerLedger
 from asperity.results.quantity import quantity
-
-
-class Sums(NamedTuple):
-    """Sums over steps, and what was least and greatest at their ends.
-
-    Forces are trapezoidal means times the step, N s; works in J, friction in N, pressure in Pa.
-    """
-
-    time: float = 0.0
-    drive_force: float = 0.0
-    friction_x: float = 0.0
-    friction_y: float = 0.0
-    normal_force: float = 0.0
-    drive_work: float = 0.0
-    vibration_work: float = 0.0
-    load_work: float = 0.0
-    slip_work: float = 0.0
-    damping_work: float = 0.0
-    method_loss: float = 0.0
-    pressure_work: float = 0.0
-    overclosure_work: float = 0.0
-    asperity_work: float = 0.0
-    friction_gain: float = 0.0
-    transfer_work: float = 0.0
-    untransferred: float = 0.0
-    iterations: float = 0.0
-    increments: float = 0.0
-    iterations_max: float = 0.0
-    friction_x_max: float = -np.inf
-    friction_y_max: float = -np.inf
-    friction_x_min: float = np.inf
-    friction_y_min: float = np.inf
-    pressure_max: float = 0.0
-
-    def with_(self, other: Sums) -> Sums:
-        """Return the sums over the steps of both."""
-        pairs = zip(_TOGETHER, self, other, strict=True)
-        return Sums(*[together(one, another) for together, one, another in pairs])
-
-
-_ENDINGS = {"max": max, "min": min}
-_TOGETHER = tuple(_ENDINGS.get(name[-3:], operator.add) for name in Sums._fields)
-
-
-def over_step(
-    system: System,
-    before: SystemState,
-    after: SystemState,
-    base: BaseMotion,
-    taken: tuple[float, float],
-) -> Sums:
-    """Return what one step adds to the sums.
-
-    ``base`` moved in between; ``taken`` is what the method and the damping of the coordinates took,
-    J.
-    """
-    one, other = before.contact, after.contact
-    slip = other.slip_1 + other.slip_2
-    of_points = works(
-        one.pressure, one.traction, one.normal, one.distance, one.state.deflection,
-        other.pressure, other.traction, other.normal, other.distance, other.state.deflection,
-        slip, system.weights, system.normal.numbers, system.asperities,
-    )  # fmt: skip
-    first, last, start, end = before.forces, after.forces, before.drive, after.drive
-    step = after.time - before.time
-    fx = 0.5 * (first.friction_x + last.friction_x)
-    fy = 0.5 * (first.friction_y + last.friction_y)
-    normal, pull = 0.5 * (first.normal + last.normal), 0.5 * (start.force + end.force)
-    lost, damped = taken
-    load, transfer = system.mechanism.load, 0.0
-    fallen = 0.0
-    if load is not None:
-        moved = after.coordinates.place - before.coordinates.place
-        fallen = float(load.generalised @ moved + load.response @ (other.force - one.force))
-    if system.unseen > 0.0:
-        across = (one.force + other.force)[1::3] @ (other.displacement - one.displacement)[1::3]
-        transfer = -0.5 * system.unseen * float(across)
-    dashpot = 0.5 * (start.pull + end.pull) * (end.stretch - start.stretch)
-    return Sums(
-        time=step,
-        drive_force=step * pull,
-        friction_x=step * fx,
-        friction_y=step * fy,
-        normal_force=step * normal,
-        drive_work=pull * (end.reach - start.reach),
-        vibration_work=normal * base.z - fx * base.x - fy * base.y,
-        load_work=0.5 * (before.load + after.load) * fallen,
-        slip_work=of_points.slip,
-        damping_work=dashpot + damped,
-        method_loss=lost,
-        pressure_work=of_points.pressure,
-        overclosure_work=of_points.overclosure,
-        asperity_work=of_points.asperities,
-        friction_gain=of_points.gained,
-        transfer_work=transfer,
-        untransferred=-fy * (base.whole_y - base.y),
-        iterations=other.iterations,
-        increments=1,
-        iterations_max=other.iterations,
-        friction_x_max=last.friction_x,
-        friction_y_max=last.friction_y,
-        friction_x_min=last.friction_x,
-        friction_y_min=last.friction_y,
-        pressure_max=of_points.greatest,
-    )
 
 
 @dataclasses.dataclass(frozen=True)

@@ -8,9 +8,16 @@ from asperity.contact.increment.problem import ContactState, IncrementResult
 from asperity.contact.increment.solver import IncrementSolver
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.motion.hht import Coordinates
-from asperity.contact.motion.mechanism import DriveState, Imposed, Port, motion_step
-from asperity.contact.motion.steps import contact_resultants, take_step
+from asperity.contact.motion.mechanism import (
+    DriveState,
+    Imposed,
+    Port,
+    approach,
+    motion_step,
+    settle,
+)
 from asperity.contact.motion.system import System, SystemState
+from asperity.contact.motion.works import resultants
 from asperity.errors import ConvergenceError, InputError
 
 _MOST_STATIC = 50
@@ -39,21 +46,22 @@ def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
     contact = ContactState.rest(solver.problem)
     coordinates = Coordinates.at_rest(mechanism.size)
     still = SurfaceMotion(pose=system.pose)
-    result = None
+    loaded, result = Imposed(0.0, 0.0, 1.0), None
     for number, load in enumerate(loads, start=1):
         moving = motion_step(dataclasses.replace(waiting, load=load), long, alpha=0.0)
         for _ in range(_MOST_STATIC):
+            start = approach(moving, coordinates, DriveState(), loaded)
             try:
-                result, coordinates, _, _ = take_step(
-                    moving, solver, still, contact, coordinates, DriveState(),
-                    Imposed(0.0, 0.0, 1.0),
-                )  # fmt: skip
+                result = solver.solve(start.free, still, contact)
             except ConvergenceError as error:
                 raise ConvergenceError(
                     f"no equilibrium at rest under load {number} of {len(loads)}: {error}",
                     reached={"load": float(number), **error.reached},
                 ) from error
             contact = result.state
+            coordinates, _, _ = settle(
+                moving, coordinates, DriveState(), loaded, start, result.force
+            )
             # What the inertia still bears; each step starts anew without a velocity.
             left = float(np.abs(coordinates.force).max())
             coordinates = Coordinates.at_rest(mechanism.size, place=coordinates.place)
@@ -107,6 +115,6 @@ def at_start(system: System, result: IncrementResult, coordinates: Coordinates) 
         velocity = coordinates.velocity.copy()
         velocity[0] = system.drive_velocity if mechanism.held[0] else 0.0
         coordinates = coordinates._replace(velocity=velocity)
-    forces = contact_resultants(system, result)
+    forces = resultants(result.points, system.weights)
     drive = DriveState(reach=way, way=way, strain=strain)
     return SystemState(0.0, coordinates, drive, result, forces, 1.0)

@@ -5,21 +5,34 @@ two-phase scheme overshoots, is taken again in two halves, and those in halves i
 """
 
 import dataclasses
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.contact.increment.problem import ContactState, IncrementResult
+from asperity.contact.increment.modified_newton import MOST
+from asperity.contact.increment.predictor import Predictor
+from asperity.contact.increment.problem import IncrementResult
 from asperity.contact.increment.solver import IncrementSolver, SolverMemory
-from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.interface.friction import TWO_PHASE
-from asperity.contact.motion.hht import Coordinates
-from asperity.contact.motion.ledger import Sums, over_step
-from asperity.contact.motion.mechanism import DriveState, Imposed, MotionStep, approach, settle
+from asperity.contact.motion.march import (
+    Past,
+    Row,
+    Standing,
+    SystemNumbers,
+    at_end,
+    march,
+    overshot,
+    row,
+)
+from asperity.contact.motion.mechanism import Imposed, MotionStep, approach
+from asperity.contact.motion.sums import Sums, gather, over_step
 from asperity.contact.motion.system import System, SystemState
-from asperity.contact.motion.works import Resultants, resultants
 from asperity.errors import ConvergenceError
 
+# Steps of one call at most.
+_STRETCH = 50
 MOST_CUTS = 8
 
 
@@ -39,33 +52,12 @@ class Snapshot:
 _KEPT = tuple(field.name for field in dataclasses.fields(Snapshot))
 
 
-def take_step(
-    moving: MotionStep,
-    solver: IncrementSolver,
-    surface_motion: SurfaceMotion,
-    contact: ContactState,
-    coordinates: Coordinates,
-    drive: DriveState,
-    imposed: Imposed,
-) -> tuple[IncrementResult, Coordinates, DriveState, tuple[float, float]]:
-    """Solve a step of motion and contact together, from committed contact, coordinates and drive.
+class Stepping(NamedTuple):
+    """What a length of the step makes of a system."""
 
-    Returns those at its end, and the energy the method and the damping of the coordinates took, J.
-    A ConvergenceError has residual, iterations and points in contact.
-    """
-    start = approach(moving, coordinates, drive, imposed)
-    result = solver.solve(start.free, surface_motion, contact)
-    end, pull, taken = settle(moving, coordinates, drive, imposed, start, result.force)
-    return result, end, pull, taken
-
-
-def contact_resultants(system: System, result: IncrementResult) -> Resultants:
-    """Return the resultants of a contact."""
-    return Resultants(
-        *resultants(
-            result.pressure, result.traction, result.normal, result.state.deflection, system.weights
-        )
-    )
+    moving: MotionStep  #: Of the body
+    solver: IncrementSolver  #: Of its contact
+    numbers: SystemNumbers  #: Of all of it
 
 
 class Stepper:
@@ -99,14 +91,15 @@ class Stepper:
         self.mean_pressure = np.zeros(system.weights.size)
         self.cuts = self.unconverged = 0
         self.residual_max = 0.0
-        self._by_length: dict[float, tuple[MotionStep, IncrementSolver]] = {}
+        self._by_length: dict[float, Stepping] = {}
 
-    def stepping(self, step: float) -> tuple[MotionStep, IncrementSolver]:
-        """What a length of the step makes of body and contact; made once for each."""
+    def stepping(self, step: float) -> Stepping:
+        """What a length of the step makes of the system; made once for each."""
         if step not in self._by_length:
             moving = self.system.motion_step(step)
             problem = self.system.increments(moving.compliance, step)
-            self._by_length[step] = moving, IncrementSolver(problem)
+            numbers = self.system.numbers(problem)
+            self._by_length[step] = Stepping(moving, IncrementSolver(problem), numbers)
         return self._by_length[step]
 
     def snapshot(self) -> Snapshot:
@@ -120,12 +113,12 @@ class Stepper:
 
     def memories(self) -> dict[str, SolverMemory]:
         """Return what the solvers have learnt, by the length of their step."""
-        return {repr(step): solver.memory() for step, (_, solver) in self._by_length.items()}
+        return {repr(step): of.solver.memory() for step, of in self._by_length.items()}
 
     def recall(self, memories: dict[str, SolverMemory]) -> None:
         """Make solvers that have learnt what others have."""
         for step, memory in memories.items():
-            self.stepping(float(step))[1].recall(memory)
+            self.stepping(float(step)).solver.recall(memory)
 
     def clear(self) -> None:
         """Begin the sums anew."""
@@ -142,7 +135,63 @@ class Stepper:
         ConvergenceError
             Not even a step of 1/256 converges; with time, residual and points in contact.
         """
-        self._step_to(end, step, 0)
+        self.steps_to(np.array([end]), step)
+
+    def steps_to(self, ends: FloatArray, step: float) -> FloatArray:
+        """Go on through times in s in equal steps, as far as one call leads: at least one step.
+
+        Returns a `Row` for each step taken; raises as `step_to` does.
+        """
+        rows = self._marched(ends, step)
+        if not len(rows):
+            self._step_to(float(ends[0]), step, 0)
+            rows = np.array([row(self.state.standing)])
+        return rows
+
+    def through(self, ends: FloatArray, step: float) -> Iterator[FloatArray]:
+        """Go on through all of these times, in stretches that end before one gets impatient."""
+        done = 0
+        while done < len(ends):
+            rows = self.steps_to(ends[done : done + _STRETCH], step)
+            done += len(rows)
+            yield rows
+
+    def _marched(self, ends: FloatArray, step: float) -> FloatArray:
+        """Take as many of these steps as the tangent used last solves; none without one."""
+        moving, solver, numbers = self.stepping(step)
+        state, contact = self.state, self.state.contact.state
+        rows = np.empty((len(ends), len(Row._fields)))
+        kept = solver.kept_tangent(contact)
+        if kept is None:
+            return rows[:0]
+        sums, pressure, before = np.array(self.sums), self.mean_pressure.copy(), contact.predictor
+        standing, past, way = march(
+            ends, moving, numbers, kept.tangent, MOST, state.standing, contact.multiplier,
+            Past(before.forces, before.displacements, before.order), sums, pressure, rows,
+        )  # fmt: skip
+        if not way.done:
+            return rows[:0]
+        predictor = Predictor(past.forces, past.displacements, past.order, before.mark)
+        result = IncrementResult.of(
+            standing.displacement, standing.force, standing.points, contact.multiplier, predictor,
+            way.iterations, way.residual,
+        )  # fmt: skip
+        solver.tangents.marched(kept, way.done, way.iterations, result.state.touching.tobytes())
+        self._went(standing, result, sums, pressure, way.breakaway, way.residual_max)
+        return rows[: way.done]
+
+    def _went(
+        self, standing: Standing, result: IncrementResult, sums: FloatArray, pressure: FloatArray,
+        breakaway: float, residual: float,
+    ) -> None:  # fmt: skip
+        self.sums, self.mean_pressure = Sums(*sums.tolist()), pressure
+        if self.breakaway is None and breakaway < np.inf:
+            self.breakaway = breakaway
+        self.residual_max = max(self.residual_max, residual)
+        self.state = SystemState(
+            standing.time, standing.coordinates, standing.drive, result, standing.forces,
+            standing.load,
+        )  # fmt: skip
 
     def _step_to(self, end: float, step: float, cut: int) -> None:
         begin = self.state.time
@@ -161,33 +210,25 @@ class Stepper:
 
     def _take(self, end: float, step: float) -> None:
         system, state = self.system, self.state
-        moving, solver = self.stepping(step)
+        moving, solver, numbers = self.stepping(step)
         surface_motion, base = system.surface_motion(state.time, end)
         velocity = system.drive_velocity
         imposed = Imposed(state.drive.reach + velocity * step, velocity, state.load)
-        result, coordinates, drive, taken = take_step(
-            moving, solver, surface_motion, state.contact.state, state.coordinates, state.drive,
-            imposed,
-        )  # fmt: skip
+        before = state.standing
+        start = approach(moving, state.coordinates, state.drive, imposed)
+        result = solver.solve(start.free, surface_motion, state.contact.state)
         if system.friction.model == TWO_PHASE:
             _refuse_overshoot(state.contact, result)
-        if system.mechanism.drive is None and system.mechanism.held[0]:
-            place = float(coordinates.place[0])
-            drive = DriveState(place, place, float(coordinates.reaction[0]))
-        forces = contact_resultants(system, result)
-        after = SystemState(end, coordinates, drive, result, forces, state.load)
-        mean = self.mean_pressure + 0.5 * step * (state.contact.pressure + result.pressure)
-        broke = drive.force >= system.full_friction
-        # All at once, so that whoever stops in the middle of a step finds the state before it.
-        self.sums, self.mean_pressure = (
-            self.sums.with_(over_step(system, state, after, base, taken)),
-            mean,
-        )
-        if self.breakaway is None and broke:
-            self.breakaway = end
+        after, taken = at_end(
+            moving, numbers, before, start, imposed, end, result.displacement, result.force,
+            result.points,
+        )  # fmt: skip
+        sums = np.array(self.sums)
+        gather(sums, over_step(moving, numbers, before, after, base, taken, result.iterations))
+        pressure = self.mean_pressure + 0.5 * step * (state.contact.pressure + result.pressure)
+        broke = end if after.drive.force >= system.full_friction else np.inf
         self.unconverged += result.residual > solver.problem.tolerance
-        self.residual_max = max(self.residual_max, float(result.residual))
-        self.state = after
+        self._went(after, result, sums, pressure, broke, float(result.residual))
 
 
 def _refuse_overshoot(before: IncrementResult, after: IncrementResult) -> None:
@@ -197,11 +238,10 @@ def _refuse_overshoot(before: IncrementResult, after: IncrementResult) -> None:
     falls with the slip: the overshoot grows from step to step, until friction falls faster than the
     body can follow and an increment, however short, has no equilibrium.
     """
-    size = np.abs(after.state.size)
-    passed = size > (1.0 + 1e-9) * np.maximum(np.abs(before.state.size), 1.0)
-    if passed.any():
+    most = overshot(before.state.size, after.state.size)
+    if most > 0.0:
         raise ConvergenceError(
-            f"the explicit two-phase scheme bends asperities to {size[passed].max():.3g} times "
+            f"the explicit two-phase scheme bends asperities to {most:.3g} times "
             "their limit, since they slip too far in a step; give a smaller solve.step, or "
             "solve.scheme 'exponential'",
             reached={"residual": after.residual, "active": float(after.active)},

@@ -2,7 +2,6 @@
 
 import dataclasses
 import functools
-from typing import NamedTuple
 
 import numpy as np
 
@@ -14,9 +13,16 @@ from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface
 from asperity.contact.motion.hht import ALPHA, Coordinates, coefficients
+from asperity.contact.motion.march import (
+    BaseMotion,
+    ShakingNumbers,
+    Standing,
+    SystemNumbers,
+    base_motion,
+)
 from asperity.contact.motion.mechanism import DriveState, Mechanism, MotionStep, motion_step
 from asperity.contact.motion.works import Asperities, Resultants
-from asperity.waveform import Shape, fill_increments
+from asperity.waveform import AT_REST, Shape
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
 # touching, up to this angle of its oscillation in a step; at 3 it leaves 17 % faster.
@@ -42,24 +48,19 @@ class Shaking:
             return np.eye(3), np.zeros((3, 3))
         return np.diag([1.0, 0.0, 1.0]), np.diag([0.0, self.transfer, 0.0])
 
-    def increment(self, begin: float, end: float) -> float:
-        """Increment of the unit displacement between two times."""
-        frequency = self.shape.frequency
-        room = np.empty(1)
-        fill_increments(
-            self.shape.wave(), (begin - self.start) * frequency,
-            (end - begin) * frequency, room,
+    @property
+    def numbers(self) -> ShakingNumbers:
+        """The vibration as kernels take it.
+
+        A body that is shaken is one at rest on a base that moves the other way, but for the share
+        of its own lateral motion that the contact sees.
+        """
+        sign = -1.0 if self.on_body else 1.0
+        x, y, z = (sign * float(amplitude) for amplitude in self.amplitude)
+        return ShakingNumbers(
+            self.shape.wave(), float(self.shape.frequency), float(self.start), x, y, z,
+            float(self.transfer),
         )  # fmt: skip
-        return float(room[0])
-
-
-class BaseMotion(NamedTuple):
-    """Displacement of the base over a step, m."""
-
-    x: float = 0.0
-    y: float = 0.0  #: As far as the contact sees it
-    whole_y: float = 0.0
-    z: float = 0.0  #: Upwards
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -139,31 +140,40 @@ class System:
         shaking = self.shaking
         return 1.0 - shaking.transfer if shaking is not None and shaking.on_body else 0.0
 
-    def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, BaseMotion]:
-        """Return how the base moves over a step.
+    @functools.cached_property
+    def shaken(self) -> ShakingNumbers:
+        """Its vibration as kernels take it."""
+        still = ShakingNumbers(AT_REST, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+        return still if self.shaking is None else self.shaking.numbers
 
-        A body that is shaken is one at rest on a base that moves the other way, but for the share
-        of its own lateral motion that the contact sees.
-        """
-        shaking = self.shaking
-        if shaking is None:
-            return SurfaceMotion(pose=self.pose), BaseMotion()
-        sign = -1.0 if shaking.on_body else 1.0
-        moved = sign * shaking.increment(begin, end)
-        x, y, z = [moved * amplitude for amplitude in shaking.amplitude]
-        pose = self.pose
-        if shaking.amplitude[2] != 0.0:
-            height = sign * shaking.increment(shaking.start, end) * shaking.amplitude[2]
-            pose = Pose(pose.rotation, pose.translation + np.array([0.0, 0.0, height]))
-        through = shaking.transfer * y
-        one_sided = end <= shaking.start * (1.0 + 1e-12)
+    def numbers(self, problem: IncrementProblem) -> SystemNumbers:
+        """Return the system as kernels take it, with increments of one length."""
+        mechanism = self.mechanism
+        still, _ = self.surface_motion(0.0, 0.0)
+        return SystemNumbers(
+            problem.interface,
+            self.asperities,
+            dataclasses.replace(still, pose=self.pose).numbers(),
+            self.shaken,
+            float(self.drive_velocity),
+            mechanism.drive is None and bool(mechanism.held[0]),
+            float(self.full_friction),
+            float(self.unseen),
+            problem.reach,
+            problem.by_digits,
+            problem.tolerance,
+        )
+
+    def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, BaseMotion]:
+        """Return how the base moves over a step."""
+        base, height = base_motion(self.shaken, begin, end)
         return SurfaceMotion(
-            pose,
-            Drift(np.array([x, 0.0, 0.0])),
-            Drift(np.array([0.0, through, 0.0])),
-            *shaking.body,
-            one_sided,
-        ), BaseMotion(x, through, y, z)
+            Pose(self.pose.rotation, self.pose.translation + np.array([0.0, 0.0, height])),
+            Drift(np.array([base.x, 0.0, 0.0])),
+            Drift(np.array([0.0, base.y, 0.0])),
+            *(self.shaking.body if self.shaking is not None else (np.eye(3), np.zeros((3, 3)))),
+            end <= self.shaken.start * (1.0 + 1e-12),
+        ), base
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -176,3 +186,12 @@ class SystemState:
     contact: IncrementResult  #: Of the last increment
     forces: Resultants  #: Of the contact
     load: float  #: Share of the loads
+
+    @property
+    def standing(self) -> Standing:
+        """The state as kernels take it."""
+        contact = self.contact
+        return Standing(
+            self.time, self.load, self.coordinates, self.drive, contact.displacement,
+            contact.force, contact.points, self.forces,
+        )  # fmt: skip

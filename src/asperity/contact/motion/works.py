@@ -48,15 +48,16 @@ def asperity_stiffness(pressure, asperities):
 
 
 @kernel
-def resultants(pressure, traction, normal, deflection, weights):
-    """Friction, normal force and mean deflection of a contact."""
+def resultants(points, weights):
+    """Friction, normal force and mean deflection of a contact: `Resultants`."""
+    normal, traction, deflection = points.normal, points.traction, points.deflection
     fx = 0.0
     fy = 0.0
     fn = 0.0
     sx = 0.0
     sy = 0.0
     for q in range(weights.size):
-        p = pressure[q]
+        p = points.pressure[q]
         if p <= 0.0:
             continue
         w = weights[q]
@@ -98,14 +99,16 @@ def overclosure_work(begin, end, law):
 
 
 @kernel
-def works(
-    pressure_0, traction_0, normal_0, distance_0, deflection_0,
-    pressure_1, traction_1, normal_1, distance_1, deflection_1, slip, weights, law, asperities,
-):  # fmt: skip
-    """Works over a step, from the points at both ends and the slip between them, (q, 3), m.
+def works(one, other, weights, law, asperities):
+    """Works over a step, from the `ContactPoints` at both ends.
 
     ``weights`` are the areas of the points, m^2.
     """
+    deflection_0, deflection_1 = one.deflection, other.deflection
+    slip_1, slip_2 = other.slip_1, other.slip_2
+    traction_0, traction_1 = one.traction, other.traction
+    normal_0, normal_1 = one.normal, other.normal
+    distance_0, distance_1 = one.distance, other.distance
     on_slip = 0.0
     into_asperities = 0.0
     gained = 0.0
@@ -113,8 +116,8 @@ def works(
     by_law = 0.0
     most = 0.0
     for q in range(weights.size):
-        p0 = pressure_0[q]
-        p1 = pressure_1[q]
+        p0 = one.pressure[q]
+        p1 = other.pressure[q]
         if p0 <= 0.0 and p1 <= 0.0:
             continue
         w = weights[q]
@@ -129,10 +132,11 @@ def works(
             s0 = deflection_0[q, c]
             s1 = deflection_1[q, c]
             into += (k0 * s0 + k1 * s1) * (s1 - s0) + (k1 - k0) * s0 * s1
-            work -= slip[q, c] * (
+            slip = slip_1[q, c] + slip_2[q, c]
+            work -= slip * (
                 traction_0[q, c] - p0 * normal_0[q, c] + traction_1[q, c] - p1 * normal_1[q, c]
             )
-            last -= slip[q, c] * (traction_1[q, c] - p1 * normal_1[q, c])
+            last -= slip * (traction_1[q, c] - p1 * normal_1[q, c])
         on_slip += 0.5 * w * work
         gained += w * max(0.5 * into - last, 0.0)
         into_asperities += 0.5 * w * into

@@ -3,7 +3,8 @@
 import numpy as np
 
 from asperity.compiled import kernel
-from asperity.drive.elastic.mesh import advance, forget
+from asperity.drive.elastic.mesh import advance
+from asperity.drive.elastic.near import forget
 from asperity.drive.interface import AT, OUTS, POSES, SOLVED
 from asperity.drive.motion.kernels import arrive, clear, move, next_step
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+import math
 from typing import ClassVar
 
 import numpy as np
@@ -12,8 +13,11 @@ from asperity.contact.candidates.records import Answer, Candidates, History, Kep
 from asperity.contact.interface.friction import DAHL, PointFriction
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.elastic.march import march
-from asperity.drive.elastic.mesh import advance, states
+from asperity.drive.elastic.memory import states
+from asperity.drive.elastic.mesh import advance
+from asperity.drive.elastic.near import GATHERED
 from asperity.drive.elastic.records import Mesh
+from asperity.drive.elastic.rim import rim_of
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
@@ -23,6 +27,7 @@ from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import condensed
 from asperity.drive.static.sweep import REVERSED, Asked, Course, phases_of, sweep, touching_angles
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, KEPT, TeethContact
+from asperity.drive.teeth.mode import lowest_mode
 from asperity.drive.teeth.sector import Sector
 from asperity.flanks.meshing.backlash import set_backlash
 from asperity.flanks.meshing.transmission import transmission
@@ -36,13 +41,15 @@ _PHASES = 8
 _BRITTLE = 2e-8
 # Turn of the worm that slides all asperities through, rad.
 _SLIDE = 1e-3
+# Turns of the wheel on the way to its balance, rad, and how near to it is near enough.
+_SHIFT, _FALL, _BALANCED = 1e-6, 1e-4, 1e-6
 _TOLERANCE = 2e-7
 _STEPS = 40
 
 
 @dataclasses.dataclass(frozen=True)
 class TeethModel(ReducedModel):
-    """Elastic teeth, each by itself, in place of the reduced mesh.
+    """Elastic teeth in place of the reduced mesh.
 
     What the protocols ask of the mesh beside its march (stiffness for the step, approach under the
     load) is that of the teeth reduced.
@@ -65,15 +72,10 @@ class TeethModel(ReducedModel):
             sector = _with_backlash(sector, problem)
         return cls(problem, reduction, sector)
 
-    @property
-    def give(self) -> tuple[str, ...]:
-        """Nothing: bending and radial bearings of the shaft are rigid here."""
-        return ()
-
     @functools.cached_property
     def contact(self) -> TeethContact:
-        """The teeth held against the worm, each by itself."""
-        return TeethContact(self.sector, self.problem.friction.mu, coupled=False)
+        """The teeth held against the worm."""
+        return TeethContact(self.sector, self.problem.friction.mu)
 
     @functools.cached_property
     def courses(self) -> tuple[Course, Course, float]:
@@ -123,11 +125,12 @@ class TeethModel(ReducedModel):
         interface = forward.interface._replace(friction=point)
         laws = Laws(interface, _TOLERANCE, forward.floor, _STEPS)
         other = RigidSurface.worm(self.sector.wheel.pair.worm, side=-1).numbers
-        gathered = np.zeros((places, 8))
+        gathered = np.zeros((places, GATHERED))
         gathered[:, 0] = np.inf
         return Mesh(
             body=body,
             stand=contact.stand,
+            rim=(rim := rim_of(self.sector.neighbours, self.sector.surface.nodal_area, places)),
             laws=laws,
             back=laws._replace(interface=interface._replace(counter=other)),
             teeth=count,
@@ -155,6 +158,8 @@ class TeethModel(ReducedModel):
             moved=np.zeros(3),
             one=np.eye(3),
             damped=np.zeros(POSES),
+            amplitude=np.zeros(rim.shapes.shape[1]),
+            numbers=np.zeros(places, np.int64),
             counted=np.zeros(1, np.int64),
         )
 
@@ -179,10 +184,37 @@ class TeethModel(ReducedModel):
         turn = sense * _SLIDE
         # Asperities that only just touch are slid through by a second step.
         for _ in range(2):
-            before[:POSES] = pose - np.array([turn, 0.0, turn / self.point.ratio, 0.0])
+            before[:POSES] = pose - np.array([turn, 0.0, turn / self.point.ratio, 0.0, 0.0])
             advance(self.teeth, before, after, pose, np.zeros(POSES), 1.0, out)
             before = after.copy()
         return after, out
+
+    @functools.cached_property
+    def tooth_mode(self) -> float:
+        """Lowest natural frequency of a tooth cut out with its rim, Hz."""
+        return lowest_mode(self.sector.wheel, self.problem.gearset.wheel_material)
+
+    @property
+    def pitch(self) -> float:
+        """Time from tooth to tooth, s."""
+        return 2.0 * math.pi / (self.problem.gearset.starts * self.problem.worm_speed)
+
+    def balanced(self, pose: FloatArray, load: float) -> FloatArray | None:
+        """Turn the wheel, in place, to where the teeth carry a load, and return their answer."""
+        out = self._slid(pose, 1.0)[1]
+        torque, move = out[AT.wheel_torque], -_SHIFT
+        for _ in range(_STEPS):
+            pose[2] += move
+            out = self._slid(pose, 1.0)[1]
+            missing = load - out[AT.wheel_torque]
+            if abs(missing) <= _BALANCED * load:
+                break
+            slope = (out[AT.wheel_torque] - torque) / move
+            torque = out[AT.wheel_torque]
+            # Open flanks have no slope: the wheel falls back against the worm.
+            move = missing / slope if slope < 0.0 else -_FALL
+            move = float(np.clip(move, -_FALL, _FALL))
+        return out
 
     def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
         """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
@@ -191,7 +223,7 @@ class TeethModel(ReducedModel):
     def stored(self, approach: float, share: float) -> float:
         """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
         roll = -approach / (self.point.normal_z * self.point.arm)
-        out = self._slid(np.array([0.0, 0.0, roll, 0.0]), 1.0 if share >= 0.0 else -1.0)[1]
+        out = self._slid(np.array([0.0, 0.0, roll, 0.0, 0.0]), 1.0 if share >= 0.0 else -1.0)[1]
         return float(out[AT.stored])
 
 

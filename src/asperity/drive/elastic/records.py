@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.candidates.records import Answer, Body, Candidates, History, Kept, Laws, Work
+from asperity.drive.elastic.rim import Rim
 from asperity.drive.teeth.placing import Stand
 
 
@@ -16,6 +17,7 @@ class Mesh(NamedTuple):
 
     body: Body
     stand: Stand
+    rim: Rim
     laws: Laws  #: With the worm's flank 1
     back: Laws  #: With the worm's flank -1
     teeth: int  #: K
@@ -30,7 +32,7 @@ class Mesh(NamedTuple):
     history: History
     earlier: FloatArray  #: (4k, 3): Committed forces, N
     work: Work
-    #: (2K, 8): Where candidates were gathered: tooth, poses, least distance, reach, elastic way
+    #: (2K, g): Where candidates were gathered: tooth, poses, least distance, reach, elastic way
     gathered: FloatArray
     shape: FloatArray  #: (2K, 3n): Displacement of the nodes when they were
     rotation: FloatArray  #: (2, 3, 3): Of the worm before and after the step
@@ -43,5 +45,7 @@ class Mesh(NamedTuple):
     still: FloatArray  #: (3,): Zeros
     moved: FloatArray  #: (3,): Shift of the worm
     one: FloatArray  #: (3, 3)
-    damped: FloatArray  #: (4,): Generalised forces of the damping
+    damped: FloatArray  #: (5,): Generalised forces of the damping
+    amplitude: FloatArray  #: (r,): Of the rim's shapes
+    numbers: IntArray  #: (2K,): Teeth looked at, as they follow one another in their flank's frame
     counted: IntArray  #: (1,): Evaluations of teeth so far

@@ -69,6 +69,44 @@ def move(system, state, dt, q, v):
         v[2] = 0.0
     q[3] = system.shake_wheel * wave
     v[3] = system.shake_wheel * rate
+    q[4] = 0.0
+    v[4] = 0.0
+    if system.bends:
+        for i in range(3):
+            half = state.bent_rate[i] + 0.5 * dt * state.bent_push[i]
+            state.bent_ahead[i] = state.bent[i] + dt * half
+            state.bent_going[i] = half + 0.5 * dt * state.bent_push[i]
+        q[1] += state.bent_ahead[0]
+        v[1] += state.bent_going[0]
+        q[3] -= state.bent_ahead[1]
+        v[3] -= state.bent_going[1]
+        q[4] = state.bent_ahead[2]
+        v[4] = state.bent_going[2]
+
+
+@uncounted
+@kernel(inline="always")
+def bend(system, state, dt, out, sums):
+    """Take over the worm's shift on its shaft; return the energy it has."""
+    energy = 0.0
+    for i in range(3):
+        # Against the worm's motion the wheel's force is that on its shift.
+        force = out[AT.worm_force]
+        if i == 1:
+            force = -out[AT.wheel_force]
+        elif i == 2:
+            force = out[AT.worm_radial]
+        place = state.bent_ahead[i]
+        loss = -system.bent_damping[i] * state.bent_going[i]
+        push = (force + loss - system.bent_stiffness[i] * place) / system.bent_mass[i]
+        state.bent_rate[i] += 0.5 * dt * (state.bent_push[i] + push)
+        sums.shaft_damping -= 0.5 * (state.bent_loss[i] + loss) * (place - state.bent[i])
+        energy += 0.5 * system.bent_stiffness[i] * place * place
+        energy += 0.5 * system.bent_mass[i] * state.bent_rate[i] * state.bent_rate[i]
+        state.bent[i] = place
+        state.bent_push[i] = push
+        state.bent_loss[i] = loss
+    return energy
 
 
 @uncounted
@@ -126,8 +164,11 @@ def arrive(system, state, dt, q, v, out, sums):
     seat_loss = 0.0
     if system.shifts:
         shift = q[1] - system.shake_worm_shift * wave
-        give = system.shake_seat * wave - shift
         shift_rate = v[1] - system.shake_worm_shift * rate
+        if system.bends:
+            shift -= state.bent_ahead[0]
+            shift_rate -= state.bent_going[0]
+        give = system.shake_seat * wave - shift
         seat_loss = system.seat_damping * (system.shake_seat * rate - shift_rate)
         seat_force = system.seat * give + seat_loss
         push = (seat_force + worm_force) / system.worm_mass
@@ -142,6 +183,8 @@ def arrive(system, state, dt, q, v, out, sums):
     else:
         put_in -= mesh_shift * seat_way
     put_in -= mesh_shift * shift_way
+    if system.bends:
+        stored += bend(system, state, dt, out, sums)
     # Wheel and load.
     rolled = q[2] - state.roll
     if system.rolls:

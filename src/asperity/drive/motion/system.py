@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.waveform import Wave
 
 
@@ -18,6 +19,10 @@ class System(NamedTuple):
         Of the shaft between the worm and the motor's end.
     seat, seat_damping : float
         Stiffness and damping that hold the worm along its axis.
+    bent_mass, bent_stiffness, bent_damping : ndarray, shape (3,)
+        Of the worm's shift on its shaft that bends and its radial bearings that yield: along the
+        axis at the mesh as it tilts, along the wheel's axis as its surface moves there, towards
+        the wheel.
     motor_torque : float
         That a motor without speed pushes with.
     load : float
@@ -27,6 +32,8 @@ class System(NamedTuple):
     turns, shifts, rolls : bool
         Whether worm rotation, worm shift and wheel rotation are free; what is not, follows the
         motor's end, stands where it is put, or stands.
+    bends : bool
+        Whether the worm gives way across its axis.
     shake_worm_turn, shake_worm_shift, shake_seat, shake_wheel, shake_motor : float
         Amplitude of what is imposed where: rad, m, m, m, rad.
     wave : Wave
@@ -46,12 +53,16 @@ class System(NamedTuple):
     torsion_damping: float
     seat: float
     seat_damping: float
+    bent_mass: FloatArray
+    bent_stiffness: FloatArray
+    bent_damping: FloatArray
     motor_torque: float
     load: float
     speed: float
     turns: bool
     shifts: bool
     rolls: bool
+    bends: bool
     shake_worm_turn: float
     shake_worm_shift: float
     shake_seat: float
@@ -76,8 +87,15 @@ STATE = np.dtype(
             "driving", "back", "stored", "approach",
         )
     ]
+    + [
+        (name, np.float64, (3,))
+        for name in ("bent", "bent_rate", "bent_push", "bent_loss", "bent_ahead", "bent_going")
+    ]
 )  # fmt: skip
-"""Motion and forces at the end of a step; pushes are accelerations, losses forces of dampers."""
+"""Motion and forces at the end of a step; pushes are accelerations, losses forces of dampers.
+
+What is ahead or going is that of the step that is being taken.
+"""
 
 SUMS = np.dtype(
     [

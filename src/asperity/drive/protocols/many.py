@@ -22,8 +22,8 @@ from asperity.slider.parameters import in_proportion
 _LOOK_SECONDS = 0.1
 
 
-def _steps(problem: DriveProblem) -> float:
-    """Steps that a problem takes at most, about."""
+def steps_of(problem: DriveProblem) -> float:
+    """Return the steps that a problem takes at most, about."""
     frequency = problem.vibrated[1].frequency
     block = block_of(problem.drive.window, frequency)
     cycles = longest_march(block, frequency, problem.solve.duration)
@@ -62,9 +62,11 @@ def solve_many(
     kept: Tree = {} if known is None else known
     names = [asked(problem) for problem, _ in problems]
     missing = [n for n, name in enumerate(names) if name not in kept]
-    steps = sum(_steps(problems[n][0]) for n in missing)
-    seconds = sum(step_seconds(problems[n][0]) * _steps(problems[n][0]) for n in missing)
-    run.forecast(seconds / cores(), f"{steps:.3g} steps")
+    steps = sum(steps_of(problems[n][0]) for n in missing)
+    each = {n: step_seconds(problems[n][0]) * steps_of(problems[n][0]) for n in missing}
+    run.forecast(sum(each.values()) / cores(), f"{steps:.3g} steps")
+    # The dearest first, so that no core is left alone with one at the end.
+    missing.sort(key=each.__getitem__, reverse=True)
 
     def one(problem: DriveProblem, reduced: Reduction) -> DriveResult | AsperityError:
         try:
@@ -84,11 +86,11 @@ def solve_many(
                 done, left = cf.wait(left, timeout=_LOOK_SECONDS, return_when=cf.FIRST_COMPLETED)
                 for future in done:
                     n = waiting[future]
-                    found[n] = each = future.result()
-                    if isinstance(each, DriveResult):
-                        kept[names[n]] = _tree(each)
-                solved = len(kept) if known is not None else len(found)
-                run.checkpoint(solved, solved + len(left), state, what)
+                    found[n] = solved = future.result()
+                    if isinstance(solved, DriveResult):
+                        kept[names[n]] = _tree(solved)
+                ready = len(kept) if known is not None else len(found)
+                run.checkpoint(ready, ready + len(left), state, what)
             return [
                 found[n] if n in found else _restored(problem, kept[name])
                 for n, ((problem, _), name) in enumerate(zip(problems, names, strict=True))

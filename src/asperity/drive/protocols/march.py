@@ -185,8 +185,9 @@ class March:
         return rows
 
     def settle(
-        self, *, window: int, scale: float, duration: float | None, measure: str = "torque"
-    ) -> Judgement:
+        self, *, window: int, scale: float, duration: float | None, measure: str = "torque",
+        pitch: float | None = None,
+    ) -> Judgement:  # fmt: skip
         """March until the state is periodic, or for as long as that is waited for.
 
         Parameters
@@ -199,8 +200,12 @@ class March:
             What is to stay, by the name of its sum.
         duration : float, optional
             How long is waited, s.
+        pitch : float, optional
+            Time in which the mesh takes on the next tooth, s; before, nothing repeats.
         """
         block = block_of(window, self.system.frequency)
+        if pitch is not None:
+            block = block_of_pitches(block, self.system.frequency, pitch, duration)
         # Its ramp is no part of a periodic state.
         ramp = math.ceil(self.system.wave.ramp)
         most = ramp + longest_march(block, self.system.frequency, duration)
@@ -256,6 +261,17 @@ def block_of(window: int, frequency: float) -> int:
     """Return the cycles of a block that a periodic state is judged by."""
     least = max(window, _BLOCK_SECONDS * frequency)
     return _BLOCK_CYCLES * math.ceil(least / _BLOCK_CYCLES)
+
+
+def block_of_pitches(block: int, frequency: float, pitch: float, duration: float | None) -> int:
+    """Return the cycles, no fewer than of a block, that come nearest to whole pitches.
+
+    Where three of them take longer than is waited, the block stays as it is.
+    """
+    cycles = pitch * frequency
+    whole = round(math.ceil(block / cycles) * cycles)
+    waited = longest_march(block, frequency, duration)
+    return whole if _BLOCKS * whole <= waited else block
 
 
 def longest_march(block: int, frequency: float, duration: float | None) -> int:

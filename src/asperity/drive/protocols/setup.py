@@ -9,15 +9,19 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.drive.friction_curve import friction_at
+from asperity.drive.interface import AT
 from asperity.drive.motion.system import STATE, System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.shafts import Bending, MeshAction, bending_of, bends
 from asperity.errors import InputError
 from asperity.waveform import AT_REST, SAMPLED, Wave, displacement_at
 
 _STABLE = 0.25  # of a step, times the highest natural frequency
 _STIFFER = 3.0  # that the normal contact may be than without vibration
 _LANDING = 1.0 / 20.0  # of the approach without vibration, in a step
+# Of what teeth and a shaft that bends do to each other at the start, and m that they agree by.
+_ROUNDS, _CLOSE = 20, 1e-8
 _NOTHING: Mapping[str, float] = MappingProxyType({})
 
 
@@ -77,6 +81,10 @@ def system(
     mass = problem.worm_mass if seat is not None else 1.0
     ratio = shaft.damping_ratio
     _, shape = problem.vibrated
+    gives = bends(shaft)
+    bent = _RIGID
+    if gives:
+        bent = bending_of(shaft, model.point.radius, problem.worm_mass)
     found = System(
         worm_inertia=inertia,
         worm_mass=mass,
@@ -85,12 +93,16 @@ def system(
         torsion_damping=2.0 * ratio * math.sqrt(torsion * inertia),
         seat=seat or 0.0,
         seat_damping=2.0 * ratio * math.sqrt((seat or 0.0) * mass),
+        bent_mass=bent.mass,
+        bent_stiffness=bent.stiffness,
+        bent_damping=2.0 * ratio * np.sqrt(bent.stiffness * bent.mass),
         motor_torque=model.worm_torque if held else 0.0,
         load=problem.load,
         speed=problem.worm_speed if driven else 0.0,
         turns=turns,
         shifts=seat is not None,
         rolls=not held,
+        bends=gives,
         **(dict.fromkeys(_SHAKES, 0.0) | (shakes(problem, model) if shaken else {})),
         wave=shape.wave() if shaken else AT_REST,
         frequency=shape.frequency,
@@ -100,6 +112,7 @@ def system(
     return found._replace(longest=_longest(problem, model, found))
 
 
+_RIGID = Bending(np.zeros(3), np.ones(3))
 _SHAKES = ("shake_worm_turn", "shake_worm_shift", "shake_seat", "shake_wheel", "shake_motor")
 
 
@@ -115,6 +128,14 @@ def _longest(problem: DriveProblem, model: ReducedModel, found: System) -> float
         squares.append((found.torsion + turning) / found.worm_inertia)
     if found.shifts:
         squares.append((found.seat + n_z**2 * normal + tilt**2 * along) / found.worm_mass)
+    if found.bends:
+        across = point.normal_across * tilt, point.normal_radial, point.normal_across
+        sides = (
+            n_z**2 * normal + tilt**2 * along,
+            across[0] ** 2 * normal + (point.radius / point.length) ** 2 * along,
+            across[1] ** 2 * normal + across[2] ** 2 * along,
+        )
+        squares += list((found.bent_stiffness + np.array(sides)) / found.bent_mass)
     if found.rolls:
         wheel = point.arm**2 * (n_z**2 * normal + tilt**2 * along)
         squares.append(wheel / found.wheel_inertia)
@@ -152,16 +173,16 @@ def begin(
     """
     point = model.point
     locked = not moving.speed and not moving.motor_torque
-    share = 1.0
+    share, friction = 1.0, model.friction
     force, torque = model.normal_force, model.worm_torque
     if locked:
         # The worm holds without a torque, by as much friction as that takes.
-        friction = float(friction_at(model.curve, 0.0))
-        share = -min(point.holding_share(friction), 1.0)
-        force = point.normal_force(problem.load, share * friction)
-        torque = point.worm_torque(problem.load, share * friction)
+        at_rest = float(friction_at(model.curve, 0.0))
+        friction = -min(point.holding_share(at_rest), 1.0) * at_rest
+        force = point.normal_force(problem.load, friction)
+        torque = point.worm_torque(problem.load, friction)
         # The mesh counts friction by that of the sliding worm.
-        share *= friction / model.friction
+        share = friction / model.friction
     thrust = -problem.load / point.arm
     states = np.zeros(1, STATE)
     state = states[0]
@@ -181,23 +202,60 @@ def begin(
     turn = state["turn"] + moving.shake_worm_turn * wave
     shift = state["shift"] + moving.shake_worm_shift * wave
     aside = moving.shake_wheel * wave
+    nearer = 0.0
+    if moving.bends:
+        pressed = -problem.load * MeshAction.of(point, friction).force
+        state["bent"] = bent = pressed / moving.bent_stiffness
+        shift, aside, nearer = shift + bent[0], aside - bent[1], bent[2]
     approach = model.law.approach_at(force)
     state["roll"] = (
-        point.lead * (turn - aside / point.radius) + shift - approach / point.normal_z
+        point.lead * (turn - aside / point.radius)
+        + shift
+        - (approach - point.normal_radial * nearer) / point.normal_z
     ) / point.arm
     state["driving"] = force
     state["torque"] = 0.0 if locked else torque
     state["worm_torque"], state["worm_force"] = -torque, thrust
     state["wheel_torque"] = problem.load
+    pose = np.array([turn, shift, state["roll"], aside, nearer])
+    stored = None if locked else _balance(model, moving, state, pose, problem.load)
+    if stored is None:
+        stored = model.stored(approach, share)
     state["stored"] = (
-        model.stored(approach, share)
+        stored
         + 0.5 * moving.worm_inertia * state["turn_rate"] ** 2 * moving.turns
         + 0.5 * moving.wheel_inertia * state["roll_rate"] ** 2
         + 0.5 * moving.torsion * twist**2
         + (0.5 * thrust**2 / moving.seat if moving.shifts else 0.0)
+        + 0.5 * float(moving.bent_stiffness @ state["bent"] ** 2)
     )
-    pose = np.array([turn, shift, state["roll"], aside])
     return states, model.settled_in(pose, share)
+
+
+def _balance(
+    model: ReducedModel, moving: System, state: np.void, pose: FloatArray, load: float
+) -> float | None:
+    """Let a mesh that has no closed form find its own balance: ``state`` and ``pose`` follow.
+
+    Returns its energy; None of a mesh in balance.
+    """
+    signs = np.array([1.0, -1.0, 1.0])
+    stored = None
+    for _ in range(_ROUNDS):
+        forces = model.balanced(pose, load)
+        if forces is None:
+            break
+        state["roll"], stored = pose[2], float(forces[AT.stored])
+        if not moving.bends:
+            break
+        pressed = signs * forces[[AT.worm_force, AT.wheel_force, AT.worm_radial]]
+        # Half of it: edges that come into mesh push back as stiffly as a thin shaft.
+        more = 0.5 * (pressed / moving.bent_stiffness - state["bent"])
+        if np.abs(more).max() <= _CLOSE:
+            break
+        state["bent"] += more
+        pose[[1, 3, 4]] += signs * more
+    return stored
 
 
 def switched_off(

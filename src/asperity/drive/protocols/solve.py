@@ -22,6 +22,8 @@ from asperity.runs.key import code_key, key
 
 _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
 _AFTER_SECONDS = 40e-3
+# Of a tooth's lowest mode: below, its inertia adds an eighth to what it gives at most.
+_QUASI_STATIC = 1.0 / 3.0
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
@@ -63,8 +65,9 @@ def solve_shaken(
         else:
             measure, scale = _measured(problem, model)
             judged = march.settle(
-                window=window, measure=measure, scale=scale, duration=problem.solve.duration
-            )
+                window=window, measure=measure, scale=scale, duration=problem.solve.duration,
+                pitch=model.pitch if moving.speed else None,
+            )  # fmt: skip
         creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
         held = _held_after(problem, model, march, run)
         began = float(march.states[0]["time"])
@@ -192,6 +195,7 @@ def _summarise(
         system_efficiency=efficiency,
         efficiency_static=problem.load / (model.point.ratio * torque),
         **_resonances(model, moving),
+        tooth_mode=model.tooth_mode,
         course=Course(
             cycle_end=np.cumsum(rows["time"]),
             cycle_torque=rows["torque"] / rows["time"],
@@ -263,6 +267,20 @@ def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tup
             f"aperiodic: the torque ratio of three blocks of cycles spreads by "
             f"{judged.spread:.2g}, and the wheel is out of balance by {100 * judged.balance:.2g} %"
         )
+    mode, frequency = model.tooth_mode, problem.vibrated[1].frequency
+    if mode is not None and frequency > _QUASI_STATIC * mode:
+        notes.append(
+            f"the teeth are quasi-static, but the vibration's {1e-3 * frequency:.3g} kHz are more "
+            f"than a third of their lowest mode, {1e-3 * mode:.3g} kHz at least: their inertia "
+            "counts"
+        )
+    if model.pitch is not None and problem.drive.protocol not in _WORM_ALONE:
+        cycles = model.pitch * problem.vibrated[1].frequency
+        if judged.cycles < 2.5 * cycles:
+            notes.append(
+                f"means over {judged.cycles / cycles:.2g} of a pitch of the teeth: before one is "
+                "over elastic teeth do not repeat; a longer solve.duration takes them all in"
+            )
     if problem.actuator is not None and problem.mode == "wheel-axial":
         notes.append("what the actuator takes is not told: the mass of the wheel is not known")
     hidden = []
@@ -270,13 +288,10 @@ def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tup
         hidden.append("torsion (a soft shaft lets the worm give way as it turns)")
     if problem.shaft.axial is None:
         hidden.append("axial bearing and seat (a soft seat takes an axial vibration over)")
-    if "bending" not in model.give:
+    if problem.shaft.diameter is None or problem.shaft.span is None:
         hidden.append("bending of the worm's shaft (often more than the teeth give)")
     if hidden:
         notes.append(f"rigid: {'; '.join(hidden)}")
-    if model.give:
-        parts = " and ".join(name.replace("_", " ") for name in model.give)
-        notes.append(f"{parts} of the shaft give without inertia")
     return tuple(notes)
 
 

@@ -1,11 +1,11 @@
 r"""The reduced mesh as the march advances it: two flanks, each touching at one point.
 
-Both flanks share the way along the sliding and the way across it, :math:`g`, of which the approach
-is :math:`\pm n_g g` and the slip across :math:`\mp n_r g` with the normal's parts. Friction keeps
+Both flanks share the way along the sliding, the way across it, :math:`g`, and that towards the
+wheel, :math:`z`, of which the approach is :math:`\pm n_g g + n_r z` and the slip across
+:math:`\mp n_r g + n_g z` with the normal's parts. Friction keeps
 its stiffness while the load changes (`asperity.friction.loaded`). The teeth's compliance along the
 flank lies in series with the asperities: the slip at the asperities is what the teeth's bending
-leaves of the way. Both are solved for together, in closed form where the asperities are brittle
-(exponent 0: of two springs in series and one limit), else by Newton's method.
+leaves of the way (`asperity.drive.reduced.in_series`).
 """
 
 import math
@@ -15,15 +15,11 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import AT
+from asperity.drive.reduced.in_series import deflect
 from asperity.drive.reduced.law import force_and_energy
-from asperity.friction.dahl import TINY, VECTOR, relaxation
-from asperity.friction.loaded import STIFFNESS, relaxed_to_limit, slip_back
-from asperity.friction.loaded_tangent import update_loaded
 from asperity.uncounted import uncounted
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
-_ITERATIONS = 60
-_CLOSE = 1e-9
 
 
 class Mesh(NamedTuple):
@@ -77,145 +73,10 @@ class Mesh(NamedTuple):
     friction: float
 
 
-# Way along and across, then of each flank: deflection along and across over the limit, limit,
-# approach, damping force.
-_WAYS, _FLANK = 2, 5
+# Way along, across and towards the wheel, then of each flank: deflection along and across over the
+# limit, limit, approach, damping force.
+_WAYS, _FLANK = 3, 5
 STATES = _WAYS + 2 * _FLANK
-
-
-@uncounted
-@kernel(inline="always")
-def _brittle(sx, sy, dx, dy, limit):
-    """Deflection of asperities that stick until they slip (`friction.return_mapping`)."""
-    wx = sx + dx
-    wy = sy + dy
-    size = math.sqrt(wx * wx + wy * wy)
-    back = limit / size if size > limit else 1.0
-    return back * wx, back * wy
-
-
-@uncounted
-@kernel(inline="always")
-def _correction(more, xx, xy, yx, yy, ex, ey):
-    """Newton's step of a deflection whose error is ``e``, the teeth bending by ``more`` of it."""
-    a = 1.0 + more * xx
-    b = more * xy
-    c = more * yx
-    d = 1.0 + more * yy
-    over = 1.0 / (a * d - b * c)
-    return over * (d * ex - b * ey), over * (a * ey - c * ex)
-
-
-@uncounted
-@kernel
-def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
-    """Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
-
-    The tangent is that of the closed form, :math:`G(1 - ee^T) + E(e - s/m)e^T`, held back where the
-    limit falls: cheaper by far than that of any exponent. Where it kinks, steps are halved.
-    """
-    one = 1.0 / (1.0 + more)
-    wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
-    limit = 0.5 * (limit_0 + limit_1)
-    last = math.inf
-    off = 0.0
-    stepx = 0.0
-    stepy = 0.0
-    for _ in range(_ITERATIONS):
-        tx = dx - more * (wx - sx)
-        ty = dy - more * (wy - sy)
-        way = math.sqrt(tx * tx + ty * ty) + 1e-280
-        decay, gain = relaxation(way / limit)
-        ux = sx * decay + tx * gain
-        uy = sy * decay + ty * gain
-        cx = tx / way
-        cy = ty / way
-        bx = decay * (cx - sx / limit) - gain * cx
-        by = decay * (cy - sy / limit) - gain * cy
-        xx = gain + bx * cx
-        xy = bx * cy
-        yx = by * cx
-        yy = gain + by * cy
-        if limit_1 < limit_0 and ux * ux + uy * uy > limit_1 * limit_1:
-            ux, uy = slip_back(ux, uy, sx, sy, tx, ty, limit_0, limit_1, 1.0, VECTOR)
-            # Back on the limit, only what lies across the deflection still counts.
-            nx = -uy / limit_1
-            ny = ux / limit_1
-            px = nx * xx + ny * yx
-            py = nx * xy + ny * yy
-            xx, xy, yx, yy = nx * px, nx * py, ny * px, ny * py
-        ex = ux - wx
-        ey = uy - wy
-        off = abs(ex) + abs(ey)
-        if off <= _CLOSE * (1.0 + limit_1):
-            break
-        if off >= last:
-            stepx *= 0.5
-            stepy *= 0.5
-            wx -= stepx
-            wy -= stepy
-            continue
-        last = off
-        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
-        wx += stepx
-        wy += stepy
-    return wx, wy, off
-
-
-@uncounted
-@kernel
-def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
-    """Asperities of any exponent on teeth that bend by ``more`` of their deflection.
-
-    Where the tangent has a kink, as brittle asperities at their limit, steps are halved.
-    """
-    one = 1.0 / (1.0 + more)
-    wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
-    last = math.inf
-    off = 0.0
-    stepx = 0.0
-    stepy = 0.0
-    for _ in range(_ITERATIONS):
-        (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
-            (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
-            limit_0, limit_1, exponent, VECTOR, STIFFNESS,
-        )  # fmt: skip
-        ex = ux - wx
-        ey = uy - wy
-        off = abs(ex) + abs(ey)
-        if off <= _CLOSE * (1.0 + limit_1):
-            break
-        if off >= last:
-            stepx *= 0.5
-            stepy *= 0.5
-            wx -= stepx
-            wy -= stepy
-            continue
-        last = off
-        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
-        wx += stepx
-        wy += stepy
-    return wx, wy, off
-
-
-@uncounted
-@kernel(inline="always")
-def _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1):
-    """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
-    more = mesh.yielding
-    off = 0.0
-    if limit_1 <= TINY:
-        wx, wy = 0.0, 0.0
-    elif mesh.exponent == 0.0:
-        one = 1.0 / (1.0 + more)
-        wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
-    elif mesh.exponent == 1.0 and more == 0.0:
-        wx, wy = relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1)
-    elif mesh.exponent == 1.0:
-        wx, wy, off = _ductile(sx, sy, dx, dy, limit_0, limit_1, more)
-    else:
-        wx, wy, off = _dahl(sx, sy, dx, dy, limit_0, limit_1, mesh.exponent, more)
-    return wx, wy, off
 
 
 @uncounted
@@ -241,7 +102,7 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         limit_1 *= friction_at(mesh.curve, speed) / mesh.friction
     dx = scale * along
     dy = scale * across
-    wx, wy, off = _deflect(mesh, sx, sy, dx, dy, limit_0, limit_1)
+    wx, wy, off = deflect(mesh.exponent, mesh.yielding, sx, sy, dx, dy, limit_0, limit_1)
     full = mesh.friction * mesh.reference
     unit = full * mesh.limit
     stiff = 1.0 + mesh.yielding
@@ -273,20 +134,27 @@ def advance(mesh, committed, trial, q, v, dt, out):
     along = r * turned - p * shifted
     across = p * turned + r * shifted
     rate = mesh.across * (p * (mesh.radius * v[0] - v[3]) + r * (v[1] - mesh.arm * v[2]))
+    nearer = mesh.radial * v[4]
     way = along - committed[0]
     aside = mesh.radial * (across - committed[1])
+    inward = mesh.across * (q[4] - committed[2])
     trial[0] = along
     trial[1] = across
+    trial[2] = q[4]
     out[AT.stored] = 0.0
     out[AT.friction] = 0.0
     out[AT.damping] = 0.0
     out[AT.residual] = 0.0
     out[AT.approach] = 0.0
     d = mesh.across * across
-    driving, drag, side = _touch(mesh, committed, trial, _WAYS, d, rate, way, -aside, dt, out)
-    back, back_drag, back_side = _touch(
-        mesh, committed, trial, _WAYS + _FLANK, -d - mesh.backlash, -rate, way, aside, dt, out
+    towards = mesh.radial * q[4]
+    driving, drag, side = _touch(
+        mesh, committed, trial, _WAYS, d + towards, rate + nearer, way, inward - aside, dt, out
     )
+    back, back_drag, back_side = _touch(
+        mesh, committed, trial, _WAYS + _FLANK, towards - d - mesh.backlash, nearer - rate, way,
+        inward + aside, dt, out,
+    )  # fmt: skip
     pull = -drag - back_drag
     push = mesh.across * (back - driving) + mesh.radial * (side - back_side)
     turning = r * pull + p * push
@@ -295,6 +163,7 @@ def advance(mesh, committed, trial, q, v, dt, out):
     out[AT.worm_force] = thrust
     out[AT.wheel_torque] = -mesh.arm * thrust
     out[AT.wheel_force] = -turning
+    out[AT.worm_radial] = -mesh.radial * (driving + back) - mesh.across * (side + back_side)
     out[AT.driving] = driving
     out[AT.back] = back
 
@@ -314,9 +183,11 @@ def settle_in(mesh, state, q, share):
         state[place] = 0.0
     state[0] = r * turned - p * shifted
     state[1] = p * turned + r * shifted
-    d = mesh.across * state[1]
+    state[2] = q[4]
+    towards = mesh.radial * q[4]
+    d = mesh.across * state[1] + towards
     elastic, _ = force_and_energy(mesh.cell, mesh.rows, d)
     state[_WAYS] = share * elastic / mesh.reference
     state[_WAYS + 2] = elastic / mesh.reference
     state[_WAYS + 3] = d
-    state[_WAYS + _FLANK + 3] = -d - mesh.backlash
+    state[_WAYS + _FLANK + 3] = 2.0 * towards - d - mesh.backlash

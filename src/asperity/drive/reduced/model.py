@@ -19,11 +19,9 @@ from asperity.drive.reduced.law import NormalLaw, force_and_energy
 from asperity.drive.reduced.march import march
 from asperity.drive.reduced.mesh import STATES, Mesh, settle_in
 from asperity.drive.reduced.reduction import Reduction
-from asperity.drive.shafts import MeshAction, compliances_of, wheel_compliances
 from asperity.errors import InputError
 
 _FASTER = 3.0  # than sliding and vibration together, up to where friction is tabulated
-_QUASI_STATIC = ("bending", "bearing_radial")
 # Coulomb's friction on rigid teeth gives by so much of the normal approach at full friction.
 _GIVE = 2e-3
 
@@ -91,22 +89,9 @@ class ReducedModel:
         return self.point.worm_torque(self.problem.load, -self.friction)
 
     @functools.cached_property
-    def give(self) -> tuple[str, ...]:
-        """Parts of the shaft that give without inertia, in series with the teeth."""
-        return tuple(name for name in self._parts if name in _QUASI_STATIC)
-
-    @functools.cached_property
-    def _parts(self) -> dict[str, float]:
-        action = MeshAction.of(self.point, self.friction)
-        found = compliances_of(self.problem.shaft, self.point.radius)
-        return dict(wheel_compliances(action, found))
-
-    @functools.cached_property
     def law(self) -> NormalLaw:
-        """Normal force against approach, the quasi-static parts of the shaft in it."""
-        more = sum(self._parts[name] for name in self.give)
-        given = [(torque, angle + more * torque) for torque, angle in self.reduction.deflection]
-        return NormalLaw.of(self.point, given, self.friction)
+        """Normal force against approach."""
+        return NormalLaw.of(self.point, self.reduction.deflection, self.friction)
 
     @functools.cached_property
     def approach(self) -> float:
@@ -178,6 +163,23 @@ class ReducedModel:
         committed = np.zeros(STATES)
         settle_in(self.mesh, committed, pose, share)
         return committed
+
+    @property
+    def tooth_mode(self) -> float | None:
+        """Lowest natural frequency of a tooth, Hz; None of a mesh without teeth."""
+        return None
+
+    @property
+    def pitch(self) -> float | None:
+        """Time from tooth to tooth, s; None of a mesh that is the same at all of them."""
+        return None
+
+    def balanced(self, pose: FloatArray, load: float) -> FloatArray | None:
+        """Turn the wheel, in place, to where the mesh carries a load, and return its answer there.
+
+        None: this mesh is in balance as it stands.
+        """
+        return None
 
     @property
     def _backlash(self) -> float:

@@ -56,7 +56,7 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
 
 
 # What of a drive bears on its teeth without vibration.
-_BEARS = ("model", "teeth", "density", "friction", "effective_radius")
+_BEARS = ("model", "teeth", "density", "threads", "friction", "effective_radius")
 
 
 def kept_under(problem: DriveProblem) -> str:

@@ -10,7 +10,9 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.teeth.sector import Sector
-from asperity.results import Result, labelled, quantity
+from asperity.gearset import Geometry
+from asperity.gearset.drawn import Drawn
+from asperity.results import labelled, quantity
 from asperity.slider.result import table_inputs
 
 _PLOTS = "asperity.drive.static.plots"
@@ -19,7 +21,7 @@ PATTERNS = (1.0 / 9.0, 1.0 / 3.0, 1.0)
 """Torques that patterns are drawn at, over the load."""
 
 
-class StaticResult(Result):
+class StaticResult(Drawn):
     """Worm and wheel under load over a pitch, turning slowly.
 
     Attributes
@@ -62,6 +64,11 @@ class StaticResult(Result):
     input_torque_reversed: float = quantity(
         "T_C", "N m", "torque of the worm, friction turned round", key="input_torque_reversed_Nm"
     )
+
+    @property
+    def geometry(self) -> Geometry:
+        """What follows from the gearset's numbers."""
+        return self.problem.geometry
 
     @property
     @labelled("eta", "", "efficiency of the mesh")

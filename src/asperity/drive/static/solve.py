@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.contact.candidates.records import answer_of, candidates_of
+from asperity.contact.candidates.records import Body, answer_of, candidates_of
 from asperity.contact.candidates.wrench import place_of
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import friction_at
@@ -29,6 +29,7 @@ from asperity.drive.static.sweep import (
 )
 from asperity.drive.teeth.contact import TeethContact
 from asperity.drive.teeth.sector import Sector, sector
+from asperity.drive.teeth.threads import thread_flexibility
 from asperity.errors import InputError
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
@@ -48,13 +49,21 @@ def condensed(problem: DriveProblem, run: Run) -> Sector:
     """Return the elastic teeth of a drive, condensed or from those that are kept."""
     pair = Pair.of(problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc)
     drive = problem.drive
-    return sector(
+    found = sector(
         Wheel.cut(pair),
         problem.gearset.wheel_material,
         density=drive.density,
         teeth=drive.teeth,
         notify=run.notify,
     )
+    if drive.threads == "rigid":
+        return found
+    steel = problem.gearset.worm_material
+    both = found.body.flexibility + thread_flexibility(
+        found.surface, steel.youngs_modulus, steel.poisson_ratio
+    )
+    body = Body.of(found.surface, both)._replace(places=found.body.places)
+    return dataclasses.replace(found, body=body)
 
 
 def friction_of(problem: DriveProblem, speed: float) -> float:
@@ -355,7 +364,11 @@ def _notes(problem: DriveProblem, seen: _Seen) -> tuple[str, ...]:
         notes.append(
             f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
         )
-    notes.append("the worm's threads are rigid: elastic ones take a fifth off the pressure")
+    if problem.drive.threads == "rigid":
+        notes.append(
+            "the worm's threads are rigid (drive.threads): elastic ones take a fifth off the "
+            "pressure"
+        )
     if not seen.resolved:
         notes.append(
             "the contact is narrower than the elements: the pressure at nodes grows with a finer "

@@ -20,8 +20,11 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import DriveResult
 from asperity.errors import InputError
-from asperity.rating.inputs import THROUGH_TRAVEL
+from asperity.rating.demands import DEMANDS
+from asperity.rating.parameters import THROUGH_TRAVEL
+from asperity.rating.verdict import Safety
 from asperity.results import quantity
+from asperity.results.table import Table
 
 _PARTS = ("part",)
 
@@ -58,6 +61,42 @@ class OnDemand(DriveResult):
     safety_wear_plain: float | None = quantity("S_W", "", "safety against wear without vibration")
     safety_wear: float | None = quantity("S_W", "", "safety against wear with it")
     sump_rise: float | None = quantity("", "K", "how much hotter the oil gets by it")
+
+    def headline(self) -> tuple[str, ...]:
+        """Return what vibration does at the seats, to the stroke, and what fails."""
+        torque, energy, *_ = super().headline()
+        word = "less" if self.energy_shaken < self.energy_plain else "no less"
+        stroke = f"a stroke takes {self.energy_shaken:.3g} J for {self.energy_plain:.3g}, {word}"
+        motor = f"motor {self.motor_shaken} for {self.motor_plain}"
+        if self.motor_shaken == self.motor_plain:
+            motor = f"the same motor, {self.motor_plain}"
+        light = f"{abs(self.saved_mass):.2g} kg {'lighter' if self.saved_mass > 0.0 else 'heavier'}"
+        holds = "holds" if self.held_after else "does NOT hold"
+        said = [f"{stroke}; {motor}, {light} with the actuator", f"it {holds} after"]
+        if self.safety_wear is not None:
+            said.append(f"wear by ISO/TR 14521 {_wear(self.safety_wear)}")
+        return torque, energy, "; ".join(said)
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return the rows; beside each safety stands what is asked of it."""
+        (table,) = super().tables()
+        safeties = {
+            "safety against wear without vibration": self.safety_wear_plain,
+            "safety against wear with it": self.safety_wear,
+        }
+        rows = [
+            (*row[:3], _wear(value).split(maxsplit=2)[2])
+            if (value := safeties.get(row[0])) is not None
+            else row
+            for row in table.rows
+        ]
+        return (dataclasses.replace(table, rows=tuple(rows)),)
+
+
+def _wear(value: float) -> str:
+    """Return a safety against wear with what the standard asks for."""
+    demand = next(d for d in DEMANDS if d.path == "iso14521.safety_wear")
+    return Safety(demand, value).said
 
 
 def in_a_stroke(problem: DriveProblem, model: ReducedModel, shaken: DriveResult) -> DriveResult:

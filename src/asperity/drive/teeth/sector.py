@@ -179,8 +179,12 @@ def _condensed(
 
 def _own_surface(wheel: Wheel, counts: Counts, teeth: int) -> ContactSurface:
     """The middle tooth's flank in its own frame; that of a mesh of one tooth is the same."""
-    mesh = tooth(_right_handed(wheel), counts)
-    return contact_surface(mesh, _flank(1))
+    return contact_surface(own_mesh(wheel, counts), _flank(1))
+
+
+def own_mesh(wheel: Wheel, counts: Counts) -> HexMesh:
+    """Return a tooth cut out with its rim, in its own frame, in mm."""
+    return tooth(_right_handed(wheel), counts)
 
 
 def _exact(wheel: Wheel, surface: ContactSurface) -> tuple[FlankGrid, IntArray, IntArray]:

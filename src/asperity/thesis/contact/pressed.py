@@ -16,7 +16,7 @@ from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface, contact_surface
-from asperity.contact.motion.static import Guide, load_to
+from asperity.contact.static import Guide, load_to
 from asperity.mesh import box
 
 SIZE = (12e-3, 1.5e-3, 8e-3)

@@ -80,7 +80,7 @@ class Collection:
     def add(self, made: Made) -> None:
         """Take note of what was made, on disk too."""
         self._made[made.name] = made
-        kept = [dataclasses.asdict(made) for made in self._made.values()]
+        kept = [vars(made) for made in self._made.values()]
         if made.name.startswith(CLAIM):
             claims = [one["plain"] for one in kept if one["name"].startswith(CLAIM)]
             write_text(self.folder / _LEDGER, _text({"claims": claims}))

@@ -1,11 +1,12 @@
 """The page: ledger, tables and pictures beside it, how each number was made, what is to come."""
 
 import dataclasses
+import functools
 import importlib.metadata
 import platform
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from asperity.results.page import environment
 from asperity.results.typeset import typeset
@@ -14,6 +15,9 @@ from asperity.thesis.contents import Chapter, chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE
 from asperity.thesis.products import Cell
 from asperity.thesis.reproduce.files import Shown
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 _TEMPLATE = Path(__file__).with_name("page.html.j2")
@@ -55,12 +59,6 @@ def render(
     While names of exhibits are still to come it loads itself again now and then; of those that
     could not be made it says why.
     """
-    made = environment().overlay()
-    made.filters = made.filters | {"cell": cell}
-    template = made.from_string(_TEMPLATE.read_text("utf-8"))
-    versions = {"asperity": version, "Python": platform.python_version()}
-    versions |= {name: importlib.metadata.version(name) for name in _PACKAGES}
-
     there = {one.exhibit.name: one for one in shown}
     order = [there[one.name] for one in contents.everything() if one.name in there]
     parts = [
@@ -75,16 +73,30 @@ def render(
         for chapter in contents.CHAPTERS
     ]  # fmt: skip
     claimed = sum(len(part.shown[CLAIM]) for part in parts)
-    return template.render(
+    rendered: str = _template().render(
         parts=[part for part in parts if not part.empty],
         claimed=claimed,
         different=sum(part.differ for part in parts),
         fitted=sum(part.fitted for part in parts),
         to_come=len(to_come),
         failed=len(failed),
-        versions=versions,
+        versions={"asperity": version} | _versions(),
         title="Vibration, sliding friction and worm gears: the thesis, reproduced",
     )
+    return rendered
+
+
+@functools.cache
+def _template() -> "Template":
+    made = environment().overlay()
+    made.filters = made.filters | {"cell": cell}
+    return made.from_string(_TEMPLATE.read_text("utf-8"))
+
+
+@functools.cache
+def _versions() -> dict[str, str]:
+    found = {name: importlib.metadata.version(name) for name in _PACKAGES}
+    return {"Python": platform.python_version()} | found
 
 
 def _chapter(name: str) -> str:

@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import functools
+import math
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -20,6 +21,9 @@ from asperity.thesis.reproduce.files import Collection, Made, Shown, key_of, mak
 from asperity.thesis.reproduce.page import render
 
 Say = Callable[[str], None]
+
+# Seconds between two times that the page is written.
+_REFRESH = 2.0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,9 +86,9 @@ def run(
 ) -> ThesisResult:
     """Reproduce the thesis's figures, tables and claims into a folder.
 
-    The page is there at once and is written again as each of them is made, in processes on all
-    cores. What an earlier run left there and is still true is used again. What cannot be made is
-    said, and keeps nothing else from being made.
+    The page is there at once and fills while they are made, in processes on all cores. What an
+    earlier run left there and is still true is used again. What cannot be made is said, and keeps
+    nothing else from being made.
 
     Parameters
     ----------
@@ -142,6 +146,7 @@ class _Reproduction:
         self.index = folder / "index.html"
         self.failed: dict[str, str] = {}
         self.shown: dict[str, Shown] = {}
+        self._written = -math.inf
         self._say = say
         self._full = full
         self._folder = folder
@@ -158,10 +163,13 @@ class _Reproduction:
             elif asked:
                 self.missing[exhibit.name] = exhibit
 
-    def show(self) -> None:
-        """Write the page as it is now."""
+    def show(self, after: float = 0.0) -> None:
+        """Write the page as it is now, if it was last written so many seconds ago."""
+        if time.monotonic() < self._written + after:
+            return
         page = render([*self.shown.values()], [*self.missing], self.failed, __version__)
         write_text(self.index, page)
+        self._written = time.monotonic()
 
     def make(self, processes: int) -> None:
         """Make what is missing."""
@@ -197,7 +205,7 @@ class _Reproduction:
             kind = "" if isinstance(error, AsperityError) else f"{type(error).__name__}: "
             self.failed[name] = f"{kind}{error}"
             self._say(f"{name}: failed: {self.failed[name]}")
-            self.show()
+            self.show(_REFRESH)
             return
         except BaseException:
             self.missing[name] = exhibit
@@ -208,4 +216,4 @@ class _Reproduction:
             self.shown[name] = shown
         verdict = f"{made.plain['verdict']}," if exhibit.kind == CLAIM else "made in"
         self._say(f"{name}: {verdict} {made.seconds:.1f} s")
-        self.show()
+        self.show(_REFRESH)

@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.slider import TABLES, Model, SlideResult, solve
-from asperity.slider.result import History
+from asperity.slider.history import History
 from asperity.sweep import read_grid, run
 from asperity.thesis.cases import Shipped
 

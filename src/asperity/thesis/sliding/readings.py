@@ -8,7 +8,7 @@ from asperity.slider.closed_forms import (
     normal_ratio,
     orbit_mean_approach,
 )
-from asperity.slider.result import History
+from asperity.slider.history import History
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
 from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, TWO_PHASE, Body, Sweep

@@ -1,0 +1,226 @@
+r"""Asperities in series with teeth that bend along the flank, over one step.
+
+The slip at the asperities is what the teeth's bending leaves of the way. Both are solved for
+together, in closed form where the asperities are brittle (exponent 0: of two springs in series and
+one limit), else by Newton's method; friction keeps its stiffness while the load changes
+(`asperity.friction.loaded`). Deflections and ways are in units of the one at full friction.
+"""
+
+import math
+
+from asperity.compiled import kernel
+from asperity.friction.dahl import TINY, VECTOR
+from asperity.friction.loaded import STIFFNESS, relaxed_to_limit
+from asperity.friction.loaded_tangent import update_loaded
+from asperity.uncounted import uncounted
+
+_ITERATIONS = 60
+_CLOSE = 1e-9
+
+
+@uncounted
+@kernel(inline="always")
+def _brittle(sx, sy, dx, dy, limit):
+    """Deflection of asperities that stick until they slip (`friction.return_mapping`)."""
+    wx = sx + dx
+    wy = sy + dy
+    size = math.sqrt(wx * wx + wy * wy)
+    back = limit / size if size > limit else 1.0
+    return back * wx, back * wy
+
+
+@uncounted
+@kernel(inline="always")
+def _correction(more, xx, xy, yx, yy, ex, ey):
+    """Newton's step of a deflection whose error is ``e``, the teeth bending by ``more`` of it."""
+    a = 1.0 + more * xx
+    b = more * xy
+    c = more * yx
+    d = 1.0 + more * yy
+    over = 1.0 / (a * d - b * c)
+    return over * (d * ex - b * ey), over * (a * ey - c * ex)
+
+
+@uncounted
+@kernel(inline="always")
+def _relaxed(decay, before, gone):
+    r"""What a relaxation takes of the deflection, :math:`1 - e^{-A}`, known of one before.
+
+    Of near ones by a series, to 4e-14.
+    """
+    more = decay - before
+    if abs(more) < 1e-3:
+        return gone + (1.0 - gone) * more * (1.0 - more * (1.0 / 2.0 - more * (1.0 / 6.0)))
+    return 1.0 - math.exp(-decay)
+
+
+@uncounted
+@kernel
+def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
+    r"""Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
+
+    Unless the limit falls below what comes out, it is one equation, for the relaxation
+    :math:`A = |t|/m` over the slip :math:`t = d - b(w - s)` that the teeth, by the part :math:`b`,
+    leave of the way: with :math:`y = 1 - e^{-A}`, :math:`w = s(1 - y) + t\,y/A` gives
+
+    .. math:: A + b y = |d + b y s|/m ,
+
+    which steps by Newton and Halley from below rise to.
+    """
+    over = 2.0 / (limit_0 + limit_1)
+    ax = over * sx
+    ay = over * sy
+    bx = over * dx
+    by = over * dy
+    slip = math.sqrt(bx * bx + by * by)
+    # Both from below: the first step from rest, and asperities that have relaxed.
+    soft = slip + more * (slip - ax * bx - ay * by)
+    far = math.sqrt((bx + more * ax) ** 2 + (by + more * ay) ** 2) - more
+    decay = max(far, slip * slip / soft if soft > 0.0 else 0.0)
+    gone = _relaxed(decay, 0.0, 0.0)
+    off = math.inf
+    for _ in range(_ITERATIONS):
+        bent = more * gone
+        tx = bx + bent * ax
+        ty = by + bent * ay
+        way = math.sqrt(tx * tx + ty * ty)
+        off = way - decay - bent
+        if abs(off) <= _CLOSE * (1.0 + decay):
+            break
+        bends = more * (1.0 - gone) * (1.0 - (ax * tx + ay * ty) / way)
+        step = off / (1.0 + bends)
+        step *= 1.0 + 0.5 * step * bends / (1.0 + bends)
+        before = decay
+        decay = max(decay + step, 0.0)
+        gone = _relaxed(decay, before, gone)
+    share = gone / (decay + more * gone + TINY)
+    wx = sx + share * (dx - decay * sx)
+    wy = sy + share * (dy - decay * sy)
+    size = math.sqrt(wx * wx + wy * wy)
+    if limit_1 < limit_0 and not size <= limit_1:
+        back = limit_1 / size
+        return _slipping_back(
+            sx, sy, back * wx, back * wy, dx, dy, limit_0, limit_1, more, decay, gone
+        )
+    return wx, wy, abs(off) / (1.0 + decay)
+
+
+@uncounted
+@kernel
+def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, more, decay, gone):
+    """As `_ductile`, where the limit falls below the deflection (`friction.loaded.slip_back`).
+
+    Newton's steps from ``w``, their tangent without how far it is turned on. Where it kinks they
+    are halved.
+    """
+    over = 2.0 / (limit_0 + limit_1)
+    last = math.inf
+    off = 0.0
+    stepx = 0.0
+    stepy = 0.0
+    for _ in range(_ITERATIONS):
+        tx = dx - more * (wx - sx)
+        ty = dy - more * (wy - sy)
+        way = math.sqrt(tx * tx + ty * ty) + 1e-280
+        before = decay
+        decay = over * way
+        gone = _relaxed(decay, before, gone)
+        left = 1.0 - gone
+        gain = gone / decay
+        ux = sx * left + tx * gain
+        uy = sy * left + ty * gain
+        beyond = math.sqrt(ux * ux + uy * uy) - limit_1
+        back = 1.0
+        if beyond > 0.0:
+            turn = 0.5 * over * beyond
+            ux += turn * tx
+            uy += turn * ty
+            back = limit_1 / math.sqrt(ux * ux + uy * uy)
+            ux *= back
+            uy *= back
+        ex = ux - wx
+        ey = uy - wy
+        off = abs(ex) + abs(ey)
+        if off <= _CLOSE * (1.0 + limit_1):
+            break
+        if off >= last:
+            stepx *= 0.5
+            stepy *= 0.5
+            wx -= stepx
+            wy -= stepy
+            continue
+        last = off
+        cx = tx / way
+        cy = ty / way
+        px = left * (cx - over * sx) - gain * cx
+        py = left * (cy - over * sy) - gain * cy
+        xx = gain + px * cx
+        xy = px * cy
+        yx = py * cx
+        yy = gain + py * cy
+        if beyond > 0.0:
+            # Back on the limit, only what lies across the deflection still counts.
+            nx = -uy / limit_1
+            ny = ux / limit_1
+            px = back * (nx * xx + ny * yx)
+            py = back * (nx * xy + ny * yy)
+            xx, xy, yx, yy = nx * px, nx * py, ny * px, ny * py
+        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
+        wx += stepx
+        wy += stepy
+    return wx, wy, off
+
+
+@uncounted
+@kernel
+def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
+    """Asperities of any exponent on teeth that bend by ``more`` of their deflection.
+
+    Where the tangent has a kink, as brittle asperities at their limit, steps are halved.
+    """
+    one = 1.0 / (1.0 + more)
+    wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    last = math.inf
+    off = 0.0
+    stepx = 0.0
+    stepy = 0.0
+    for _ in range(_ITERATIONS):
+        (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
+            (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
+            limit_0, limit_1, exponent, VECTOR, STIFFNESS,
+        )  # fmt: skip
+        ex = ux - wx
+        ey = uy - wy
+        off = abs(ex) + abs(ey)
+        if off <= _CLOSE * (1.0 + limit_1):
+            break
+        if off >= last:
+            stepx *= 0.5
+            stepy *= 0.5
+            wx -= stepx
+            wy -= stepy
+            continue
+        last = off
+        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
+        wx += stepx
+        wy += stepy
+    return wx, wy, off
+
+
+@uncounted
+@kernel(inline="always")
+def deflect(exponent, more, sx, sy, dx, dy, limit_0, limit_1):
+    """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
+    off = 0.0
+    if limit_1 <= TINY:
+        wx, wy = 0.0, 0.0
+    elif exponent == 0.0:
+        one = 1.0 / (1.0 + more)
+        wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    elif exponent == 1.0 and more == 0.0:
+        wx, wy = relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1)
+    elif exponent == 1.0:
+        wx, wy, off = _ductile(sx, sy, dx, dy, limit_0, limit_1, more)
+    else:
+        wx, wy, off = _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more)
+    return wx, wy, off
