@@ -167,6 +167,9 @@ class Reduction(Table):
         Samples are taken together over so long, s.
     settling : float or str
         Left out behind every change, s.
+    speed_settling : float or str
+        Left out behind every change of the speeds, s: an encoder counts pulses over a while, and a
+        filter is behind it.
     least_window : float or str
         A shorter window is refused, s.
     threshold : float
@@ -187,6 +190,7 @@ class Reduction(Table):
 
     block: Annotated[float, Quantity("s", "a time", "20 ms", gt=0, le=1)] = 0.02
     settling: Duration = 1.0
+    speed_settling: Duration = 3.0
     least_window: Span = 3.0
     threshold: Annotated[float, Quantity("", "a share", "0.4", gt=0, lt=1)] = 0.4
     least_drive: Annotated[float, Quantity("V", "a voltage", "0.1 V", gt=0)] = 0.1

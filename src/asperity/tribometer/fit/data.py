@@ -1,8 +1,6 @@
 """Measured ratios or forces, a row each, with the conditions they were measured under."""
 
-import csv
 import dataclasses
-import io
 import math
 import re
 from collections.abc import Mapping
@@ -11,14 +9,14 @@ from typing import Self
 
 import numpy as np
 
-from asperity import store
 from asperity.arrays import FloatArray
 from asperity.casefile import Case, told
-from asperity.errors import InputError, nearest, plain, shown
+from asperity.casefile.columns import KEY, UNIT, read_rows
+from asperity.errors import InputError, nearest, shown
 from asperity.units import Quantity, quantity_of, to_si
 
 RATIO, FORCE, DEVIATION = "ratio", "force", "sd"
-_HEAD = re.compile(r"\s*(?:(sd)\s+)?([A-Za-z_][\w-]*(?:\.[A-Za-z_][\w-]*)?)\s*(?:\[([^\]]*)\])?\s*")
+_HEAD = re.compile(rf"\s*(?:(sd)\s+)?({KEY}|[A-Za-z_][\w-]*){UNIT}")
 
 Value = float | str
 
@@ -96,24 +94,7 @@ def read_measurements(path: Path, case: Case) -> Measurements:
     InputError
         With the row or the column: an unknown key, a cell that is no number, sd not above zero.
     """
-    name = plain(str(path))
-    text = store.read_text(path, name)
-    said = (line for line in text.splitlines() if line.strip() and not line.startswith("#"))
-    separator = max(",;\t", key=next(said, "").count)
-    try:
-        lines = [
-            (number, row)
-            for number, row in enumerate(
-                csv.reader(io.StringIO(text, newline=""), delimiter=separator), start=1
-            )
-            if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-        ]
-    except csv.Error as error:
-        raise InputError(f"{name} cannot be read: {error}") from None
-    if not lines:
-        raise InputError(f"{name} is empty; it must hold headings, and measurements below them")
-    if len(lines) < 2:
-        raise InputError(f"{name} holds no rows below its headings; it must hold measurements")
+    name, lines = read_rows(path, "measurements")
     columns = [_column(place, cell, case, name) for place, cell in enumerate(lines[0][1])]
     seen = [(one.key, one.deviation) for one in columns]
     if again := next((one for one in seen if seen.count(one) > 1), None):
@@ -126,12 +107,7 @@ def read_measurements(path: Path, case: Case) -> Measurements:
             f"{name}: the columns must hold 'ratio' or 'force [N]', and 'sd', its standard "
             "deviation"
         )
-    # Between semicolons or tabs a comma is a decimal one.
-    table = [
-        _row(columns, cells if separator == "," else [one.replace(",", ".") for one in cells],
-             name, number)
-        for number, cells in lines[1:]
-    ]  # fmt: skip
+    table = [_row(columns, cells, name, number) for number, cells in lines[1:]]
     values = np.array([row[measured[0].key, False] for row in table], dtype=float)
     conditions = [
         {key: value for (key, deviation), value in row.items()
@@ -156,8 +132,6 @@ def read_measurements(path: Path, case: Case) -> Measurements:
 def _row(
     columns: list[_Column], cells: list[str], name: str, number: int
 ) -> dict[tuple[str, bool], Value]:
-    if len(cells) != len(columns):
-        raise InputError(f"{name}: row {number} has {len(cells)} cells for {len(columns)} columns")
     row = {(one.key, one.deviation): one.read(cells[one.place], name, number) for one in columns}
     for (key, deviation), value in row.items():
         if key == DEVIATION and not (isinstance(value, float) and value > 0.0):
@@ -172,9 +146,10 @@ def _row(
 def _column(place: int, text: str, case: Case, name: str) -> _Column:
     head = _HEAD.fullmatch(text)
     if head is None or ("." not in head[2] and head[2] not in (RATIO, FORCE, DEVIATION)):
+        what = "ratio', 'force [N]', 'sd' or a key of the case such as 'vibration.frequency [Hz]"
         raise InputError(
-            f"{name}: the column {shown(text)} must be 'ratio', 'force [N]', 'sd' or a key of the "
-            "case such as 'vibration.frequency [Hz]'"
+            f"{name}: the column {shown(text)} must be '{what}'; of recordings rig reduce --out "
+            "writes such a table, measurements.csv"
         )
     deviation, key, unit = bool(head[1]), head[2], (head[3] or "").strip()
     if "." not in key:

@@ -12,9 +12,9 @@ from asperity.tribometer.fit.estimate import Estimate
 from asperity.tribometer.fit.forward import Predictor
 from asperity.tribometer.fit.result import Proposed
 
-_VALUES = 17  # along a condition that differs between the measurements
+_VALUES, _FEWEST = 17, 3  # along a condition that differs between the measurements
 _STEP = 2e-3
-_MOST = 4000
+_MOST = 2000  # conditions; the more of them differ, the coarser is the grid
 _FAINT = 1e-8  # information that stands in where there is none
 
 
@@ -47,13 +47,13 @@ def proposals(
     count : int
         How many.
     """
-    candidates = list(_candidates(data))
-    here, _ = predict(candidates, given(best.point))
-    slopes = np.empty((len(candidates), best.point.size))
+    looked_at = list(candidates(data))
+    here, _ = predict(looked_at, given(best.point))
+    slopes = np.empty((len(looked_at), best.point.size))
     for place in range(best.point.size):
         moved = best.point.copy()
         moved[place] -= _STEP
-        slopes[:, place] = (here - predict(candidates, given(moved))[0]) / (_STEP * deviation)
+        slopes[:, place] = (here - predict(looked_at, given(moved))[0]) / (_STEP * deviation)
     slopes[~np.isfinite(slopes).all(axis=1)] = 0.0
     information = best.slopes.T @ best.slopes
     information += _FAINT * np.eye(len(information))
@@ -67,30 +67,28 @@ def proposals(
         place = int(np.argmin(left))
         information += np.outer(slopes[place], slopes[place])
         deviations = np.sqrt(np.diag(np.linalg.inv(information)))
-        found.append(Proposed(candidates[place], dict(zip(keys, deviations.tolist(), strict=True))))
+        found.append(Proposed(looked_at[place], dict(zip(keys, deviations.tolist(), strict=True))))
     return found
 
 
-def _candidates(data: Measurements) -> Iterator[dict[str, Value]]:
-    """Yield conditions: of each set of words and fixed numbers, a grid of those that differ."""
+def candidates(data: Measurements) -> Iterator[dict[str, Value]]:
+    """Yield what may be measured: of each set of words and fixed numbers a grid of what differs."""
     varied = [key for key in numeric(data) if len({row[key] for row in data.conditions}) > 2]
     groups: dict[tuple[Value, ...], list[dict[str, Value]]] = {}
     for row in data.conditions:
         groups.setdefault(tuple(row[key] for key in row if key not in varied), []).append(row)
+    sizes = [n for n in range(_FEWEST, _VALUES + 1) if n ** len(varied) * len(groups) <= _MOST]
+    if not sizes:
+        raise InputError(
+            f"--next: {', '.join(varied)} all differ between the measurements, which makes more "
+            f"than {_MOST} conditions to look at: give fewer columns that differ"
+        )
     axes = []
     for key in varied:
         values = np.array([float(row[key]) for row in data.conditions])
         low, high = float(values.min()), float(values.max())
-        axes.append(
-            np.geomspace(low, high, _VALUES) if low > 0.0 else np.linspace(low, high, _VALUES)
-        )
-    grid = list(itertools.product(*axes))
-    if len(grid) * len(groups) > _MOST:
-        raise InputError(
-            f"--next: {', '.join(varied)} all differ between the measurements, which makes "
-            f"{len(grid) * len(groups)} conditions to look at, more than {_MOST}: give fewer "
-            "columns that differ"
-        )
+        spaced = np.geomspace if low > 0.0 else np.linspace
+        axes.append(spaced(low, high, sizes[-1]))
     for rows in groups.values():
-        for point in grid:
+        for point in itertools.product(*axes):
             yield {**rows[0], **dict(zip(varied, map(float, point), strict=True))}

@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from asperity.runs import Run
 from asperity.slider.batch import solve_many
 from asperity.slider.model import Model
 from asperity.tribometer.fit.data import Value
+from asperity.tribometer.fit.rigid import DEFLECTION, Limit, limit_of
 
 SLIDE, BLOCK, DRIVE = "slide", "block", "drive"
 _MARCHED = "this is a march"
@@ -31,23 +32,33 @@ class Predictor:
         The command whose model it is.
     forces : bool
         Whether forces are predicted, in N, or ratios.
-    solves, marched : int
-        Bodies solved so far; those of them without a periodic state, which were marched.
+    between : callable
+        Called before each data set is solved; may end the work.
+    solves, marched, rigid : int
+        Bodies solved so far; those of them without a periodic state, which were marched; and those
+        that are as good as rigid.
     """
 
     case: Case
     by: str
     forces: bool
+    between: Callable[[], None] = lambda: None
     solves: int = 0
     marched: int = 0
+    rigid: int = 0
 
     def __call__(
         self, conditions: Sequence[Mapping[str, Value]], given: Mapping[str, Value]
     ) -> tuple[FloatArray, dict[int, str]]:
         """Return what is predicted of each row, not a number where there is no answer, and why."""
+        self.between()
         cases = [self.case.replace_values({**one, **given}) for one in conditions]
         self.solves += len(cases)
-        answers = _slid(cases) if self.by == SLIDE else [_solved(one, self.by) for one in cases]
+        limits: list[Limit | None] = [None] * len(cases)
+        if self.by == SLIDE:
+            answers, limits = _slid(cases)
+        else:
+            answers = [_solved(one, self.by) for one in cases]
         values = np.full(len(cases), math.nan)
         why: dict[int, str] = {}
         for place, answer in enumerate(answers):
@@ -56,6 +67,10 @@ class Predictor:
                 continue
             self.marched += any(_MARCHED in note for note in answer.notes)
             values[place] = _force_of(answer) if self.forces else _ratio_of(answer)
+            if (limit := limits[place]) is not None:
+                self.rigid += 1
+                ratio = _ratio_of(answer)
+                values[place] *= limit.ratio(ratio) / ratio
         return values, why
 
 
@@ -68,15 +83,21 @@ def prepared(case: Case, by: str) -> Case:
     return case.replace_values({"solve.method": chosen, "solve.scheme": "exponential"})
 
 
-def _slid(cases: Sequence[Case]) -> list[Any]:
+def _slid(cases: Sequence[Case]) -> tuple[list[Any], list[Limit | None]]:
     models: list[Model | AsperityError] = []
+    limits: list[Limit | None] = []
     for case in cases:
+        limit = None
         try:
-            models.append(Model.from_case(case))
+            model = Model.from_case(case)
+            if (limit := limit_of(model)) is not None:
+                model = Model.from_case(case.replace_values({DEFLECTION: limit.deflection}))
+            models.append(model)
         except AsperityError as error:
             models.append(error)
+        limits.append(limit)
     answers = iter(solve_many([one for one in models if isinstance(one, Model)]))
-    return [next(answers) if isinstance(one, Model) else one for one in models]
+    return [next(answers) if isinstance(one, Model) else one for one in models], limits
 
 
 def _solved(case: Case, by: str) -> Any:

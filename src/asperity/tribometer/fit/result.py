@@ -10,6 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
 from asperity.results.quantity import plain
 from asperity.results.table import Table
+from asperity.units import to_si
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,6 +32,8 @@ class Parameter:
         Whether both ends are closed.
     why : str
         What the data do not tell of it, or what it goes with; may be empty.
+    written : str
+        The case's unit, in which tables show it.
     """
 
     key: str
@@ -39,6 +42,20 @@ class Parameter:
     ci95: tuple[float | None, float | None]
     identifiable: bool
     why: str
+    written: str
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what is in SI."""
+        told = dataclasses.asdict(self)
+        del told["written"]
+        return told
+
+    def row(self) -> tuple[str | float, ...]:
+        """Return key, value, ends, unit and why, in the case's unit."""
+        zero, one = (to_si(f"{n} {self.written}", self.units) for n in (0, 1))
+        low, high = ("open" if end is None else (end - zero) / (one - zero) for end in self.ci95)
+        value = (self.value - zero) / (one - zero)
+        return self.key, value, low, high, self.written, self.why
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,7 +105,7 @@ class FitResult(Result):
     def to_json(self) -> dict[str, Any]:
         """Return parameters, their correlation, laws, residuals and what to measure next."""
         own = {
-            "parameters": [dataclasses.asdict(one) for one in self.parameters],
+            "parameters": [one.to_json() for one in self.parameters],
             "correlation": self.correlation,
             "laws": [dataclasses.asdict(one) for one in self.laws],
             "residuals": self.residuals,
@@ -121,10 +138,7 @@ class FitResult(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return parameters, laws, and what to measure next."""
-        rows = [
-            (one.key, one.value, *(_end(end) for end in one.ci95), one.units, one.why)
-            for one in self.parameters
-        ]
+        rows = [one.row() for one in self.parameters]
         headings = "parameter", "value", "from", "to", "unit", ""
         found = Table.of(headings, rows, title=f"Law {self.law}", remarks=self.notes)
         laws = Table.of(
@@ -142,14 +156,13 @@ class FitResult(Result):
         ]  # fmt: skip
         heads = (*keys, *(f"{key} %" for key in self.proposed[0].relative_deviations))
         title = "What to measure next, one after the other, in SI units, and the deviations then"
-        return found, laws, Table.of(heads, further, title=title, left=0)
+        conditions = [one.conditions for one in self.proposed]
+        again = any(one in conditions[:place] for place, one in enumerate(conditions))
+        remarks = ("the same conditions again are one measurement, repeated",) if again else ()
+        return found, laws, Table.of(heads, further, title=title, left=0, remarks=remarks)
 
 
 _WIDE = 3.0  # relative deviation that tells nothing
-
-
-def _end(value: float | None) -> float | str:
-    return "open" if value is None else value
 
 
 def _or_nan(value: float | None) -> float:

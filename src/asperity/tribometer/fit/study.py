@@ -8,53 +8,27 @@ from pathlib import Path
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
-from asperity.casefile import Case, told
-from asperity.errors import ConvergenceError, InputError, choices, nearest, suggestion
+from asperity.casefile import Case
+from asperity.errors import ConvergenceError, InputError, choices, suggestion
 from asperity.friction.dahl import LAWS
 from asperity.runs import Run
 from asperity.slider.parameters import Slider
 from asperity.tribometer.fit.data import Measurements, Value, read_measurements
 from asperity.tribometer.fit.design import proposals
-from asperity.tribometer.fit.estimate import WIDEST, Estimate, Fit
+from asperity.tribometer.fit.estimate import Estimate, Fit
 from asperity.tribometer.fit.forward import BLOCK, DRIVE, SLIDE, Predictor, prepared
+from asperity.tribometer.fit.free import Free
 from asperity.tribometer.fit.result import FitResult, Law, Parameter, Proposed
 from asperity.tribometer.parameters import Rig
-from asperity.units import Quantity, quantity_of
 
 _LAW = "friction.law"
+# Tables of which one makes a case that a model solves; a disc of a rig is a body, too.
+_BODIES = {SLIDE: ("slider", Rig.table), BLOCK: ("block",), DRIVE: ("drive",)}
 _STEP = 1e-3  # of an uncertain condition, for its slope
 _MOST_NEXT = 100
 _CORRELATED, _AS_ONE = 0.95, 0.999
 _ALIKE = 0.01  # of chi-square, by which laws do not differ
 _UNLIKELY = 0.05
-
-
-@dataclasses.dataclass(frozen=True)
-class Free:
-    """A parameter that is fitted.
-
-    Attributes
-    ----------
-    key : str
-        ``table.key``.
-    quantity : Quantity
-        Its unit and bounds.
-    start : float
-        SI.
-    """
-
-    key: str
-    quantity: Quantity
-    start: float
-
-    @property
-    def bounds(self) -> tuple[float, float]:
-        """Logarithms of the least and the largest value."""
-        lower = self.quantity.ge if self.quantity.gt is None else self.quantity.gt
-        upper = self.quantity.le if self.quantity.lt is None else self.quantity.lt
-        middle = math.log(self.start)
-        low = math.log(lower) if lower is not None and lower > 0.0 else middle - 2.0 * WIDEST
-        return low, math.log(upper) if upper is not None else middle + 2.0 * WIDEST
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,6 +64,7 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
             f"{suggestion(model, (SLIDE, BLOCK, DRIVE))}"
         )
     measured = read_measurements(Path(data), case)
+    _see_kind(case, model, measured)
     if model == SLIDE and Slider.table not in case and Rig.table in case:
         # A disc of a rig is a body on a rigid drive, under the rig's load.
         measured = measured.everywhere({"slider.normal_force": case.require(Rig).load})
@@ -97,7 +72,7 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
     keys = [key.strip() for key in free.split(",") if key.strip()]
     if not keys:
         raise InputError("--free is empty; name keys, as in --free friction.max_deflection")
-    found = tuple(_free(key, ready, measured) for key in keys)
+    found = tuple(Free.of(key, ready, measured) for key in keys)
     if len({one.key for one in found}) < len(found):
         raise InputError(f"--free {free}: a key is there twice; name each once")
     points = len(measured.values)
@@ -111,26 +86,22 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
     )
 
 
-def _free(key: str, case: Case, data: Measurements) -> Free:
-    table, _, own = key.partition(".")
-    with told(case):
-        if table not in case.known or not own:
-            raise InputError(f"--free {key}: it must be table.key, as in friction.max_deflection")
-        fields = case.known[table].model_fields
-        if own not in fields:
-            raise InputError(f"--free {key} is not a key of [{table}]{nearest(own, fields)}")
-    quantity = quantity_of(case.known[table], own)
-    if quantity is None:
-        raise InputError(f"--free {key}: it is no number, which alone can be fitted")
-    if key in data.keys:
-        raise InputError(f"--free {key}: it is a column of {data.name}, and so given for each row")
-    start = getattr(case.require(table), own)
-    if start is None or not start > 0.0:
+def _see_kind(case: Case, model: str, measured: Measurements) -> None:
+    """Refuse a case without the body that a model solves."""
+    there = {*case.tables, *(key.partition(".")[0] for key in measured.keys)}
+    able = [one for one, tables in _BODIES.items() if there.intersection(tables)]
+    if model in able:
+        return
+    if able:
         raise InputError(
-            f"--free {key}: the case must have a value above zero to start from, such as "
-            f"'{quantity.example}'"
+            f"{case.source}: it has no [{_BODIES[model][0]}], which --model {model} needs; give "
+            f"--model {able[0]}"
         )
-    return Free(key, quantity, float(start))
+    bodies = ", ".join(f"[{name}]" for tables in _BODIES.values() for name in tables)
+    raise InputError(
+        f"{case.source}: it is a case of another kind, without one of {bodies}, which asperity fit "
+        f"needs; asperity check {case.source} tells which commands take it"
+    )
 
 
 def _laws(given: str, case: Case) -> tuple[str, ...]:
@@ -241,29 +212,46 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
     Raises
     ------
     ConvergenceError
-        No fit converges, or the model answers fewer measurements than there are parameters.
+        No law's fit converges, or the model answers fewer measurements than there are parameters.
     """
-    predict = Predictor(problem.case, problem.by, problem.data.forces)
+    total, done = len(problem.laws) + 2 * len(problem.free), 0
+
+    def looked() -> None:
+        run.checkpoint(done, total, what="fits and ends of intervals")
+
+    predict = Predictor(problem.case, problem.by, problem.data.forces, looked)
     fitted: dict[str, _Fitted] = {}
-    total = len(problem.laws) + 2 * len(problem.free)
+    failed: dict[str, ConvergenceError] = {}
     with run.going_on():
-        for done, law in enumerate(problem.laws):
-            run.checkpoint(done, total, what="fits and ends of intervals")
+        for law in problem.laws:
             start = next(iter(fitted.values())).best.point if fitted else None
-            fitted[law] = _fit(problem, predict, law, start)
+            try:
+                fitted[law] = _fit(problem, predict, law, start)
+            except ConvergenceError as error:
+                failed[law] = error
+            done += 1
+        if not fitted:
+            raise next(iter(failed.values()))
         law = _chosen(problem, fitted)
         chosen = fitted[law]
         ends = []
         for place in range(len(problem.free)):
             both = []
-            for number, side in enumerate((-1, 1)):
-                run.checkpoint(
-                    len(problem.laws) + 2 * place + number, total, what="fits and ends of intervals"
-                )
+            for side in (-1, 1):
                 both.append(chosen.fit.end(chosen.best, place, side))
+                done += 1
             ends.append((both[0], both[1]))
     evaluations = sum(one.fit.evaluations for one in fitted.values())
-    return _result(problem, predict, fitted, law, ends, evaluations)
+    found = _result(problem, predict, fitted, law, ends, evaluations)
+    if not failed:
+        return found
+    return dataclasses.replace(
+        found,
+        failed=(*found.failed, *({"row": None, "law": law, "why": str(error)}
+                                 for law, error in failed.items())),
+        notes=(*found.notes, *(f"law {law} is not fitted: {error}"
+                               for law, error in failed.items())),
+    )  # fmt: skip
 
 
 def _chosen(problem: FitProblem, fitted: Mapping[str, _Fitted]) -> str:
@@ -357,8 +345,9 @@ def _parameter(
         why = f"goes with {problem.free[partner].key}: correlation {with_it:+.2f}"
     closed = low is not None and high is not None and abs(with_it) <= _AS_ONE
     return Parameter(
-        one.key, math.exp(float(best.point[place])), one.quantity.unit, (low, high), closed, why
-    )
+        one.key, math.exp(float(best.point[place])), one.quantity.unit, (low, high), closed, why,
+        one.written,
+    )  # fmt: skip
 
 
 def _chance(chi2: float, freedom: int) -> float:
@@ -372,6 +361,11 @@ def _notes(predict: Predictor, chosen: _Fitted) -> list[str]:
     if predict.marched:
         notes.append(
             f"{predict.marched} of {predict.solves} bodies had no periodic state and were marched"
+        )
+    if predict.rigid:
+        notes.append(
+            f"{predict.rigid} of {predict.solves} bodies are as good as rigid: their ratios lie "
+            "between rigid friction's closed form and the stiffest contact for which it holds"
         )
     if chosen.data.failed:
         notes.append(f"{len(chosen.data.failed)} measurements have no answer and are left out")

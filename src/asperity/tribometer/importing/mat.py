@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from asperity import store
 from asperity.errors import InputError, plain
 from asperity.tribometer.importing.columns import Columns
 
@@ -113,6 +114,7 @@ def _hdf5(path: Path) -> dict[str, Any]:
 
     size = path.stat().st_size
     with h5py.File(path, "r") as file:
+        store.require_whole(file, plain(path.name))
         sets: Sequence[Any] = [one for one in file.values() if isinstance(one, h5py.Dataset)]
         if sum(one.size * one.dtype.itemsize for one in sets) > _MOST_OF_A_BYTE * size:
             raise ValueError("more values than it can hold")

@@ -20,8 +20,8 @@ class PlanResult(Result):
     order: str
 
     file_count: int = quantity("", "", "files", key="file_count")
-    cell_count: int = quantity("", "", "cells, each once with and once before")
-    distinct_cells: int = quantity("", "", "cells that differ in more than the repeat")
+    cell_count: int = quantity("", "", "cells, repeats counted")
+    distinct_cells: int = quantity("", "", "different cells, repeats not counted")
     settings: int = quantity("", "", "times the rig is rebuilt or given new discs")
     recording_time: float = quantity("", "s", "time that is recorded")
     frequency: FloatArray = quantity("f", "Hz", "frequency of the vibration", dims=("cell",))

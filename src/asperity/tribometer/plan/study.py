@@ -17,8 +17,8 @@ from asperity.tribometer.twin.plant import Plant
 # Velocity ratios from which a friction law is identified best.
 _TELLING = 1.5, 4.0
 _ENOUGH_TURNS = 2.0
-_STARTING = 1.5  # s, of motors and of the voltage that tells their speed
 _EDGES = 0.2  # s
+_OF_SPEED = 1.0  # s in which speeds have settled, at least
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,14 +33,14 @@ class PlanProblem:
         In their order.
     plant : Plant or None
         The simulated rig, where the configuration has one.
-    reduction : Reduction
-        How its recordings will be reduced.
+    warnings : tuple of str
+        Of what will go wrong.
     """
 
     plan: Plan
     files: tuple[PlannedFile, ...]
     plant: Plant | None
-    reduction: Reduction
+    warnings: tuple[str, ...]
 
 
 def prepare(case: Case) -> PlanProblem:
@@ -48,25 +48,46 @@ def prepare(case: Case) -> PlanProblem:
     limits = case.require(Limits) if Limits.table in case else Limits()
     plan = case.require(Plan)
     plant = Plant.from_case(case) if Twin.table in case else None
-    reduction = case.require(Reduction) if Reduction.table in case else Reduction()
-    return PlanProblem(plan, planned_files(plan, limits), plant, reduction)
+    return PlanProblem(plan, planned_files(plan, limits), plant, tuple(warnings(case)))
 
 
-def too_brief(plan: Plan, given: Reduction) -> str:
-    """Return which windows of a plan its own reduction will refuse; empty: none."""
-    least = given.settling + given.least_window
-    wanted = {"before": _STARTING + least, "shaken": _EDGES + least}
-    short = [
-        f"plan.{key} is {getattr(plan, key):g} s, which should be {most:g} s or more"
-        for key, most in wanted.items()
-        if getattr(plan, key) < most
-    ]
-    if not short:
-        return ""
-    return (
-        f"{'; '.join(short)}: when motors have started and reduction.settling = "
-        f"{given.settling:g} s is left out, rig reduce refuses what is shorter than "
-        f"reduction.least_window = {given.least_window:g} s"
+def warnings(case: Case) -> list[str]:
+    """Return what will go wrong with a plan that may be run, to be said before it is."""
+    given = case.require(Reduction) if Reduction.table in case else Reduction()
+    found = _too_brief(case.require(Plan), given)
+    if Twin.table in case:
+        limits = case.require(Limits) if Limits.table in case else Limits()
+        starting = Plant.from_case(case).starting_torque
+        if limits.torque < starting:
+            found.append(
+                f"limits.torque is {limits.torque:g} N m, below the {starting:.2g} N m of the "
+                "simulated rig's discs as they start: a run can latch there"
+            )
+    return found
+
+
+def _too_brief(plan: Plan, given: Reduction) -> list[str]:
+    """Return what a plan's own reduction will refuse or doubt, for windows that are too short."""
+    found = []
+    least, counted = given.settling + given.least_window, given.speed_settling + _OF_SPEED
+    if short := _shorter(plan, _EDGES + least):
+        found.append(
+            f"{short}: when reduction.settling = {given.settling:g} s is left out, rig reduce "
+            f"refuses what is shorter than reduction.least_window = {given.least_window:g} s"
+        )
+    elif short := _shorter(plan, _EDGES + counted):
+        found.append(
+            f"{short}: speeds need reduction.speed_settling = {given.speed_settling:g} s, and rig "
+            "reduce takes them before that"
+        )
+    return found
+
+
+def _shorter(plan: Plan, least: float) -> str:
+    return "; ".join(
+        f"plan.{key} is {getattr(plan, key):g} s, which should be {least:g} s or more"
+        for key in ("before", "shaken")
+        if getattr(plan, key) < least
     )
 
 
@@ -132,8 +153,7 @@ def _expected(problem: PlanProblem) -> Expected | None:
 
 def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
     plan = problem.plan
-    brief = too_brief(plan, problem.reduction)
-    notes = [brief] if brief else []
+    notes = list(problem.warnings)
     if expected is not None:
         ratio, steel, bronze = expected
         for volts in plan.steel_supplies:

@@ -13,14 +13,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from asperity.errors import InputError, StorageError, plain
+from asperity.errors import StorageError, plain
+from asperity.tribometer.journal_lines import NAME, Line, lines_of
 
-NAME = "journal.jsonl"
 _SPARE = ".journal.spare"
 _SPARE_BYTES = 1 << 16
 _MOST_BYTES = 1 << 28
-
-Line = dict[str, Any]
 
 
 class Journal:
@@ -68,19 +66,7 @@ class Journal:
             if whole < len(text):
                 os.ftruncate(self._file, whole)
                 os.fsync(self._file)
-        lines: list[Line] = []
-        for number, row in enumerate(text[:whole].splitlines(), start=1):
-            try:
-                line = json.loads(row)
-                if not isinstance(line, dict) or line.get("line") != number:
-                    raise ValueError
-            except (ValueError, RecursionError):
-                raise InputError(
-                    f"{self.path}: line {number} is damaged; what was run cannot be told from it: "
-                    "choose another folder, and import what it recorded"
-                ) from None
-            lines.append(line)
-        return lines
+        return lines_of(text[:whole], self.path)
 
     def _hold_back(self) -> None:
         with _told(self._spare):

@@ -16,12 +16,13 @@ from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
 from asperity.tribometer.instruments.protocols import Bench, InstrumentError
 from asperity.tribometer.instruments.replay import replay_bench
-from asperity.tribometer.options import Plan, Reduction
+from asperity.tribometer.journal_lines import NAME
+from asperity.tribometer.options import Plan
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
-from asperity.tribometer.plan.study import too_brief
-from asperity.tribometer.procedure.journal import NAME, Journal
+from asperity.tribometer.plan.study import warnings
+from asperity.tribometer.procedure.journal import Journal
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
@@ -89,7 +90,9 @@ def prepare(
                 f"plan.frequencies has {frequency:g} Hz, which a plan.sample_rate of "
                 f"{plan.sample_rate:g} Hz cannot tell; it must be at most {most:g} Hz"
             )
-    if acknowledge.strip() and not resume:
+    if acknowledge.isspace():
+        raise InputError("--acknowledge is blank; say who has looked at the rig, and what was done")
+    if acknowledge and not resume:
         raise InputError("--acknowledge goes with --resume: it is for a run that latched")
     if (backend == REPLAY) != bool(recordings):
         raise InputError("--backend replay and --recordings DIR, a run's folder, go together")
@@ -156,9 +159,8 @@ def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult
     try:
         _opened(problem, journal)
         case = problem.case
-        reduction = case.require(Reduction) if Reduction.table in case else Reduction()
-        if brief := too_brief(case.require(Plan), reduction):
-            run.notify(brief)
+        for warning in warnings(case):
+            run.notify(warning)
         machine = Machine(case, problem.actions, bench, journal, folder, run)
         latch = machine.go()
         if latch is None and not journal.of("finished"):

@@ -99,9 +99,10 @@ class Recording:
             There is no such file, or it is no recording or damaged.
         """
         name = plain(str(path))
-        store.keep_input(path)
         try:
             with _opened(path) as file:
+                if _ANSWER not in file.attrs:  # what a command wrote may be written anew
+                    store.keep_input(path)
                 return cls(path, **_read(file, path.stat().st_size, name))
         except StorageError:
             raise
@@ -111,6 +112,7 @@ class Recording:
             raise StorageError(f"{name} cannot be read: it is a folder; give a file") from None
         except Exception as error:
             # A damaged file surfaces as whatever the layer that trips over it raises.
+            store.keep_input(path)
             raise StorageError(f"{name} cannot be read: {_why(path)}") from error
 
     @property
@@ -175,8 +177,12 @@ def _why(path: Path) -> str:
         return store.reason(error)
     stated = int.from_bytes(head[40:48], "little")
     size = path.stat().st_size
-    if head.startswith(b"\x89HDF\r\n\x1a\n\0") and size < stated:
-        return f"{size} of its {stated} bytes are there, the rest is cut off; copy it again"
+    if not size:
+        return "it is empty; copy it again from where it was recorded"
+    if head.startswith(b"\x89HDF\r\n\x1a\n"):
+        if head[8] == 0 and size < stated:
+            return f"{size} of its {stated} bytes are there, the rest is cut off; copy it again"
+        return "it is damaged; copy it again from where it was recorded"
     return "not a recording, or damaged; import what an oscilloscope wrote: asperity rig import"
 
 
@@ -202,6 +208,7 @@ def _read(file: Any, size: int, name: str) -> dict[str, Any]:
         )
     if _text(attributes.get("format", "")) != layout.FORMAT:
         raise StorageError(f"{name} is not a recording; import it: asperity rig import")
+    store.require_whole(file, name)
     raw = file[layout.RAW]
     if raw.dtype != np.int16 or raw.ndim != 2:
         raise StorageError(f"{name}: its counts are no recording's")

@@ -18,7 +18,9 @@ from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import drive_signal, quantities, wear
 from asperity.tribometer.reduction.blocks import Blocks, angle, lines_of, turns
 from asperity.tribometer.reduction.drive_signal import Stretch
-from asperity.tribometer.reduction.levels import Levels, estimate_levels
+from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
+from asperity.tribometer.reduction.joint import TORQUE, Joint, estimate_jointly
+from asperity.tribometer.reduction.levels import Levels
 from asperity.tribometer.reduction.prediction import model_ratios
 from asperity.tribometer.reduction.result import (
     DOUBTFUL,
@@ -31,18 +33,12 @@ from asperity.tribometer.reduction.segments import Segment
 from asperity.units import to_si
 
 _LEVEL_BLOCK = 0.1  # s, in which noise and run-out are told apart
+_FEWEST = 10  # of these in a window; reduction.least_window has as many blocks at least
+_DATED = TORQUE, STEEL, BRONZE, CURRENT, "acceleration"  # what numbers rest on
+_LEAST_OF_SPEED = 1.0  # s of it that have settled, in a window
 _WIDE = 5.0  # points to either side, above which an interval is wide
 _PART_TURN = 1.0
 _FUNDAMENTAL = 8.0 / math.pi**2  # of a triangle: what a chain that passes one tone leaves of it
-
-
-@dataclasses.dataclass(frozen=True)
-class _Windows:
-    """Means of a segment's two windows."""
-
-    speed: tuple[float, float]
-    bronze: tuple[float, float]
-    current: tuple[float, float] | None
 
 
 def reduce_file(
@@ -56,20 +52,24 @@ def reduce_file(
     """Reduce a recording whose segments are found."""
     pair = Pair.from_case(case)
     usable = [one for one in segments if not one.refused]
-    levels = _levels(blocks, usable, pair, given) if usable else None
+    windows = _Windows.of(blocks, usable, given) if usable else None
+    joint = _joint(blocks, windows, pair, given) if windows else None
     found: list[SegmentResult] = []
     asked: list[Any] = []
     for segment in segments:
         common = _common(recording, case, segment)
-        if segment.refused or levels is None:
+        if segment.refused or windows is None or joint is None:
             flags = (segment.refused, *segment.flags)
             found.append(SegmentResult(**common, quality=REFUSED, flags=flags))
             asked.append(None)
             continue
-        values, question = _numbers(
-            recording, case, pair, blocks, segment, levels, usable.index(segment), given, sonotrode,
-            common["motor_voltage"],
+        place = usable.index(segment)
+        following = Following(
+            pair, common["motor_voltage"], joint, place, given.confidence, blocks.lines,
+            windows.seconds[place], given.speed_settling if windows.hurried[place] else 0.0,
+            powered=not any(windows.unpowered[2 * place : 2 * place + 2]),
         )  # fmt: skip
+        values, question = _numbers(recording, case, blocks, segment, following, sonotrode)
         found.append(SegmentResult(**common, **values))
         asked.append(question)
     ratios = model_ratios(case, pair.rig.load, asked)
@@ -77,35 +77,90 @@ def reduce_file(
         dataclasses.replace(one, model_ratio=ratio)
         for one, ratio in zip(found, ratios, strict=True)
     ]
+    levels = None if joint is None else joint.levels[TORQUE]
     return _file(recording, pair, blocks, segments, found, levels), found
 
 
-def _levels(blocks: Blocks, segments: Sequence[Segment], pair: Pair, given: Reduction) -> Levels:
-    """Estimate the torques of all windows of a file together."""
-    every = max(1, round(_LEVEL_BLOCK / blocks.length))
+@dataclasses.dataclass(frozen=True)
+class _Windows:
+    """The windows of a file's segments, before and with vibration in turns.
+
+    Attributes
+    ----------
+    parts : list of Stretch
+        Of each window.
+    unsettled : list of int
+        Blocks at the beginning of each in which speeds still change on their way through the
+        encoder's counter.
+    seconds : list of (float, float)
+        That the speeds of each segment are taken over.
+    hurried : tuple of bool
+        Of each segment whether speeds had no time to settle, and are taken all the same.
+    unpowered : list of bool
+        Of each window whether its current is missing or past its range somewhere.
+    """
+
+    parts: Sequence[Stretch]
+    unsettled: Sequence[int]
+    seconds: Sequence[tuple[float, float]]
+    hurried: Sequence[bool]
+    unpowered: Sequence[bool]
+
+    @classmethod
+    def of(cls, blocks: Blocks, segments: Sequence[Segment], given: Reduction) -> "_Windows":
+        """Lay out the windows of segments."""
+        parts = [part for one in segments for part in (one.before, one.shaken)]
+        late = blocks.at_least(max(given.speed_settling - given.settling, 0.0))
+        least = max(blocks.at_least(_LEAST_OF_SPEED), _FEWEST)
+        unsettled = [late if part.count - late >= least else 0 for part in parts]
+        lasts = [(one.count - n) * blocks.length for one, n in zip(parts, unsettled, strict=True)]
+        hurried = [late > n for n in unsettled]
+        return cls(
+            parts, unsettled, list(zip(lasts[::2], lasts[1::2], strict=True)),
+            [a or b for a, b in zip(hurried[::2], hurried[1::2], strict=True)],
+            [CURRENT in blocks.lost and bool(blocks.lost[CURRENT][part.first : part.last].any())
+             for part in parts],
+        )  # fmt: skip
+
+
+def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> Joint:
+    """Estimate torque, speeds and current of all windows of a file together."""
+    # Of a short window there are still as many as tell its noise.
+    least = min(part.count for part in windows.parts) // _FEWEST
+    every = max(1, min(round(_LEVEL_BLOCK / blocks.length), least))
+    names = [TORQUE, STEEL, BRONZE]
+    if CURRENT in blocks.means and not all(windows.unpowered):
+        names.append(CURRENT)
+    late = np.zeros(blocks.count)
+    for part, unsettled in zip(windows.parts, windows.unsettled, strict=True):
+        late[part.first : part.first + unsettled] = 1.0
     columns = np.column_stack(
         (
             blocks.time,
-            blocks.means["torque_steel"],
             angle(blocks, "speed_steel", pair.drives.gear_ratio),
             angle(blocks, "speed_bronze", pair.drives.bronze_gear_ratio),
+            late,
+            *(blocks.means[name] for name in names),
         )
     )
     parts, window = [], []
-    for place, (stretch, _) in enumerate(_windows(segments)):
+    for place, stretch in enumerate(windows.parts):
         count = stretch.count // every
-        part = columns[stretch.first : stretch.first + count * every]
-        parts.append(part.reshape(count, every, 4).mean(axis=1))
+        rows = columns[stretch.first : stretch.first + count * every]
+        parts.append(rows.reshape(count, every, columns.shape[1]).mean(axis=1))
         window += [place] * count
-    times, torque, steel, bronze = np.concatenate(parts).T.copy()
-    shaken = [shaken for _, shaken in _windows(segments)]
-    return estimate_levels(
-        times, torque, (steel, bronze), np.array(window), shaken, drift=given.drift
-    )
-
-
-def _windows(segments: Sequence[Segment]) -> list[tuple[Stretch, bool]]:
-    return [pair for one in segments for pair in ((one.before, False), (one.shaken, True))]
+    times, steel, bronze, unsettled, *rest = np.concatenate(parts).T.copy()
+    signals, of_window = dict(zip(names, rest, strict=True)), np.array(window)
+    left_out = dict.fromkeys((STEEL, BRONZE), unsettled > 0.0)
+    if CURRENT in signals:
+        unpowered = np.array(windows.unpowered)[of_window]
+        signals[CURRENT][unpowered] = 0.0
+        left_out[CURRENT] = unpowered & (np.diff(of_window, prepend=-1) == 0)
+    return estimate_jointly(
+        times, signals, (steel, bronze), of_window,
+        [place % 2 == 1 for place in range(len(windows.parts))], drift=given.drift,
+        left_out=left_out,
+    )  # fmt: skip
 
 
 def _common(recording: Recording, case: Case, segment: Segment) -> dict[str, Any]:
@@ -131,107 +186,70 @@ def _common(recording: Recording, case: Case, segment: Segment) -> dict[str, Any
 def _numbers(
     recording: Recording,
     case: Case,
-    pair: Pair,
     blocks: Blocks,
     segment: Segment,
-    levels: Levels,
-    place: int,
-    given: Reduction,
+    following: Following,
     sonotrode: Sonotrode | None,
-    voltage: float,
 ) -> tuple[dict[str, Any], Any]:
     """Return the numbers of a segment, and what its model is asked."""
-    before, shaken = 2 * place, 2 * place + 1
-    torques = float(levels.values[before]), float(levels.values[shaken])
-    change, low, high, deviation = levels.change(
-        before, shaken, given.confidence, _calibration(blocks, torques)
-    )
-    means = _means(blocks, segment)
-    rims = [pair.rims(*speeds) for speeds in zip(means.speed, means.bronze, strict=True)]
-    sliding = [float(discs.sliding_velocity(*one)) for one in rims]
+    pair, levels = following.pair, following.levels
+    change, power = following.torque_change(), following.power_change()
+    torques = [following.torque(one) for one in (0, 1)]
+    sliding = [following.sliding_velocity(one).times(1e3) for one in (0, 1)]
     values: dict[str, Any] = {
-        "torque_before": torques[0], "torque_with": torques[1], "torque_change": 100.0 * change,
-        "torque_change_ci95": (100.0 * low, 100.0 * high), "low": 100.0 * low, "high": 100.0 * high,
-        "deviation": 100.0 * deviation,
-        "power_change": float(
-            quantities.power_change(torques[1], means.speed[1], torques[0], means.speed[0])
-        ),
-        "sliding_velocity_before": 1e3 * sliding[0], "sliding_velocity_with": 1e3 * sliding[1],
-        "slide_roll_ratio": 0.5 * sum(float(discs.slide_roll_ratio(*one)) for one in rims),
-        **_efficiencies(pair, torques, means, rims, voltage),
-        "turns_seen": _turns(blocks, "speed_steel", pair.drives.gear_ratio, segment.shaken),
-        "bronze_turns": _turns(
-            blocks, "speed_bronze", pair.drives.bronze_gear_ratio, segment.shaken
-        ),
+        "torque_before": torques[0].value, "torque_before_ci95": torques[0].ends,
+        "torque_with": torques[1].value, "torque_with_ci95": torques[1].ends,
+        "torque_change": change.value, "torque_change_ci95": change.ends, "low": change.low,
+        "high": change.high, "deviation": change.deviation,
+        "power_change": power.value, "power_change_ci95": power.ends,
+        "slide_roll_ratio": following.slide_roll_ratio(),
+        "turns_seen": _turns(blocks, STEEL, pair.drives.gear_ratio, segment.shaken),
+        "bronze_turns": _turns(blocks, BRONZE, pair.drives.bronze_gear_ratio, segment.shaken),
     }  # fmt: skip
+    for name, found in (
+        ("sliding_velocity_before", sliding[0]), ("sliding_velocity_with", sliding[1]),
+        ("efficiency_change", following.efficiency_change()),
+        ("full_efficiency_change", following.full_efficiency_change()),
+    ):  # fmt: skip
+        if found is not None:
+            values |= {name: found.value, f"{name}_ci95": found.ends}
+    values["sliding_velocity_deviation"] = sliding[1].deviation
     if Lubricant.table in case:
-        rolling = float(discs.rolling_velocity(*rims[0]))
+        rolling = float(discs.rolling_velocity(*following.rims(levels, 0)))
         values["film_parameter"] = pair.film(case.require(Lubricant), rolling)
     flags = list(segment.flags)
     peak, doubt, odd = _velocity(recording, case, blocks, segment, sonotrode)
+    if following.hurried:
+        odd.append(
+            f"speeds are taken before reduction.speed_settling = {following.hurried:g} s is over"
+        )
+    odd += [
+        f"the sliding velocity {name} vibration is not told apart from zero"
+        for name, one in zip(("before", "with"), sliding, strict=True)
+        if one.low <= 0.0 < one.value
+    ]
     flags += odd
+    if not following.powered:
+        flags.append(f"{CURRENT} has samples missing or past its range: no efficiency")
     question = None
     if peak is not None:
         values |= {"velocity_amplitude": 1e3 * peak, "velocity_deviation": 1e3 * doubt}
-        values |= _ratios(peak, sliding)
+        before, shaken = (1e-3 * one.value for one in sliding)
+        values |= {
+            name: peak / one
+            for name, one in (("k_v_before", before), ("k_v_with", shaken)) if one > 0.0
+        }  # fmt: skip
+        if (ratio := following.velocity_ratio(peak, doubt)) is not None:
+            values |= {"k_v": ratio.value, "k_v_ci95": ratio.ends}
         # What a chain that passes one tone leaves of a triangle is a sine.
-        question = (pair.rig.mode, "sine", sliding[1], peak, segment.commanded)
+        question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
     flags += _flags(recording, case, blocks, segment, values)
-    doubtful = bool(odd or segment.flags) or high - low > 2e-2 * _WIDE
+    doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
-
-
-def _means(blocks: Blocks, segment: Segment) -> _Windows:
-    def of(signal: str) -> tuple[float, float]:
-        first, second = (
-            float(blocks.means[signal][one.first : one.last].mean())
-            for one in (segment.before, segment.shaken)
-        )
-        return first, second
-
-    current = of("current_steel") if "current_steel" in blocks.means else None
-    return _Windows(of("speed_steel"), of("speed_bronze"), current)
 
 
 def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:
     return turns(blocks, signal, ratio, window.first, window.last)
-
-
-def _calibration(blocks: Blocks, torques: tuple[float, float]) -> float:
-    """Return the variance that the sensor's calibration leaves in the change."""
-    first, second = torques
-    if "torque_steel" not in blocks.lines or first == 0.0:
-        return 0.0
-    one, other, both = blocks.lines["torque_steel"].covariance_of_pair(first, second)
-    slopes = -second / first**2, 1.0 / first
-    return max(
-        slopes[0] ** 2 * one + slopes[1] ** 2 * other + 2.0 * slopes[0] * slopes[1] * both, 0.0
-    )
-
-
-def _efficiencies(
-    pair: Pair,
-    torques: tuple[float, float],
-    means: _Windows,
-    rims: Sequence[tuple[float, float]],
-    voltage: float,
-) -> dict[str, float]:
-    if means.current is None or min(means.current) <= 0.0 or voltage <= 0.0:
-        return {}
-    ratio = pair.drives.gear_ratio
-    left, full = [], []
-    for torque, speed, current, (steel, bronze) in zip(
-        torques, means.speed, means.current, rims, strict=True
-    ):
-        left.append(float(quantities.thesis_efficiency(torque, speed, voltage, current, ratio)))
-        full.append(
-            float(quantities.drive_efficiency(
-                torque, speed, voltage, current, ratio, steel, bronze))
-        )  # fmt: skip
-    return {
-        "efficiency_change": 100.0 * (left[1] - left[0]),
-        "full_efficiency_change": 100.0 * (full[1] - full[0]),
-    }
 
 
 def _velocity(
@@ -263,20 +281,13 @@ def _velocity(
     return peak, peak * sonotrode.velocity_uncertainty, []
 
 
-def _ratios(peak: float, sliding: Sequence[float]) -> dict[str, float]:
-    named = {
-        "k_v": 0.5 * (sliding[0] + sliding[1]), "k_v_before": sliding[0], "k_v_with": sliding[1]
-    }  # fmt: skip
-    return {name: peak / velocity for name, velocity in named.items() if velocity > 0.0}
-
-
 def _flags(
     recording: Recording, case: Case, blocks: Blocks, segment: Segment, values: dict[str, Any]
 ) -> list[str]:
     """Return what a reader of a segment's numbers should know beside its interval."""
     flags = []
     for name, channel in case.require(Channels).mapped().items():
-        if channel.date is not None and name in ("torque_steel", "speed_steel", "acceleration"):
+        if channel.date is not None and name in _DATED:
             age = (recording.start.date() - channel.date).days
             if age > channel.valid_days:
                 flags.append(f"the calibration of {name} is out of date by {age} days")

@@ -9,7 +9,11 @@ with the angles of both discs by their encoders and a slow drift, all shared by 
 1 V a disc turns once in 20 to 50 s, so that the mean of a window sees a part of a turn, whatever
 that part is. The noise is white and coloured; its share, memory and size (another one under
 vibration) are those of the greatest restricted likelihood, which does not take what the levels
-have used up for less noise. Intervals are Student's with Satterthwaite's degrees of freedom.
+have used up for less noise.
+
+A speed or a current has levels of its own, and gives way as the torque swings about its level, be
+it by run-out, by drift or by noise that lasts: :math:`S(t) = S_j + g\,(T(t) - L_j) + e(t)`. White
+noise is that of the torque's sensor, which moves nothing.
 """
 
 import dataclasses
@@ -20,39 +24,54 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
-from asperity.tribometer.reduction.noise import whitened_products
+from asperity.tribometer.reduction.noise import lasting, whitened
 
 _RUNOUT = 0.05  # what run-out and drift are expected to be at most, as a share: loosely held
+_GIVE = 1.0  # what a signal gives to the whole torque, as a share: loosely held
 _ROUNDS = 2
 _LOOK = 0.35  # first step of the search, in the logarithms of what is sought
 _ENOUGH = 200
 _STEP = 0.05  # for differences
-_FEWEST_FREEDOM = 3.0
 _LEAST_INFORMATION = 0.25  # of a logarithm: nobody doubts it by more than a factor of e squared
 _NEAR_NONE = -9.0  # logarithm of a share that is as good as none
 # What is expected of the memory, loosely: where all noise is white, nothing else tells of it.
 _USUAL_MEMORY, _MEMORY_SPREAD = 0.3, 1.5  # s, and of its logarithm
+_FLOOR = 1e-18  # of the noise's variance, over the signal's largest value squared
 _SIZE_SPREAD = 0.7  # of the logarithm of the noise under vibration over that without
 
 
 @dataclasses.dataclass(frozen=True)
 class Levels:
-    """The torques of a file's windows.
+    """The levels of a signal in a file's windows.
 
     Attributes
     ----------
     values : ndarray, shape (windows,)
-        N m, each in the middle of the file's drift.
+        In the signal's unit, each in the middle of the file's drift.
     covariance : ndarray, shape (windows, windows)
-        N2 m2.
+        Of them, for a torque whose levels are right.
     runout : tuple of 2 floats
         Amplitudes over a turn of the steel disc and of the bronze disc, as shares.
     drift : float
         Change over the file, as a share.
     noise, coloured, memory : float
-        Standard deviation of a block, N m; share of it that lasts; for how long, s.
+        Standard deviation of a block; share of it that lasts; for how long, s.
     shaken_size : float
         Noise under vibration over that without.
+    gradients : ndarray, shape (noise parameters, windows, windows)
+        Of the covariance by the parameters of the noise.
+    spread : ndarray, shape (noise parameters, noise parameters)
+        Covariance of those parameters.
+    weights : ndarray, shape (windows, n)
+        Of white noise of size one in each block, what comes into the levels.
+    white : ndarray, shape (n,)
+        What is left of each block when all is estimated, made white and of size one.
+    give : float
+        By what the signal moves for a swing of the torque by its largest level; none of the torque.
+    swings : ndarray, shape (n,)
+        Of the signal about its levels, without its white noise.
+    sensed : ndarray, shape (windows,)
+        Variance that white noise alone leaves in the mean of each window.
     """
 
     values: FloatArray
@@ -63,66 +82,44 @@ class Levels:
     coloured: float
     memory: float
     shaken_size: float
-    _gradients: FloatArray  # of the covariance's parts by the noise's parameters
-    _spread: FloatArray  # covariance of those parameters
-
-    def change(
-        self, before: int, shaken: int, confidence: float, added: float = 0.0
-    ) -> tuple[float, float, float, float]:
-        """Return the change from one window to another as a share, its interval and deviation.
-
-        Parameters
-        ----------
-        before, shaken : int
-            The windows.
-        confidence : float
-            Of the interval.
-        added : float
-            Variance of the change from elsewhere, such as a calibration.
-        """
-        from scipy.stats import t as student
-
-        first, second = float(self.values[before]), float(self.values[shaken])
-        slope = np.zeros(self.values.size)
-        slope[before], slope[shaken] = -second / first**2, 1.0 / first
-        variance = float(slope @ self.covariance @ slope)
-        change = np.einsum("i,kij,j->k", slope, self._gradients, slope)
-        doubt = float(change @ self._spread @ change)
-        freedom = 2.0 * variance**2 / doubt if doubt > 0.0 else math.inf
-        freedom = max(freedom, _FEWEST_FREEDOM)
-        deviation = math.sqrt(variance + added)
-        half = deviation * float(student.ppf(0.5 + 0.5 * confidence, freedom))
-        middle = second / first - 1.0
-        return middle, middle - half, middle + half, deviation
+    gradients: FloatArray
+    spread: FloatArray
+    weights: FloatArray
+    white: FloatArray
+    give: float
+    swings: FloatArray
+    sensed: FloatArray
 
 
 class _Fit:
-    """The torques of a file's windows, and how well they are met with noise of some parameters."""
+    """A signal of a file's windows, and how well it is met with noise of some parameters."""
 
     def __init__(
-        self, times: FloatArray, torque: FloatArray, window: FloatArray, shared: FloatArray,
-        shaken: BoolArray, prior: FloatArray,
+        self, times: FloatArray, signal: FloatArray, window: FloatArray, shared: FloatArray,
+        shaken: BoolArray, prior: FloatArray, *, linear: bool,
     ) -> None:  # fmt: skip
-        self.times, self.torque, self.window, self.shared = times, torque, window, shared
-        self.shaken, self.prior = shaken, prior
-        self.member = np.zeros((window.size, int(window.max()) + 1))
+        self.times, self.signal, self.window, self.shared = times, signal, window, shared
+        self.shaken, self.prior, self.linear = shaken, prior, linear
+        self.member = np.zeros((window.size, shaken.size))
         self.member[np.arange(window.size), window] = 1.0
-        self.levels = self.member.T @ torque / self.member.sum(axis=0)
+        self.levels = self.member.T @ signal / self.member.sum(axis=0)
         self.shape = np.zeros(shared.shape[1])
-        self.scale = float(np.var(torque - self.member @ self.levels)) or 1e-12
+        self.scale = float(np.var(signal - self.member @ self.levels)) or 1e-12
         self.span = float(times[-1] - times[0])
         self.block = float(np.median(np.diff(times)))
 
     def columns(self) -> FloatArray:
         """Return what is fitted and what it is fitted to, linear about the levels and shapes."""
+        if self.linear:
+            return np.column_stack((self.member, self.shared, self.signal))
         form = 1.0 + self.shared @ self.shape
         level = self.member @ self.levels
         # The product is linear in either; about a point it is this, plus what is already there.
-        target = self.torque + level * (form - 1.0)
+        target = self.signal + level * (form - 1.0)
         return np.column_stack((self.member * form[:, None], level[:, None] * self.shared, target))
 
     def solve(self, columns: FloatArray, given: FloatArray) -> tuple[float, FloatArray, FloatArray]:
-        """Return twice the restricted likelihood's negative, the estimates, their covariance.
+        """Return twice the restricted likelihood's negative, the estimates, their information.
 
         Parameters
         ----------
@@ -134,20 +131,20 @@ class _Fit:
             one is found where it is not a number.
         """
         share, memory, size = _noise(given, self.block)
-        sizes = np.where(self.shaken, size, 1.0)
+        sizes = np.where(self.shaken[self.window], size, 1.0)
         width = columns.shape[1]
         products = np.empty((width, width))
-        logarithm = whitened_products(self.times, columns, sizes, share, memory, products)
-        products = np.tril(products) + np.tril(products, -1).T
+        self.rows = np.empty_like(columns)
+        logarithm = whitened(self.times, columns, sizes, share, memory, self.rows, products)
         normal, right, square = products[:-1, :-1], products[:-1, -1], float(products[-1, -1])
-        free = self.torque.size - width + 1
+        free = self.signal.size - width + 1
         scale = self.scale if math.isnan(given[3]) else math.exp(given[3])
         # What is expected of run-out and drift counts as data of its own, of a weight that hangs
         # on the noise.
         for _ in range(_ROUNDS if math.isnan(given[3]) else 1):
             information = normal + np.diag(scale * self.prior)
             estimate = np.linalg.solve(information, right)
-            rest = max(square - float(estimate @ right), 1e-300)
+            rest = max(square - float(estimate @ right), free * _FLOOR)
             if math.isnan(given[3]):
                 scale = rest / free
         likelihood = (
@@ -157,8 +154,7 @@ class _Fit:
             + (math.log(memory / _USUAL_MEMORY) / _MEMORY_SPREAD) ** 2
         )  # fmt: skip
         found: FloatArray = np.append(estimate, scale)
-        spread = np.asarray(scale * np.linalg.inv(information), dtype=np.float64)
-        return float(likelihood), found, spread
+        return float(likelihood), found, information / scale
 
 
 def _noise(given: FloatArray, block: float) -> tuple[float, float, float]:
@@ -168,19 +164,20 @@ def _noise(given: FloatArray, block: float) -> tuple[float, float, float]:
 
 def estimate_levels(
     times: FloatArray,
-    torque: FloatArray,
+    signal: FloatArray,
     angles: tuple[FloatArray, FloatArray],
     window: FloatArray,
     shaken: Sequence[bool],
     *,
     drift: bool = True,
+    swings: FloatArray | None = None,
 ) -> Levels:
-    """Estimate the torque of every window of a file.
+    """Estimate the levels of a signal in all windows of a file.
 
     Parameters
     ----------
-    times, torque : ndarray, shape (n,)
-        Of blocks within windows, s and N m; times rise.
+    times, signal : ndarray, shape (n,)
+        Of blocks within windows, s and the signal's unit; times rise.
     angles : tuple of 2 ndarrays
         Of the steel disc and of the bronze disc, rad.
     window : ndarray of int, shape (n,)
@@ -189,42 +186,76 @@ def estimate_levels(
         Of each window: whether there is vibration.
     drift : bool
         Whether a slow drift is estimated, too.
+    swings : ndarray, shape (n,), optional
+        The torque about its levels, over the largest of these, to which the signal gives way; left
+        out, it is the torque.
 
     Raises
     ------
     InputError
-        A torque that is not a number, or of no size.
+        A signal that is not a number, or of no size.
     """
-    if not np.all(np.isfinite(torque)):
-        raise InputError("a torque in a window is not a number")
-    span = max(float(times[-1] - times[0]), 1e-9)
-    shared = [f(angle) for angle in angles for f in (np.cos, np.sin)]
-    if drift:
-        shared.append((times - 0.5 * (times[0] + times[-1])) / span)
-    size = float(np.abs(torque).max())
+    if not np.all(np.isfinite(signal)):
+        raise InputError("a signal in a window is not a number")
+    size = float(np.abs(signal).max())
     if size <= 0.0:
-        raise InputError("the torque is zero all the time; look at the channel's calibration")
-    unshaken = not any(shaken) or all(shaken)
+        if swings is None:
+            raise InputError("the torque is zero all the time; look at the channel's calibration")
+        size = 1.0  # of a disc at rest, or a current that is not measured
     count = len(shaken)
-    prior = np.concatenate((np.zeros(count), np.full(len(shared), _RUNOUT**-2.0)))
+    if swings is None:
+        span = max(float(times[-1] - times[0]), 1e-9)
+        shared = [f(angle) for angle in angles for f in (np.cos, np.sin)]
+        if drift:
+            shared.append((times - 0.5 * (times[0] + times[-1])) / span)
+        expected = _RUNOUT
+    else:
+        shared, expected = [swings], _GIVE
+    prior = np.concatenate((np.zeros(count), np.full(len(shared), expected**-2.0)))
     fit = _Fit(
-        times, torque / size, window, np.column_stack(shared), np.asarray(shaken)[window], prior
-    )
+        times, signal / size, window, np.column_stack(shared), np.asarray(shaken), prior,
+        linear=swings is not None,
+    )  # fmt: skip
+    with_size = any(shaken) and not all(shaken)
     given = np.array([0.0, math.log(5.0), 0.0, math.nan])
-    for _ in range(_ROUNDS):
+    for _ in range(1 if fit.linear else _ROUNDS):
         columns = fit.columns()
-        given = _most_likely(fit, columns, given, with_size=not unshaken)
-        _, found, spread = fit.solve(columns, given)
+        given = _most_likely(fit, columns, given, with_size=with_size)
+        _, found, _ = fit.solve(columns, given)
         fit.levels, fit.shape = found[:count], found[count:-1]
     given[3] = math.log(found[-1])
-    gradients, doubt = _doubt(fit, fit.columns(), given, count, with_size=not unshaken)
+    columns = fit.columns()
+    gradients, doubt = _doubt(fit, columns, given, count, with_size=with_size)
+    _, estimate, information = fit.solve(columns, given)
+    spread, deviation = np.linalg.inv(information), math.sqrt(found[-1])
+    rows, target = fit.rows[:, :-1], fit.rows[:, -1]
     share, memory, ratio = _noise(given, fit.block)
-    c = fit.shape
+    sizes = np.where(fit.shaken[window], ratio, 1.0)
+    level = fit.member @ fit.levels
+    swung = level * (fit.shared @ fit.shape) if not fit.linear else fit.shared @ fit.shape
+    rest = np.empty_like(times)
+    lasting(times, signal / size - level - swung, sizes, share, memory, rest)
+    white = (size * deviation) ** 2 * (1.0 - share) * np.where(fit.shaken, ratio, 1.0) ** 2
+    c = np.zeros(5)
+    if not fit.linear:
+        c[: fit.shape.size] = fit.shape
     return Levels(
-        size * fit.levels, size**2 * spread[:count, :count],
-        (math.hypot(c[0], c[1]), math.hypot(c[2], c[3])), float(c[4]) if drift else 0.0,
-        size * math.sqrt(found[-1]), share, memory, ratio, size**2 * gradients, doubt,
+        size * fit.levels, np.asarray(size**2 * spread[:count, :count], dtype=np.float64),
+        (math.hypot(c[0], c[1]), math.hypot(c[2], c[3])), float(c[4]),
+        size * deviation, share, memory, ratio, size**2 * gradients, doubt,
+        size * (spread[:count] @ rows.T) / deviation,
+        (target - rows @ estimate[:-1]) / deviation,
+        size * _beyond_doubt(fit.shape[0], spread[count, count]) if fit.linear else 0.0,
+        size * (swung + rest), white / fit.member.sum(axis=0),
     )  # fmt: skip
+
+
+def _beyond_doubt(value: float, variance: float) -> float:
+    """Return a value whose square is what the square of an uncertain one is without its variance.
+
+    What nothing tells is none, rather than as large as may be.
+    """
+    return math.copysign(math.sqrt(max(value**2 - variance, 0.0)), value)
 
 
 def _most_likely(
@@ -260,7 +291,10 @@ def _doubt(
     up = [fit.solve(columns, given + step) for step in steps]
     down = [fit.solve(columns, given - step) for step in steps]
     slopes = np.array(
-        [(a[2] - b[2])[:count, :count] / (2.0 * _STEP) for a, b in zip(up, down, strict=True)]
+        [
+            (np.linalg.inv(a[2]) - np.linalg.inv(b[2]))[:count, :count] / (2.0 * _STEP)
+            for a, b in zip(up, down, strict=True)
+        ]
     )
     bend = np.empty((len(free), len(free)))
     for m in range(len(free)):

@@ -45,6 +45,13 @@ def mark_simulated(dataset: "xr.Dataset", axes: Any) -> None:
         )  # fmt: skip
 
 
+def _ends(dataset: "xr.Dataset", name: str) -> Any:
+    """Return the ends of a quantity's intervals; None where there are none."""
+    if name == "torque_change":
+        return np.column_stack((dataset["low"].values, dataset["high"].values))
+    return dataset[f"{name}_ci95"].values if f"{name}_ci95" in dataset else None
+
+
 def _lines(panel: Any, dataset: "xr.Dataset", waveforms: Any, here: Any, name: str) -> None:
     supplies = dataset["motor_voltage"].values
     frequency = dataset["commanded"].values
@@ -57,8 +64,9 @@ def _lines(panel: Any, dataset: "xr.Dataset", waveforms: Any, here: Any, name: s
         dashes = () if waveform == "sine" else (4, 2)
         means = [(f, values[frequency[rows] == f].mean()) for f in np.unique(frequency[rows])]
         panel.plot(*zip(*means, strict=True), color=colour, dashes=dashes, linewidth=1.0)
-        if name == "torque_change":
-            low, high = dataset["low"].values[rows], dataset["high"].values[rows]
+        ends = _ends(dataset, name)
+        if ends is not None:
+            low, high = ends[rows].T
             bars = np.abs([values - low, high - values])
             panel.errorbar(frequency[rows], values, bars, color=colour, linestyle="none", capsize=2)
         panel.plot(

@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from asperity.results import Quantities, Result, quantity
 from asperity.results.quantity import Entry, plain
@@ -16,16 +16,27 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _MEASURED = (
-    "ratio", "sd", "slider.drive_velocity [mm/s]", "vibration.velocity_amplitude [mm/s]",
+    "ratio", "sd", "slider.drive_velocity [mm/s]", "sd slider.drive_velocity [mm/s]",
+    "vibration.velocity_amplitude [mm/s]",
     "sd vibration.velocity_amplitude [mm/s]", "vibration.frequency [Hz]",
     "vibration.direction [deg]",
 )  # fmt: skip
+_CI95, _ENDS = "_ci95", ("low", "high")
 GOOD, DOUBTFUL, REFUSED = "good", "doubtful", "refused"
+
+
+Ends = tuple[float, float] | None
 
 
 def _beside(symbol: str, unit: str, meaning: str) -> Any:
     """Declare what files tell beside what JSON does."""
     return quantity(symbol, unit, meaning, only="file", default=None)
+
+
+def _ends(unit: str, meaning: str, key: str, *, only: Literal["file"] | None = None) -> Any:
+    """Declare both ends of an interval."""
+    told = f"interval of {meaning}, 95 %"
+    return quantity("", unit, told, key=key, default=None, only=only, shown=False)
 
 
 class SegmentResult(Quantities):
@@ -43,32 +54,45 @@ class SegmentResult(Quantities):
     torque_before: float | None = quantity(
         "T_b", "N m", "torque before", key="torque_before_Nm", default=None
     )
+    torque_before_ci95: Ends = _ends("N m", "the torque before", "torque_before_ci95_Nm")
     torque_with: float | None = quantity(
         "T_w", "N m", "torque with vibration", key="torque_with_Nm", default=None
     )
+    torque_with_ci95: Ends = _ends("N m", "the torque with vibration", "torque_with_ci95_Nm")
     torque_change: float | None = quantity("dT", "%", "change of the torque", default=None)
     torque_change_ci95: tuple[float, float] | None = quantity(
         "", "%", "interval of the change", key="torque_change_ci95_percent", default=None,
         only="json",
     )  # fmt: skip
     power_change: float | None = quantity("dP", "%", "change of the power", default=None)
+    power_change_ci95: Ends = _ends("%", "the change of the power", "power_change_ci95_percent")
     efficiency_change: float | None = quantity(
         "d eta_s", "%", "change of thesis (75), points", key="efficiency_change_points",
         default=None,
     )  # fmt: skip
+    efficiency_change_ci95: Ends = _ends(
+        "%", "the change of (75), points", "efficiency_change_ci95_points"
+    )
     sliding_velocity_before: float | None = quantity(
         "v_sl", "mm/s", "sliding velocity before", key="sliding_velocity_before_mm_s", default=None
+    )
+    sliding_velocity_before_ci95: Ends = _ends(
+        "mm/s", "the sliding velocity before", "sliding_velocity_before_ci95_mm_s"
     )
     sliding_velocity_with: float | None = quantity(
         "v_sl", "mm/s", "sliding velocity with vibration", key="sliding_velocity_with_mm_s",
         default=None,
     )  # fmt: skip
+    sliding_velocity_with_ci95: Ends = _ends(
+        "mm/s", "the sliding velocity with vibration", "sliding_velocity_with_ci95_mm_s"
+    )
     slide_roll_ratio: float | None = quantity(
         "R", "", "slide-roll ratio, mean of before and with", default=None
     )
     k_v: float | None = quantity(
         "k_v", "", "v_a over the mean of the sliding velocities before and with", default=None
     )
+    k_v_ci95: Ends = _ends("", "k_v", "k_v_ci95")
     model_ratio: float | None = quantity(
         "", "", "torque with over torque before, by the friction model", default=None
     )
@@ -84,10 +108,16 @@ class SegmentResult(Quantities):
     full_efficiency_change: float | None = _beside(
         "d eta", "%", "change of the efficiency in which motor and gear lose, points"
     )
+    full_efficiency_change_ci95: Ends = _ends(
+        "%", "the change of that, points", "full_efficiency_change_ci95_points", only="file"
+    )
     k_v_before: float | None = _beside("k_v", "", "v_a over the sliding velocity before")
     k_v_with: float | None = _beside("k_v", "", "v_a over the sliding velocity with vibration")
     velocity_amplitude: float | None = _beside("v_a", "mm/s", "peak velocity of the vibration")
     velocity_deviation: float | None = _beside("", "mm/s", "standard deviation of v_a")
+    sliding_velocity_deviation: float | None = _beside(
+        "", "mm/s", "standard deviation of the sliding velocity with vibration"
+    )
     bronze_turns: float | None = _beside("", "", "turns of the bronze disc in the window")
     film_parameter: float | None = _beside("lambda", "", "film over roughness before")
     start: float | None = _beside("t", "s", "start of the vibration")
@@ -96,6 +126,11 @@ class SegmentResult(Quantities):
     def cell(self) -> tuple[Any, ...]:
         """What two repeats of one measurement share."""
         return self.mode, self.lubricant, self.waveform, self.commanded, self.motor_voltage
+
+    def ends(self, name: str) -> tuple[float | None, float | None, float | None]:
+        """Return a number that has an interval, with its ends."""
+        low, high = getattr(self, name + _CI95) or (None, None)
+        return getattr(self, name), low, high
 
     @property
     def ratio(self) -> float | None:
@@ -186,18 +221,19 @@ class Reduced(Result):
         return dataset
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row a segment, and a row a recording."""
+        """Return a row a segment, what has intervals, and a row a recording."""
         rows = [
             (
                 one.file, one.mode, one.lubricant, one.waveform, one.motor_voltage, one.commanded,
-                one.torque_before, one.torque_with, one.torque_change, one.low, one.high,
-                one.power_change, one.k_v, one.model_ratio, one.quality,
+                *(_rounded(number, 4) for number in (
+                    one.torque_before, one.torque_with, one.torque_change, one.low, one.high)),
+                _rounded(one.k_v, 3), _rounded(one.model_ratio, 3), one.quality,
             )
             for one in self.segments
         ]  # fmt: skip
         headings = (
             "file", "mode", "lubricant", "wave", "V_ms V", "f Hz", "T before N m", "T with N m",
-            "change %", "low", "high", "power %", "k_v", "model", "quality",
+            "change %", "low", "high", "k_v", "model", "quality",
         )  # fmt: skip
         flags = [
             f"{one.file} at {one.start or 0.0:.0f} s: {'; '.join(one.flags)}"
@@ -210,14 +246,15 @@ class Reduced(Result):
                 f"pooled over cells ({self.repeat_freedom} degrees of freedom)"
             )
         remarks = [
-            f"{one['disc']} disc: {one['mass_loss_mg']:.3g} mg lost over {one['distance_m']:.3g} m "
-            f"of sliding, {one['path_m']:.3g} m with the vibration's path"
+            f"{one['disc']} disc{_between(one)}: {one['mass_loss_mg']:.3g} mg lost over "
+            f"{one['distance_m']:.3g} m of sliding, {one['path_m']:.3g} m with the vibration's path"
             + (f": Archard's K is {one['archard']:.3g}" if one["archard"] is not None else "")
             for one in self.weighed
         ]
         # As many digits as a part of a turn can tell.
         files = [
-            (one.file, *map(_two, (one.runout_steel, one.runout_bronze, one.noise, one.drift)),
+            (one.file, *(_rounded(number, 2) for number in (
+                one.runout_steel, one.runout_bronze, one.noise, one.drift)),
              one.distance, len(one.gaps))
             for one in self.files
         ]  # fmt: skip
@@ -227,8 +264,34 @@ class Reduced(Result):
         )  # fmt: skip
         return (
             Table.of(headings, rows, left=4, remarks=flags),
+            *self._intervals(),
             Table.of(heads, files, remarks=(*remarks, *self.notes)),
         )
+
+    def _intervals(self) -> tuple[Table, ...]:
+        """Return what has an interval beside the change of the torque, with its ends."""
+        tables = {
+            "Torques with intervals": {
+                "torque_before": "T before N m", "torque_with": "T with N m",
+            },
+            "Changes of power and efficiency with intervals": {
+                "power_change": "power %", "efficiency_change": "efficiency, points",
+            },
+            "Velocities with intervals": {
+                "sliding_velocity_before": "v before mm/s", "sliding_velocity_with": "v with mm/s",
+                "k_v": "k_v",
+            },
+        }  # fmt: skip
+        used = [one for one in self.segments if one.quality != REFUSED]
+        return tuple(
+            Table.of(
+                ("file", "f Hz", *(word for head in names.values() for word in (head, *_ENDS))),
+                [(one.file, one.commanded, *(_rounded(value, 4) for name in names
+                                             for value in one.ends(name))) for one in used],
+                left=1, title=title,
+            )
+            for title, names in tables.items()
+        )  # fmt: skip
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF, CSV, what a fit takes, and the picture."""
@@ -243,8 +306,8 @@ class Reduced(Result):
         """
         rows = [
             (1.0 + one.torque_change / 100.0, one.deviation / 100.0, one.sliding_velocity_with,
-             one.velocity_amplitude, one.velocity_deviation, one.commanded,
-             90.0 if one.mode == TRANSVERSE else 0.0)
+             one.sliding_velocity_deviation, one.velocity_amplitude, one.velocity_deviation,
+             one.commanded, 90.0 if one.mode == TRANSVERSE else 0.0)
             for one in self.segments
             if one.torque_change is not None and one.deviation and one.commanded is not None
             and one.velocity_amplitude and (one.sliding_velocity_with or 0.0) > 0.0
@@ -258,19 +321,27 @@ class Reduced(Result):
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         entries = [entry for entry in _declared(self.segments) if entry.label.only != "json"]
-        writer.writerow([entry.key for entry in entries])
+        names = ([entry.key.replace(_CI95, f"_{end}") for end in _ENDS] if _CI95 in entry.key
+                 else [entry.key] for entry in entries)  # fmt: skip
+        writer.writerow([name for one in names for name in one])
         for one in self.segments:
             found = {entry.name: entry.value for entry in one.entries()}
-            writer.writerow([_cell(found[entry.name]) for entry in entries])
+            cells = (found[entry.name] or (None, None) if _CI95 in entry.key
+                     else [found[entry.name]] for entry in entries)  # fmt: skip
+            writer.writerow([_cell(cell) for several in cells for cell in several])
         return text.getvalue()
+
+
+def _between(worn: Mapping[str, Any]) -> str:
+    return f" of {worn['setting']} ({', '.join(worn['files'])})" if "setting" in worn else ""
 
 
 def _declared(rows: tuple[Quantities, ...]) -> list[Entry]:
     return list(type(rows[0]).declared()) if rows else []
 
 
-def _two(value: float | None) -> float | None:
-    return None if value is None else float(f"{value:.2g}")
+def _rounded(value: float | None, digits: int) -> float | None:
+    return None if value is None else float(f"{value:.{digits}g}")
 
 
 def _cell(value: Any) -> Any:
@@ -285,6 +356,9 @@ def _variable(entry: Entry, values: list[Any], dim: str) -> Any:
     import numpy as np
 
     described = {"units": entry.label.unit or "1", "long_name": entry.label.meaning}
+    if _CI95 in entry.name:
+        ends = [(np.nan, np.nan) if value is None else value for value in values]
+        return (dim, "end"), np.array(ends, dtype=float), described
     if any(isinstance(value, str | tuple) for value in values):
         texts = ["; ".join(value) if isinstance(value, tuple) else value or "" for value in values]
         return dim, np.array(texts, dtype=object), described

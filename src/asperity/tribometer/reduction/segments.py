@@ -15,6 +15,7 @@ from asperity.tribometer.reduction.drive_signal import Stretch, Tone
 from asperity.units import split_unit, to_si
 
 _NEEDED = ("torque_steel", "speed_steel", "speed_bronze")
+_COUNTED = 3.0  # s, the longest between a start and an encoder that shows it
 _SAMPLES_A_CYCLE = 6.0  # that tell a third harmonic
 _COMMAND = re.compile(r"\s*(?:(sine|triangle)\s+)?([0-9.]+\s*\w+)\s*", re.ASCII)
 
@@ -78,7 +79,8 @@ def _segment(
     on = next((one for one in running if one.first <= shaking.first < one.last), None)
     if on is None:
         on = next((one for one in running if shaking.first < one.first < shaking.last), None)
-    begun = max([one.last for one in earlier] + [on.first if on else shaking.first])
+    moving = _moving(recording.events, blocks, on) if on else shaking.first
+    begun = max([*(one.last for one in earlier), moving])
     before = Stretch(begun + settling, shaking.first - 1)
     end = min(shaking.last, on.last) if on else shaking.first
     shaken = Stretch(max(shaking.first, on.first if on else 0) + settling, end - 1)
@@ -104,6 +106,20 @@ def _segment(
         refused = _lost(blocks, before, shaken)
     start = shaking.first * blocks.length
     return Segment(before, shaken, tone, frequency, waveform, start, refused, tuple(flags))
+
+
+def _moving(events: Sequence[Event], blocks: Blocks, on: Stretch) -> int:
+    """Return from where on discs slide that are seen to turn.
+
+    An encoder's counter shows a start when its time is over, up to a second later than the supply
+    that gave it. What a supply gave when the recording began is no start.
+    """
+    told = [event for event in events if event.kind == "steel_supply"
+            and 0.0 < event.time <= on.first * blocks.length]  # fmt: skip
+    if not told or told[-1].text == "off":
+        return on.first
+    started = blocks.at_least(told[-1].time)
+    return started if on.first - started <= blocks.at_least(_COUNTED) else on.first
 
 
 def _short(what: str, given: Reduction) -> str:

@@ -24,6 +24,7 @@ from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, S
 from asperity.tribometer.reduction.segments import segments_of
 
 _OFTEN = 0.01  # share of samples
+_USUAL = 0.95  # confidence that intervals are named by
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,6 +67,11 @@ def read(
 ) -> Case:
     """Open recordings; each is reduced by the configuration that is given, or by its own."""
     given = read_case(config, known, settings) if config else None
+    if given is not None and Rig.table not in given:
+        raise InputError(
+            f"--config {config}: it is a case of another kind, without [{Rig.table}]; give the "
+            "configuration of a rig, such as rig-final"
+        )
     opened = [Recording.open(Path(name)) for name in recordings]
     places = [one.path.resolve() for one in opened]
     if again := next((one for one in opened if places.count(one.path.resolve()) > 1), None):
@@ -112,10 +118,15 @@ def answer(problem: Sequence[Reducible], run: Run) -> Reduced:
         if segment.quality == REFUSED:
             run.notify(f"{segment.file}: {refusal(segment)}")
     deviation, freedom = repeats(segments)
+    pair, notes = Pair.from_case(problem[0].case), list(_notes(problem))
+    weighed = [
+        *wear.between_weighings(pair, files),
+        *wear.of_journals(pair, [one.recording.path for one in problem], files, notes),
+    ]
     return Reduced(
         segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
-        repeat_freedom=freedom, notes=tuple(_notes(problem)),
-        weighed=tuple(wear.between_weighings(Pair.from_case(problem[0].case), files)),
+        repeat_freedom=freedom, notes=tuple(notes),
+        weighed=tuple(weighed),
     )  # fmt: skip
 
 
@@ -178,6 +189,12 @@ def _notes(problem: Sequence[Reducible]) -> Iterator[str]:
         "the model's ratio is at the sliding velocity with vibration, k_v at the mean of before "
         "and with"
     )
+    asked = sorted({one.reduction.confidence for one in problem} - {_USUAL})
+    if asked:
+        yield (
+            f"intervals are of {', '.join(f'{100.0 * one:g}' for one in asked)} %, as "
+            "reduction.confidence asks, where they are called those of 95 %"
+        )
     if any(one.recording.simulated for one in problem):
         yield "simulated recordings are among these: no rig stands behind their numbers"
     if any(one.case.require(Rig).bearing_torque_steel == 0.0 for one in problem):

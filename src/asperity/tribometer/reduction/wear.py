@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import LONGITUDINAL, Disc
 from asperity.tribometer.recording import Event
 from asperity.tribometer.reduction.result import FileResult
+from asperity.tribometer.reduction.weighings import weighings_in
 from asperity.units import to_si
 
 
@@ -58,15 +60,52 @@ def mass_loss(events: Sequence[Event], disc: str) -> float | None:
 
 
 def between_weighings(pair: Pair, files: Sequence[FileResult]) -> Iterator[dict[str, Any]]:
-    """Yield wear of each disc that was weighed before and after the recordings together."""
-    distance = sum(one.distance for one in files)
-    path = sum(one.path or one.distance for one in files)
+    """Yield wear of each disc whose loss over all recordings the configuration tells."""
     for name, disc in (("steel", pair.steel), ("bronze", pair.bronze)):
         if disc.mass_loss is not None:
-            yield {
-                "disc": name, "mass_loss_mg": 1e6 * disc.mass_loss, "distance_m": distance,
-                "path_m": path, "archard": archard(disc.mass_loss, disc, pair.rig.load, path),
-            }  # fmt: skip
+            yield _worn(pair, name, disc.mass_loss, files)
+
+
+def of_journals(
+    pair: Pair, opened: Sequence[Path], files: Sequence[FileResult], notes: list[str]
+) -> Iterator[dict[str, Any]]:
+    """Yield wear of each disc between two weighings of a run whose recordings are all here.
+
+    Parameters
+    ----------
+    pair : Pair
+        The discs.
+    opened : sequence of Path
+        Where each recording lies.
+    files : sequence of FileResult
+        What each says, in the same order.
+    notes : list of str
+        Takes why a weighing is left out.
+    """
+    here = {path.resolve(): one for path, one in zip(opened, files, strict=True)}
+    found, why = weighings_in([path.parent for path in here])
+    notes += why
+    for folder, weighing in found:
+        places = [folder / name for name in weighing.files]
+        if missing := [place.name for place in places if place not in here]:
+            notes.append(
+                f"the weighings of {weighing.setting} are left out: {', '.join(missing)} lies "
+                "between them as well, and is not among the recordings"
+            )
+            continue
+        for disc, loss in weighing.losses.items():
+            worn = _worn(pair, disc, loss, [here[place] for place in places])
+            yield worn | {"setting": weighing.setting, "files": list(weighing.files)}
+
+
+def _worn(pair: Pair, name: str, loss: float, files: Sequence[FileResult]) -> dict[str, Any]:
+    disc: Disc = pair.steel if name == "steel" else pair.bronze
+    distance = sum(one.distance for one in files)
+    path = sum(one.path or one.distance for one in files)
+    return {
+        "disc": name, "mass_loss_mg": 1e6 * loss, "distance_m": distance, "path_m": path,
+        "archard": archard(loss, disc, pair.rig.load, path),
+    }  # fmt: skip
 
 
 def archard(loss: float | None, disc: Disc, load: float, path: float) -> float | None:

@@ -1,5 +1,6 @@
 """The answer of ``asperity rig report``: a page that stands by itself."""
 
+import dataclasses
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,9 @@ _CHANGES = {
                           "change of thesis (75), points",
                           "As figures 6.40, 6.41, 6.49 and 6.50: losses of motor and gear count as "
                           "useful there."),
+    "velocity_amplitude": ("Velocity of the vibration over the frequency", "$v_a$ (mm/s)",
+                           "As figures 6.36 and 6.45, beside the change of the torque: by the "
+                           "accelerometer where there is one, else by the table of [sonotrode]."),
 }  # fmt: skip
 
 
@@ -55,18 +59,18 @@ class Report(Result):
     simulated: bool = quantity("", "", "whether simulated recordings are among them")
 
     def to_json(self) -> dict[str, Any]:
-        """Return what there is, and why something is not."""
+        """Return what there is, the cells as they were reduced, and why something is not."""
         refused = [{"what": what, "why": why} for what, why in self.refused]
-        return super().to_json() | {"refused": refused}
+        return self.reduced.to_json() | super().to_json() | {"refused": refused}
 
     def tables(self) -> tuple[Table, ...]:
         """Return conditions, cells, and what was left out."""
-        cells, files = self.reduced.tables()
+        cells, *intervals, files = self.reduced.tables()
         conditions = Table.of(("", ""), self.conditions, title="Conditions", left=2)
         refused = Table.of(("what", "why"), self.refused, title="Left out", left=2)
         named = Table(cells.columns, cells.rows, "Cells", cells.remarks)
         recorded = Table(files.columns, files.rows, "Recordings", files.remarks)
-        return conditions, named, recorded, *((refused,) if self.refused else ())
+        return conditions, named, *intervals, recorded, *((refused,) if self.refused else ())
 
     def pictures(self, folder: Path | None = None) -> tuple[Picture, ...]:
         """Return the pictures, simulated ones marked."""
@@ -84,8 +88,14 @@ class Report(Result):
 
     def sections(self, folder: Path | None = None) -> tuple[Section, ...]:
         """Return notes, tables and pictures."""
-        notes = (Table((), (), remarks=self.notes),)
-        return Section("", tables=(*notes, *self.tables())), Section("", pictures=self.pictures())
+        notes = Table((), (), remarks=self.notes)  # first, and once
+        tables = (
+            dataclasses.replace(
+                one, remarks=tuple(said for said in one.remarks if said not in self.notes)
+            )
+            for one in self.tables()
+        )
+        return Section("", tables=(notes, *tables)), Section("", pictures=self.pictures())
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write the reduced recordings, which the page is made of."""

@@ -116,6 +116,12 @@ class Plant:
             twin.mu * self.pair.rig.load, twin.mu_drop, twin.stribeck_velocity, twin.max_deflection
         )
 
+    @property
+    def starting_torque(self) -> float:
+        """Largest torque of a disc, N m: as it starts, friction is that at rest."""
+        discs = self.steel, self.bronze
+        return float(max(one.bearing + one.radius * self.surface.full for one in discs))
+
     @functools.cached_property
     def rotor(self) -> Rotor:
         """The steel disc on its shaft."""

@@ -1,0 +1,147 @@
+"""What follows from the levels of torque, speeds and current before and with vibration."""
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.tribometer import discs
+from asperity.tribometer.calibration import Line
+from asperity.tribometer.pair import Pair
+from asperity.tribometer.reduction import quantities
+from asperity.tribometer.reduction.joint import TORQUE, Interval, Joint, Pairs
+
+STEEL, BRONZE, CURRENT = "speed_steel", "speed_bronze", "current_steel"
+_BEFORE, _WITH = 0, 1
+
+Number = Callable[[Pairs], float]
+Efficiency = Callable[[Pairs, int], float]
+
+
+@dataclasses.dataclass(frozen=True)
+class Following:
+    """Numbers of one segment.
+
+    Attributes
+    ----------
+    pair : Pair
+        The discs.
+    voltage : float
+        Of the steel disc's motor, V.
+    joint : Joint
+        Levels of the file.
+    place : int
+        Of the segment among those that are reduced.
+    confidence : float
+        Of intervals.
+    lines : mapping of str to Line
+        Calibrations.
+    seconds : tuple of 2 floats
+        That speeds were taken over, before and with vibration.
+    hurried : float
+        s, in which speeds settle, where windows have no time for it; zero where they have.
+    powered : bool
+        Whether the current is right in both windows.
+    """
+
+    pair: Pair
+    voltage: float
+    joint: Joint
+    place: int
+    confidence: float
+    lines: Mapping[str, Line]
+    seconds: tuple[float, float]
+    hurried: float = 0.0
+    powered: bool = True
+
+    @property
+    def levels(self) -> Pairs:
+        """The levels of the segment's two windows."""
+        return self.joint.pairs(2 * self.place, 2 * self.place + 1)
+
+    def torque_change(self) -> Interval:
+        """Return (73), %."""
+        return self._interval(
+            lambda of: float(quantities.torque_change(of[TORQUE][_WITH], of[TORQUE][_BEFORE]))
+        )
+
+    def torque(self, place: int) -> Interval:
+        """Return it before (0) or with vibration (1), N m."""
+        return self._interval(lambda of: float(of[TORQUE][place]))
+
+    def power_change(self) -> Interval:
+        """Return (74), %."""
+
+        def change(of: Pairs) -> float:
+            (before, shaken), (slow, fast) = of[TORQUE], of[STEEL]
+            return float(quantities.power_change(shaken, fast, before, slow))
+
+        return self._interval(change)
+
+    def efficiency_change(self) -> Interval | None:
+        """Return the change of (75), points; None where no current was measured."""
+        return self._of_power(lambda of, place: float(
+            quantities.thesis_efficiency(
+                of[TORQUE][place], of[STEEL][place], self.voltage, of[CURRENT][place],
+                self.pair.drives.gear_ratio,
+            )
+        ))  # fmt: skip
+
+    def full_efficiency_change(self) -> Interval | None:
+        """Return the change of an efficiency in which motor and gear lose, points."""
+        return self._of_power(lambda of, place: float(
+            quantities.drive_efficiency(
+                of[TORQUE][place], of[STEEL][place], self.voltage, of[CURRENT][place],
+                self.pair.drives.gear_ratio, *self.rims(of, place),
+            )
+        ))  # fmt: skip
+
+    def sliding_velocity(self, place: int) -> Interval:
+        """Return it before (0) or with vibration (1), m/s."""
+        return self._interval(lambda of: float(discs.sliding_velocity(*self.rims(of, place))))
+
+    def slide_roll_ratio(self) -> float:
+        """Return the mean of before and with."""
+        both = (float(discs.slide_roll_ratio(*self.rims(self.levels, one))) for one in (0, 1))
+        return 0.5 * sum(both)
+
+    def velocity_ratio(self, peak: float, doubt: float) -> Interval | None:
+        """Return v_a, of some deviation, over the mean of the sliding velocities."""
+
+        def mean(of: Pairs) -> float:
+            found = (float(discs.sliding_velocity(*self.rims(of, one))) for one in (0, 1))
+            return 0.5 * sum(found)
+
+        middle = mean(self.levels)
+        if middle <= 0.0:
+            return None
+        return self._interval(lambda of: peak / mean(of), (doubt / middle) ** 2)
+
+    def rims(self, of: Pairs, place: int) -> tuple[float, float]:
+        """Return the velocities of both rims, m/s."""
+        return self.pair.rims(float(of[STEEL][place]), float(of[BRONZE][place]))
+
+    def _of_power(self, one: Efficiency) -> Interval | None:
+        if not self.powered or CURRENT not in self.levels or self.voltage <= 0.0:
+            return None
+        if min(self.levels[CURRENT]) <= 0.0:
+            return None
+        return self._interval(lambda of: 100.0 * (one(of, _WITH) - one(of, _BEFORE)))
+
+    def _interval(self, of: Number, beside: float = 0.0) -> Interval:
+        added = {name: self._added(name, level) for name, level in self.levels.items()}
+        before = 2 * self.place
+        return self.joint.interval(of, before, before + 1, self.confidence, added, beside)
+
+    def _added(self, name: str, levels: FloatArray) -> FloatArray:
+        """Return the covariance that calibration and the steps of an encoder leave in levels."""
+        one, other, both = self.lines[name].covariance_of_pair(float(levels[0]), float(levels[1]))
+        found = np.array([[one, both], [both, other]])
+        if name in (STEEL, BRONZE):
+            # A window begins and ends between two pulses: each end is off by a part of one.
+            for place, seconds in enumerate(self.seconds):
+                step = 2.0 * math.pi / (self.pair.drives.encoder_pulses * seconds)
+                found[place, place] += step**2 / 6.0
+        return found

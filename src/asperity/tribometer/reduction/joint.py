@@ -1,0 +1,213 @@
+r"""Torque, speeds and current of a file's windows together, and what follows from them.
+
+Each signal has noise of its own (:mod:`asperity.tribometer.reduction.levels`). What is left of two
+signals when their levels are estimated tells how far their noises go together: with noises that are
+white and of size one, :math:`u_a` and :math:`u_b`, of correlation :math:`\rho_{ab}`, and levels
+:math:`A_a u_a` and :math:`A_b u_b`, the covariance of levels is :math:`\rho_{ab} A_a A_b^T`. Speed
+and current give way to the torque: with its swings they swing, and with an error of its level, such
+as a part of a turn leaves, they are wrong as far as they give, but for what the torque's sensor
+adds. To these come the calibrations, which leave the same error in all windows, and the steps of an
+encoder. A number that follows from levels before and with vibration has the variance of its slopes
+by them.
+Intervals are Student's with Satterthwaite's degrees of freedom.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from asperity.arrays import BoolArray, FloatArray
+from asperity.tribometer.reduction.levels import Levels, estimate_levels
+
+TORQUE = "torque_steel"
+_FEWEST_FREEDOM = 3.0
+_STEP = 1e-6  # of the larger level, for slopes: differences of both sides are right to some 1e-11
+
+Pairs = Mapping[str, FloatArray]
+"""Of each signal its level before, and with vibration."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Interval:
+    """A number with the ends of its interval and its standard deviation."""
+
+    value: float
+    low: float
+    high: float
+    deviation: float
+
+    def times(self, factor: float) -> "Interval":
+        """Return it in another unit."""
+        return Interval(*(factor * one for one in dataclasses.astuple(self)))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Both ends."""
+        return self.low, self.high
+
+
+@dataclasses.dataclass(frozen=True)
+class Joint:
+    """Levels of several signals with their common covariance.
+
+    Attributes
+    ----------
+    levels : mapping of str to Levels
+        By signal; the torque is among them.
+    correlation : mapping of (str, str) to float
+        Of what is left of two signals, made white.
+    kept : mapping of str to ndarray of bool
+        Blocks that each signal was estimated from.
+    """
+
+    levels: Mapping[str, Levels]
+    correlation: Mapping[tuple[str, str], float]
+    kept: Mapping[str, BoolArray]
+
+    def pairs(self, before: int, shaken: int) -> dict[str, FloatArray]:
+        """Return the levels of two windows."""
+        return {name: one.values[[before, shaken]] for name, one in self.levels.items()}
+
+    def interval(
+        self,
+        of: Callable[[Pairs], float],
+        before: int,
+        shaken: int,
+        confidence: float,
+        added: Mapping[str, FloatArray] | None = None,
+        beside: float = 0.0,
+    ) -> Interval:
+        """Return what follows from levels of two windows, with its interval.
+
+        Parameters
+        ----------
+        of : callable
+            The number, of the levels.
+        before, shaken : int
+            The windows.
+        confidence : float
+            Of the interval.
+        added : mapping of str to ndarray, optional
+            Covariances of a signal's two levels from elsewhere, such as a calibration.
+        beside : float
+            Variance of the number from elsewhere.
+        """
+        from scipy.stats import t as student
+
+        pairs = self.pairs(before, shaken)
+        places, count = [before, shaken], self.levels[TORQUE].values.size
+        slopes = {name: np.zeros(count) for name in self.levels}
+        leaning, largest = np.zeros(count), float(np.abs(self.levels[TORQUE].values).max())
+        for name, slope in _slopes(of, pairs).items():
+            slopes[name][places] += slope
+            leaning[places] += slope * self.levels[name].give / largest
+            beside += float(slope @ (added or {}).get(name, np.zeros((2, 2))) @ slope)
+        torque, straight = self.levels[TORQUE], slopes[TORQUE]
+        slopes[TORQUE] = straight + leaning
+        sensed = np.minimum(torque.sensed, np.diag(torque.covariance))
+        ways, variance, doubt = {}, -float((2.0 * straight + leaning) * leaning @ sensed), 0.0
+        for name, slope in slopes.items():
+            level = self.levels[name]
+            variance += float(slope @ level.covariance @ slope)
+            change = np.einsum("i,kij,j->k", slope, level.gradients, slope)
+            doubt += float(change @ level.spread @ change)
+            ways[name] = np.zeros(self.kept[name].size)
+            ways[name][self.kept[name]] = slope @ level.weights
+        for (one, other), correlation in self.correlation.items():
+            variance += 2.0 * correlation * float(ways[one] @ ways[other])
+        variance = max(variance, 0.0)
+        variance += beside
+        freedom = 2.0 * variance**2 / doubt if doubt > 0.0 else math.inf
+        deviation = math.sqrt(variance)
+        half = deviation * float(student.ppf(0.5 + 0.5 * confidence, max(freedom, _FEWEST_FREEDOM)))
+        middle = of(pairs)
+        return Interval(middle, middle - half, middle + half, deviation)
+
+
+def _slopes(of: Callable[[Pairs], float], pairs: Pairs) -> dict[str, FloatArray]:
+    """Return slopes by the levels of each signal that has any."""
+    found = {}
+    for name, levels in pairs.items():
+        slope = np.zeros(2)
+        step = _STEP * (float(np.abs(levels).max()) or 1.0)
+        for place in range(2):
+            ends = []
+            for side in (step, -step):
+                moved = levels.copy()
+                moved[place] += side
+                ends.append(of({**pairs, name: moved}))
+            slope[place] = (ends[0] - ends[1]) / (2.0 * step)
+        if slope.any():
+            found[name] = slope
+    return found
+
+
+def estimate_jointly(
+    times: FloatArray,
+    signals: Mapping[str, FloatArray],
+    angles: tuple[FloatArray, FloatArray],
+    window: FloatArray,
+    shaken: Sequence[bool],
+    *,
+    drift: bool = True,
+    left_out: Mapping[str, BoolArray] | None = None,
+) -> Joint:
+    """Estimate the levels of several signals in all windows of a file.
+
+    Parameters
+    ----------
+    times : ndarray, shape (n,)
+        Of blocks within windows, s, rising.
+    signals : mapping of str to ndarray, shape (n,)
+        The torque of the steel disc among them.
+    angles : tuple of 2 ndarrays
+        Of the steel disc and of the bronze disc, rad.
+    window : ndarray of int, shape (n,)
+        Which window each block is of, from 0 on, none empty.
+    shaken : sequence of bool
+        Of each window: whether there is vibration.
+    drift : bool
+        Whether a slow drift is estimated, too.
+    left_out : mapping of str to ndarray of bool, shape (n,), optional
+        Of a signal other than the torque the blocks in which it is not what it should be, such as
+        speeds that still change on their way through an encoder's counter. One is left of each
+        window, which its level takes up.
+
+    Raises
+    ------
+    InputError
+        A signal that is not a number, or of no size.
+    """
+    whole = np.ones(times.size, dtype=bool)
+    torque = estimate_levels(times, signals[TORQUE], angles, window, shaken, drift=drift)
+    swings = torque.swings / np.abs(torque.values).max()
+    levels, kept = {TORQUE: torque}, {TORQUE: whole}
+    for name, signal in signals.items():
+        if name == TORQUE:
+            continue
+        here = ~left_out[name] if left_out and name in left_out else whole
+        kept[name] = here
+        levels[name] = estimate_levels(
+            times[here], signal[here], (angles[0][here], angles[1][here]), window[here], shaken,
+            drift=drift, swings=swings[here],
+        )  # fmt: skip
+    return Joint(levels, dict(_correlations(levels, kept)), kept)
+
+
+def _correlations(
+    levels: Mapping[str, Levels], kept: Mapping[str, BoolArray]
+) -> Iterator[tuple[tuple[str, str], float]]:
+    # What is left of the torque is its sensor's, or in the others by what they give.
+    names = [name for name in levels if name != TORQUE]
+    left = {}
+    for name in names:
+        left[name] = np.zeros(kept[name].size)
+        left[name][kept[name]] = levels[name].white
+    for place, one in enumerate(names):
+        for other in names[place + 1 :]:
+            both = kept[one] & kept[other]
+            first, second = left[one][both], left[other][both]
+            size = math.sqrt(float(first @ first)) * math.sqrt(float(second @ second))
+            yield (one, other), float(first @ second) / size if size > 0.0 else 0.0
