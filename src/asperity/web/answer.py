@@ -1,0 +1,130 @@
+"""What is answered, by the worker that solves and by the one that looks things up."""
+
+from typing import Any
+
+from asperity.casefile import Case, told
+from asperity.commands import case_tables
+from asperity.commands.asked import Asked, Body, mapping, settings
+from asperity.errors import InputError
+from asperity.results import Result
+from asperity.results.told import told as told_of
+from asperity.results.variables import variables
+from asperity.runs import Run
+from asperity.start.write import as_set, as_written
+from asperity.web.ask import asked_of, case_of
+from asperity.web.folder import SO_FAR, Folder
+
+_MOST_POINTS = 400
+
+
+def solved(folder: Folder, body: Body) -> dict[str, Any]:
+    """Answer a command that takes milliseconds."""
+    asked = asked_of({**body, "command": body["verb"]}, folder)
+    case = case_of(asked, folder)
+    run = Run()
+    # Its history is drawn.
+    run.detailed = True
+    with told(case):
+        result = asked.command.solved(asked.command.prepared(case, **asked.options), run)
+    return answer_of(asked, case, result)
+
+
+def answer_of(asked: Asked, case: Case, result: Result) -> dict[str, Any]:
+    """Return everything that is told of a result, and how to get it again."""
+    return {**told_of(result), "command": asked.line, "toml": as_set(case)}
+
+
+def curve(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return the ratio of a body over the direction or the strength of its vibration."""
+    from asperity.slider.curves import curve
+    from asperity.slider.methods import prepare
+
+    case = case_of(asked_of({**body, "command": "slide", "options": {}}, folder), folder)
+    options = mapping(body, "options")
+    chosen = {name: options[name] for name in ("over", "points") if name in options}
+    with told(case):
+        return {"answer": chosen, "series": curve(prepare(case), **chosen).to_json()}
+
+
+def size(folder: Folder, body: Body) -> dict[str, Any]:
+    """Propose gearsets for a ratio, a torque and a speed."""
+    from asperity.python import size
+    from asperity.start.gear import SIZE, ratio_of
+
+    # A page waits for milliseconds: no wheel is cut here.
+    given = SIZE.given({}, {**mapping(body, "options"), "uncut": True})
+    changes, ratio = settings(body), ratio_of(given["ratio"])
+    of_it = {name: text for name, text in given.items() if name not in ("ratio", "uncut")}
+    found = size(ratio, **of_it, settings=changes, cut=False)
+    answer = found.to_json()
+    return {
+        "answer": answer,
+        "rows": answer["proposals"],
+        "notes": list(found.notes),
+        "command": SIZE.line("", changes, given),
+    }
+
+
+def check(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return all mistakes of a case; and the case with its settings as a file, if it is read."""
+    from asperity.start.check import check
+
+    asked = asked_of({**body, "command": "slide"}, folder)
+    found = check(folder.case_name(asked.name), asked.settings)
+    try:
+        text = as_set(case_of(asked, folder))
+    except InputError:
+        text = None
+    return {"answer": found.to_json(), "toml": text}
+
+
+def signals(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return a recording's signals over time and the windows that are taken from it."""
+    from asperity.tribometer.reduction.overview import overview
+
+    asked = asked_of({**body, "command": "rig reduce"}, folder)
+    recordings: Any = getattr(case_of(asked, folder), "reducible", ())
+    if len(recordings) != 1:
+        raise InputError("signals are shown of one recording; name it")
+    given = case_of(asked_of({**body, "command": "rig plan", "arguments": {}}, folder), folder)
+    shown = overview(recordings[0], _MOST_POINTS)
+    return {"answer": shown, "command": asked.line, "toml": as_set(given)}
+
+
+def forms(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return every table of a case with its keys."""
+    from asperity.casefile.forms import forms
+
+    return {"tables": forms(case_tables())}
+
+
+def opened(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return a case as it is written."""
+    name = str(body["case"])
+    return {"name": name, **as_written(folder.case(name), case_tables())}
+
+
+def data(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return variables of the file a job left, with their coordinates; of all without values.
+
+    Of one that has not ended, those of what is there so far.
+    """
+    found = folder.job(str(body["id"])).glob("*.nc")
+    paths = sorted(found, key=lambda path: (path.name == SO_FAR, path.name))
+    if not paths:
+        raise InputError("the job has left no data")
+    return variables(paths[0], [name for name in str(body.get("names", "")).split(",") if name])
+
+
+def thesis(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return what of the thesis is reproduced, and what of that was made here."""
+    from asperity.thesis.reproduce.ledger import ledger
+
+    return ledger(folder.thesis)
+
+
+def named(folder: Folder, body: Body) -> dict[str, Any]:
+    """Return the name of a job: a key of all that its answer follows from."""
+    asked = asked_of(body, folder)
+    case = case_of(asked, folder) if asked.name else None
+    return {"id": asked.key(case), "line": asked.line}

@@ -1,0 +1,139 @@
+"""A warm worker: a process that answers while a slider is dragged, and is replaced if it hangs.
+
+It is asked one thing after the other. Whoever has gone by the time it is his turn is passed over,
+so that a slider that was dragged fast leaves no queue behind.
+"""
+
+import asyncio
+import contextlib
+import json
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+
+from asperity.web import child
+from asperity.web.verbs import VERBS, told
+
+_TRIES = 3
+_SLOWEST_START = 600.0  # of the first of all, in which every kernel is compiled
+
+Answer = tuple[int, bytes]
+Gone = Callable[[], Awaitable[bool]]
+
+
+class Live:
+    """The owner of a worker.
+
+    Parameters
+    ----------
+    kind : {'live', 'desk'}
+        Whether it solves, or looks things up.
+    folder : path
+        The folder of the page.
+
+    Attributes
+    ----------
+    up, ready : asyncio.Event
+        Set once it can answer; once the kernels of one that solves are compiled and loaded.
+    """
+
+    def __init__(self, kind: str, folder: Path) -> None:
+        self.up, self.ready = asyncio.Event(), asyncio.Event()
+        self._begin = ("asperity.web.worker", kind, str(folder))
+        self._turn = asyncio.Lock()
+        self._process: asyncio.subprocess.Process | None = None
+        self._frames: asyncio.Queue[Answer | None] = asyncio.Queue()
+        self._reader: asyncio.Task[None] | None = None
+
+    async def start(self) -> None:
+        """Begin the process; it warms by itself."""
+        self.up.clear()
+        self.ready.clear()
+        self._frames = asyncio.Queue()
+        self._process = await child.begun(*self._begin)
+        self._reader = asyncio.create_task(self._read(self._process, self._frames))
+
+    def kill(self) -> None:
+        """End the process at once."""
+        child.end(self._process)
+
+    async def stop(self) -> None:
+        """End the process and wait until it has."""
+        self.kill()
+        process, self._process = self._process, None
+        if process is not None and self._reader is not None:
+            await process.wait()
+            await self._reader
+
+    async def ask(self, verb: str, body: bytes, gone: Gone) -> Answer:
+        """Return status and body of an answer.
+
+        Parameters
+        ----------
+        verb : str
+            One of `asperity.web.verbs.VERBS`.
+        body : bytes
+            What is asked, as JSON.
+        gone : callable
+            Whether nobody waits for the answer any more.
+        """
+        asked = VERBS[verb]
+        for _ in range(_TRIES):
+            # What it takes to begin, on a busy machine or for the first time, is not its answer's.
+            with contextlib.suppress(TimeoutError):
+                begun = self.ready if asked.kernels else self.up
+                await asyncio.wait_for(begun.wait(), _SLOWEST_START)
+            async with self._turn:
+                if await gone():
+                    return _line(499, "nobody waits for the answer", 1)
+                if self._process is not None and self._process.returncode is None:
+                    return await self._answer(verb, body, asked.seconds)
+                await self.start()
+        return _line(500, f"the process that answers {verb} does not begin", 1)
+
+    async def _answer(self, verb: str, body: bytes, seconds: float) -> Answer:
+        process = self._process
+        assert process is not None
+        assert process.stdin is not None
+        head = json.dumps({"verb": verb, "length": len(body)}).encode()
+        try:
+            process.stdin.write(head + b"\n" + body)
+            answer = await asyncio.wait_for(self._frames.get(), seconds)
+        except TimeoutError:
+            await self._again()
+            line = f"{verb} took more than {seconds:g} s, longer than a page waits; ask for less"
+            return _line(504, line, 3)
+        except asyncio.CancelledError:
+            # Its answer would be taken for that of whoever asks next.
+            await self._again()
+            raise
+        if answer is None:
+            await self._again()
+            return _line(500, f"the process that solves ended at {verb}; it is started anew", 1)
+        return answer
+
+    async def _again(self) -> None:
+        await self.stop()
+        await self.start()
+
+    async def _read(
+        self, process: asyncio.subprocess.Process, frames: asyncio.Queue[Answer | None]
+    ) -> None:
+        """Take what the process says until it ends."""
+        assert process.stdout is not None
+        with contextlib.suppress(asyncio.IncompleteReadError, ConnectionError, ValueError):
+            while line := await process.stdout.readline():
+                head = json.loads(line)
+                if "length" in head:
+                    body = await process.stdout.readexactly(head["length"])
+                    frames.put_nowait((head["status"], body))
+                else:
+                    (self.ready if "ready" in head else self.up).set()
+        frames.put_nowait(None)
+        if frames is self._frames:
+            # Nobody waits for one that has ended.
+            self.up.set()
+            self.ready.set()
+
+
+def _line(status: int, line: str, exit_code: int) -> Answer:
+    return status, json.dumps(told(line, exit_code)).encode()

@@ -1,0 +1,203 @@
+/** What is asked of the server. Every answer is JSON; every error is one line. */
+import { signal, useEffect, useRef, useState } from "../vendor/preact.js";
+import { instead, token } from "./state.js";
+
+/** What the command line says before what is wrong with a setting; here the field says it. */
+const SETTING = /^--(?:set|over) ([\w.]+)=(?:.*?: (?=\1\b)|[^:]*: )/;
+
+/** An error as the server tells it: a line, and what was reached on the way. */
+export class Refused extends Error {
+  constructor(line, status, told = {}) {
+    super(line.replace(SETTING, ""));
+    this.status = status;
+    this.exitCode = told.exit_code ?? null;
+    this.reached = told.reached ?? null;
+  }
+}
+
+async function ask(path, options = {}) {
+  const headers = { "X-Asperity-Token": token(), ...options.headers };
+  let response;
+  try {
+    response = await fetch(path, { ...options, headers });
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new Refused("the server does not answer: is asperity page still running?", 0);
+  }
+  if (response.ok) return response;
+  const told = await response.json().catch(() => ({}));
+  throw new Refused(told.error ?? `the server answered ${response.status}`, response.status, told);
+}
+
+/** @param {string} path such as "/api/about" */
+export async function get(path, { signal: stop } = {}) {
+  return (await ask(path, { signal: stop })).json();
+}
+
+/** Send an object and return the one that is answered. */
+export async function post(path, body, { signal: stop } = {}) {
+  const headers = { "Content-Type": "application/json" };
+  const text = JSON.stringify(body);
+  return (await ask(path, { method: "POST", headers, body: text, signal: stop })).json();
+}
+
+/** Ask a live verb. @param {string} verb @param {{case?: string, settings?: object}} body */
+export const call = (verb, body, options) => post(`/api/do/${verb}`, body, options);
+
+/** What does the same on a terminal. @param {string} command @param {object} body as of a job */
+export function commandLine(command, { case: name, settings = {}, options = {} }) {
+  const set = Object.entries(settings).flatMap(([path, text]) => ["--set", `${path}=${text}`]);
+  const more = Object.entries(options).flatMap(([key, value]) =>
+    [value].flat().flatMap((each) => (each === true ? [`--${key}`] : each ? [`--${key}`, each] : [])),
+  );
+  const quoted = (word) =>
+    /^[\w./:=,+-]+$/.test(word) ? word : `'${word.replaceAll("'", `'"'"'`)}'`;
+  return ["asperity", command, name, ...set, ...more].map(quoted).join(" ");
+}
+
+/** Start a job, or find the one that is the same. */
+export const job = (body) => post("/api/jobs", body);
+
+/** What is in a file of the server, as it is. @returns {Promise<Response>} */
+export const fetchRaw = (path, { signal: stop } = {}) => ask(path, { signal: stop });
+
+/** Take something away for good. */
+export const remove = (path) => ask(path, { method: "DELETE" });
+
+/** Put a file into the folder. @param {File} file */
+export async function upload(file) {
+  const path = `/api/files/${encodeURIComponent(file.name)}`;
+  const headers = { "Content-Type": "application/octet-stream" };
+  return (await ask(path, { method: "PUT", headers, body: file })).json();
+}
+
+/** Hear of a job until it ends. @param {(event: object) => void} onEvent @param {AbortSignal} stop */
+export async function follow(id, onEvent, stop) {
+  const response = await ask(`/api/jobs/${id}/events`, { signal: stop });
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { value, done } = await reader.read();
+    if (done) return;
+    const events = (rest + value).split("\n\n");
+    rest = events.pop() ?? "";
+    for (const event of events) {
+      const data = event.split("\n").filter((line) => line.startsWith("data:"));
+      if (data.length) onEvent(JSON.parse(data.map((line) => line.slice(5)).join("\n")));
+    }
+  }
+}
+
+/** What there is: version, folder, cases, files, and whether kernels are ready. */
+export const about = signal(null);
+/** The tables of a case with their keys. */
+export const forms = signal(null);
+
+export async function loadAbout() {
+  about.value = await get("/api/about");
+}
+
+export async function loadForms() {
+  const { tables } = await get("/api/forms");
+  for (const [table, { keys }] of Object.entries(tables)) {
+    for (const { key, follows } of keys) {
+      instead.set(`${table}.${key}`, (follows ?? []).map((other) => `${table}.${other}`));
+    }
+  }
+  forms.value = tables;
+}
+
+/** Cases as they are written, by name. */
+const opened = signal({});
+
+/** The tables of a case as texts, null until they are there. */
+export function useCaseFile(name) {
+  const known = opened.value[name];
+  useEffect(() => {
+    if (!name || known) return;
+    get(`/api/case/${encodeURIComponent(name)}`)
+      .then((file) => (opened.value = { ...opened.peek(), [name]: file }))
+      .catch((error) => (opened.value = { ...opened.peek(), [name]: { tables: {}, error } }));
+  }, [name, known]);
+  return known ?? null;
+}
+
+/**
+ * What is asked for where a key says what, once for each.
+ *
+ * @template T
+ * @param {string} key nothing is asked while it is empty
+ * @param {(leave: AbortController) => Promise<T>} ask
+ * @returns {{found: T | null, error: Error | null}} null until it is there
+ */
+export function useAsked(key, ask) {
+  const [known, setKnown] = useState({ key: "", found: null, error: null });
+  useEffect(() => {
+    if (!key) return;
+    const leave = new AbortController();
+    ask(leave).then(
+      (found) => setKnown({ key, found, error: null }),
+      (error) => error.name === "AbortError" || setKnown({ key, found: null, error }),
+    );
+    return () => leave.abort();
+  }, [key]);
+  return known.key === key ? known : { found: null, error: null };
+}
+
+/** An address of what is held here, as a picture has it; "" until it is there. */
+export function useAddress(blob) {
+  const [address, setAddress] = useState("");
+  useEffect(() => {
+    if (!blob) return;
+    const made = URL.createObjectURL(blob);
+    setAddress(made);
+    return () => URL.revokeObjectURL(made);
+  }, [blob]);
+  return address;
+}
+
+/** Forget how a case was written, since it was written again. */
+export function forgetCase(name) {
+  const { [name]: _, ...rest } = opened.peek();
+  opened.value = rest;
+}
+
+/**
+ * The answer to what is set now. One question is under way at a time; of those that come
+ * meanwhile the last one is asked next, so that a slider that is dragged never waits in a queue.
+ *
+ * @param {string} verb
+ * @param {object | null} body null: nothing to ask yet
+ * @param {number} delay how long nothing must change before it is asked, ms
+ */
+export function useLive(verb, body, delay = 0) {
+  const [state, setState] = useState({ data: null, error: null, busy: false });
+  const queue = useRef({ running: false, next: "", timer: 0, gone: false });
+  const text = body ? JSON.stringify(body) : "";
+  useEffect(() => () => void (queue.current.gone = true), []);
+  useEffect(() => {
+    if (!text) return;
+    const mine = queue.current;
+    const run = async () => {
+      mine.running = true;
+      setState((old) => ({ ...old, busy: true }));
+      while (mine.next && !mine.gone) {
+        const asked = mine.next;
+        mine.next = "";
+        const answer = await call(verb, JSON.parse(asked)).then(
+          (data) => ({ data, error: null }),
+          (error) => ({ error }),
+        );
+        if (!mine.gone) setState((old) => ({ ...old, ...answer, busy: Boolean(mine.next) }));
+      }
+      mine.running = false;
+    };
+    clearTimeout(mine.timer);
+    mine.timer = setTimeout(() => {
+      mine.next = text;
+      if (!mine.running) run();
+    }, delay);
+    return () => clearTimeout(mine.timer);
+  }, [verb, text, delay]);
+  return state;
+}

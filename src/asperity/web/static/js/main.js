@@ -1,0 +1,56 @@
+/** The list of screens, and the one that is open. */
+import { html, render, signal, useEffect } from "../vendor/preact.js";
+import { about, loadAbout, loadForms } from "./api.js";
+import { App } from "./shell.js";
+import { route } from "./state.js";
+
+/** In the order in which they are offered. @type {import("./shell.js").Listed[]} */
+const SCREENS = [
+  { name: "slide", title: "Sliding body", kind: "slide", group: "A body, shaken" },
+  { name: "sweep", title: "Sweep", kind: "slide", group: "A body, shaken" },
+  { name: "block", title: "Elastic block", kind: "block", group: "A body, shaken" },
+  { name: "gear", title: "Gearset", kind: "gear", group: "A worm gear" },
+  { name: "size", title: "Size and trade-off", kind: "gear", group: "A worm gear" },
+  { name: "flanks", title: "Flanks", kind: "gear", group: "A worm gear" },
+  { name: "drive", title: "Drive, shaken", kind: "drive", group: "A worm gear" },
+  { name: "rig", title: "Rig", kind: "rig", group: "Measured and published" },
+  { name: "thesis", title: "Thesis", kind: "", group: "Measured and published" },
+  { name: "jobs", title: "Jobs", kind: "", group: "What runs" },
+].map((screen) => ({ ...screen, load: () => import(`./screens/${screen.name}.js`) }));
+
+/** Screens that were opened, by name. */
+const loaded = signal({});
+const trouble = signal(null);
+
+function Page() {
+  const { screen } = route.value;
+  const listed = SCREENS.find(({ name }) => name === screen);
+  useEffect(() => {
+    if (!listed || loaded.peek()[screen]) return;
+    listed.load()
+      .then(({ view }) => (loaded.value = { ...loaded.peek(), [screen]: view }))
+      .catch((error) => (trouble.value = error));
+  }, [screen]);
+  const View = loaded.value[screen];
+  return html`<${App} screens=${SCREENS}>
+    ${trouble.value ? html`<p class="fault" role="alert">✗ ${trouble.value.message}</p>` : null}
+    ${!listed ? html`<h1>There is no screen ${screen}</h1>` : View ? html`<${View} key=${screen} />`
+      : html`<p class="wait">One moment.</p>`}
+  <//>`;
+}
+
+/** Ask again until what computes is there. */
+async function wait() {
+  try {
+    await loadAbout();
+    trouble.value = null;
+  } catch (error) {
+    trouble.value = error;
+    if (error.status === 403) return;
+  }
+  if (!about.value?.ready) setTimeout(wait, 1000);
+}
+
+render(html`<${Page} />`, document.body);
+wait();
+loadForms().catch((error) => (trouble.value = error));

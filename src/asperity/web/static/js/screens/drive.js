@@ -1,0 +1,157 @@
+/** A worm gearset under load and shaken: what the motor is spared, and what that costs. */
+import { html } from "../../vendor/preact.js";
+import { Sided, Verdict } from "../bars.js";
+import { Amplitude, Folded, Form, Slider } from "../form.js";
+import { FlankMap, span } from "../map.js";
+import { AllNumbers, byKey, Facts, Num } from "../number.js";
+import { Plot } from "../plot.js";
+import { Screen } from "../shell.js";
+import { route, setParam, useCase } from "../state.js";
+import { Table } from "../table.js";
+import { digits } from "../units.js";
+import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
+
+const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
+  ["power_friction_W", "friction", -1], ["power_damping_W", "damping", -1], ["power_stored_W", "stored", -1]];
+const RANKINGS = {
+  per_micrometre: "most saved for a micrometre", per_watt: "most saved for a watt of the actuator",
+  by_force: "least force on the teeth",
+};
+const BOUNDS = {
+  velocity_ratio: { low: 0.01, high: 100, unit: "" }, velocity_amplitude: { low: 0.01, high: 10, unit: "m/s" },
+  displacement_amplitude: { low: 0.1, high: 500, unit: "um" },
+};
+const UNDER = ["phase", "tooth_force", "load", "pattern", "node_radius", "node_face", "faces"];
+const WORTH = ["saved_per_actuator_W_W", "actuator_electrical_W", "actuator_apparent_VA", "force_max_N", "open_share",
+  "second_flank_share", "resonance_worm_Hz", "resonance_wheel_Hz"];
+const LOADED = ["efficiency", "input_torque_Nm", "transmission_error_rad", "load_share_max", "pressure_nodal_MPa",
+  "pressure_hertz_MPa"];
+const HELD = ["holding_share", "threshold_m", "threshold_closed_form_m", "creep_rad_s"];
+const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
+
+/** What lies one after the other, as rows. */
+const rows = ({ shape: [count, width], values }) =>
+  Array.from({ length: count }, (_, row) => values.slice(row * width, (row + 1) * width));
+
+/** A torque ratio never stands alone: beside it, whether it is balanced and settled. */
+const Ratio = ({ found, answer }) => html`<div class="ratio">
+  <p class="large"><${Num} entry=${found.torque_ratio} count=${4} /></p>
+  <p>mean torque of the worm over that without vibration</p>
+  <p><${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
+    <span class="of">balance of the wheel</span>${" "}<${Num} entry=${found.torque_balance} count=${3} /></p>
+  ${answer.settled ? null : html`<p class="warn">▲ The wheel coasts or speeds up: this ratio is not what the
+    gearset settles to.</p>`}</div>`;
+
+function Ledger({ answer, found }) {
+  const most = Math.max(...POWERS.map(([key]) => Math.abs(answer[key])), 1e-12);
+  const bar = ([key, , sign]) =>
+    html`<${Sided} value=${sign * answer[key]} most=${most} kind=${sign > 0 ? "more" : "less"} />`;
+  return html`<${Table} kind="bars" caption="Mean powers: what is put in, right, is what goes, left" rows=${POWERS}
+      columns=${[["", ([, said]) => said, "row"], ["", bar],
+        ["", ([key]) => html`<${Num} entry=${found[key]} count=${4} />`, "right"]]} />
+    <p class="says">what is missing, over what is put in: ${digits(answer.closure, 2)}</p>`;
+}
+
+/** Whether the actuator's power is won back; on demand, whether a smaller motor is. */
+function Worth({ answer, found }) {
+  const electrical = answer.system_efficiency !== null;
+  const [after, before] = electrical ? [answer.system_efficiency, answer.efficiency_static]
+    : [1 / answer.energy_ratio, 1];
+  const says = electrical
+    ? `with the actuator's electrical power the efficiency is ${digits(100 * after, 3)} %, `
+      + `without vibration ${digits(100 * before, 3)} %`
+    : `mechanical power put in is ${digits(answer.energy_ratio, 3)} times that without; `
+      + "give an [actuator] for its electrical power";
+  return html`<h3>Worth it?</h3>
+    <p><${Verdict} ok=${after > before} yes="it saves power" no="it takes more power than it saves" /> ${says}</p>
+    ${answer.motor_shaken ? html`<p>
+      <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
+      ${` motor ${answer.motor_shaken} for ${answer.motor_plain}; with the actuator `}
+      ${digits(answer.saved_mass_kg, 3)} kg saved</p>` : null}
+    <${Facts} found=${found} keys=${WORTH} />`;
+}
+
+function Pattern({ data, found }) {
+  const value = (name, times = 1) => data[name].values.map((each) => times * each);
+  const loads = value("load");
+  const at = Number(route.value.params.load ?? loads.length - 1);
+  const values = rows(data.pattern)[at].map((pressure) => pressure / 1e6);
+  const force = rows(data.tooth_force);
+  const sums = force.map((row) => row.reduce((sum, each) => sum + each, 0));
+  const teeth = force[0].map((_, tooth) => force.map((row, n) => row[tooth] / sums[n]));
+  const series = teeth.filter((shares) => Math.max(...shares) > 1e-3)
+    .map((shares, n) => ({ label: `tooth ${n + 1}`, values: shares, dash: DASHES[n % DASHES.length] }));
+  return html`<p class="choice"><label for="load">torque of the wheel</label>${" "}
+      <select id="load" value=${String(at)} onChange=${(event) => setParam("load", event.target.value)}>
+        ${loads.map((load, n) => html`<option value=${String(n)}>${digits(load, 4)} N m</option>`)}</select></p>
+    <div class="grid">
+      <${FlankMap} title="Where it bears over a pitch, and how hard" label="largest pressure at a node" unit="MPa"
+        x=${value("node_face", 1e3)} y=${value("node_radius", 1e3)} cells=${rows(data.faces)} values=${values}
+        range=${[0, span(values)[1]]} />
+      <${Plot} title="Share of each tooth" series=${series} x=${{
+        label: "angle of the worm", unit: "°", values: value("phase", 180 / Math.PI) }} /></div>
+    <${Facts} found=${found} keys=${LOADED} />`;
+}
+
+function Directions({ answer }) {
+  const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
+  return html`<${Table} region="directions" rows=${answer.directions} columns=${[
+      ["way", ({ mode }) => mode, "row"], number("torque ratio", "torque_ratio"),
+      number("balance", "torque_balance", 2),
+      ["state", (way) => html`<${Verdict} ok=${way.settled} yes="settled" no="not settled" />`],
+      number("saved (W)", "saved_W"), number("per µm (W)", "saved_per_micrometre_W"),
+      number("per W", "saved_per_actuator_W_W"), number("force", "force_ratio"),
+    ]} />
+    <ul class="plain">${Object.entries(answer.rankings).map(([key, order]) =>
+      html`<li>${RANKINGS[key]}: ${order.join(", ") || "none settled"}</li>`)}</ul>`;
+}
+
+function Locking({ answer, found, data }) {
+  const x = data && { label: "amplitude", unit: "µm", values: data.amplitude.values.map((u) => 1e6 * u) };
+  return html`<p class="big"><${Verdict} ok=${answer.locked}
+      yes="holds its load without vibration" no="runs back without vibration" /></p>
+    <${Facts} found=${found} keys=${HELD} />
+    ${data ? html`<${Plot} title="Creep of the wheel, the motor off" x=${x} xlog=${true} series=${[
+      { label: "marched", unit: "rad/s", values: data.creep_over.values, points: "round" },
+      { label: "far beyond the threshold, closed form", unit: "rad/s", values: data.creep_limit.values, dash: [6, 4] },
+    ]} />` : null}`;
+}
+
+export function view() {
+  const { name, settings } = useCase();
+  const body = name ? { case: name, settings, options: {} } : null;
+  const shaken = useJob("drive", body);
+  const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static");
+  const ways = useJob("directions", body);
+  const held = useJob("locking", body);
+  const taken = useTaken(shaken, "drive", body);
+  const under = useData(loaded, UNDER);
+  const creep = useData(held, ["amplitude", "creep_over", "creep_limit"]);
+  const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
+  return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
+      answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
+      lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
+    <div class="columns"><section class="controls" aria-label="what is set">
+      <${Slider} path="vibration.frequency" low=${100} high=${100000} unit="Hz" log />
+      <${Amplitude} bounds=${BOUNDS} />
+      <${Folded}><${Form} tables=${["vibration", "drive", "actuator", "operation", "friction", "shaft"]} brief /><//>
+    </section>
+    <section class="shown">
+      <${WorkPanel} title="Shaken" name="shaken" label="shake it" work=${shaken}
+          says="A minute or several: the more the gearset must be shaken until it settles, the longer.">
+        ${shaken.data ? html`<${Ratio} found=${of} answer=${shaken.data.answer} />
+          <${Ledger} found=${of} answer=${shaken.data.answer} />
+          <${Worth} found=${of} answer=${shaken.data.answer} />
+          <${AllNumbers} entries=${shaken.data.entries} />` : null}<//>
+      <${WorkPanel} title="Under load" name="under load" label="load it" work=${loaded}
+          says="A minute or two: elastic teeth at several angles of the worm.">
+        ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
+      <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
+          says="As long as shaking it once for each of the ways.">
+        ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
+      <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
+          says="A minute or several: it is marched at several amplitudes.">
+        ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
+    </section></div>
+  <//>`;
+}

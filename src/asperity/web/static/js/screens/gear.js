@@ -1,0 +1,192 @@
+/** A worm gearset: whether it holds, by whom, what fails first and what moves it. */
+import { html, useMemo } from "../../vendor/preact.js";
+import { useAddress, useCaseFile, useLive } from "../api.js";
+import { Margins, STANDARDS, Tornado, Verdict } from "../bars.js";
+import { Beneath } from "../figure.js";
+import { Folded, Form, words } from "../form.js";
+import { AllNumbers, byKey, Num } from "../number.js";
+import { Screen } from "../shell.js";
+import { route, setParam, useCase } from "../state.js";
+import { Table } from "../table.js";
+import { digits, inUnit, split } from "../units.js";
+
+/** What stands side by side: a meaning, and its key by each standard. */
+const SIDE_BY_SIDE = [
+  ["sliding velocity", "sliding_velocity_m_s", "sliding_velocity_m_s", "sliding_velocity_m_s"],
+  ["friction of the teeth", "mu_zm", "mu", "mu"],
+  ["efficiency of the teeth, worm driving", "eta_z1_2", "eta", "eta"],
+  ["efficiency of the teeth, wheel driving", "eta_z2_1", "eta_back", "eta_back"],
+  ["efficiency of the gearbox", "eta_ges", "", ""],
+  ["torque of the worm", "input_torque_Nm", "", "input_torque_Nm"],
+  ["power lost between the teeth", "loss_meshing_W", "", "loss_meshing_W"],
+  ["power put in", "input_power_W", "", "input_power_W"],
+  ["torque of the wheel permitted", "", "M_permissible_Nm", "allowable_torque_Nm"],
+];
+/** Where a study's input is set, and in which unit its value comes. */
+const INPUTS = {
+  pressure_angle: ["gearset.pressure_angle", "deg"], worm_speed: ["operation.worm_speed", "rpm"],
+  worm_roughness: ["gearset.worm_roughness", "um"], diameter_factor: ["gearset.diameter_factor", ""],
+  axial_module: ["gearset.axial_module", "mm"], centre_distance: ["gearset.centre_distance", "mm"],
+};
+const MACRO = ["centre_distance", "axial_module", "diameter_factor"];
+/** Of the wheel, which a gearset is refused beyond. */
+const MOST_SHIFT = 1;
+const USUAL = "10";
+/** Sizes that stand in the drawing. */
+const SIZES = /^(?:\w+_mm|\w+_deg|starts|wheel_teeth|diameter_factor|profile_shift)$/;
+
+const text = (value, unit) => `${Number(value.toPrecision(12))} ${unit}`.trim();
+const keyOf = (name, unit) => (unit ? `${name}_${unit}` : name);
+
+/** Texts that make a case this geometry with one size changed, the others staying. */
+function resized(geometry, name, value) {
+  const sizes = MACRO.map((key) => (key === name ? value : geometry[keyOf(key, INPUTS[key][1])]));
+  const [a, m, q] = sizes;
+  const texts = sizes.map((size, at) => [`gearset.${MACRO[at]}`, text(size, INPUTS[MACRO[at]][1])]);
+  return { texts: Object.fromEntries(texts), shift: a / m - (q + geometry.wheel_teeth) / 2 };
+}
+
+/** Where a centre distance is no size of this shape: the module that makes it one, all else staying. */
+function Fitting({ error, settings, geometry, setAll }) {
+  const wanted = settings["gearset.centre_distance"];
+  if (!wanted || !geometry || !error?.message.includes("profile shift")) return null;
+  const module = (inUnit(wanted, "mm") / geometry.centre_distance_mm) * geometry.axial_module_mm;
+  const fit = () => setAll({ "gearset.axial_module": `${Number(module.toPrecision(6))} mm` });
+  return html`<p><button type="button" class="main" onClick=${fit}>
+    the same shape at ${wanted}: axial module ${digits(module, 4)} mm</button></p>`;
+}
+
+function tried(sway, geometry, rise, setAll) {
+  const at = sway.rises_percent.indexOf(Number(rise));
+  return Object.entries(sway.inputs).map(([name, found]) => {
+    const [path, unit] = INPUTS[name] ?? [];
+    const value = found[keyOf(name, unit)][at];
+    const efficiency = found.eta_z1_2[at];
+    const { texts, shift } = MACRO.includes(name) ? resized(geometry, name, value)
+      : { texts: { [path]: text(value, unit) }, shift: 0 };
+    // What only the formulas can do, the others following it, is no gearset by itself.
+    const alone = path && Math.abs(shift) <= MOST_SHIFT;
+    const why = !path ? ", teeth are whole" : alone ? "" : `, which alone needs a profile shift of ${digits(shift, 2)}`;
+    return {
+      name, change: efficiency === null ? null : 100 * (efficiency - sway.eta_z1_2),
+      says: `${words(name)}${path ? ` to ${digits(value, 4)} ${unit}`.trimEnd() : ` +${rise} %`}${why}`,
+      why: found.reason ?? "no answer", pick: alone ? () => setAll(texts) : undefined,
+    };
+  });
+}
+
+/** A drawing that the server made, with the sizes in it. */
+function Drawing({ svg, geometry }) {
+  const address = useAddress(useMemo(() => svg && new Blob([svg], { type: "image/svg+xml" }), [svg]));
+  const sizes = Object.entries(geometry).filter(([key]) => SIZES.test(key));
+  const columns = () => [0, 1].map((part) =>
+    ({ label: ["size", "value"][part], values: sizes.map((each) => (part ? each[1] : each[0])) }));
+  return html`<section class="panel"><h2>To scale</h2>
+    ${address ? html`<img class="drawing" src=${address}
+      alt="the gearset along the wheel's axis, to scale, with its main sizes" />` : null}
+    <${Beneath} title="To scale" svg=${() => svg} columns=${columns} /></section>`;
+}
+
+/** Texts that make keys greater by 1 %; null where the case says nothing of one of them. */
+function more(keys, { tables }, settings) {
+  const written = (path) => path.split(".").reduce((at, key) => at?.[key], tables);
+  const texts = keys.map((path) => [path, split(settings[path] ?? written(path))]);
+  return texts.some(([, [number]]) => Number.isNaN(number)) ? null
+    : Object.fromEntries(texts.map(([path, [number, unit]]) => [path, text(1.01 * number, unit)]));
+}
+
+function First({ verdict }) {
+  const { first, safeties, moved_by: levers, alternatives, unrated } = verdict;
+  const { name: opened, settings, setAll } = useCase();
+  const file = useCaseFile(opened);
+  const safety = safeties.find((each) => `${each.standard}.${each.key}` === first);
+  if (!safety) return null;
+  const rows = levers.map(({ name, keys, exponent }) => {
+    const texts = file && more(keys, file, settings);
+    return { name, change: exponent, says: `1 % more ${name}`, pick: texts ? () => setAll(texts) : undefined };
+  });
+  return html`<section class="panel" aria-label="first to fail">
+    <h2>${safety.holds ? "Nearest to its limit" : "First to fail"}</h2>
+    <p class="big"><${Verdict} ok=${safety.holds} /> ${safety.name}, ${STANDARDS[safety.standard]}</p>
+    <p>${safety.symbol} is ${digits(safety.value, 3)} of ${digits(safety.asked, 3)} asked.</p>
+    ${unrated.length ? html`<p class="says">no answer: ${unrated.join(", ")}</p>` : null}
+    <h3>What moves it most</h3>
+    <${Tornado} label="what moves it most" rows=${rows} unit="%" />
+    ${alternatives.length ? html`<h3>Best listed instead</h3>
+      <ul class="plain">${alternatives.map((other) => html`<li><button type="button" class="quiet"
+        onClick=${() => setAll({ [other.key]: other.value })}>try ${other.value}</button>
+        ${safety.symbol} ${digits(other.safety, 3)}</li>`)}</ul>` : null}
+  </section>`;
+}
+
+function Columns({ entries, answer }) {
+  const names = Object.keys(STANDARDS);
+  const { holds } = answer.verdict;
+  const cell = (name, at) => ([what, ...keys]) => {
+    const entry = entries[`${name}.${keys[at]}`];
+    return what === "verdict" ? html`<${Verdict} ok=${holds[name]} />`
+      : entry ? html`<${Num} entry=${entry} count=${4} />` : "–";
+  };
+  const columns = names.map((name, at) => [STANDARDS[name], cell(name, at), "right"])
+    .filter((_, at) => answer[names[at]]);
+  return html`<section class="panel wide"><h2>By three standards</h2>
+    <${Table} region="three standards" wide="whole" rows=${[["verdict"], ...SIDE_BY_SIDE]}
+      columns=${[["what", ([what]) => what, "row"], ...columns]} /></section>`;
+}
+
+function Locking({ locking: { verdicts, lead_angle_deg: lead } }) {
+  const state = (wanted) => (name) => {
+    const one = verdicts.find((each) => each.standard === name && each.state === wanted);
+    return one ? `${digits(one.friction, 3)} ${one.locks ? "● locks" : "○ free"}` : "–";
+  };
+  const limit = (name) => digits(verdicts.find(({ standard }) => standard === name).limit, 3);
+  return html`<section class="panel wide"><h2>Does it lock itself?</h2>
+    <p>The lead angle is ${digits(lead, 4)}°; a worm locks where its friction is at least the limit, and is set
+      free by a vibration that lowers it.</p>
+    <${Table} rows=${[...new Set(verdicts.map(({ standard }) => standard))]} columns=${[
+      ["friction of", (name) => STANDARDS[name] ?? name, "row"], ["at rest", state("static")],
+      ["in motion", state("dynamic")], ["limit", limit, "right"]]} /></section>`;
+}
+
+function Efficiency({ sway, geometry, setAll }) {
+  const rise = route.value.params.rise ?? USUAL;
+  return html`<section class="panel wide"><h2>What moves the efficiency</h2>
+    <p class="choice"><label for="rise">each raised alone by</label>${" "}
+      <select id="rise" value=${rise} onChange=${(event) => setParam("rise", event.target.value)}>
+        ${sway.rises_percent.slice(1).map((each) => html`<option value=${String(each)}>${each} %</option>`)}
+      </select></p>
+    <${Tornado} label="what moves the efficiency" rows=${tried(sway, geometry, rise, setAll)} unit="points" />
+  </section>`;
+}
+
+export function view() {
+  const { name, settings, setAll } = useCase();
+  const body = name ? { case: name, settings } : null;
+  const { data, error, busy } = useLive("rate", body, 60);
+  const sway = useLive("sensitivity", body, 400).data?.answer;
+  const answer = data?.answer;
+  const entries = byKey(data?.entries);
+  const safeties = answer?.verdict.safeties.map((each) => ({
+    ...each, name: `${STANDARDS[each.standard]}: ${each.name}`, entry: entries[`${each.standard}.${each.key}`],
+  }));
+  return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
+      answer=${data} error=${error} busy=${busy}
+      lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
+    <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
+    <div class="columns">
+      <div class="controls"><${Folded}><${Form} tables=${["gearset", "operation"]} brief=${true} /><//></div>
+      ${answer ? html`<div class="pair">
+        <section class="panel wide" aria-label="verdict"><h2>Does it hold?</h2>
+          <p class="big">${Object.entries(answer.verdict.holds).map(([standard, ok]) => html`
+            <span class="said" key=${standard}>${STANDARDS[standard]} <${Verdict} ok=${ok} /></span>`)}</p>
+          <${Margins} rows=${safeties} /></section>
+        <${First} verdict=${answer.verdict} />
+        <${Drawing} svg=${data.svg.gearset} geometry=${answer.geometry} />
+        <${Columns} entries=${entries} answer=${answer} />
+        ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}
+        <${Locking} locking=${answer.self_locking} />
+        <${AllNumbers} entries=${data.entries} />
+      </div>` : html`<p class="wait">One moment.</p>`}
+    </div>
+  <//>`;
+}

@@ -1,0 +1,174 @@
+/** Gearsets for a ratio, a torque and a speed; and what efficiency a higher torque costs. */
+import { html } from "../../vendor/preact.js";
+import { call, useAsked, useCaseFile, useLive } from "../api.js";
+import { STANDARDS, Verdict } from "../bars.js";
+import { Box } from "../form.js";
+import { Plot } from "../plot.js";
+import { Screen } from "../shell.js";
+import { caseParams, go, route, setParam, useCase } from "../state.js";
+import { Table } from "../table.js";
+import { digits, split } from "../units.js";
+import { useJob, useTaken, WorkPanel } from "../work.js";
+
+const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel", "300 N m"],
+  ["worm_speed", "speed of the worm", "1500 rpm"]];
+const COLUMNS = [
+  ["centre_distance_mm", "a (mm)", 5], ["starts", "z₁", 3], ["wheel_teeth", "z₂", 4],
+  ["axial_module_mm", "m (mm)", 4], ["diameter_factor", "q", 4], ["profile_shift", "x₂", 3],
+  ["efficiency", "efficiency", 4], ["margin", "margin", 3],
+];
+const RANKS = ["size", "efficiency", "margin"];
+const THROUGH = "operation.through_travel_torque";
+/** What is proposed, and what is asked: all else is as the case has it. */
+const OWN = ["gearset.name", "gearset.starts", "gearset.wheel_teeth", "gearset.centre_distance",
+  "gearset.axial_module", "gearset.diameter_factor", "gearset.profile_shift", "gearset.worm_pitch_diameter",
+  "operation.output_torque", "operation.worm_speed", THROUGH];
+/** Those of which less is better. */
+const LESS = ["centre_distance_mm", "axial_module_mm", "starts", "wheel_teeth", "diameter_factor"];
+/** Of a design of the trade-off. */
+const FREE = [["pressure_angle", "deg"], ["diameter_factor", ""], ["axial_module", "mm"], ["worm_roughness", "um"]];
+
+const limit = (path) => {
+  const [standard, key] = path.split(".");
+  return `${STANDARDS[standard]}: ${key.replace("safety_", "")}`;
+};
+
+/** Open the gearset with these settings besides. @param {Record<string, string>} settings */
+function apply(settings) {
+  const set = Object.entries(settings).map(([path, text]) => [`set.${path}`, text]);
+  go("gear", { ...caseParams(route.peek().params), ...Object.fromEntries(set) });
+}
+
+/** What a case and its settings say beside what is proposed, and its torque through the travel. */
+function useRest() {
+  const { name, settings } = useCase();
+  const file = useCaseFile(name);
+  if (!file) return {};
+  const written = ["gearset", "operation", "rating"].flatMap((table) =>
+    Object.entries(file.tables[table] ?? {}).map(([key, text]) => [`${table}.${key}`, text]));
+  const all = { ...Object.fromEntries(written), ...settings };
+  const kept = Object.entries(all).filter(([path]) => !OWN.includes(path));
+  return { rest: Object.fromEntries(kept), through: all[THROUGH] };
+}
+
+function Proposals({ found, options, through }) {
+  const [by, way] = (route.value.params.sort ?? "").split(" ");
+  const sorted = by ? found.toSorted((a, b) => (way === "down" ? b[by] - a[by] : a[by] - b[by])) : found;
+  const sort = (key) => {
+    const first = LESS.includes(key) ? "up" : "down";
+    const other = first === "up" ? "down" : "up";
+    setParam("sort", `${key} ${by === key && way === first ? other : first}`);
+  };
+  const [torque, unit] = split(options.output_torque);
+  const take = (one) => apply({
+    ...Object.fromEntries(one.settings.map((text) => text.split(/=(.*)/).slice(0, 2))),
+    "operation.output_torque": options.output_torque, "operation.worm_speed": options.worm_speed,
+    // That of the case goes with another torque.
+    ...(through && { [THROUGH]: `${Number((torque / 3).toPrecision(12))} ${unit}` }),
+  });
+  const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
+    a = ${one.centre_distance_mm} mm, ${one.wheel_teeth}:${one.starts}, m = ${one.axial_module_mm} mm`}>take</button>`;
+  return html`<${Table} region="proposals" wide="whole" kind="middle" rows=${sorted} columns=${[
+    ["open", open],
+    ...COLUMNS.map(([key, said, count]) => [
+      html`<button type="button" class="quiet" onClick=${() => sort(key)}>
+        ${said}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
+      (one) => digits(one[key], count), "right",
+      { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
+    ]),
+    ["least safety", (one) => limit(one.limited_by)], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
+  ]} />`;
+}
+
+/** The settings of a design of the trade-off, with digits enough to be it. */
+const settingsOf = (design, at) => Object.fromEntries(FREE.map(([key, unit]) => {
+  const found = design[unit ? `${key}_${unit}` : key];
+  return [`gearset.${key}`, `${Number((at === undefined ? found : found[at]).toPrecision(12))} ${unit}`.trim()];
+}));
+
+/** What fails of gearsets that a case becomes by settings, each rated; null until they are. */
+function useVerdicts(designs) {
+  const { name, settings } = useCase();
+  const bodies = designs.map((one) => ({ case: name, settings: { ...settings, ...one } }));
+  return useAsked(JSON.stringify(bodies), async (leave) => {
+    const found = [];
+    for (const body of bodies) {
+      const { answer } = await call("rate", body, leave);
+      found.push(answer.verdict.safeties.filter(({ holds }) => !holds));
+    }
+    return found;
+  }).found;
+}
+
+function TradeOff({ answer }) {
+  const { trade_off: curve, given, made } = answer;
+  const torques = curve.M_permissible_Nm;
+  const designs = [
+    { says: "as it is", of: given, settings: {} },
+    { says: "rounded optimum", of: made, settings: settingsOf(made) },
+    ...torques.map((torque, at) => (
+      { says: "on the curve", torque, efficiency: curve.eta_z1_2[at], settings: settingsOf(curve, at) })),
+  ].map((one) => ({ torque: one.of?.bs721.M_permissible_Nm, efficiency: one.of?.iso14521.eta_z1_2, ...one }));
+  const failing = useVerdicts(designs.map(({ settings }) => settings));
+  const verdict = (_, at) => {
+    if (!failing) return "…";
+    const names = failing[at].map(({ standard, name }) => `${STANDARDS[standard]}: ${name}`);
+    return html`<${Verdict} ok=${!names.length} /> <span class="says">${names.join(", ")}</span>`;
+  };
+  const single = ({ says, torque, efficiency }, colour) => ({
+    label: says, unit: "%", x: [torque], values: [100 * efficiency], points: "square", bare: true, colour,
+  });
+  const pick = (x) => {
+    const far = (at) => Math.abs(torques[at] - x);
+    apply(settingsOf(curve, torques.reduce((best, _, at) => (far(at) < far(best) ? at : best), 0)));
+  };
+  const take = ({ says, torque, settings }) => html`<button type="button" onClick=${() => apply(settings)}
+    aria-label=${`take ${says}, ${digits(torque, 4)} N m`}>take</button>`;
+  return html`<${Plot} title="Efficiency against permissible torque" y="efficiency (%)" onPick=${pick} height=${320}
+      x=${{ label: "permissible torque by BS 721", unit: "N m", values: torques }}
+      series=${[
+        { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
+        single(designs[0], 1), single(designs[1], 2)]} />
+    <p class="says">A click on the curve opens that gearset.</p>
+    <${Table} region="designs" wide="whole" kind="middle" rows=${designs} columns=${[
+      ["open", take], ["design", ({ says }) => says],
+      ["permissible torque (N m)", ({ torque }) => digits(torque, 4), "right"],
+      ["efficiency (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
+    ]} />`;
+}
+
+export function view() {
+  const { name, settings } = useCase();
+  const { params } = route.value;
+  const options = Object.fromEntries(ASKED.map(([key, , usual]) => [key, params[key] ?? usual]));
+  const rank = params.rank ?? "size";
+  const { rest, through } = useRest();
+  const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
+  const body = name ? { case: name, settings } : null;
+  const work = useJob("optimise", body);
+  const { toml } = useTaken(work, "optimise", body);
+  const answer = sized.data?.answer;
+  return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
+      answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy}
+      lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
+    <section class="panel" aria-label="what is asked"><div class="row">
+      ${ASKED.map(([key, said]) => html`<label class="asked">${said}
+        <${Box} text=${options[key]} label=${said} onSet=${(text) => setParam(key, text)} /></label>`)}
+      <span class="asked"><label for="rank">best in</label>
+        <select id="rank" value=${rank} onChange=${(event) => setParam("rank", event.target.value)}>
+          ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
+      </div>
+      ${answer ? html`<p class="says">${answer.rated} gearsets rated, ${answer.holding} hold by every standard;
+          shown are those that no other beats in size, efficiency and margin together. Oil, materials, roughness and
+          life are the case's${through ? html`; its torque through the travel, ${through}, is not, since it goes with
+          another torque: a third of the torque above is taken, as where none is given` : null}.</p>
+        <${Proposals} found=${answer.proposals} options=${options} through=${through} />`
+        : html`<p class="wait">One moment.</p>`}
+    </section>
+    <${WorkPanel} title=${`What a higher torque costs ${name}`} name="trade-off" work=${work}
+      label="find the most efficient designs" says="Of the gearset of the case as it is, with its own torque and
+      speed, not of what is asked or proposed above. Pressure angle, diameter factor, module and roughness are free;
+      every safety that holds goes on to hold, and what fails may go on to fail. Some seconds.">
+      ${work.data ? html`<${TradeOff} answer=${work.data.answer} />` : null}<//>
+  <//>`;
+}

@@ -1,0 +1,200 @@
+/** A case over a grid: axes, how long it takes, a map that fills, and the file of it. */
+import { html, useEffect, useState } from "../../vendor/preact.js";
+import { commandLine, forms, get, useCaseFile, useLive } from "../api.js";
+import { Figure } from "../figure.js";
+import { AllKeys, Box, fieldOf, words } from "../form.js";
+import { Legend, shade, span } from "../map.js";
+import { Plot } from "../plot.js";
+import { Screen } from "../shell.js";
+import { route, setParam, useCase } from "../state.js";
+import { named } from "../table.js";
+import { digits, inUnit, split } from "../units.js";
+import { Files, lasting, useJob, Work } from "../work.js";
+
+const SLIDE = { tables: ["slider", "friction", "vibration", "normal"], rest: ["solve"], verb: "slide", shown: "ratio",
+  start: { "solve.method": "periodic" },
+  axes: ["vibration.velocity_ratio~0.5~20~21~log", "vibration.direction~0 deg~90 deg~19~even"] };
+const GEAR = { tables: ["gearset", "operation"], rest: ["rating"], verb: "rate", shown: "efficiency",
+  start: {}, axes: ["operation.output_torque~50~500~10~even", ""] };
+/** How often a map that fills is looked at, ms. */
+const LOOK = 1000;
+/** Of a point that takes longer than a page waits: no mistake of the case, whose grid is a job. */
+const SLOW = 504;
+/** The least that a point of many takes, s. */
+const LEAST = 5e-4;
+
+/** An axis as it stands in the address. */
+function axisOf(text) {
+  const [path, from, to, count, spacing] = text.split("~");
+  return path.includes(".") ? { path, from, to, count: Number(count) || 2, spacing } : null;
+}
+
+const textOf = ({ path, from, to, count, spacing }) => [path, from, to, count, spacing].join("~");
+
+/** The values of an axis as `--over` takes them. */
+function over({ path, from, to, count, spacing }) {
+  const [low, unit] = split(from);
+  const [high, other] = split(to);
+  const usual = other || unit || fieldOf(path)?.unit || "";
+  const first = unit && unit !== usual ? inUnit(from, usual) : low;
+  const at = (place) => {
+    const share = count > 1 ? place / (count - 1) : 0;
+    return spacing === "log" ? first * (high / first) ** share : first + (high - first) * share;
+  };
+  const step = digits((high - first) / (count - 1), 6);
+  const even = spacing !== "log" && count > 1 && first + (count - 1) * Number(step) === high && Number(step) > 0;
+  const values = even ? [`${digits(first, 12)}:${digits(high, 12)}:${step}`]
+    : Array.from({ length: count }, (_, place) => digits(at(place), 6));
+  return `${path}=${values.join(",")}${usual ? ` ${usual}` : ""}`;
+}
+
+export function view() {
+  const { name, settings } = useCase();
+  const { params } = route.value;
+  const file = useCaseFile(name);
+  const kind = file && "gearset" in file.tables ? GEAR : SLIDE;
+  const texts = ["x", "y"].map((key, place) => params[key] ?? kind.axes[place]);
+  const axes = texts.map(axisOf).filter(Boolean);
+  const points = axes.reduce((product, { count }) => product * count, 1);
+  const body = name && axes.length ? { case: name, settings, options: { over: axes.map(over) } } : null;
+  const work = useJob("sweep", body);
+  // One point is solved at once: it refuses what cannot be, and tells how long the others take.
+  const one = useLive(kind.verb, name ? { case: name, settings } : null, 300);
+  const each = one.error ? null : one.data?.answer.seconds;
+  const time = each ? `about ${lasting(points * Math.max(each, LEAST))} to solve on one core`
+    : one.busy ? "time being found" : "time not known";
+  const found = useSoFar(work);
+  const running = work.job?.state === "running";
+  return html`<${Screen} title="Sweep" kinds=${["slide", "gear"]} first="body-shaken-along" start=${SLIDE.start}
+    lead="A case at every point of a grid. What is solved is kept: stop when you like, and go on later."
+    answer=${{ ...one.data, notes: running ? work.job.notes : [], command: body && commandLine("sweep", body) }}
+    error=${work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}>
+    <div class="columns">
+      <section class="controls" aria-label="the grid">
+        ${["x", "y"].map((key, place) => html`<${AxisForm} key=${key} name=${key} tables=${kind.tables}
+          label=${place ? "second axis" : "first axis"} axis=${axisOf(texts[place])} file=${file} />`)}
+        <p role="status"><b>${points}</b> ${points === 1 ? "point" : "points"}, ${time}</p>
+        <${Work} work=${work} label="solve the grid" />
+        <${AllKeys} tables=${[...kind.tables, ...kind.rest]} brief />
+      </section>
+      <section class="shown" aria-label="what is found">
+        ${found.names.length ? html`<p class="row"><label for="variable">shown</label>
+          <select id="variable" value=${found.name} onChange=${(event) => setParam("shown", event.target.value)}>
+            ${found.names.map(([key, meaning]) => html`<option value=${key}>${meaning}</option>`)}</select></p>`
+          : html`<p class="says">${running || work.asking ? "The first points are being solved."
+            : "Nothing is solved yet: choose the axes and begin."}</p>`}
+        ${found.data ? html`<${Found} ...${found} />` : null}
+        <${Files} job=${work.job} />
+      </section>
+    </div>
+  <//>`;
+}
+
+function AxisForm({ name, label, axis, tables, file }) {
+  const change = (more) => setParam(name, textOf({ ...axis, ...more }));
+  const choose = (path) => {
+    if (!path) return setParam(name, "none");
+    const field = fieldOf(path);
+    const [table, key] = path.split(".");
+    const [found, unit] = split(file?.tables[table]?.[key] ?? (field.default || field.example));
+    const value = found || 1;
+    const has = unit || field.unit ? ` ${unit || field.unit}` : "";
+    const ends = path === "vibration.direction" ? [0, 90] : [value / 2, value * 2];
+    const [from, to] = ends.map((end) => `${digits(end)}${has}`);
+    setParam(name, textOf({ path, from, to, count: 11, spacing: field.log ? "log" : "even" }));
+  };
+  const numeric = ({ kind }) => ["quantity", "number", "integer"].includes(kind);
+  const count = (typed) => Math.max(1, Math.round(Number(typed)) || 1);
+  const boxes = axis ? [["from", axis.from, (from) => change({ from })], ["to", axis.to, (to) => change({ to })],
+    ["points", String(axis.count), (typed) => change({ count: count(typed) })]] : [];
+  return html`<fieldset><legend>${label}</legend>
+    <div class="field"><label for=${`${name}-path`}>key</label>
+      <select id=${`${name}-path`} value=${axis?.path ?? ""} onChange=${(event) => choose(event.target.value)}>
+        ${name === "y" ? html`<option value="">none</option>` : null}
+        ${tables.filter((table) => forms.value?.[table]).map((table) => html`<optgroup label=${table}>
+          ${forms.value[table].keys.filter(numeric).map(({ key }) =>
+            html`<option value=${`${table}.${key}`}>${words(key)}</option>`)}
+        </optgroup>`)}
+      </select></div>
+    ${boxes.map(([what, text, put]) => html`<div class="field" key=${what}>
+      <label for=${`${name}-${what}`}>${what}</label>
+      <${Box} id=${`${name}-${what}`} text=${text} onSet=${put} /></div>`)}
+    ${axis ? html`<div class="field"><label for=${`${name}-spacing`}>spacing</label>
+      <select id=${`${name}-spacing`} value=${axis.spacing}
+        onChange=${(event) => change({ spacing: event.target.value })}>
+        <option value="even">even steps</option><option value="log">even ratios</option></select></div>` : null}
+  </fieldset>`;
+}
+
+/** Variables of a file over all its axes, by key, with what is said of each. */
+function overAll(listed) {
+  const dims = Math.max(...Object.values(listed).map((one) => one.dims.length));
+  return Object.entries(listed).filter(([, one]) => one.dims.length === dims)
+    .map(([key, one]) => [key, one.long_name || words(key)]);
+}
+
+/** What is solved so far of what is shown; looked at again while the job runs, and until it is seen. */
+function useSoFar({ id, job }) {
+  const [known, setKnown] = useState({ id: "", names: [], data: null });
+  const [look, setLook] = useState(0);
+  const wanted = route.value.params.shown;
+  const state = job?.done || job?.state === "done" ? job.state : "";
+  useEffect(() => {
+    if (!id || !state) return;
+    const leave = new AbortController();
+    const path = `/api/jobs/${id}/data`;
+    let timer = 0;
+    const again = () => (timer = setTimeout(() => setLook((old) => old + 1), LOOK));
+    (async () => {
+      const names = overAll(await get(path, leave));
+      const name = [wanted, SLIDE.shown, GEAR.shown, names[0]?.[0]].find((each) => names.some(([key]) => key === each));
+      setKnown({ id, names, name, data: await get(`${path}?names=${name}`, leave) });
+      if (state === "running") again();
+    })().catch((error) => error.name === "AbortError" || again());
+    return () => {
+      leave.abort();
+      clearTimeout(timer);
+    };
+  }, [id, state, wanted, look]);
+  return known.id === id ? known : { names: [], data: null };
+}
+
+function Found({ name, names, data }) {
+  const { dims, values, units } = data[name];
+  const plain = (unit) => (unit === "1" ? "" : (unit ?? ""));
+  const title = names.find(([key]) => key === name)[1];
+  const [down, across] = dims.map((dim) =>
+    ({ label: words(dim), unit: plain(data[dim]?.units), values: data[dim]?.values ?? [] }));
+  return across ? html`<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across} values=${values} />`
+    : html`<${Plot} title=${title} x=${down} height=${340}
+      series=${[{ label: title, unit: plain(units), values, points: "round" }]} />`;
+}
+
+/** A grid of values as a map: what is not there yet is left free. */
+function Heat({ title, unit, down, across, values }) {
+  const known = values.filter((value) => value !== null);
+  const range = span(known);
+  const [columns, rows] = [across.values.length, down.values.length];
+  const places = values.map((value, cell) => ({ value, cell, x: cell % columns, y: Math.floor(cell / columns) }));
+  const end = (axis, last) => digits(axis.values.at(last ? -1 : 0), 4);
+  const said = ({ value, x, y }) =>
+    `${digits(value, 4)} ${unit} at ${digits(down.values[y], 4)}, ${digits(across.values[x], 4)}`;
+  const whole = `${title} over ${named(across)} and ${named(down)}, from ${digits(range[0], 3)} to `
+    + `${digits(range[1], 3)} ${unit}; the numbers are in the table beneath`;
+  const colour = (value) => shade((value - range[0]) / (range[1] - range[0]));
+  return html`<${Figure} title=${`${title}: ${known.length} of ${values.length} points`} kind="heat" columns=${() => [
+      { ...down, values: places.map(({ y }) => down.values[y]) },
+      { ...across, values: places.map(({ x }) => across.values[x]) }, { label: title, unit, values }]}>
+    <div class="frame">
+      <p class="up"><span>${end(down, true)}</span><b>${named(down)}</b><span>${end(down, false)}</span></p>
+      <svg class="drawn" viewBox=${`0 0 ${columns} ${rows}`} preserveAspectRatio="none" role="img"
+        aria-label=${whole}>
+        ${places.filter(({ value }) => value !== null).map((one) => html`<rect key=${one.cell} x=${one.x}
+          y=${rows - 1 - one.y} width="1.02" height="1.02" fill=${colour(one.value)}>
+          <title>${said(one)}</title></rect>`)}
+      </svg>
+      <p class="along"><span>${end(across, false)}</span><b>${named(across)}</b><span>${end(across, true)}</span></p>
+    </div>
+    <${Legend} range=${range} unit=${unit} label=${title} />
+  <//>`;
+}

@@ -1,0 +1,174 @@
+/** What is around every screen: where to go, the case, what to take along, what went wrong. */
+import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
+import { about, forgetCase, loadAbout, post } from "./api.js";
+import { Behind } from "./number.js";
+import { address, caseParams, fault, go, route, useCase } from "./state.js";
+
+/**
+ * @typedef {{name: string, title: string, kind: string, group: string,
+ *   load: () => Promise<{view: () => any}>}} Listed a screen; `kind` of the cases it opens
+ */
+
+/** What was just done, for a moment. */
+const said = signal("");
+let timer = 0;
+
+/** Tell what was done. @param {string} text */
+export function tell(text) {
+  said.value = text;
+  clearTimeout(timer);
+  timer = setTimeout(() => (said.value = ""), 6000);
+}
+
+/** With which case each kind was last seen, so that a link leads back to it. */
+const last = {};
+
+/** @param {{screens: Listed[], children: any}} props */
+export function App({ screens, children }) {
+  const { screen, params } = route.value;
+  const here = screens.find(({ name }) => name === screen);
+  if (here?.kind) last[here.kind] = caseParams(params);
+  useEffect(() => {
+    document.title = `${here?.title ?? "?"} · asperity`;
+  }, [here]);
+  const link = ({ name, title, kind }) => html`<li key=${name}>
+    <a href=${address({ screen: name, params: last[kind] ?? {} })}
+      onClick=${(event) => {
+        if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+        event.preventDefault();
+        go(name, last[kind] ?? {});
+      }}
+      aria-current=${name === screen ? "page" : undefined}>${title}</a></li>`;
+  return html`
+    <nav aria-label="screens">
+      <p class="brand"><img src="icon.svg" alt="" width="22" height="22" /> asperity</p>
+      ${[...new Set(screens.map(({ group }) => group))].map((group) => html`
+        <div class="group" key=${group}><p>${group}</p>
+          <ul>${screens.filter((each) => each.group === group).map(link)}</ul></div>`)}
+    </nav>
+    <main id="main" tabindex="-1">
+      ${about.value && !about.value.ready ? html`<p class="wait" role="status">
+        What computes is being compiled, once for this machine: seconds for a sliding body, a few
+        minutes for the rest. The page comes alive by itself.</p>` : null}
+      ${children}
+    </main>
+    <${Behind} />
+    <div role="status" class=${said.value ? "toast shown" : "toast"}>${said.value}</div>`;
+}
+
+/** Which case is open. */
+function CasePicker({ kinds, first, start = {} }) {
+  const { name, settings, reset } = useCase();
+  const cases = (about.value?.cases ?? []).filter(({ kind }) => kinds.includes(kind));
+  useEffect(() => {
+    if (!name && first) reset(first, start, true);
+  }, [name]);
+  const option = (each) => html`<option key=${each.name} value=${each.alias || each.name}>
+    ${each.alias || each.name}</option>`;
+  const known = cases.find((each) => each.name === name || each.alias === name);
+  const count = Object.entries(settings).filter(([path, text]) => start[path] !== text).length;
+  return html`<div class="case">
+    <label for="case">case</label>
+    <select id="case" value=${known ? known.alias || known.name : name}
+      onChange=${(event) => reset(event.target.value, start)}>
+      ${known ? null : html`<option value=${name}>${name || "–"}</option>`}
+      ${[false, true].map((shipped) => {
+        const these = cases.filter((each) => each.shipped === shipped);
+        return these.length ? html`<optgroup label=${shipped ? "shipped" : "in this folder"}>
+          ${these.map(option)}</optgroup>` : null;
+      })}
+    </select>
+    ${count ? html`<button type="button" class="quiet" onClick=${() => reset(name, start)}>
+      undo ${count} ${count === 1 ? "change" : "changes"}</button>` : null}
+    <span class="says">${known?.title ?? ""}</span>
+  </div>`;
+}
+
+/** Of a file that is there already and holds something else. */
+const THERE = 409;
+
+/** Save the case with what is set as a file of the folder, and open it. */
+function Save({ toml }) {
+  const box = useRef(null);
+  const [wrong, setWrong] = useState(null);
+  const { name, reset } = useCase();
+  const close = () => (setWrong(null), box.current.close());
+  const save = async (event) => {
+    event.preventDefault();
+    const wanted = new FormData(event.target).get("name").trim();
+    try {
+      const saved = await post("/api/save", { name: wanted, toml, ...(wrong?.status === THERE && { replace: true }) });
+      forgetCase(saved.name);
+      close();
+      await loadAbout();
+      reset(saved.name);
+      tell(`saved as ${about.value.folder}/${saved.name}`);
+    } catch (error) {
+      setWrong(error);
+    }
+  };
+  return html`
+    <button type="button" disabled=${!toml} onClick=${() => box.current.showModal()}>
+      save case</button>
+    <dialog ref=${box} aria-labelledby="save-title">
+      <form method="dialog" onSubmit=${save}>
+        <h2 id="save-title">Save the case</h2>
+        <p class="says">A file of ${about.value?.folder}; asperity on the command line takes it.</p>
+        <label>name <input name="name" required defaultValue=${`my-${name.replace(/\.toml$/, "")}`}
+          onInput=${() => setWrong(null)}
+          pattern="[A-Za-z0-9][A-Za-z0-9 _.+\\-]*" title="letters, digits, - _ ." /></label>
+        <output role="alert">${wrong?.message}</output>
+        <p class="row"><button type="submit" class="main">${wrong?.status === THERE ? "replace it" : "save"}</button>
+          <button type="button" onClick=${close}>cancel</button></p>
+      </form>
+    </dialog>`;
+}
+
+/** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
+export const Notes = ({ notes }) => notes?.length ? html`<ul class="notes" aria-label="notes">
+  ${notes.map((note) => html`<li key=${note}>${note}</li>`)}</ul>` : null;
+
+/** Put a text on the clipboard, or show it where there is none. */
+export async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    tell(`copied: ${text}`);
+  } catch {
+    tell(text);
+  }
+}
+
+/**
+ * A screen: title, case, what to take along, what went wrong, what should be known.
+ *
+ * @param {{title: string, lead?: string, kinds?: string[], first?: string, start?: Record<string, string>,
+ *   answer?: any, error?: Error | null, busy?: boolean, actions?: any, children: any}} props
+ *   `kinds` of the cases it opens, the `first` one of them, and the settings that each starts with;
+ *   `answer` as the server gives it, with command, toml and notes
+ */
+export function Screen({ title, lead, kinds, first, start, answer, error, busy, actions, children }) {
+  useEffect(() => {
+    fault.value = error?.message ?? "";
+  }, [error]);
+  const reached = Object.entries(error?.reached ?? {});
+  return html`
+    <header>
+      <h1>${title}</h1>
+      ${lead ? html`<p class="lead">${lead}</p>` : null}
+      ${kinds ? html`<${CasePicker} kinds=${kinds} first=${first} start=${start} />` : null}
+      <div class="actions">
+        ${kinds ? html`<${Save} toml=${answer?.toml} />` : null}
+        ${answer?.command ? html`<button type="button" title=${answer.command}
+          onClick=${() => copy(answer.command)}>copy command</button>` : null}
+        ${actions}
+        <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
+      </div>
+    </header>
+    <div role="alert" class=${error ? "fault" : ""}>
+      ${error ? html`<p>✗ ${error.message}</p>` : null}
+      ${reached.length ? html`<p class="says">
+        reached: ${reached.map(([key, value]) => `${key} ${value}`).join(", ")}</p>` : null}
+    </div>
+    ${error ? null : html`<${Notes} notes=${answer?.notes} />`}
+    <div class=${error ? "body stale" : "body"}>${children}</div>`;
+}

@@ -1,0 +1,127 @@
+/** Where the page is, and what is set there: all of it stands in the address. */
+import { signal } from "../vendor/preact.js";
+
+/** @typedef {{screen: string, params: Record<string, string>}} Route */
+
+const SET = "set.";
+const TOKEN = "asperity-token";
+/** How long nothing must change before a change is a step to go back from, ms. */
+const REST = 300;
+
+/** @returns {Route} */
+function read() {
+  const [path, query] = location.hash.replace(/^#\/?/, "").split("?");
+  const params = new URLSearchParams(query ?? "");
+  const token = params.get("token");
+  if (token) sessionStorage.setItem(TOKEN, token);
+  params.delete("token");
+  const found = { screen: path || "slide", params: Object.fromEntries(params) };
+  if (token) history.replaceState(null, "", address(found));
+  return found;
+}
+
+/** The address of a screen. @param {Route} route */
+export function address({ screen, params }) {
+  const query = new URLSearchParams(params).toString();
+  return `#/${screen}${query ? `?${query}` : ""}`;
+}
+
+export const route = signal(read());
+
+/** What a request must bring, as it was handed over in the address. */
+export const token = () => sessionStorage.getItem(TOKEN) ?? "";
+
+/** Forms of the same thing, by `table.key`: of those only one may be set. Filled with the forms. */
+export const instead = new Map();
+
+/** The line that says what is wrong now, which a field looks for its own name in. */
+export const fault = signal("");
+
+let timer = 0;
+
+function write() {
+  clearTimeout(timer);
+  timer = 0;
+  const wanted = address(route.peek());
+  if (location.hash !== wanted) history.pushState(null, "", wanted);
+}
+
+function change(params) {
+  route.value = { screen: route.peek().screen, params };
+  clearTimeout(timer);
+  timer = setTimeout(write, REST);
+}
+
+addEventListener("popstate", () => {
+  clearTimeout(timer);
+  route.value = read();
+});
+addEventListener("pagehide", () => timer && write());
+
+/**
+ * Open a screen.
+ * @param {string} screen @param {Record<string, string>} params
+ * @param {boolean} here whether it takes the place of this one, which nobody goes back to
+ */
+export function go(screen, params = {}, here = false) {
+  if (timer) write();
+  route.value = { screen, params };
+  if (here) history.replaceState(null, "", address(route.value));
+  else write();
+}
+
+/** Set what belongs to the screen alone, such as an axis; an empty text forgets it. */
+export function setParam(name, text) {
+  const { [name]: _, ...rest } = route.peek().params;
+  change(text ? { ...rest, [name]: text } : rest);
+}
+
+/** The params that make the case: its name and what is set in it. */
+export function caseParams(params) {
+  const kept = Object.entries(params).filter(([key]) => key === "case" || key.startsWith(SET));
+  return Object.fromEntries(kept);
+}
+
+/**
+ * The case of the screen and what is set in it, by `table.key`; read in a component, it is drawn
+ * again when they change.
+ */
+export function useCase() {
+  const { params } = route.value;
+  const settings = Object.fromEntries(
+    Object.entries(params).flatMap(([key, text]) =>
+      key.startsWith(SET) ? [[key.slice(SET.length), text]] : [],
+    ),
+  );
+  return { name: params.case ?? "", settings, set, setAll, unset, reset };
+}
+
+/** Set a key of the case; another form of the same thing is left out. */
+function set(path, text) {
+  setAll({ [path]: text });
+}
+
+/** Set several keys at once. @param {Record<string, string>} texts */
+function setAll(texts) {
+  const params = { ...route.peek().params };
+  for (const [path, text] of Object.entries(texts)) {
+    for (const other of instead.get(path) ?? []) delete params[SET + other];
+    params[SET + path] = text;
+  }
+  change(params);
+}
+
+function unset(path) {
+  setParam(SET + path, "");
+}
+
+/**
+ * Open a case with no other settings than these.
+ * @param {boolean} here whether nobody should go back to what was here
+ */
+function reset(name, settings = {}, here = false) {
+  const { screen, params } = route.peek();
+  const own = Object.entries(params).filter(([key]) => key !== "case" && !key.startsWith(SET));
+  const set = Object.entries(settings).map(([path, text]) => [SET + path, text]);
+  go(screen, Object.fromEntries([...own, ["case", name], ...set]), here);
+}

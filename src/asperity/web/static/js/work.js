@@ -1,0 +1,148 @@
+/** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
+import { html, useEffect, useState } from "../vendor/preact.js";
+import { commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
+import { download } from "./figure.js";
+import { Notes } from "./shell.js";
+import { route, setParam } from "./state.js";
+
+/** Files that are shown without asking for more. */
+const FEW = 6;
+const ENDED = ["stopped", "done", "failed"];
+
+/** Jobs that were begun here, by what was asked: another visit finds them again. */
+const begun = {};
+
+/** A short name for what is asked. @param {object} body */
+function nameOf(body) {
+  let sum = 5381;
+  for (const sign of JSON.stringify(body)) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
+  return sum.toString(36);
+}
+
+const NOTHING = { job: null, data: null, error: null, asking: false };
+
+/**
+ * A job of a command; which one stands in the address, with a name for what was asked of it.
+ *
+ * @typedef {{id: string, job: any, data: any, error: Error | null, asking: boolean, stale: boolean,
+ *   start: () => Promise<void>, stop: () => void}} Job `asking`: begun, and not heard of yet;
+ *   `stale`: something was set since
+ *
+ * @param {string} command
+ * @param {object | null} body what a new one would be asked: case, settings, options
+ * @param {string} slot what tells it from another job of the same command on the screen
+ * @returns {Job}
+ */
+export function useJob(command, body, slot = "") {
+  const asked = body && { command, ...body };
+  const name = asked ? nameOf(asked) : "";
+  const param = `job-${command}${slot}`;
+  const [id, of] = (route.value.params[param] ?? begun[name] ?? "").split(".");
+  const [state, setState] = useState(NOTHING);
+  const [round, setRound] = useState(0);
+  const put = (more) => setState((old) => ({ ...old, ...more }));
+  useEffect(() => {
+    setState({ ...NOTHING, asking: Boolean(id) });
+    if (!id) return;
+    const leave = new AbortController();
+    const failed = (error) => error.name === "AbortError" || put({ error, asking: false });
+    let answered = false;
+    const hear = (job) => {
+      put({ job, asking: false, error: job.error ? new Refused(job.error, 0) : null });
+      // Its pictures may come later.
+      if (!job.answered || answered) return;
+      answered = true;
+      get(`/api/jobs/${id}/answer`, leave).then((data) => put({ data }), failed);
+    };
+    follow(id, hear, leave.signal).then(() => get(`/api/jobs/${id}`, leave)).then(hear).catch(failed);
+    return () => leave.abort();
+  }, [id, round]);
+  const start = async () => {
+    put({ asking: true, error: null });
+    try {
+      const made = await submit(asked);
+      begun[name] = `${made.id}.${name}`;
+      setParam(param, begun[name]);
+      // The same job again: it is heard of anew.
+      if (made.id === id) setRound((old) => old + 1);
+    } catch (error) {
+      put({ error, asking: false });
+    }
+  };
+  return { id, ...state, stale: Boolean(id) && of !== name, start, stop: () => post(`/api/jobs/${id}/stop`, {}) };
+}
+
+/**
+ * What is taken along of a screen whose answer is a job's: case and command as they are set now, and
+ * what came of them once it is there.
+ * @param {Job} work @param {string} command @param {object | null} body
+ */
+export function useTaken(work, command, body) {
+  const checked = useLive("check", body && { case: body.case, settings: body.settings }, 300);
+  const now = { toml: checked.data?.toml, command: body && commandLine(command, body) };
+  return work.stale ? now : { ...now, ...work.data };
+}
+
+/** Variables of what a job left, null until they are there. @param {Job} work */
+export function useData({ id, job }, names) {
+  const path = job?.state === "done" ? `/api/jobs/${id}/data?names=${names.join()}` : "";
+  return useAsked(path, (leave) => get(path, leave)).found;
+}
+
+/** A time in words. */
+export function lasting(seconds) {
+  const sizes = [[86400, "days"], [3600, "hours"], [60, "min"]];
+  const [size, unit] = sizes.find(([each]) => seconds >= 2 * each) ?? [1, "s"];
+  return `${seconds < size ? "1" : (seconds / size).toFixed(0)} ${unit}`;
+}
+
+/** How far a job is and how long it still takes, in words. */
+export function left({ state, done, total, seconds }) {
+  if (ENDED.includes(state)) return `${state} after ${lasting(seconds)}`;
+  if (!total) return state;
+  const rest = done > 0.02 * total && seconds > 2 ? `, about ${lasting((seconds * (total - done)) / done)} left` : "";
+  return `${state}, ${done} of ${total}${rest}`;
+}
+
+/** Begin, how far it is, stop. @param {{work: Job, label: string}} props */
+export function Work({ work, label }) {
+  const { job, asking, stale, start, stop } = work;
+  const running = job && !ENDED.includes(job.state);
+  const said = asking ? "begun" : running ? left(job)
+    : stale && job ? "something was set since; this is the answer to what was asked before"
+    : job ? left(job) : "";
+  return html`<div class="work">
+    <button type="button" class=${job?.state === "done" && !stale ? "" : "main"} disabled=${running || asking}
+      onClick=${start}>${job?.state === "stopped" && !stale ? `go on: ${label}` : label}</button>
+    ${running || asking ? html`<progress aria-label=${label} max=${job?.total || 1}
+      value=${job?.total ? job.done : undefined}></progress>` : null}
+    ${running ? html`<button type="button" onClick=${stop}>stop</button>` : null}
+    <span class="says" role="status">${said}</span>
+  </div>`;
+}
+
+/** A job in a box of its own: what it is, how long it takes, how far it is, and what came of it. */
+export const WorkPanel = ({ title, name, says, label, work, children }) => html`
+  <section class="panel" aria-label=${name ?? title}><h2>${title}</h2>
+    ${says ? html`<p class="says">${says}</p>` : null}
+    <${Work} work=${work} label=${label} />
+    ${work.data ? html`<${Notes} notes=${work.data.notes} />` : null}
+    ${children}
+  </section>`;
+
+/** Several errors or none, as a screen tells one. */
+export const firstError = (...works) => works.map(({ error }) => error).find(Boolean) ?? null;
+
+/** What a job has left, to take along. @param {{job: any}} props */
+export function Files({ job }) {
+  const take = async (name) => {
+    const path = `/api/jobs/${job.id}/files/${encodeURIComponent(name)}`;
+    download(name, await (await fetchRaw(path)).blob());
+  };
+  if (!job?.files?.length) return null;
+  const buttons = job.files.map((name) => html`<button type="button" class="quiet" key=${name}
+    onClick=${() => take(name)}>${name}</button>`);
+  return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>
+    ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more files</summary>
+      ${buttons.slice(FEW)}</details>` : null}`;
+}
