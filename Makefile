@@ -12,7 +12,7 @@ SHARE ?= 1
 # Compiled modules are kept: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help run test slow lint types floors docs examples bench clean
+.PHONY: help run test slow lint types floors docs examples bench vendor clean
 
 run: .venv/.runtime  ## reproduce the thesis: claims, figures and tables into out/thesis/index.html
 	$(BIN)/asperity thesis
@@ -45,6 +45,9 @@ bench: .venv/.dev  ## measure speed, as ratios
 	@for file in $(wildcard benchmarks/[a-z]*.py); do \
 	  echo "$$file"; $(BIN)/python "$$file" || exit 1; \
 	done
+
+vendor: .venv/bin/python  ## make the page's vendored files anew, of the versions in vendored/; needs npm
+	$(BIN)/python vendored/make.py
 
 help:  ## say what can be made
 	@sed -n 's/^\([a-z]*\):.*  ## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | expand -t 12

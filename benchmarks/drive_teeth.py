@@ -23,7 +23,7 @@ from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import ContactSurface
 from asperity.drive.elastic.mesh import advance
 from asperity.drive.elastic.model import TeethModel
-from asperity.drive.interface import AT, OUTS
+from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.static.solve import solve_static
@@ -48,8 +48,8 @@ def motion(problem, count):
     angle = 2.0 * np.pi * problem.vibrated[1].frequency
     t = STEP * np.arange(count + 1)
     wave, rate = np.sin(angle * t), angle * np.cos(angle * t)
-    q = np.zeros((count + 1, 4))
-    v = np.zeros((count + 1, 4))
+    q = np.zeros((count + 1, POSES))
+    v = np.zeros((count + 1, POSES))
     q[:, 0], v[:, 0] = speed * t + turn * wave, speed + turn * rate
     q[:, 1], v[:, 1] = -lead * turn * wave, -lead * turn * rate
     q[:, 2], v[:, 2] = speed / ratio * t, speed / ratio
@@ -61,14 +61,14 @@ def marched(model, q, v, mesh):
     here = model.settled_in(q[0], 1.0)
     trial = here.copy()
     out = np.zeros(OUTS)
-    forces = np.zeros((len(q) - 1, 4))
+    forces = np.zeros((len(q) - 1, POSES))
     spent = 0.0
     for k in range(1, len(q)):
         began = time.thread_time()
         advance(mesh, here, trial, q[k], v[k], STEP, out)
         if k > WARM:
             spent += time.thread_time() - began
-        forces[k - 1] = out[:4]
+        forces[k - 1] = out[:POSES]
         here, trial = trial, here
     return forces, spent / (len(q) - 1 - WARM), float(out[AT.residual])
 
@@ -85,6 +85,13 @@ def three_teeth(model, mesh, numbers):
         own = np.einsum("ac,mcnd,bd->manb", turn, block, turn, optimize=True)
         part = slice(3 * size * k, 3 * size * (k + 1))
         flexibility[part, part] = own.reshape(3 * size, 3 * size)
+        for other, there in enumerate(numbers[:k]):
+            beside = sector.neighbours[number - there - 1].reshape(size, 3, size, 3)
+            back = turned(-there * sector.pitch)
+            block = np.einsum("ac,mcnd,bd->manb", turn, beside, back, optimize=True)
+            column = slice(3 * size * other, 3 * size * (other + 1))
+            flexibility[part, column] = block.reshape(3 * size, 3 * size)
+            flexibility[column, part] = flexibility[part, column].T
         positions.append(surface.positions @ turn.T)
         normals.append(surface.normals @ turn.T)
         faces.append(surface.faces + size * k)
@@ -131,7 +138,7 @@ def incremented(model, mesh, q, numbers):
     free = np.zeros(len(problem.flexibility))
     forces, spent, counted = [], 0.0, 0
     slide = 1e-3
-    start = q[0] - np.array([slide, 0.0, slide / mesh.stand.ratio, 0.0])
+    start = q[0] - np.array([slide, 0.0, slide / mesh.stand.ratio, 0.0, 0.0])
     before = pose_of(mesh, start)
     for k in (0, 0, *range(1, len(q))):
         after = pose_of(mesh, q[k])

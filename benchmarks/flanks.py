@@ -18,8 +18,8 @@ from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
 from asperity.casefile import read_case
+from asperity.flanks.export.cad.step import write_step
 from asperity.flanks.export.extras import require_cad
-from asperity.flanks.export.step import write_step
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.mesh.tooth import tooth

@@ -9,6 +9,7 @@ along the direction of motion, six times as fast at its peak as the drive. How m
 import matplotlib.pyplot as plt
 
 from asperity.friction import Friction
+from asperity.results.figures import STYLE
 from asperity.slider import Model, Slider, Solve, solve
 from asperity.vibration import Vibration
 
@@ -32,7 +33,7 @@ print(f"{ratio:.4f} of the drive force without vibration, {result.static_drive_f
 # The force rises with the drive until the body breaks away, rings for a moment, and falls when the
 # vibration begins: friction now pushes the body forward for almost half of every cycle.
 
-plt.style.use("tableau-colorblind10")
+plt.rcParams.update(STYLE)
 figure, (whole, cycles) = plt.subplots(2, figsize=(7, 5.5), layout="constrained")
 history = result.history
 whole.plot(history.time, history.drive_force)

@@ -14,6 +14,7 @@ from asperity.block.problem import BlockProblem
 from asperity.block.solution.march import solve_block
 from asperity.block.tables import TABLES as CONTACT
 from asperity.casefile import read_case
+from asperity.results.figures import STYLE
 from asperity.slider import TABLES, Model, solve
 
 # %%
@@ -36,7 +37,7 @@ print(block.ratio, body.ratio, block.iterations_mean, block.ledger.residual)
 # %%
 # Its friction is the sliding body's; only the block bounces a little on its contact.
 
-plt.style.use("tableau-colorblind10")
+plt.rcParams.update(STYLE)
 figure, axes = plt.subplots(figsize=(7, 3.5), layout="constrained")
 for name, result, dashes in (("sliding body", body, (1, 0)), ("elastic block", block, (4, 2))):
     history = result.history

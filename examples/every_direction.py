@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from asperity.casefile import read_case
+from asperity.results.figures import STYLE
 from asperity.slider import TABLES, Model, solve_many
 from asperity.slider.closed_forms import directed_ratio
 
@@ -36,7 +37,7 @@ ratios = ratios.reshape(len(velocity_ratios), len(degrees))
 # transferred. What the model adds: asperities that yield before they slip, a body that follows the
 # base, and a contact that takes part in 71 % of the motion across.
 
-plt.style.use("tableau-colorblind10")
+plt.rcParams.update(STYLE)
 figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
 for row, k in zip(ratios, velocity_ratios, strict=True):
     (line,) = axes.plot(degrees, row, marker="o", markersize=3, label=f"k = {k:g}")

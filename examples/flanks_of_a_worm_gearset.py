@@ -15,6 +15,7 @@ from asperity.casefile import read_case
 from asperity.flanks.study import prepare, study
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
+from asperity.results.figures import STYLE
 
 TABLES = {**RATING, **FLANKS}
 
@@ -29,7 +30,7 @@ def found(*settings):
 # the face.
 
 straight, tilted = found("hob.tilt=0 deg"), found()
-plt.style.use("tableau-colorblind10")
+plt.rcParams.update(STYLE)
 figure, panels = plt.subplots(1, 2, figsize=(8, 3.2), sharey=True, layout="constrained")
 centres = []
 for axes, title, each in zip(panels, ("no tilt", "2° of tilt"), (straight, tilted), strict=True):

@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from asperity.friction import Friction
+from asperity.results.figures import STYLE
 from asperity.slider import Model, Slider, Solve, solve_many
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.vibration import Vibration
@@ -44,7 +45,7 @@ across = {law: ratios(law, "90 deg") for law in ("split", "unsplit", "vector")}
 # %%
 # Rigid friction knows no asperities and no law; it lies between them at first and above them later.
 
-plt.style.use("tableau-colorblind10")
+plt.rcParams.update(STYLE)
 figure, axes = plt.subplots(figsize=(7, 4.2), layout="constrained")
 for (law, row), style in zip(across.items(), ("-", "--", "-."), strict=True):
     axes.plot(velocity_ratios, row, style, label=law)

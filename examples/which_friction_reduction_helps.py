@@ -14,6 +14,7 @@ from asperity.casefile import read_case
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.rating.tables import TABLES
+from asperity.results.figures import STYLE
 from asperity.studies.methods import compare
 from asperity.vibration import Vibration
 
@@ -36,7 +37,7 @@ for note in comparison.notes:
 # does not make it thriftier.
 
 amplitudes = np.linspace(0.0, 60e-6, 61)
-plt.style.use("tableau-colorblind10")
+plt.rcParams.update(STYLE)
 figure, axes = plt.subplots(figsize=(7, 4.2), layout="constrained")
 efficiency, counted = {}, {}
 for key, style in (("longitudinal", "-"), ("transverse", "--")):
