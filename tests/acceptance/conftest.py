@@ -119,3 +119,15 @@ def asperity_process(start):
         return process.returncode, output, errors
 
     return run
+
+
+@pytest.fixture(scope="session")
+def page(new_user, tmp_path_factory):
+    """A page that is served, one for all tests."""
+    from apparatus.page import Served
+
+    served = Served(tmp_path_factory.mktemp("page"), new_user())
+    yield served
+    output, errors = served.close()
+    # Nothing that was asked has made the server fail or print a token.
+    assert (output, errors) == ("", "")

@@ -40,7 +40,7 @@ def test_the_command_names_the_loop_and_draws_it(asperity, tmp_path):
     [
         (["--over", "friction.mu=0.1"], "one axis of two numbers or more"),
         (["--over", "friction.law=vector,unsplit"], "one axis of two numbers or more"),
-        (["--over", "friction.mu=0.1,0.2", "--over", "slider.mass=1,2"], "one axis of two"),
+        (["--over", "friction.mu=0.1,0.2", "--over", "slider.mass=1,2 kg"], "one axis of two"),
         (["--over", "friction.mu=0.1,0.2", "--set", "vibration.velocity_ratio=0"], "nothing vibr"),
     ],
 )

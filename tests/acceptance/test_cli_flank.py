@@ -106,6 +106,7 @@ def test_a_left_hand_is_the_mirror_image(asperity, nominal):
         assert left[key] == pytest.approx(nominal[key], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_without_a_tilt_the_pattern_lies_near_the_edge_of_the_face(asperity, nominal):
     code, output, _ = asperity("flank", "gearset-3b", "--json", "--set", "hob.tilt=0 deg")
     assert code == 0
@@ -132,6 +133,7 @@ def test_what_to_measure_is_told_with_limits_and_what_is_assumed(nominal):
     assert "bore" in nominal["blank"]["assumed"]
 
 
+@pytest.mark.slow
 def test_a_reader_is_told_what_was_assumed_and_what_is_from_memory(asperity):
     code, output, _ = asperity(
         "flank", "gearset-3b", "--json",
@@ -227,15 +229,31 @@ def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_pa
         (("--density", "0.5"), "such as '0.5 mm'"),
         (("--density", "0 mm"), "an element size must be positive"),
         (("--density", "1 um"), "at most 2 GiB is allowed"),
-        (("--step",), "--step: there is no folder for the files; name one with --out DIR"),
+        pytest.param(
+            ("--step",),
+            "--step: there is no folder for the files; name one with --out DIR",
+            marks=pytest.mark.slow,
+        ),
         (("--set", "hob.tlt=2 deg"), "did you mean 'tilt'?"),
         (("--set", "hob.oversize=0.5"), "hob.oversize is 0.5; it must be at least 1"),
-        (("--set", "mount.backlash=5 mm"), "the worm's threads would be pointed"),
+        pytest.param(
+            ("--set", "mount.backlash=5 mm"),
+            "the worm's threads would be pointed",
+            marks=pytest.mark.slow,
+        ),
         (("--set", "gearset.pressure_angle=30 deg"), "the hob's thread is pointed"),
         (("--set", "gearset.wheel_face_width=40 mm"), "gearset.wheel_face_width of at most"),
         (("--set", "gearset.starts=0"), "gearset.starts is 0"),
-        (("--set", "measuring.pin_diameter=9 mm"), "rest on the worm's flanks and stand out of"),
-        (("--set", "measuring.ball_diameter=9 mm"), "take one nearer to 3.66 mm"),
+        pytest.param(
+            ("--set", "measuring.pin_diameter=9 mm"),
+            "rest on the worm's flanks and stand out of",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            ("--set", "measuring.ball_diameter=9 mm"),
+            "take one nearer to 3.66 mm",
+            marks=pytest.mark.slow,
+        ),
         (("--set", "blank.bore=200 mm"), "blank.bore is 200 mm; the inside of the rim has"),
         (("--set", "blank.shaft_diameter=14 mm"), "the worm's root diameter is 13.84 mm"),
     ],

@@ -90,6 +90,7 @@ def test_the_number_of_springs_can_be_an_axis(asperity):
     assert eight != sixteen
 
 
+@pytest.mark.slow
 def test_a_sweep_over_the_elevation_keeps_the_loads(asperity, tmp_path):
     code, _, errors = asperity(
         "sweep", "normal-pin", "--over", "vibration.elevation=0 deg,30 deg,90 deg",

@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -68,6 +69,15 @@ def test_gearset_3_through_the_command_line(asperity):
     assert answer["iso14521"]["mu_zm"] == pytest.approx(0.1344, abs=5e-5)
     assert answer["iso14521"]["eta_z1_2"] == pytest.approx(0.73, abs=5e-3)
     assert answer["geometry"]["lead_angle_deg"] == pytest.approx(26.0, abs=0.05)
+
+
+def test_the_torque_that_wear_is_judged_by_stands_by_the_bars_where_it_is_assumed(asperity, own):
+    shown = " ".join(asperity("rate", own)[1].split())
+    said = "wear is judged at T_2 = 100 N m, assumed a third of the 300 N m given: of a constant "
+    assert f"{said}load give operation.through_travel_torque" in shown
+    constant = ("--set", "operation.through_travel_torque=300 N m")
+    assert "wear is judged" not in asperity("rate", own, *constant)[1]
+    assert "wear is judged" not in asperity("rate", own, "--standard", "agma6034")[1]
 
 
 def test_file_with_no_more_than_what_is_required_is_rated_and_tells_the_rest(asperity, own):
@@ -197,6 +207,7 @@ def test_polyglycol_with_aluminium_bronze_is_remarked(asperity):
     assert any("practice avoids" in note for note in notes)
 
 
+@pytest.mark.slow
 def test_files_hold_the_same_numbers(asperity, own, tmp_path):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity("rate", own, "--json", "--out", folder)
@@ -213,6 +224,7 @@ def test_files_hold_the_same_numbers(asperity, own, tmp_path):
     assert "<table" in (folder / "report.html").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_a_spreadsheet_takes_no_source_for_a_formula(asperity, environment, own, tmp_path):
     data = (Path(gearset.__file__).parent / "data" / "materials.toml").read_text("utf-8")
     evil = re.sub(r'^name = "', 'name = "=HYPERLINK(1) ', data, flags=re.MULTILINE)
@@ -331,6 +343,20 @@ def test_an_oil_of_ones_own_is_in_a_file_named_on_the_command_line(asperity, tmp
     assert 0.0 < film["lambda"] < 1.0
     code, _, errors = asperity("rate", "gearset-3", *lubricant)
     assert (code, errors.count("\n")) == (2, 1)
+
+
+def test_the_material_and_the_oil_of_the_docs_rate_a_gearset(asperity, tmp_path):
+    page = (Path(__file__).parents[2] / "docs" / "rating.rst").read_text("utf-8")
+    own = page.partition("Materials and oils of your own\n")[2].partition("\nEditions\n")[0]
+    block = re.search(r"code-block:: toml\n\n((?:   .*\n|\n)+)", own)[1]
+    (tmp_path / "ours.toml").write_text(textwrap.dedent(block))
+    settings = [part for text in re.findall(r'--set "([^"]+)"', own) for part in ("--set", text)]
+    ours = ["--materials", tmp_path / "ours.toml"]
+    code, output, errors = asperity(*ours, "rate", "gearset-3", *settings, "--json")
+    assert (code, errors) == (0, "")
+    answer = one_object(output)
+    assert all(answer[standard] for standard in ("iso14521", "bs721", "agma6034"))
+    assert answer["iso14521"]["E_2_MPa"] == pytest.approx(95000.0)
 
 
 @pytest.mark.parametrize(("name", "why"), [("nowhere.toml", "no such file"), ("a:b", "':'")])

@@ -19,13 +19,15 @@ def test_a_plan_is_one_json_object_with_its_files(asperity, tmp_path):
     assert "plan.png" in errors
 
 
+@pytest.mark.slow
 def test_a_run_is_resumed_acknowledged_and_reduced(asperity, tmp_path):
     run = ["rig", "run", "rig-final", *SETTINGS, "--out", "run"]
     # A torque that the rig passes at once: the interlock latches.
     latching = [*run, "--set", "limits.torque=0.3 N m"]
     code, output, errors = asperity(*latching, "--json", cwd=tmp_path)
     assert code == 3
-    assert "limits.torque is 0.3 N m" in errors
+    assert "torque_steel is 0." in errors
+    assert "limits.torque is 0.3 N m, below the 0.79 N m" in errors
     assert json.loads(output)["latched"]
     code, _, errors = asperity(*latching, "--resume", cwd=tmp_path)
     assert (code, len(errors.splitlines())) == (2, 1)
@@ -54,6 +56,8 @@ def test_a_run_is_resumed_acknowledged_and_reduced(asperity, tmp_path):
         (["--out", "x", "--backend", "manual"], "no terminal"),
         (["--out", "x", "--resume"], "holds no run to go on with"),
         (["--out", "x", "--acknowledge", "me"], "goes with --resume"),
+        (["--out", "x", "--acknowledge", ""], "'--acknowledge': it is empty; give TEXT"),
+        (["--out", "x", "--acknowledge", "  "], "--acknowledge is blank; say who"),
         (["--out", "x", "--set", 'plan.frequencies=["4 kHz"]'], "limits.highest_frequency"),
     ],
 )

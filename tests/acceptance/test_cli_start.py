@@ -8,8 +8,14 @@ import tomllib
 
 import pytest
 
-from asperity.commands import COMMANDS
+from asperity.casefile.case import apply
+from asperity.commands import COMMANDS, case_tables
+from asperity.errors import InputError
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
+from asperity.gearset import Gearset
 from asperity.shipped import shipped_cases
+from asperity.start.gear import begun
 from asperity.start.kinds import KINDS
 
 EIGHT = """\
@@ -69,8 +75,12 @@ def test_what_is_commented_out_can_be_given(asperity, here):
 
 
 def test_a_gear_is_begun_from_ratio_torque_and_speed_alone(asperity, here):
-    asked = ("--set", "operation.output_torque=100 N m", "--set", "operation.worm_speed=3000 rpm")
-    assert asperity("new", "gear", "--defaults", "--ratio", "20", *asked)[0] == 0
+    asked = ("--ratio", "20", "--output-torque", "100 N m", "--worm-speed", "3000 rpm")
+    code, output, _ = asperity("new", "gear", "--defaults", *asked)
+    assert code == 0
+    assert output.splitlines()[-1].startswith(
+        "wear is judged at T_2 = 33.33 N m, assumed a third of the 100 N m"
+    )
     made = tomllib.loads((here / "gear.toml").read_text("utf-8"))
     gearset = made["gearset"]
     assert gearset["wheel_teeth"] / gearset["starts"] == 20
@@ -78,6 +88,14 @@ def test_a_gear_is_begun_from_ratio_torque_and_speed_alone(asperity, here):
     rated = json.loads(asperity("rate", "gear.toml", "--json")[1])
     assert rated["iso14521"]["safety_wear"] >= 1.1
     assert rated["agma6034"]["safety_torque"] >= 1.0
+
+
+def test_a_file_without_an_ending_gets_one_and_a_body_takes_no_torque(asperity, here):
+    assert asperity("new", "slide", "mine", "--defaults")[0] == 0
+    assert [file.name for file in here.iterdir()] == ["mine.toml"]
+    code, _, errors = asperity("new", "slide", "other", "--output-torque", "3 N m", "--defaults")
+    assert code == 2
+    assert errors == "--output-torque and --worm-speed are of a gear; slide has neither\n"
 
 
 def test_a_file_that_is_there_is_kept(asperity, here):
@@ -189,6 +207,12 @@ def test_every_case_that_ships_passes(asperity, case):
     assert output.startswith(f"{case}: no mistakes")
 
 
+@pytest.mark.parametrize(("case", "swept"), [("gearset-3", True), ("rig-final", False)])
+def test_check_tells_what_can_be_swept(asperity, case, swept):
+    said = asperity("check", case)[1]
+    assert said.rstrip().endswith(" can take it, and sweep over its keys") == swept
+
+
 def test_check_tells_which_tables_are_missing(asperity, here):
     (here / "half.toml").write_text(
         '[operation]\nworm_speed = "1500 rpm"\n'
@@ -259,14 +283,16 @@ def test_a_load_that_nothing_bears_is_told_with_what_comes_nearest(asperity):
     shown = asperity("size", *heavy)[1]
     assert shown.startswith("None holds by every standard; these come nearest\n")
     assert shown.count("these come nearest") == 1
+    assert "--set" not in shown
 
 
 def test_the_torque_that_wear_is_judged_by_is_told_where_it_is_assumed(asperity):
     assumed = json.loads(asperity("size", *SIZE, "--json")[1])["notes"]
-    assert any(note.startswith("BS 721 judges wear by a third of the torque") for note in assumed)
+    told = "wear is judged at T_2 = 100 N m, assumed a third of the 300 N m given"
+    assert any(note.startswith(told) for note in assumed)
     whole = ("--set", "operation.through_travel_torque=300 N m")
     given = json.loads(asperity("size", *SIZE, *whole, "--json")[1])["notes"]
-    assert not any("a third of the torque" in note for note in given)
+    assert not any("wear is judged" in note for note in given)
 
 
 def test_proposals_that_a_standard_cannot_rate_are_not_said_to_hold_by_every_one(asperity):
@@ -276,37 +302,65 @@ def test_proposals_that_a_standard_cannot_rate_are_not_said_to_hold_by_every_one
     assert asperity("size", *asked)[1].startswith("None holds by every standard, since one or")
 
 
+QUICK = ("--ratio", "7.5", "--output-torque", "300 N m", "--worm-speed", "2900 rpm")
+
+
+def tables_of(settings):
+    """The tables that settings stand for."""
+    values = {}
+    for setting in settings:
+        apply(values, setting, case_tables())
+    return values
+
+
+def test_every_proposal_can_be_cut_and_what_cannot_is_counted(asperity):
+    answer = json.loads(asperity("size", *QUICK, "--json")[1])
+    assert answer["notes"][:2] == [
+        "left out: 35 whose worm or hob would have pointed threads",
+        "left out: 1 whose wheel no hob cuts (asperity flank tells why)",
+    ]
+    for proposal in answer["proposals"]:
+        gearset = Gearset(**begun()["gearset"] | tables_of(proposal["settings"])["gearset"])
+        Wheel.cut(Pair.of(gearset))
+
+
+def test_without_cutting_the_threads_are_looked_at_and_the_wheels_are_not(asperity):
+    answer = json.loads(asperity("size", *QUICK, "--uncut", "--json")[1])
+    left_out = [note for note in answer["notes"] if note.startswith("left out")]
+    assert left_out == ["left out: 35 whose worm or hob would have pointed threads"]
+    first = answer["proposals"][0]
+    assert (first["starts"], first["profile_shift"]) == (6, -0.5)
+    gearset = Gearset(**begun()["gearset"] | tables_of(first["settings"])["gearset"])
+    with pytest.raises(InputError, match="undercuts the flank again"):
+        Wheel.cut(Pair.of(gearset))
+
+
 @pytest.mark.parametrize(
-    ("settings", "told"),
+    ("torque", "settings", "said"),
     [
-        ((), "--output-torque 300 is taken as 300 N m\n"),
+        ("300", (), "--output-torque 300: operation.output_torque is 300 without a unit"),
         (
-            ("--set", "operation.life=9000"),
-            "--output-torque 300 is taken as 300 N m\n"
-            "--set operation.life=9000 is taken as 9000 h\n",
+            "300 N m", ("--set", "operation.life=9000"),
+            "--set operation.life=9000: operation.life is 9000 without a unit; it must be a time",
         ),
         (
-            ("--set", "operation.output_torque=200"),
-            "--set operation.output_torque=200 is taken as 200 N m\n",
+            "300 N m", ("--set", "operation.output_torque=200"),
+            "--set operation.output_torque=200: operation.output_torque is 200 without a unit",
         ),
     ],
-)
-def test_the_unit_that_a_bare_torque_takes_is_told(asperity, settings, told):
-    asked = ("--ratio", "40", "--output-torque", "300", "--worm-speed", "1500 rpm")
-    assert asperity("size", *asked, *settings)[2] == told
+)  # fmt: skip
+def test_a_torque_without_its_unit_is_refused(asperity, torque, settings, said):
+    asked = ("--ratio", "40", "--output-torque", torque, "--worm-speed", "1500 rpm")
+    code, output, errors = asperity("size", *asked, *settings)
+    assert (code, output, errors.count("\n")) == (2, "", 1)
+    assert said in errors
 
 
-def test_a_folder_that_cannot_be_written_is_one_line_beside_a_bare_torque(asperity, here):
-    (here / "file").write_text("")
-    asked = ("--ratio", "40", "--output-torque", "300", "--worm-speed", "1500 rpm")
-    code, _, errors = asperity("size", *asked, "--out", here / "file")
-    assert code == 2
-    assert errors.count("\n") == 1
-
-
-def test_the_unit_that_a_bare_number_takes_is_told_where_a_case_is_begun(asperity, here):
+def test_a_number_without_its_unit_is_refused_where_a_case_is_begun(asperity, here):
     code, _, errors = asperity("new", "gear", "--set", "operation.output_torque=200", "--defaults")
-    assert (code, errors) == (0, "--set operation.output_torque=200 is taken as 200 N m\n")
+    assert code == 2
+    assert "operation.output_torque is 200 without a unit; it must be a torque such as" in errors
+    assert not list(here.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -325,6 +379,7 @@ def test_what_cannot_be_sized_is_one_line(asperity, options, said):
     assert errors.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_cases_side_by_side_differ_in_what_they_ask_and_come_to(asperity, here):
     code, output, errors = asperity("compare", "gearset-3", "gearset-3b", "--out", here / "out")
     assert code == 0, errors

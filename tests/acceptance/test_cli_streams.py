@@ -109,7 +109,8 @@ def test_a_case_whose_name_is_not_utf_8_is_solved(shell, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("where", ["| true", slow(">&-"), slow("> /dev/full")])
+@pytest.mark.campaign(over="where")
+@pytest.mark.parametrize("where", ["| true", ">&-", "> /dev/full"])
 def test_no_file_is_lost_to_a_standard_output_that_takes_nothing(shell, tmp_path, where):
     settings = "--set solve.duration='20 ms' --set vibration.start='2 ms' --set solve.step='1 us'"
     shell(f"asperity slide table-4.3 {settings} --out out {where}")

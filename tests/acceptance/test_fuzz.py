@@ -62,7 +62,7 @@ COMMANDS = {
     "branches": (["normal-pin", "table-4.3"], [], 4),
     "rate": (["gearset-2", "gearset-3"], [], 24),
     "methods": (["gearset-2", "gearset-3"], [], 12),
-    "sweep": (["table-4.3", "table-4.1-L2"], BODY, 7),
+    "sweep": (["table-4.3", "table-4.1-L2", "gearset-3"], BODY, 8),
     "export": (["block-longitudinal", "block-transverse"], BLOCK, 6),
     "sensitivity": (["gearset-2", "gearset-3"], [], 4),
     "block": (["block-longitudinal", "block-transverse"], BLOCK, 4),
@@ -192,6 +192,8 @@ def arguments(rng, folder):
     command = rng.choices(list(COMMANDS), [weight for *_, weight in COMMANDS.values()])[0]
     cases, small, _ = COMMANDS[command]
     case = rng.choice(cases)
+    gears = command == "sweep" and case == "gearset-3"
+    small = [] if gears else small
     text = shipped_cases().get(case, shipped_cases()["gearset-3"]).read_bytes()
     raw = tomllib.loads(text.decode())
     given = [case]
@@ -211,19 +213,28 @@ def arguments(rng, folder):
     for _ in range(
         rng.choice([0, 1, 1, 1, 2, 3]) if given[0] == "broken.toml" else rng.randint(1, 3)
     ):
-        given += ["--set", setting(rng, command, raw)]
+        given += ["--set", setting(rng, "rate" if gears else command, raw)]
     if command in ("sweep", "branches"):
         axes = [
             "friction.mu=0.1,0.2",
             "vibration.velocity_ratio=1:3:1",
             "friction.law=split,vector",
         ]
+        if gears:
+            axes = [
+                "gearset.diameter_factor=7:10:1",
+                "operation.output_torque=100,300 N m",
+                "gearset.wheel_material=CuSn12-C-GZ,CuSn12Ni2-C-GZ",
+            ]
         axis = rng.choice(axes)
         if rng.random() < 0.5:
             axis = (
                 axis.partition("=")[0] + "=" + rng.choice([*ODD, "1:2", "1:2:0", "1:1e9:1", ",,"])
             )
         given += ["--over", axis]
+        if command == "sweep" and rng.random() < 0.2:
+            tables = ["drive-thesis", "broken.csv", "/dev/zero", "nowhere.csv"]
+            given += ["--points", rng.choice(tables)]
     if command == "export":
         given += ["--to", rng.choice(["abaqus", "calculix", "csv", "x"]), "--out", "out"]
     if command == "rate":

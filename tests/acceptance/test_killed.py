@@ -11,7 +11,7 @@ from asperity.store import read_dataset
 
 pytestmark = pytest.mark.slow
 
-KILLS = 10  # of each test
+KILLS = 4  # of each test
 RUNS = {
     "slide": ["slide", "table-4.3", "--set", "solve.duration=4 s"],
     "block": [
@@ -55,7 +55,7 @@ def files(folder):
 
 
 @pytest.mark.campaign(over="part")
-@pytest.mark.parametrize("part", range(4))
+@pytest.mark.parametrize("part", range(10))
 @pytest.mark.parametrize("name", ["slide", "block", "sweep"])
 def test_a_run_killed_again_and_again_ends_as_one_that_was_not(
     start, asperity, new_user, undisturbed, tmp_path, name, part

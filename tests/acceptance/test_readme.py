@@ -86,6 +86,7 @@ def outputs(asperity, folder):
     return printed
 
 
+@pytest.mark.slow
 def test_each_command_answers_and_writes_what_it_is_asked_to(outputs, folder):
     for command, output in outputs.items():
         assert output
@@ -96,6 +97,7 @@ def test_each_command_answers_and_writes_what_it_is_asked_to(outputs, folder):
             assert read_dataset(out / f"{name}.nc").attrs
 
 
+@pytest.mark.slow
 def test_what_the_readme_shows_is_what_is_printed(outputs):
     printed = {" ".join(line.split()) for text in outputs.values() for line in text.splitlines()}
     for block in blocks("text"):

@@ -1,39 +1,107 @@
 """The report of ``--out``: its numbers, what a user wrote in it, and that it stands alone."""
 
+import decimal
 import functools
 import html.parser
 import json
 import math
 import operator
+import re
 
 import pytest
+from apparatus.grid import slow
 
 
 class Page(html.parser.HTMLParser):
-    """What is checked of a page: its numbers with their keys, its tags, and what they ask for."""
+    """What is checked of a page: its numbers with their keys, its tags, and what they ask for.
+
+    And its sentences without these numbers.
+    """
 
     def __init__(self, text):
         super().__init__()
-        self.numbers, self.tags, self.asked = [], [], []
-        self._open = None
+        self.numbers, self.tags, self.asked, self.sentences = [], [], [], []
+        self._open, self._in_sentence = None, False
         self.feed(text)
 
     def handle_starttag(self, tag, attrs):
         found = dict(attrs)
         self.tags.append(tag)
         self.asked += [found[key] for key in ("src", "href") if key in found]
+        if tag in ("p", "li"):
+            self.sentences.append("")
+            self._in_sentence = True
         if tag == "data" or "data-value" in found:
             value = found.get("value", found.get("data-value"))
-            self._open = [float(value), found.get("data-key"), ""]
+            times = float(found.get("data-times", 1.0))
+            self._open = [float(value), found.get("data-key"), "", times]
 
     def handle_data(self, data):
         if self._open is not None:
             self._open[2] += data
+        elif self._in_sentence:
+            self.sentences[-1] += data
 
     def handle_endtag(self, tag):
         if tag in ("data", "tspan") and self._open is not None:
             self.numbers.append(tuple(self._open))
             self._open = None
+        if tag in ("p", "li"):
+            self._in_sentence = False
+
+
+def check_numbers(page, answer):
+    """Hold every number of a page against the JSON, by its key."""
+    for value, key, shown, times in page.numbers:
+        path = (int(part) if part.isdigit() else part for part in key.split("."))
+        assert functools.reduce(operator.getitem, path, answer) == value, key
+        # A sentence has fewer digits than a table: what is shown is rounded in its last one.
+        digits = decimal.Decimal(shown)
+        last = (digits if "." in shown else digits.normalize()).as_tuple().exponent
+        least = 0.51 * 10.0**last
+        assert float(shown) == pytest.approx(times * value, rel=6e-5, abs=least), (key, shown)
+
+
+NAMED = (
+    r"(ISO/TR|ISO/TS|ANSI/AGMA|AGMA|BS|ISO|DIN) [\d.]+(-[A-Z]?\d+)?(:\d+)?(, series \d+)?",
+    r"\b[A-Za-z]+_\w+",
+)
+"""Digits that are no numbers: names of standards, and symbols."""
+
+ANGLES = r"friction ([\d.]+) to ([\d.]+) deg"
+"""Of the frictions that JSON tells, the least and the greatest as angles."""
+
+
+def unmarked(page, answer):
+    """Return the sentences with digits that are not marked and do not stand in the JSON."""
+
+    def texts(part):
+        if isinstance(part, dict):
+            for key, value in part.items():
+                yield from texts(key)
+                yield from texts(value)
+        elif isinstance(part, list):
+            for value in part:
+                yield from texts(value)
+        elif isinstance(part, str):
+            yield part
+
+    # A word or a digit alone proves nothing.
+    known = sorted({text for text in texts(answer) if len(text) > 12}, key=len, reverse=True)
+    found = []
+    for sentence in page.sentences:
+        for angles in re.findall(ANGLES, sentence):
+            frictions = [one["friction"] for one in answer["self_locking"]["verdicts"]]
+            ends = (math.degrees(math.atan(end(frictions))) for end in (min, max))
+            assert angles == tuple(f"{end:.2g}" for end in ends)
+        rest = re.sub(ANGLES, "", sentence)
+        for text in known:
+            rest = rest.replace(text, "")
+        for pattern in NAMED:
+            rest = re.sub(pattern, "", rest)
+        if re.search(r"\d", rest):
+            found.append(rest)
+    return found
 
 
 EVIL = "<script>alert(1)</script>"
@@ -57,10 +125,38 @@ def rated(tmp_path_factory):
 def test_every_number_of_a_report_is_that_of_the_json_and_shown_rounded(rated):
     _, page, answer = rated
     assert len(page.numbers) > 200
-    for value, key, shown in page.numbers:
-        path = (int(part) if part.isdigit() else part for part in key.split("."))
-        assert functools.reduce(operator.getitem, path, answer) == value, key
-        assert float(shown) == pytest.approx(value, rel=6e-5), key
+    check_numbers(page, answer)
+    assert unmarked(page, answer) == []
+
+
+TEETH = (
+    'drive.deflection=[["22 N m", "50 urad"], ["366 N m", "365 urad"]]',
+    "drive.effective_radius=9.8 mm", "drive.tangential_compliance=2.9 nm/N",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("command", "stem"),
+    [
+        (("drive", "drive-screw", *(f"--set={each}" for each in TEETH)), "drive"),
+        slow(("flank", "gearset-3b", "--density", "coarse"), "flank"),
+    ],
+)
+def test_other_reports_draw_the_gearset_and_say_the_numbers_of_the_json(
+    asperity, tmp_path, command, stem
+):
+    code, _, errors = asperity(*command, "--out", tmp_path / "out")
+    assert code == 0, errors
+    text = (tmp_path / "out" / "report.html").read_text("utf-8")
+    answer = json.loads((tmp_path / "out" / f"{stem}.json").read_text("utf-8"))
+    page = Page(text)
+    assert "<h2>The gearset" in text
+    assert text.count("<svg") >= 2
+    assert len(page.numbers) > 20
+    check_numbers(page, answer)
+    assert unmarked(page, answer) == []
+    # A link is asked for by whoever follows it.
+    assert all(place.startswith("data:") or place == "gearset.glb" for place in page.asked)
 
 
 def test_a_report_asks_for_nothing(rated):
@@ -77,12 +173,49 @@ def test_what_a_user_wrote_of_the_project_is_text_in_the_report(rated):
     assert page.tags.count("style") == 1
 
 
+def test_in_black_and_white_what_fails_is_hollow_and_says_so(rated):
+    text, _, answer = rated
+    table = text.partition("<h2>Verdict")[2].partition("</table>")[0]
+    rows = re.findall(r"<tr>(.*?)</tr>", table.partition("<tbody>")[2], re.DOTALL)
+    safeties = answer["verdict"]["safeties"]
+    assert len(rows) == len(safeties)
+    assert {safety["holds"] for safety in safeties} == {True, False}
+    for row, safety in zip(rows, safeties, strict=True):
+        frame, filled = re.findall(r"<rect [^>]*>", row)
+        assert 'fill="none"' in frame
+        assert 'stroke="#000"' in filled
+        assert ('fill="#fff"' in filled) != safety["holds"]
+        assert ("FAILS" in row) != safety["holds"]
+
+
 def test_a_report_has_each_section(rated):
     text, _, _ = rated
     for title in ("Verdict", "The gearset", "Power", "Forces on shafts and bearings",
                   "Self-locking", "Assumed", "Calculation by ISO/TR 14521:2010", "Sources",
                   "The case file"):  # fmt: skip
         assert f"<h2>{title}" in text
+
+
+@pytest.mark.slow
+def test_a_rating_shows_how_the_flanks_touch_where_that_is_asked_for(asperity, rated, tmp_path):
+    title = "<h2>Contact pattern and lines"
+    without = rated[0].partition(title)[2].partition("</section>")[0]
+    assert "asperity rate CASE --out FOLDER --pattern shows them here" in without
+    code, _, errors = asperity("rate", "gearset-3b", "--pattern", "--out", tmp_path)
+    assert code == 0, errors
+    shown = (tmp_path / "report.html").read_text("utf-8").partition(title)[2]
+    section = shown.partition("</section>")[0]
+    assert section.count('src="data:image/svg+xml;base64,') == 2
+    assert "<b>Pattern.</b>" in section
+    assert "<b>Contact lines.</b>" in section
+    answer = json.loads((tmp_path / "rate.json").read_text("utf-8"))
+    assert answer == json.loads(asperity("rate", "gearset-3b", "--json")[1])
+
+
+def test_a_pattern_without_a_report_is_refused_in_a_line(asperity):
+    assert asperity("rate", "gearset-3b", "--pattern") == (
+        2, "", "--pattern: it is shown in the report; name a folder for it with --out\n"
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])

@@ -6,6 +6,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
+from apparatus.grid import slow
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = ("index", *(f"tutorials/{path.stem}" for path in sorted(DOCS.glob("tutorials/*.rst"))))
@@ -30,7 +31,9 @@ def words(line):
     return " ".join(line.split())
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize(
+    "page", [slow(page) if page.startswith("tutorials") else page for page in PAGES]
+)
 def test_each_command_prints_what_the_page_says(asperity, tmp_path, page):
     commands = list(told(page))
     assert commands

@@ -61,7 +61,7 @@ class Tabulated:
 class Together:
     """Predictors of parts of the measurements, by law, as one."""
 
-    marched = solves = 0
+    marched = solves = rigid = 0
 
     def __init__(self, parts):
         self.parts = parts

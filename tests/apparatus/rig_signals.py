@@ -3,8 +3,8 @@
 Simpler than the simulated rig that ships, and with known levels: what a reduction has to find.
 
 On the torques lie run-out of both discs by their angles, a slow drift, coloured noise and noise
-from sample to sample; speeds jump with the pulses that encoders count; every channel is rounded
-to counts, and ends at its range. All of it follows from a seed.
+from sample to sample; every channel is rounded to counts, and ends at its range. All of it follows
+from a seed.
 """
 
 import dataclasses
@@ -78,6 +78,9 @@ class Imperfections:
         Of the drives.
     speed_noise, current_noise, drive_noise : float
         Standard deviations from sample to sample, rad/s, A and V.
+    give, draw : float
+        What the steel disc's motor loses in speed and takes in current by what lies on the torque,
+        rad/s and A per N m.
     middle, swing : float
         Of the drive signal, V.
     acceleration : float
@@ -97,6 +100,8 @@ class Imperfections:
     speed_noise: float = 0.0
     current_noise: float = 0.0
     drive_noise: float = 0.0
+    give: float = 0.0
+    draw: float = 0.0
     middle: float = 5.0
     swing: float = 7.0
     acceleration: float = 0.0
@@ -159,15 +164,23 @@ def _stretch(
         phase.speed_steel / rig.gear_ratio,
         phase.speed_bronze / rig.bronze_gear_ratio,
     )
-    share = 1.0 + rig.drift * time / _HOUR
-    share += -rig.warming * -np.expm1(-time / rig.warming_time)
-    runouts = zip((rig.runout_steel, rig.runout_bronze), speeds, starts, state.angles, strict=True)
-    for runout, speed, start, angle in runouts:
-        if runout:
-            share += runout * np.cos(start + angle + speed * steps)
+    slow = 1.0 + rig.drift * time / _HOUR
+    slow += -rig.warming * -np.expm1(-time / rig.warming_time)
     noise = [_coloured(rig, interval, count, rng, last) for last in state.noise]
+    behind, share, braked = np.zeros(count), slow, slow
+    for _ in range(1 + 2 * bool(rig.give)):
+        # A disc that is braked is behind, and so is its run-out.
+        share = slow.copy()
+        for runout, turned in (
+            (rig.runout_steel, starts[0] + state.angles[0] + speeds[0] * steps - behind),
+            (rig.runout_bronze, starts[1] + state.angles[1] + speeds[1] * steps),
+        ):
+            if runout:
+                share += runout * np.cos(turned)
+        braked = phase.torque_steel * (share - 1.0) + noise[0]
+        behind = rig.give / rig.gear_ratio * interval * np.cumsum(braked)
     state.angles = (
-        state.angles[0] + speeds[0] * count * interval,
+        state.angles[0] + speeds[0] * count * interval - float(behind[-1]),
         state.angles[1] + speeds[1] * count * interval,
     )
     state.noise = (float(noise[0][-1]), float(noise[1][-1]))
@@ -179,13 +192,13 @@ def _stretch(
         return value + deviation * rng.standard_normal(count)
 
     return {
-        "torque_steel": phase.torque_steel * share + noise[0] + with_noise(0.0, rig.white),
+        "torque_steel": phase.torque_steel + braked + with_noise(0.0, rig.white),
         "torque_bronze": phase.torque_bronze * share + noise[1] + with_noise(0.0, rig.white),
-        "speed_steel": with_noise(phase.speed_steel, rig.speed_noise),
+        "speed_steel": with_noise(phase.speed_steel, rig.speed_noise) - rig.give * braked,
         "speed_bronze": with_noise(phase.speed_bronze, rig.speed_noise),
         "drive_voltage": _drive(phase, rig, time) + with_noise(0.0, rig.drive_noise),
         "load_cell": with_noise(0.014, 0.0),
-        "current_steel": with_noise(phase.current_steel, rig.current_noise),
+        "current_steel": with_noise(phase.current_steel, rig.current_noise) + rig.draw * braked,
         "current_bronze": with_noise(phase.current_bronze, rig.current_noise),
         "acceleration": rig.acceleration * np.sin(2.0 * math.pi * phase.frequency * time),
     }

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from asperity.contact.increment.solver import IncrementSolver
-from asperity.contact.motion.static import Guide, StaticState, move_to
+from asperity.contact.static import Guide, StaticState, move_to
 
 
 def on_guide(

@@ -201,11 +201,7 @@ class WholeSystem:
 
     def resultants(self, state: WholeState) -> Resultants:
         """Return friction along x and y, normal force and mean deflections, N and m."""
-        points = state.points
-        return resultants(
-            points.pressure, points.traction, points.normal, points.deflection,
-            self.system.weights,
-        )  # fmt: skip
+        return resultants(state.points, self.system.weights)
 
     def static_step(
         self, state: WholeState, load: Floats, motion: SurfaceMotion | None = None

@@ -49,6 +49,7 @@ def is_the_sliding_body(found):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="k")
 @pytest.mark.parametrize(("way", "k"), CASES)
 def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_that_is_between(
     way, k
@@ -59,6 +60,7 @@ def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="k")
 @pytest.mark.parametrize(("way", "k"), CALM)
 def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(way, k):
     found = block(way, k).settled()
@@ -68,6 +70,7 @@ def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(w
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="k")
 @pytest.mark.parametrize(("way", "k"), ROCKING)
 def test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking(way, k):
     free = block(way, k).settled()
@@ -80,15 +83,17 @@ def test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking(wa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("way", "k"), [("transverse", 6), ("coupled", 2)])
-def test_on_the_shipped_mesh_too_a_block_is_the_sliding_body_with_its_compliance(way, k):
-    found = block(way, k, mesh=()).settled()
+@pytest.mark.campaign(over="case")
+@pytest.mark.parametrize("case", [("transverse", 6), ("coupled", 2)])
+def test_on_the_shipped_mesh_too_a_block_is_the_sliding_body_with_its_compliance(case):
+    found = block(*case, mesh=()).settled()
     assert found.ratio == pytest.approx(found.slider, rel=1e-2)
     assert found.ratio == pytest.approx(found.in_series, rel=2e-3)
     assert found.ratio == pytest.approx(found.rocking, rel=1e-3)
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="way")
 @pytest.mark.parametrize("way", ["longitudinal", "coupled"])
 def test_on_the_shipped_mesh_too_it_is_the_rocking_at_k_20(way):
     found = block(way, 20, mesh=()).settled()
@@ -130,6 +135,7 @@ def test_blocks_are_shipped_for_both_directions():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="name")
 @pytest.mark.parametrize("name", shipped())
 def test_every_shipped_block_balances_its_powers_and_leaves_no_increment_unsolved(name):
     short = ["vibration.start=0.5 ms", "solve.duration=5 ms"]

@@ -65,6 +65,7 @@ def sliding(tmp_path_factory):
     return Run(tmp_path_factory.mktemp("ccx"), "block.elements=[3,2,2]")
 
 
+@pytest.mark.slow
 def test_the_mean_contact_pressure_is_load_over_area(sliding):
     assert sliding.area[0] == pytest.approx(sliding.setup.block.area, rel=1e-6)
     mean = sliding.normal[0] / sliding.area[0]
@@ -95,6 +96,7 @@ def test_a_block_on_contact_in_two_stages_is_brought_to_rest(tmp_path):
     assert run.normal[-1] == pytest.approx(55.0, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_spring_pulls_until_full_friction_and_no_further(sliding):
     full = sliding.setup.model.full_friction
     np.testing.assert_allclose(sliding.pull[1:], sliding.shear[1:], rtol=1e-5)
@@ -103,6 +105,7 @@ def test_the_spring_pulls_until_full_friction_and_no_further(sliding):
     assert sliding.place[-1] > 50 * sliding.setup.model.friction.max_deflection
 
 
+@pytest.mark.slow
 def test_before_it_slides_the_contact_is_as_stiff_as_the_asperities(sliding):
     sticking = sliding.pull < 0.5 * sliding.setup.model.full_friction
     give = np.polyfit(sliding.pull[sticking], sliding.place[sticking], 1)[0]

@@ -16,6 +16,7 @@ from asperity.drive.point import MeshPoint
 from asperity.drive.shafts import (
     MeshAction,
     beam_with_ends,
+    bending_of,
     bending_stiffness,
     compliances,
     compliances_of,
@@ -163,3 +164,18 @@ def test_what_cannot_be_a_shaft_is_refused_in_one_line(given, says):
 def test_a_worm_that_cannot_drive_is_refused(geometry):
     with pytest.raises(InputError, match="so much that the worm cannot turn the wheel"):
         at(geometry, 3.0)
+
+
+def test_a_shaft_that_bends_swings_as_an_even_beam_and_on_soft_bearings_as_a_rigid_one():
+    # First mode of a simply supported beam: pi^2 sqrt(E I/(m l^3)); on springs 2k/m, and turning
+    # (k l^2/2)/(m l^2/12).
+    mass, radius, soft = 0.3, 9.8e-3, 1e5
+    thin = bending_of(Shaft(diameter="17 mm", span="150 mm"), radius, mass)
+    own = math.sqrt(bending_stiffness(D, E) / (mass * SPAN**3))
+    swings = np.sqrt(thin.stiffness / thin.mass)
+    assert swings[1:] == pytest.approx(math.pi**2 * own, rel=1e-2)
+    assert swings[0] == pytest.approx(4.0 * math.pi**2 * own, rel=0.3)
+    held = bending_of(Shaft(span="150 mm", bearing_radial="1e5 N/m"), radius, mass)
+    swings = np.sqrt(held.stiffness / held.mass)
+    assert swings[1:] == pytest.approx(math.sqrt(2.0 * soft / mass), rel=1e-9)
+    assert swings[0] == pytest.approx(math.sqrt(6.0 * soft / mass), rel=1e-9)

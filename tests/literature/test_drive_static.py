@@ -165,6 +165,7 @@ def test_the_slope_of_the_contact_is_that_of_its_forces():
     assert slope == pytest.approx(-here.slope[5, 5], rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_left_hand_drive_is_the_mirror_image():
     settings = (*ONE_TOOTH, "drive.phases=3", "mount.axial_offset=0.02 mm")
     right = solve_static(problem_of(*settings), Run())

@@ -136,9 +136,8 @@ def test_mid_plane_section_of_an_archimedean_wheel_is_an_involute():
     assert 2.0 * float(pitch.angle) * g.wheel_teeth == pytest.approx(expected, abs=1e-12)
 
 
-@pytest.mark.parametrize("teeth", [17, 20, 25, 30, 31, 32, 33, 34, 40])
-def test_undercut_in_the_mid_plane_starts_where_it_does_for_a_rack(teeth):
-    # A rack whose straight flank goes h below the pitch line undercuts when h > r sin(alpha)^2.
+def of_few_teeth(teeth, **more):
+    """A wheel of 14.5 degrees that so many teeth undercut."""
     given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
     gearset = Gearset(
         starts=1,
@@ -146,11 +145,17 @@ def test_undercut_in_the_mid_plane_starts_where_it_does_for_a_rack(teeth):
         axial_module="2 mm",
         diameter_factor=10,
         pressure_angle="14.5 deg",
-        flank="ZA",
         worm_material=given.worm_material,
         wheel_material=given.wheel_material,
+        **more,
     )
-    wheel = Wheel.cut(Pair.of(gearset))
+    return Wheel.cut(Pair.of(gearset))
+
+
+@pytest.mark.parametrize("teeth", [17, 20, 25, 30, 31, 32, 33, 34, 40])
+def test_undercut_in_the_mid_plane_starts_where_it_does_for_a_rack(teeth):
+    # A rack whose straight flank goes h below the pitch line undercuts when h > r sin(alpha)^2.
+    wheel = of_few_teeth(teeth, flank="ZA")
     g = wheel.pair.geometry
     h = wheel.pair.hob.flank_end - g.worm_pitch_diameter / 2.0
     limit = g.wheel_reference_diameter / 2.0 * math.sin(g.axial_pressure_angle) ** 2
@@ -162,17 +167,7 @@ def test_undercut_in_the_mid_plane_starts_where_it_does_for_a_rack(teeth):
 
 @pytest.mark.parametrize("teeth", [17, 20])
 def test_wheels_of_few_teeth_and_14_5_degrees_are_flagged(teeth):
-    given = read_case("gearset-3b", case_tables(), ()).require(Gearset)
-    gearset = Gearset(
-        starts=1,
-        wheel_teeth=teeth,
-        axial_module="2 mm",
-        diameter_factor=10,
-        pressure_angle="14.5 deg",
-        worm_material=given.worm_material,
-        wheel_material=given.wheel_material,
-    )
-    wheel = Wheel.cut(Pair.of(gearset))
+    wheel = of_few_teeth(teeth)
     assert wheel.undercut
     assert wheel.flank(1).undercut_map(20, 13).undercut
 

@@ -10,18 +10,12 @@ from collections import Counter, defaultdict
 
 import numpy as np
 import pytest
-from apparatus.step import read_step
-from OCP.BRep import BRep_Tool
-from OCP.BRepMesh import BRepMesh_IncrementalMesh
-from OCP.Geom import Geom_BSplineSurface
-from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
-from OCP.TopExp import TopExp_Explorer
-from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS
+from apparatus.step import faces, parts, read_step, sampled
 
 from asperity.flanks.export.assembly import Assembly
-from asperity.flanks.export.files import write_solids
-from asperity.flanks.export.tooth import WHEEL_FLANK_ERROR
+from asperity.flanks.export.cad.brep import solid
+from asperity.flanks.export.cad.solids import Solids
+from asperity.flanks.export.tooth import WHEEL_FLANK_ERROR, wheel_body
 from asperity.flanks.export.turned import merged, rim_radius, shaft_sections, volume, wheel_section
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.analysis import analyse
@@ -47,10 +41,10 @@ GEARSET = {
 BLANKS = Blanks(bore="14 mm", hub_diameter="24 mm", web_width="4 mm", drive_end="30 mm")
 
 
-def rim_and_disc(wheel, blanks):
+def rim_and_disc(wheel, blanks, density="intermediate"):
     """Volume of the teeth's mesh, and of what is turned below them."""
     geometry = wheel.pair.geometry
-    rim = tooth(wheel, "intermediate", order=2).volume() * geometry.wheel_teeth
+    rim = tooth(wheel, density, order=2).volume() * geometry.wheel_teeth
     disc = np.pi * rim_radius(geometry) ** 2 * geometry.wheel_face_width
     return rim + disc - volume(wheel_section(geometry, blanks))
 
@@ -64,7 +58,7 @@ def made(tmp_path_factory):
     wheel = Wheel.cut(pair)
     assembly = Assembly.of(analyse(pair, wheel, rows=8, columns=9), made=True)
     folder = tmp_path_factory.mktemp("solids")
-    write_solids(wheel, assembly, folder, blanks=BLANKS, name="two to twenty-three")
+    Solids.of(wheel, assembly, BLANKS).write(folder, "two to twenty-three")
     return wheel, assembly, folder
 
 
@@ -127,15 +121,13 @@ def test_the_assembly_holds_both_by_name_in_millimetres(made):
     assert len(lengths) == 3
 
 
-def faces(shape):
-    found = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
-    while found.More():
-        yield TopoDS.Face(found.Current())
-        found.Next()
-
-
 def held(shape):
     """The volume by the divergence theorem over the faces, tessellated to a few micrometres."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.TopAbs import TopAbs_Orientation
+    from OCP.TopLoc import TopLoc_Location
+
     BRepMesh_IncrementalMesh(shape, 4e-3, False, 0.12)
     total = 0.0
     for face in faces(shape):
@@ -149,24 +141,28 @@ def held(shape):
     return total
 
 
-def sampled(shape):
-    """Points of each face that is a spline, where the solid stands, 7 by 7."""
-    for face in faces(shape):
-        surface = BRep_Tool.Surface_s(face)
-        if isinstance(surface, Geom_BSplineSurface):
-            u0, u1, v0, v1 = surface.Bounds()
-            share = np.linspace(0.0, 1.0, 7)
-            points = [
-                surface.Value(u0 + a * (u1 - u0), v0 + b * (v1 - v0)) for a in share for b in share
-            ]
-            yield np.array([(point.X(), point.Y(), point.Z()) for point in points])
-
-
 def test_the_wheel_has_the_volume_of_its_mesh_and_of_what_is_turned(made):
     wheel, _, folder = made
     read = read_step(folder / "wheel.step")
     assert read.check.valid
     assert read.check.volume == pytest.approx(rim_and_disc(wheel, BLANKS), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        # The rim beside the throat needs finer grids than the throat.
+        {"starts": 2, "wheel_teeth": 60, "axial_module": "4 mm", "diameter_factor": 9.0},
+        {"starts": 4, "wheel_teeth": 25, "hand": "left", "flank": "ZK", "axial_module": "8 mm"},
+    ],
+)
+def test_wheels_whose_parts_need_grids_of_their_own_close(changes):
+    materials = {key: GEARSET[key] for key in ("worm_material", "wheel_material")}
+    wheel = Wheel.cut(Pair.of(Gearset(**{"diameter_factor": 9.5} | materials | changes)))
+    made = solid(wheel_body(wheel)).check
+    assert made.valid
+    assert made.free_edges == 0
+    assert made.volume == pytest.approx(rim_and_disc(wheel, None, "coarse"), rel=1e-4)
 
 
 def test_the_tessellated_faces_hold_the_same_volume(made):
@@ -197,16 +193,15 @@ def test_worm_and_wheel_of_the_assembly_stand_in_mesh_and_do_not_overlap(made):
     pair = assembly.pair
     assert assembly.thinned > 1e-3
     shape = read_step(folder / "gearset.step").shape
-    solids = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_SOLID)
-    worm = solids.Current().Location().Transformation()
+    screw, mate = parts(shape, "SOLID")
+    worm = screw.Location().Transformation()
     moved = np.array([[worm.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
     np.testing.assert_allclose(moved[:, 3], [0.0, pair.geometry.centre_distance, 0.0], atol=1e-9)
     # The shafts cross at a right angle, but for the error they are mounted with.
     assert abs(moved[2, 2]) == pytest.approx(np.sin(np.radians(0.05)), abs=1e-9)
-    solids.Next()
     mirror = np.array([1.0, 1.0, -1.0])
     least = {1: np.inf, -1: np.inf}
-    for points in sampled(solids.Current()):
+    for points in sampled(mate, np.linspace(0.0, 1.0, 7)):
         if points[:, 1].max() > 15.0 and np.abs(points[:, 0]).min() < 10.0:
             place = pair.mounting.to_helicoid(points * mirror)
             for side in least:

@@ -7,14 +7,9 @@ the worm and the point of the wheel at a radius and a place are the package's ow
 import numpy as np
 import pytest
 from apparatus.grid import slow
-from apparatus.step import read_step
-from OCP.BRep import BRep_Tool
-from OCP.Geom import Geom_BSplineSurface
-from OCP.TopAbs import TopAbs_ShapeEnum
-from OCP.TopExp import TopExp_Explorer
-from OCP.TopoDS import TopoDS
+from apparatus.step import read_step, sampled
 
-from asperity.flanks.export.step import write_step
+from asperity.flanks.export.cad.step import write_step
 from asperity.flanks.export.tooth import FLANK_ERROR, tooth_body
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.mesh.tooth import tooth
@@ -45,21 +40,9 @@ def wheel():
     return Wheel.cut(pair())
 
 
-def faces(shape):
+def between(shape):
     """Points on the surface of each face, 8 by 8, away from the points it was made through."""
-    found = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
-    while found.More():
-        surface = BRep_Tool.Surface_s(TopoDS.Face(found.Current()))
-        if isinstance(surface, Geom_BSplineSurface):
-            u0, u1, v0, v1 = surface.Bounds()
-            places = np.linspace(0.013, 0.987, 8)
-            points = [
-                surface.Value(u0 + a * (u1 - u0), v0 + b * (v1 - v0))
-                for a in places
-                for b in places
-            ]
-            yield np.array([(point.X(), point.Y(), point.Z()) for point in points])
-        found.Next()
+    return sampled(shape, np.linspace(0.013, 0.987, 8))
 
 
 def screw_volume(worm, length):
@@ -89,7 +72,7 @@ def test_every_face_of_the_worm_lies_on_the_exact_worm(tmp_path):
     path = tmp_path / "worm.step"
     write_step(path, worm_body(made, 30.0))
     count = 0
-    for points in faces(read_step(path).shape):
+    for points in between(read_step(path).shape):
         assert np.abs(distances(points, made.worm)).max() < FLANK_ERROR
         count += 1
     # Root, two flanks, two roundings and a land for each start.
@@ -101,7 +84,7 @@ def test_every_flank_of_the_tooth_lies_on_the_exact_wheel(wheel, tmp_path):
     path = tmp_path / "tooth.step"
     write_step(path, tooth_body(wheel))
     found = {1: 0, -1: 0}
-    for points in faces(read_step(path).shape):
+    for points in between(read_step(path).shape):
         radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
         for side in found:
             start, tip = wheel.flank(side).limits(z)

@@ -21,7 +21,7 @@ from asperity.friction import update
 from asperity.slider.march import march
 from asperity.slider.model import Model
 
-HISTORIES = 1000
+HISTORIES = 400
 INCREMENTS = 24
 STUB = """\
       implicit real*8(a-h,o-z)

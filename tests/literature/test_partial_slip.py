@@ -24,7 +24,6 @@ Coulomb friction sticks by an elastic slip, and Dahl friction by a deflection, w
 
 import numpy as np
 import pytest
-from apparatus.grid import slow
 from apparatus.halfspace import half_plane
 from apparatus.static_paths import follow, on_guide
 
@@ -33,7 +32,7 @@ from asperity.contact.interface.friction import COULOMB, DAHL, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.motion.static import Guide, load_to
+from asperity.contact.static import Guide, load_to
 from asperity.friction import VECTOR
 from asperity.mesh import HexMesh, box
 
@@ -102,7 +101,8 @@ SHARES = [0.3, 0.6, 0.9]
 STIFF = 3e-4
 
 
-@pytest.mark.parametrize("nu", [slow(0.0), 0.3])
+@pytest.mark.slow
+@pytest.mark.parametrize("nu", [0.0, 0.3])
 def test_spheres_stick_within_cattaneo_s_circle_and_give_as_mindlin_says(quarter_of_half_space, nu):
     pair = spheres(quarter_of_half_space, 12, nu)
     solver, along, state = pair.pressed(pair.friction(STIFF))
@@ -185,6 +185,7 @@ class Cycle:
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="share")
 @pytest.mark.parametrize("share", [0.4, 0.7, 0.9])
 def test_a_cycle_of_rubbing_dissipates_what_mindlin_and_deresiewicz_say(
     quarter_of_half_space, share
@@ -216,19 +217,14 @@ def rubbed(pair, friction):
     return pair.load(state)
 
 
+ORDERS = {0.0: (0.9, 1.1), 0.5: (0.9, 1.1), 1.0: (0.9, 1.1), 1.5: (0.8, 1.0), 2.0: (0.6, 0.9)}
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("exponent", "least", "most"),
-    [
-        slow(0.0, 0.9, 1.1),
-        slow(0.5, 0.9, 1.1),
-        (1.0, 0.9, 1.1),
-        slow(1.5, 0.8, 1.0),
-        slow(2.0, 0.6, 0.9),
-    ],
-)
+@pytest.mark.campaign(over="exponent")
+@pytest.mark.parametrize("exponent", ORDERS)
 def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
-    quarter_of_half_space, exponent, least, most
+    quarter_of_half_space, exponent
 ):
     # Up to exponent 1 asperities are at the limit after a slip of a few s_max, and what is left is
     # the displacement of about s_max that they add: the order 1. Beyond 1 they come there by a
@@ -239,6 +235,7 @@ def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
     limits = [0.03, 0.01, 0.003]
     off = [rigid - rubbed(pair, pair.friction(limit, DAHL, exponent)) for limit in limits]
     orders = np.diff(np.log(off)) / np.diff(np.log(limits))
+    least, most = ORDERS[exponent]
     assert ((orders > least) & (orders < most)).all(), orders
 
 
@@ -282,6 +279,7 @@ def test_cylinders_stick_within_cattaneo_s_strip():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="count")
 @pytest.mark.parametrize("count", [4, 5])
 def test_spheres_of_finite_elements_slip_as_cattaneo_and_mindlin_say(quarter_patch, count):
     half = 1.25 * A

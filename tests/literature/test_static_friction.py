@@ -109,7 +109,8 @@ def test_a_light_body_on_a_flat_contact_loses_what_its_resonance_leaves():
     assert found.static_ratio == pytest.approx(found.closed_form_ratio, abs=1e-4)
 
 
-@pytest.mark.parametrize("share", [0.25, pytest.param(0.6, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.25, 0.6])
 def test_a_hertz_contact_loses_to_the_power_of_three_halves(share):
     # Its springs pressed most slip at 1.5 times the deflection limit of the first slope.
     found = static(

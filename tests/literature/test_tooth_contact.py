@@ -175,6 +175,7 @@ def test_backlash_is_what_the_threads_are_thinned_by_times_cos_of_the_pressure_a
         assert wanted - raw.play.normal[side] == pytest.approx(gained, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_worm_can_move_along_its_axis_as_far_as_the_thesis_has_it():
     # A backlash of 0.28 mm leaves the amplitude of 0.16 mm of section 7.2.
     free = analysed(TILTED, Mount(backlash=0.28e-3, units="SI")).play

@@ -145,7 +145,7 @@ def check_thrown(law, normal, element, modes, ratio, direction, where, lift, til
 
 
 test_a_block_thrown_on_its_vibrating_base_parts_and_meets_again_and_marches_on = settings(
-    max_examples=8
+    max_examples=3
 )(overshooting(thrown_blocks(check_thrown)))
 test_a_block_thrown_again_and_again_on_its_vibrating_base_marches_on = pytest.mark.slow(
     settings(max_examples=24)(thrown_blocks(check_thrown))
@@ -177,6 +177,7 @@ DROPS = {
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="name")
 @pytest.mark.parametrize(("name", "element", "step"), grid([*DROPS], ["hex8", "hex27"], STEPS))
 def test_a_dropped_block_never_has_more_energy_than_it_fell_with(name, element, step):
     problem = block(*DROPS[name], "vibration.velocity_ratio=0", element=element)

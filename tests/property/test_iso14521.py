@@ -6,7 +6,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from asperity.gearset import Gearset, relations
@@ -95,6 +95,7 @@ def test_wheel_cannot_drive_exactly_where_the_lead_is_within_the_friction_angle(
 
 
 @given(numbers, options)
+@settings(max_examples=50)
 def test_centre_distance_and_profile_shift_lead_to_the_same_answer(gearset, words):
     numbers = in_si(gearset)
     shift = numbers["profile_shift"]
@@ -109,6 +110,7 @@ def test_centre_distance_and_profile_shift_lead_to_the_same_answer(gearset, word
 
 
 @given(numbers, st.sampled_from(["1998", "2010"]), st.sampled_from(["ZI", "ZC"]))
+@settings(max_examples=50)
 def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
     z1, z2, q = (gearset[name] for name in ("starts", "wheel_teeth", "diameter_factor"))
     m, alpha, x2 = (gearset[name] for name in ("axial_module", "pressure_angle", "profile_shift"))
@@ -143,6 +145,7 @@ def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
 
 
 @given(numbers, options)
+@settings(max_examples=50)
 def test_more_roughness_or_base_friction_never_helps(gearset, words):
     numbers = in_si(gearset)
     rough = {**numbers, "worm_roughness": numbers["worm_roughness"] * np.array([1.0, 1.1])}

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from asperity.friction import Friction
@@ -98,6 +98,7 @@ bodies = st.one_of(sliders(rigid=True), sliders(rigid=False))
 
 
 @given(bodies, frictions(), vibrations())
+@settings(max_examples=50)
 def test_the_power_ledger_of_any_body_closes(samples, slider, friction, vibration):
     model = made(slider, friction, vibration, samples)
     answer = solve(model, history=False)
@@ -115,6 +116,7 @@ def test_the_power_ledger_of_any_body_closes(samples, slider, friction, vibratio
 
 
 @given(bodies, frictions(("coulomb", "dahl")), vibrations())
+@settings(max_examples=50)
 def test_friction_stays_within_its_limit_under_every_law_and_exponent(
     samples, slider, friction, vibration
 ):
@@ -128,6 +130,7 @@ def test_friction_stays_within_its_limit_under_every_law_and_exponent(
 
 
 @given(bodies, frictions(), vibrations())
+@settings(max_examples=50)
 def test_friction_takes_power_out_of_the_motion(samples, slider, friction, vibration):
     ledger = solve(made(slider, friction, vibration, samples), history=False).ledger
     # Nothing but rounding where the body sticks all the time.
@@ -177,12 +180,14 @@ def periodic(k, direction, law, free, case, turn=0.0):
 
 
 @given(periodic_bodies)
+@settings(max_examples=50)
 def test_the_periodic_state_is_the_same_for_opposite_directions(entries):
     here, there = periodic(*entries), periodic(*entries, turn=math.pi)
     assert there.ratio == pytest.approx(here.ratio, abs=1e-9)
 
 
 @given(periodic_bodies)
+@settings(max_examples=50)
 def test_the_periodic_state_is_the_same_for_mirrored_directions(entries):
     k, direction, *rest = entries
     here, there = periodic(*entries), periodic(k, -direction, *rest)

@@ -4,6 +4,7 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution import settled
+from asperity.block.solution.march import solve_block
 from asperity.block.solution.settled import SettledBlock, settle
 from asperity.block.solve import answer, prepare
 from asperity.casefile import read_case
@@ -70,6 +71,26 @@ def test_a_damped_contact_settles_where_asperities_keep_their_stiffness():
     assert found.ratio == pytest.approx(found.slider_ratio, rel=5e-3)
     assert found.unsteadiness < 1e-5
     assert found.notes == ()
+
+
+# How long, s, a march of a velocity ratio takes to settle; up to a full second it stays there.
+MARCHED = {20: 0.5, 6: 0.7, 2: 1.0}
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(over="ratio")
+@pytest.mark.parametrize("ratio", MARCHED)
+def test_a_block_settles_to_what_its_march_comes_to_in_thirty_times_the_increments(ratio):
+    at = f"vibration.velocity_ratio={ratio}"
+    quick = settle(BlockProblem.from_case(case(SETTLED, at)))
+    marched = solve_block(
+        BlockProblem.from_case(case(at, "solve.step=4 us", f"solve.duration={MARCHED[ratio]} s"))
+    )
+    assert marched.residual < 1e-3
+    assert quick.ratio == pytest.approx(marched.ratio, rel=2e-3)
+    assert quick.unsteadiness < 1e-3 * marched.ratio
+    # The case's own march: a full second in steps of 1 us.
+    assert prepare(case(at)).timetable.steps > 30 * quick.increments
 
 
 def test_a_settled_block_is_saved_and_read(found, tmp_path):

@@ -8,7 +8,7 @@ import pytest
 from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.contact.motion.compliance import base_compliance
+from asperity.contact.compliance import base_compliance
 from asperity.errors import InputError
 
 LIGHT = ("block.elements=[4, 3, 3]", "block.element=hex8")

@@ -46,7 +46,7 @@ def test_a_kept_tangent_finds_what_newtons_method_finds():
     step = 1e-5
     for number in range(1, 31):
         stepper.step_to(number * step, step)
-    _, solver = stepper.stepping(step)
+    solver = stepper.stepping(step).solver
     problem = solver.problem
     motion, _ = stepper.system.surface_motion(30 * step, 31 * step)
     state = stepper.state.contact.state
@@ -61,7 +61,7 @@ def test_a_kept_tangent_finds_what_newtons_method_finds():
 def test_an_inverse_tells_how_many_digits_a_far_stiffer_contact_leaves():
     stepper = walking("along")
     stepper.step_to(1e-5, 1e-5)
-    problem = stepper.stepping(1e-5)[1].problem
+    problem = stepper.stepping(1e-5).solver.problem
     touching = np.ones(problem.points, dtype=bool)
     lost = []
     for stiffness in (1e14, 1e17, 1e20):

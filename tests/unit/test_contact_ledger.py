@@ -1,6 +1,7 @@
 """The power ledger of a body in contact: each term is found by itself, so a wrong one shows."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.interface.normal import NormalLaw, pressure
+from asperity.contact.interface.records import ContactPoints
 from asperity.contact.motion import ledger
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
@@ -50,25 +52,11 @@ def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law, r
     pressed = pressures(distance, parameters)
     deflection[pressed == 0.0] = 0.0
     none = np.zeros((len(weights), 3))
-    done = [
-        works(
-            pressed[n],
-            none,
-            none,
-            distance[n],
-            deflection[n],
-            pressed[n + 1],
-            none,
-            none,
-            distance[n + 1],
-            deflection[n + 1],
-            none,
-            weights,
-            parameters,
-            kept,
-        )
-        for n in range(len(distance) - 1)
+    points = [
+        ContactPoints(p, d, none, none, none, none, s, np.zeros(len(weights)))
+        for p, d, s in zip(pressed, distance, deflection, strict=True)
     ]
+    done = [works(*ends, weights, parameters, kept) for ends in itertools.pairwise(points)]
     over, asperities = np.subtract(
         *(
             surface_energies(pressed[n], distance[n], deflection[n], weights, parameters, kept)

@@ -8,7 +8,7 @@ from asperity.contact.increment import IncrementProblem, IncrementSolver
 from asperity.contact.interface.normal import NormalLaw, augmented_overclosure, pressure
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.motion.static import Guide, move_to
+from asperity.contact.static import Guide, move_to
 from asperity.errors import InputError
 from asperity.mesh import box
 

@@ -13,7 +13,7 @@ from asperity.contact.interface.friction import COULOMB, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
-from asperity.contact.motion.static import Guide, load_to, move_to
+from asperity.contact.static import Guide, load_to, move_to
 from asperity.errors import ConvergenceError, InputError
 from asperity.mesh import box
 

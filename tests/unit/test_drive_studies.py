@@ -115,3 +115,20 @@ def test_the_gearset_of_least_efficiency_gains_most_and_loses_its_locking():
     assert flat.least_ratio < flat.torque_ratio < steep.torque_ratio < 1.0
     assert (steep.locks, flat.locks) == (False, True)
     assert not flat.locks_shaken
+
+
+def test_a_stroke_s_headline_says_what_vibration_is_worth_and_what_fails(stroke):
+    torque, energy, rest = stroke.headline()
+    assert torque.startswith(f"{stroke.torque_ratio:.3g} of the torque without vibration (settled")
+    assert "energy" in energy
+    assert "S_W" in rest
+    # Kept going for 25000 h, a valve's gearset wears out.
+    worn = answer(prepare(case("operation.life=25000 h", name="drive-actuator")), Run())
+    assert worn.safety_wear < 0.01
+    assert "of 1.1  FAILS" in worn.headline()[-1]
+    units = [row[3] for row in worn.tables()[0].rows if row[0].startswith("safety")]
+    assert units == ["of 1.1  FAILS"] * 2
+    asked = answer(prepare(case(name="drive-actuator")), Run())
+    assert asked.safety_wear > 1.1
+    assert not any("FAILS" in line for line in asked.headline())
+    assert len(asked.headline()) == 3

@@ -1,12 +1,20 @@
 """Drives over a grid: what stands beside the ratio, and what is refused."""
 
+import dataclasses
+
 import numpy as np
 import pytest
-from apparatus.drives import GIVEN, solved
+from apparatus.drives import GIVEN, problem, solved
 
 from asperity.commands import case_tables
+from asperity.drive.protocols.solve import solve_shaken
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
+from asperity.drive.swept import DRIVE
 from asperity.errors import InputError
 from asperity.results import read
+from asperity.runs import Interrupted, Run
+from asperity.runs.rows import Rows
 from asperity.sweep import read_grid, run
 
 
@@ -64,3 +72,45 @@ def test_its_picture_is_a_map_with_both_readings_and_the_resonances_marked(mappe
 def test_a_key_of_a_sliding_body_is_no_axis_of_a_drive():
     with pytest.raises(InputError, match=r"\[slider\] has no part in a drive"):
         read_grid("drive-screw", case_tables(), GIVEN, ["slider.mass=1 kg"])
+
+
+def test_how_long_a_sweep_takes_is_measured_on_a_march_s_first_steps():
+    given = problem()
+    steps = solve_shaken(given, ReducedModel(given, reduction(given, Run())), Run()).steps
+    assert 0.0 < DRIVE.seconds(given) < 1e-4 * steps
+    # One that no worm can turn is a gap of the sweep and no end of it.
+    locked = dataclasses.replace(
+        given, friction=given.friction.model_copy(update={"mu": 5.0}, units="SI")
+    )
+    assert DRIVE.seconds(locked) == 0.0
+
+
+@pytest.mark.slow
+def test_marches_of_elastic_teeth_are_kept_one_by_one_and_gone_on_with(monkeypatch, tmp_path):
+    settings = (
+        "drive.model=teeth",
+        "drive.protocol=window",
+        "drive.window=1",
+        "drive.flanks=driving",
+    )
+    (tmp_path / "points.csv").write_text(
+        "vibration.velocity_ratio,vibration.frequency [kHz]\n1.5,20\n2,15\n"
+    )
+    case, axes = read_grid("drive-screw", case_tables(), settings, (), str(tmp_path / "points.csv"))
+    kept = tmp_path / "kept"
+    # Teeth are condensed once for all tests; marches of this one are its own.
+    monkeypatch.setattr(Rows, "of_this_user", lambda name, notify: Rows(kept, notify))
+
+    def stopped(done, points):
+        assert points == 2
+        if done == 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted, match="of 2 points are kept; the same command goes on"):
+        run(case, axes, progress=stopped)
+    whole = run(case, axes)
+    assert whole.cached >= 1
+    again = run(case, axes)
+    assert again.cached == 2
+    assert again.arrays["torque_ratio"].tobytes() == whole.arrays["torque_ratio"].tobytes()
+    assert len(set(whole.arrays["torque_ratio"].tolist())) == 2

@@ -6,15 +6,16 @@ from collections import Counter
 
 import numpy as np
 import pytest
-import trimesh
 from apparatus.step import read_step
 
 from asperity.errors import ConvergenceError, InputError, MissingExtraError, StorageError
-from asperity.flanks.export import views
 from asperity.flanks.export.assembly import Assembly
+from asperity.flanks.export.cad.brep import Solid
+from asperity.flanks.export.cad.solids import Solids
+from asperity.flanks.export.cad.step import write_step
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.export.scene import write_gearset
-from asperity.flanks.export.step import write_step
+from asperity.flanks.export.space import views
+from asperity.flanks.export.space.scene import gearset_scene, write_gearset
 from asperity.flanks.export.tooth import SHOWN as TOOTH_SHOWN
 from asperity.flanks.export.tooth import tooth_body, wheel_body
 from asperity.flanks.export.turned import merged, shaft_sections, volume, wheel_section
@@ -107,6 +108,8 @@ def test_every_edge_of_worm_tooth_teeth_and_wheel_joins_two_faces(wheel):
 
 
 def test_the_skins_of_whole_worm_and_wheel_are_closed(wheel):
+    import trimesh
+
     for body in (whole_worm(wheel.pair, spacing=SHOWN), wheel_body(wheel, spacing=TOOTH_SHOWN)):
         surface = body.surface()
         assert trimesh.Trimesh(surface.points, surface.triangles, process=False).is_volume
@@ -155,9 +158,37 @@ def test_sizes_that_leave_no_room_are_refused_in_a_line(wheel, sizes, line):
         both()
 
 
+def test_a_part_that_does_not_close_costs_no_other_and_a_remedy_is_told(
+    wheel, tmp_path, monkeypatch
+):
+    def unclosed(body):
+        if body.name == "wheel":
+            raise ConvergenceError("the wheel's 9 faces do not close")
+        return Solid(body.name, body, None)
+
+    monkeypatch.setattr("asperity.flanks.export.cad.solids.solid", unclosed)
+    for body in ("tooth_body", "whole_worm", "wheel_body"):
+        name = body.partition("_")[0] if body != "whole_worm" else "worm"
+        monkeypatch.setattr(
+            f"asperity.flanks.export.cad.solids.{body}", lambda *_, name=name: Body(name, [], [])
+        )
+    monkeypatch.setattr(
+        "asperity.flanks.export.cad.solids.write_step", lambda path, _: path.write_text("")
+    )
+    made = Solids.of(wheel, Assembly(pair=wheel.pair, thinned=0.0, wheel_angle=0.0))
+    assert made.write(tmp_path) == ["tooth.step", "worm.step"]
+    assert {file.name for file in tmp_path.iterdir()} == {"tooth.step", "worm.step"}
+    assert str(made.failure) == (
+        "wheel.step and gearset.step cannot be written, all else is: the wheel's 9 faces do not "
+        "close; another hob.tip_radius or a narrower gearset.wheel_face_width may close them"
+    )
+
+
 def test_the_gearset_to_mail_is_small_and_turns_by_its_ratio(wheel, tmp_path):
+    import trimesh
+
     assembly = Assembly(pair=wheel.pair, thinned=0.0, wheel_angle=0.0)
-    path = write_gearset(tmp_path / "gearset.glb", wheel, assembly)
+    path = write_gearset(tmp_path / "gearset.glb", gearset_scene(wheel, assembly))
     assert path.stat().st_size < 2e6
     scene = trimesh.load_scene(path)
     assert set(scene.geometry) == {"worm", "hub", "tooth 1"}
@@ -183,6 +214,8 @@ def finer(body):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["tooth", "worm"])
 def test_the_triangles_of_a_body_are_closed_and_hold_its_volume(wheel, tmp_path, name):
+    import trimesh
+
     body = tooth_body(wheel) if name == "tooth" else worm_body(wheel.pair, 10.0)
     volume = write_step(tmp_path / "a.step", body).check.volume
     surfaces = [body.surface(), finer(body).surface()]
@@ -194,6 +227,8 @@ def test_the_triangles_of_a_body_are_closed_and_hold_its_volume(wheel, tmp_path,
 
 
 def test_bodies_go_into_stl_and_glb(wheel, tmp_path):
+    import trimesh
+
     worm, teeth = worm_body(wheel.pair, 15.0).surface(), tooth_body(wheel, 2).surface()
     solid = trimesh.load_mesh(write_stl(tmp_path / "worm.stl", worm))
     assert solid.volume == pytest.approx(worm.volume(), rel=1e-5)
@@ -286,7 +321,8 @@ def test_a_mesh_is_drawn(wheel, tmp_path):
 
 def test_importing_the_package_imports_no_extra():
     code = (
-        "import sys, asperity.flanks.export.views, asperity.flanks.export.step, asperity.mesh.vtu\n"
+        "import sys, asperity.mesh.vtu\n"
+        "import asperity.flanks.export.space.views, asperity.flanks.export.cad.step\n"
         "assert not {'OCP', 'pyvista', 'vtkmodules', 'trimesh'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -80,11 +80,12 @@ def test_ease_off_covers_its_range_also_where_it_is_even(size):
     assert high >= size - 8.0
 
 
-def test_ease_off_that_is_rounding_is_said_to_be_none():
+def test_ease_off_that_is_rounding_is_said_to_be_zero():
     noise = 1e-14 * np.random.default_rng(1).standard_normal(FACE.shape)
     left, right = plots.ease_off(dataset(ease_off=noise)).axes
     for panel in (left, right):
-        assert [text.get_text() for text in panel.texts] == ["none"]
+        (said,) = (text.get_text() for text in panel.texts)
+        assert said == "zero within 1e-06 µm:\nan identical hob cut the wheel"
         assert not panel.collections
 
 
@@ -112,7 +113,9 @@ def test_transmission_error_is_drawn_about_its_mean_in_microradians():
 def test_rounding_is_not_blown_up_to_a_transmission_error():
     (axes,) = plots.transmission_error(with_error(1e-16 * np.sin(np.arange(32.0)))).axes
     assert axes.get_ylim() == (-1.0, 1.0)
-    assert [text.get_text() for text in axes.texts] == ["none"]
+    (said,) = (text.get_text() for text in axes.texts)
+    assert said.startswith("zero within ")
+    assert said.endswith(" µrad: the wheel turns evenly")
 
 
 def test_vibration_has_a_panel_for_each_direction_and_part_on_one_scale():
@@ -127,3 +130,26 @@ def test_vibration_has_a_panel_for_each_direction_and_part_on_one_scale():
     assert len(panels) == 9
     assert [panel.get_title() for panel in panels[:3]] == parts
     assert bar.get_ylim() == pytest.approx((-1.05, 1.05))
+
+
+def test_in_black_and_white_a_vibrations_part_below_zero_is_hatched():
+    directions, parts = list(plots._SHAKEN), ["along", "across"]
+    parts_of = {"along": np.abs(FACE) / 6.0, "across": -np.full_like(FACE, 0.5)}
+    over = np.stack([np.stack([np.stack([parts_of[p]] * 2) for p in parts])] * len(directions))
+    dims = ("direction", "part", "side", "row", "column")
+    shown = dataset().assign(vibration=(dims, over))
+    shown = shown.assign_coords(direction=directions, part=parts)
+    figure = plots.vibration(shown)
+    for place, panel in enumerate(figure.axes[: 2 * len(directions)]):
+        hatched = [each for each in panel.collections if any(getattr(each, "hatches", ()) or ())]
+        covered = any(len(path.vertices) for each in hatched for path in each.get_paths())
+        assert covered == (parts[place % 2] == "across")
+
+
+@pytest.mark.parametrize("name", ["viridis", "cividis"])
+def test_in_black_and_white_the_levels_of_a_map_stay_apart(name):
+    import matplotlib
+
+    rgb = matplotlib.colormaps[name](np.linspace(0.05, 0.95, 6))[:, :3]
+    grey = rgb @ (0.2126, 0.7152, 0.0722)
+    assert (np.diff(grey) > 0.03).all()

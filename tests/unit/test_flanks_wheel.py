@@ -152,6 +152,7 @@ def _cases():
         )
 
 
+@pytest.mark.slow
 def test_every_case_is_cut_exactly_or_refused_with_its_cause():
     cut = 0
     for given, hob in _cases():

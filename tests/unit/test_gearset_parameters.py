@@ -194,7 +194,7 @@ def test_the_thesis_gearsets_ship_with_its_sliding_velocities(
 def test_a_setting_replaces_a_diameter_factor_by_a_diameter_and_keeps_units():
     case = read_case("gearset-3", case_tables(), ["gearset.worm_pitch_diameter=18 mm"])
     assert case.require(Gearset).diameter_factor is None
-    case = case.replace(["gearset.axial_module=2.2", "gearset.wheel_material=EN-GJL-250"])
+    case = case.replace(["gearset.axial_module=2.2 mm", "gearset.wheel_material=EN-GJL-250"])
     assert case.require(Gearset).axial_module == 2.2e-3
     assert case.require(Gearset).wheel_material.family == "grey iron"
 

@@ -71,6 +71,7 @@ def test_from_two_milliseconds_on_the_law_follows_the_cycle_mean_drive_force(cas
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(over="speed")
 @pytest.mark.parametrize(("case", "speed", "law_name"), grid(CASES, [0.5, 1, 2, 6, 20], LAWS))
 def test_its_ratio_is_the_marchs(case, speed, law_name):
     marched, homogenised = both(
@@ -287,12 +288,13 @@ def test_backwards_the_forces_are_those_of_a_vibration_turned_by_half_a_turn(tmp
         assert backwards == pytest.approx(-here.column(low, speeds), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "settings"),
     [
         ("table-4.4", ["friction.exponent=0.5"]),
-        slow("table-4.4", ["slider.mass=1 g"]),
-        slow("table-4.3", ["slider.mass=1 g"]),
+        ("table-4.4", ["slider.mass=1 g"]),
+        ("table-4.3", ["slider.mass=1 g"]),
     ],
 )
 def test_single_velocities_without_a_periodic_state_are_interpolated_over(case, settings):
@@ -467,6 +469,7 @@ def test_on_a_rigid_drive_and_without_vibration_there_is_a_history_to_draw():
 PRESSED = "normal.law=linear", "solve.method=homogenised"
 
 
+@pytest.mark.slow
 def test_friction_that_jumps_at_rest_is_reached_from_its_own_side(monkeypatch):
     model = body("normal-pin", *PRESSED)
     whole = homogenise(model)
@@ -487,6 +490,7 @@ def test_friction_that_jumps_at_rest_is_reached_from_its_own_side(monkeypatch):
     assert answer.power_residual < 1e-3
 
 
+@pytest.mark.slow
 def test_without_a_state_at_the_drive_velocity_loads_are_interpolated_as_all_else(monkeypatch):
     complete = solve(body("normal-pin", *PRESSED), history=False)
     failing(monkeypatch, lambda v: v == 0.5e-3)

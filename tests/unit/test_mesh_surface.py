@@ -6,7 +6,6 @@ import struct
 
 import numpy as np
 import pytest
-import trimesh
 from apparatus.meshes import skin
 from scipy.spatial.transform import Rotation
 
@@ -25,6 +24,8 @@ def barrel(order, unit="mm"):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_the_skin_of_a_mesh_is_a_closed_surface_with_its_outside_outside(order):
+    import trimesh
+
     mesh = barrel(order)
     surface = skin(mesh)
     solid = trimesh.Trimesh(surface.points, surface.triangles, process=False)
@@ -42,6 +43,8 @@ def test_a_grid_has_its_outside_where_its_rows_turn_towards_its_columns():
 
 
 def test_stl_comes_back_with_its_triangles(tmp_path):
+    import trimesh
+
     surface = skin(barrel(1))
     solid = trimesh.load_mesh(write_stl(tmp_path / "a.stl", surface))
     assert solid.is_volume
@@ -51,6 +54,8 @@ def test_stl_comes_back_with_its_triangles(tmp_path):
 
 
 def test_glb_comes_back_in_metres_with_y_upwards_named_and_coloured(tmp_path):
+    import trimesh
+
     mesh = barrel(1)
     surface = skin(mesh)
     colours = np.tile([1.0, 0.5, 0.0], (len(surface.points), 1))
@@ -67,6 +72,8 @@ def test_glb_comes_back_in_metres_with_y_upwards_named_and_coloured(tmp_path):
 
 
 def test_glb_is_shaded_smoothly_but_for_creases(tmp_path):
+    import trimesh
+
     cube = skin(box((1, 1, 1), (2, 2, 2)))
     scene = trimesh.load_scene(write_glb(tmp_path / "a.glb", [Node("cube", cube)]))
     normals = scene.geometry["cube"].vertex_normals

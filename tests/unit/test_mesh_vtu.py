@@ -2,11 +2,17 @@
 
 import numpy as np
 import pytest
-import pyvista
 
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box, shape
 from asperity.mesh.vtu import write_series, write_vtu
+
+
+@pytest.fixture(scope="module")
+def pyvista():
+    import pyvista
+
+    return pyvista
 
 
 def shaken(order):
@@ -16,7 +22,7 @@ def shaken(order):
 
 
 @pytest.mark.parametrize(("order", "kind"), [(1, 12), (2, 29)])
-def test_vtk_reads_the_mesh_and_its_data(tmp_path, order, kind):
+def test_vtk_reads_the_mesh_and_its_data(pyvista, tmp_path, order, kind):
     mesh = shaken(order)
     scalar = np.arange(len(mesh.points), dtype=float)
     data = {"pressure <MPa> & more": scalar, "displacement": mesh.points * 2, "held": scalar > 5}
@@ -30,14 +36,14 @@ def test_vtk_reads_the_mesh_and_its_data(tmp_path, order, kind):
     np.testing.assert_array_equal(grid.cell_data["number"], np.arange(len(mesh.cells)))
 
 
-def test_vtk_finds_the_same_volume_and_quality():
+def test_vtk_finds_the_same_volume_and_quality(pyvista):
     mesh = shaken(1)
     grid = pyvista.UnstructuredGrid({12: mesh.cells}, mesh.points)
     quality = grid.cell_quality("scaled_jacobian")["scaled_jacobian"]
     np.testing.assert_allclose(mesh.scaled_jacobian(), quality, atol=1e-14)
 
 
-def test_vtk_numbers_the_nodes_of_a_quadratic_cell_alike():
+def test_vtk_numbers_the_nodes_of_a_quadratic_cell_alike(pyvista):
     mesh = shaken(2)
     grid = pyvista.UnstructuredGrid({29: mesh.cells}, mesh.points)
     cell = grid.get_cell(0)
@@ -51,7 +57,7 @@ def test_vtk_numbers_the_nodes_of_a_quadratic_cell_alike():
         assert middles[frozenset(mesh.cells[0, ends].tolist())] == mesh.cells[0, 8 + number]
 
 
-def test_a_series_plays_in_its_order(tmp_path):
+def test_a_series_plays_in_its_order(pyvista, tmp_path):
     mesh = box((1, 1, 1), (1, 1, 1))
     frames = ((0.5 * step, {"displacement": mesh.points * step}) for step in range(3))
     reader = pyvista.get_reader(write_series(tmp_path / "motion.pvd", mesh, frames))
@@ -60,7 +66,7 @@ def test_a_series_plays_in_its_order(tmp_path):
     np.testing.assert_array_equal(reader.read()[0].point_data["displacement"], mesh.points * 2)
 
 
-def test_an_interrupted_series_keeps_what_was_written(tmp_path):
+def test_an_interrupted_series_keeps_what_was_written(pyvista, tmp_path):
     mesh = box((1, 1, 1), (1, 1, 1))
 
     def frames():

@@ -101,6 +101,11 @@ def test_what_cannot_be_used_is_one_line(call, given, said):
     assert said in refusal(call, *given)
 
 
+def test_settings_are_a_list():
+    said = "settings is 'gearset.starts=3'; it must be a list: ['gearset.starts=3']"
+    assert said in refusal(asperity.rate, "gearset-3", settings="gearset.starts=3")
+
+
 def test_settings_change_cases_and_not_tables():
     assert "model_copy" in refusal(asperity.rate, GEARSET, OPERATION, settings=["gearset.starts=3"])
 

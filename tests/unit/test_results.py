@@ -113,7 +113,12 @@ def test_a_table_shows_meaning_symbol_value_and_unit(pull):
 
 
 def test_rounding_is_shown_as_none():
-    assert table_of(Ledger(drive=1e-9)).rows[0] == ("power of the drive", "P_d", "none", "W")
+    assert table_of(Ledger(drive=1e-9)).rows[0] == (
+        "power of the drive",
+        "P_d",
+        "0 within 1e-06",
+        "W",
+    )
     assert table_of(Ledger(drive=-0.0)).rows[0][2] == "0"
 
 

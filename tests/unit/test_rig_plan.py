@@ -59,10 +59,19 @@ def test_a_plan_says_what_it_will_not_resolve():
 
 
 def test_a_plan_says_which_windows_its_reduction_refuses_and_what_is_interpolated():
-    told = planned('plan.before="5 s"', 'plan.frequencies=["250 Hz", "600 Hz"]').notes
-    assert any("plan.before is 5 s, which should be 5.5 s or more" in note for note in told)
+    told = planned('plan.before="4 s"', 'plan.frequencies=["250 Hz", "600 Hz"]').notes
+    assert any("plan.before is 4 s, which should be 4.2 s or more" in note for note in told)
+    hasty = planned('plan.shaken="4.2 s"', 'reduction.speed_settling="4 s"').notes
+    assert any("speeds need reduction.speed_settling = 4 s" in note for note in hasty)
     assert any("v_a at 600 Hz is interpolated" in note for note in told)
     assert not any("least_window" in note or "interpolated" in note for note in planned().notes)
+
+
+def test_a_plan_says_that_its_discs_start_beyond_the_limit_of_their_torque():
+    # Friction at rest, mu_0 F_N r = 0.185 * 141.6 N * 30 mm, is 0.786 N m; 0.64 is left at 1 V.
+    low = planned('limits.torque="0.7 N m"').notes[0]
+    assert "limits.torque is 0.7 N m, below the 0.79 N m of the simulated rig's discs" in low
+    assert not any("limits.torque" in note for note in planned('limits.torque="0.8 N m"').notes)
 
 
 def test_velocity_ratios_of_a_plan_are_those_of_the_rig():

@@ -18,6 +18,7 @@ from asperity.tribometer.procedure import journal as journals
 from asperity.tribometer.procedure import study
 from asperity.tribometer.procedure.journal import Journal
 from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction.study import Reducible, reduce_recording
 
 VIBRATES = lambda rig: rig.vibrates  # noqa: E731
 
@@ -106,6 +107,28 @@ def test_what_a_run_records_is_what_its_journal_says(undisturbed):
         crc = zlib.crc32(np.ascontiguousarray(raw[first : first + count]))
         first, count = cell["shaken"]
         assert zlib.crc32(np.ascontiguousarray(raw[first : first + count]), crc) == cell["crc32"]
+
+
+def test_an_encoder_that_lags_costs_no_segment_and_leans_on_no_speed(tmp_path):
+    # Counted for a second, a start is shown up to that much later, and a change for longer.
+    times = 'plan.before="4.5 s"', 'plan.shaken="4.5 s"', "twin.runout_steel=0", "twin.drift=0"
+    case = rigs.small_case(*times, "twin.runout_bronze=0", 'plan.sample_rate="3 kHz"')
+    rigs.run(case, tmp_path)
+    opened = Recording.open(tmp_path / "file-01.nc")
+    _, found = reduce_recording(Reducible(opened, case))
+    assert [one.quality for one in found] == ["good", "good"]
+    # What the rig was fitted to, 2.5 and 5.5 mm/s at 750 Hz; too early the second one is 4.7.
+    at_750 = found[1]
+    assert at_750.sliding_velocity_before == pytest.approx(2.5, abs=0.5)
+    assert at_750.sliding_velocity_with == pytest.approx(5.5, abs=0.25)
+    low, high = at_750.sliding_velocity_with_ci95
+    assert low < 5.5 < high
+    hasty = case.replace(["reduction.speed_settling=1 s"])
+    early = reduce_recording(Reducible(opened, hasty))[1][1]
+    assert early.sliding_velocity_with < 5.2
+    slow = case.replace(["reduction.speed_settling=4 s"])
+    assert any("before reduction.speed_settling = 4 s" in flag
+               for flag in reduce_recording(Reducible(opened, slow))[1][1].flags)  # fmt: skip
 
 
 @pytest.mark.slow

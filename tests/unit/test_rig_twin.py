@@ -264,6 +264,7 @@ def test_every_parameter_says_what_it_rests_on(plant):
     assert figure_standing("longitudinal", "sine", 750.0) == "placeholder"
 
 
+@pytest.mark.slow
 def test_a_rig_is_found_again_from_its_torques_and_speeds():
     from asperity.tribometer.twin.fit import Measured, fit_states
 

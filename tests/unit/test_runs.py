@@ -177,6 +177,34 @@ def test_a_work_of_more_than_a_minute_is_announced_once(monkeypatch):
     assert told == ["this will take about 17 minutes"]
 
 
+@pytest.mark.parametrize("compiling", [1, 2])
+def test_steps_that_compile_are_no_measure_of_what_a_work_takes(monkeypatch, compiling):
+    now = [0.0]
+    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
+    told = []
+    run = Run(notify=told.append)
+    run.checkpoint(0, 1600)
+    for done in range(1, 1601):
+        now[0] += 18.0 if done <= compiling else 0.02
+        run.checkpoint(done, 1600)
+    # It takes a minute altogether, and never looked like hours.
+    assert told in ([], ["this will take about 32 seconds"])
+
+
+def test_before_more_than_two_steps_are_measured_nothing_is_forecast(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
+    told = []
+    run = Run(notify=told.append)
+    for done in range(3):
+        run.checkpoint(done, 100)
+        now[0] += 10.0
+    assert told == []
+    run.checkpoint(3, 100)
+    run.checkpoint(4, 100)
+    assert len(told) == 1
+
+
 def test_a_short_work_is_not_announced(monkeypatch):
     now = [0.0]
     monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])

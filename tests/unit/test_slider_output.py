@@ -55,6 +55,13 @@ def test_the_picture_shows_drive_force_limit_and_both_friction_components(marche
     assert "(ms)" in lower.get_xlabel()
 
 
+def test_the_picture_of_a_periodic_state_is_of_one_cycle_and_begins_at_no_force():
+    upper, lower = solved("table-4.3", "solve.method=periodic").plot().axes
+    assert upper.get_ylim()[0] == 0.0
+    assert upper.get_xlabel() == lower.get_xlabel() == "time (ms)"
+    assert upper.get_xlim() == lower.get_xlim()
+
+
 def test_a_body_that_feels_nothing_across_is_drawn_without_that_line():
     _, lower = solved("table-4.3", "solve.method=periodic").plot().axes
     assert len(lower.lines) == 1

@@ -16,6 +16,7 @@ from asperity.slider.closed_forms import directed_ratio, vibration_power
 from asperity.slider.tables import TABLES as SLIDER
 from asperity.store import read_dataset, write_dataset
 from asperity.studies.methods import compare, compare_case
+from asperity.studies.plots import plot_comparison
 from asperity.studies.reported import more_methods, reported_methods
 from asperity.studies.shaken import shake
 from asperity.vibration import Vibration
@@ -288,3 +289,18 @@ def test_more_ways_stand_beside_those_that_ship_and_the_last_of_a_key_wins(file)
     assert next(method for method in more if method.key == "fe3o4").reduction == 0.2
     found = compare(*gearset(), methods=more)
     assert found["ester"].base_friction == pytest.approx(0.8 * found["as_is"].base_friction)
+
+
+def test_numbers_of_the_picture_stay_within_it_and_no_line_goes_through_them():
+    figure = plot_comparison(compare_case(case("gearset-2")).to_dataset())
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    numbers = [text for text in axes.texts if text.get_text()]
+    assert len(numbers) == len(axes.patches)
+    frame = axes.get_window_extent()
+    for text in numbers:
+        shown = text.get_window_extent()
+        assert frame.x0 < shown.x0
+        assert shown.x1 < frame.x1
+    (line,) = [line for line in axes.lines if line.get_linestyle() == "--"]
+    assert all(text.get_bbox_patch() is not None and text.zorder > line.zorder for text in numbers)

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.stats.qmc import Sobol
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -286,6 +285,8 @@ def test_a_climb_that_ends_beyond_a_kink_goes_back_as_far_as_needed():
 
 @pytest.mark.parametrize("dimensions", [1, 2, 3, 4])
 def test_the_starts_are_points_of_sobol(dimensions):
+    from scipy.stats.qmc import Sobol
+
     expected = Sobol(dimensions, scramble=False).random(64)
     assert spread(dimensions, 64).tolist() == expected.tolist()
 

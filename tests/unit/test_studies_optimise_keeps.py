@@ -8,7 +8,11 @@ import asperity
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
+from asperity.rating.rate import rate_case
 from asperity.runs import Run
+from asperity.studies.designs import falls
 from asperity.studies.optimise import answer, prepare
 
 
@@ -28,10 +32,16 @@ def drawn(seed):
     oil = rng.choice(["ISO VG 220 mineral", "ISO VG 220 polyglycol"])
     settings = [f"operation.lubricant={oil}"]
     proposals = asperity.size(
-        rng.choice([10, 15, 20, 30, 40]), f"{torque} N m", f"{speed} rpm", settings=settings
+        rng.choice([10, 15, 20, 30, 40]),
+        f"{torque} N m",
+        f"{speed} rpm",
+        settings=settings,
+        cut=False,
     )
+    # BS 721, whose load capacity is kept, has no row for more starts.
+    legal = [proposal for proposal in proposals.found if proposal.starts <= 4]
     gearset = asperity.Gearset(
-        **rng.choice(proposals.found).keys,
+        **rng.choice(legal).keys,
         worm_roughness="1.6 um",
         worm_material="case-hardened steel",
         wheel_material="CuSn12Ni2-C-GZ",
@@ -68,10 +78,9 @@ def check(case):
     assert not beaten.any()
 
 
+@pytest.mark.slow
 @pytest.mark.campaign(over="seed")
-@pytest.mark.parametrize(
-    "seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 50))]
-)
+@pytest.mark.parametrize("seed", range(50))
 def test_no_safety_that_held_is_lost_unnamed_and_the_frontier_beats_no_optimum(seed):
     check(drawn(seed))
 
@@ -121,6 +130,7 @@ def test_what_is_not_free_stays_and_bounds_are_kept():
     [
         ({"free": "pressure_angl"}, "did you mean 'pressure_angle'?"),
         ({"bounds": ["pressure_angle=20"]}, "it must be pressure_angle=low:high with a unit"),
+        ({"bounds": ["pressure_angle=25:20"]}, "with a unit, as in pressure_angle=20:25 deg"),
         ({"bounds": ["pressure_angle=25:20 deg"]}, "give the lower one first"),
         ({"bounds": ["starts=1:2"]}, "'starts' has no bounds"),
         ({"keep": ["S_X"]}, "--keep S_X: it is not a safety"),
@@ -131,3 +141,23 @@ def test_what_cannot_be_asked_is_one_line(options, said):
         prepare(read_case("gearset-3", case_tables()), **options)
     assert said in str(raised.value)
     assert len(str(raised.value).splitlines()) == 1
+
+
+def test_an_efficiency_that_falls_by_another_standard_is_named():
+    before, after = (
+        rate_case(read_case("gearset-3", case_tables(), [f"gearset.pressure_angle={angle} deg"]))
+        for angle in (20, 30)
+    )
+    assert any(
+        said.startswith("the efficiency by AGMA 6034 falls from") for said in falls(before, after)
+    )
+    assert not any("AGMA" in said and "efficiency" in said for said in falls(after, before))
+
+
+def test_neither_the_best_design_nor_the_one_to_be_made_has_pointed_threads():
+    # Looking at safeties alone, q 9.6 was to be made, whose hob has no land at its tip.
+    best = found(read_case("gearset-3b", case_tables()))
+    room = next(limit for limit in best.limits if limit.key == "thread_room")
+    assert room.value >= room.bound > 0.0
+    for design in (best.gearset, best.made.gearset):
+        Wheel.cut(Pair.of(design))

@@ -9,6 +9,7 @@ from asperity.casefile import Table, read_case
 from asperity.errors import InputError
 from asperity.slider import TABLES
 from asperity.sweep import parse_axes, read_grid
+from asperity.sweep.grid import Grid
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +28,7 @@ def parse(text, case):
         ("vibration.velocity_ratio=0.5,1,2", [0.5, 1.0, 2.0], "", 1.0),
         ("vibration.direction=0:360:90", [0.0, 90.0, 180.0, 270.0, 360.0], "deg", math.pi / 180),
         ("vibration.direction=0,1 rad", [0.0, 1.0], "rad", 1.0),
-        ("slider.drive_velocity=1,2,5", [1.0, 2.0, 5.0], "mm/s", 1e-3),
+        ("slider.drive_velocity=1,2,5 mm/s", [1.0, 2.0, 5.0], "mm/s", 1e-3),
         ("slider.drive_velocity=1,2,5 um/s", [1.0, 2.0, 5.0], "um/s", 1e-6),
         ("slider.drive_velocity=1 mm/s, 200 um/s", [1000.0, 200.0], "um/s", 1e-6),
         ("slider.drive_velocity=0.5:2:0.5 mm/s", [0.5, 1.0, 1.5, 2.0], "mm/s", 1e-3),
@@ -94,6 +95,56 @@ def test_a_wrong_axis_is_refused_in_one_line_that_repeats_it(case, text, part):
 def test_two_axes_for_the_same_thing_are_refused(case, second):
     with pytest.raises(InputError, match="give one --over for the same thing"):
         parse_axes(["vibration.velocity_ratio=1,2", second], case)
+
+
+def test_values_of_a_table_of_points_change_together(case, tmp_path):
+    (tmp_path / "points.csv").write_text(
+        "# two bodies, one of them twice\n"
+        "vibration.velocity_ratio;vibration.frequency [kHz];friction.law\n"
+        "2,5;1;split\n\n4;0,5;vector\n2,5;1;split\n"
+    )
+    over = ["slider.mass=1,2 kg"]
+    axes = parse_axes(over, case, str(tmp_path / "points.csv"))
+    assert [axis.values for axis in axes] == [
+        (2.5, 4.0, 2.5), (1000.0, 500.0, 1000.0), ("split", "vector", "split"), (1.0, 2.0),
+    ]  # fmt: skip
+    grid = Grid(case, axes)
+    assert grid.shape == (3, 2)
+    points = [point.model for point in grid.points(range(6))]
+    found = [
+        (p.vibration.velocity_ratio, p.vibration.frequency, p.friction.law, p.slider.mass)
+        for p in points
+    ]
+    rows = [(2.5, 1000.0, "split"), (4.0, 500.0, "vector"), (2.5, 1000.0, "split")]
+    assert found == [(*row, mass) for row in rows for mass in (1.0, 2.0)]
+    told = "vibration.velocity_ratio=4, vibration.frequency=0.5 kHz, friction.law=vector"
+    assert grid.describe(3) == f"{told}, slider.mass=2 kg"
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("ratio\n2\n", "the column 'ratio' must be a key of the case"),
+        ("friction.mu\n", "holds no rows below its headings; it must hold points"),
+        ("", "is empty; it must hold headings, and points below them"),
+        ("friction.mu\n0.1,2\n", "row 2 has 2 cells for 1 columns"),
+        ("friction.mu,friction.law\n0.1,split\n,split\n", "mu: row 3 is empty"),
+        ("friction.law [N]\nsplit\n", "law: it holds words, which have no unit"),
+        ("friction.mu\n-1\n", "friction.mu is -1; it must be above 0"),
+        ("slider.mass\n1\n", "slider.mass is without a unit"),
+        ("friction.nu\n1\n", "friction.nu is not a key of [friction]"),
+        ("friction.mu,friction.mu\n0.1,0.2\n", "given twice; give one column"),
+    ],
+)
+def test_a_table_that_holds_no_points_is_refused_in_one_line(case, tmp_path, text, part):
+    file = tmp_path / "points.csv"
+    file.write_text(text)
+    with pytest.raises(InputError) as caught:
+        parse_axes([], case, str(file))
+    message = str(caught.value)
+    assert message.startswith(str(file))
+    assert part in message
+    assert "\n" not in message
 
 
 def test_a_grid_of_more_than_a_million_points_is_refused(case):

@@ -11,12 +11,13 @@ from observe import new_cache
 
 from asperity.casefile import read_case
 from asperity.errors import InputError, MissingExtraError
-from asperity.runs import Interrupted
+from asperity.runs import Interrupted, Run
 from asperity.slider import TABLES, Model, solve
 from asperity.store import read_dataset
 from asperity.sweep import Axis, SweepResult, parse_axes, read_grid, run
 from asperity.sweep.grid import Grid
 from asperity.sweep.result import Answers
+from asperity.sweep.run import Problem, answer
 from asperity.sweep.tasks import solve_remote, versions
 
 SHORT = ["solve.duration=20 ms", "vibration.start=2 ms"]
@@ -53,7 +54,7 @@ def test_every_point_of_a_sweep_is_what_a_single_solve_gives(method):
 
 def test_the_grid_runs_through_the_last_axis_first():
     body = case()
-    axes = parse_axes(["vibration.velocity_ratio=1,2,3", "slider.mass=0.5:2:0.5"], body)
+    axes = parse_axes(["vibration.velocity_ratio=1,2,3", "slider.mass=0.5:2:0.5 kg"], body)
     points = list(Grid(body, axes).points(range(12)))
     expected = list(itertools.product(axes[0].values, axes[1].values))
     assert [(p.model.vibration.velocity_ratio, p.model.slider.mass) for p in points] == expected
@@ -138,6 +139,18 @@ def test_an_interrupt_keeps_what_is_done_and_the_next_run_goes_on():
     assert np.array_equal(resumed.arrays["ratio"], run(body, axes, cache=False).arrays["ratio"])
 
 
+def test_who_looks_on_sees_the_points_that_are_there_and_no_others():
+    seen = []
+    body = case("solve.method=periodic", *SHORT)
+    problem = Problem(body, tuple(parse_axes(["vibration.velocity_ratio=2,6,20"], body)))
+    whole = answer(problem, Run(watch=lambda made: seen.append(made().arrays["ratio"].copy())))
+    assert np.all(np.isnan(seen[0]))
+    assert np.array_equal(seen[-1], whole.arrays["ratio"])
+    for before, after in itertools.pairwise(seen):
+        known = np.isfinite(before)
+        assert np.array_equal(before[known], after[known])
+
+
 def test_the_dataset_has_units_names_and_what_all_points_share(tmp_path):
     body = case("solve.method=periodic")
     result = run(body, ["vibration.direction=0:90:45", "friction.law=split,vector"])
@@ -171,6 +184,33 @@ def test_dimensions_of_the_same_key_are_told_apart_by_their_tables():
     assert result.dims == ("slider_mass", "disc_mass", "radius")
 
 
+def test_points_whose_values_change_together_are_one_dimension_of_the_answer(tmp_path):
+    (tmp_path / "two.csv").write_text(
+        "vibration.velocity_ratio,vibration.direction [deg]\n2,0\n6,45\n"
+    )
+    body, axes = read_grid("table-4.3", TABLES, SHORT, (), str(tmp_path / "two.csv"))
+    swept = run(body, axes)
+    found = swept.to_json()
+    assert found["dims"] == ["point"]
+    assert found["coords"] == {
+        "vibration.velocity_ratio": [2.0, 6.0], "vibration.direction": [0.0, 45.0],
+    }  # fmt: skip
+    for ratio, angle, answered in zip((2, 6), (0, 45), found["ratio"], strict=True):
+        alone = case(
+            *SHORT, f"vibration.velocity_ratio={ratio}", f"vibration.direction={angle} deg"
+        )
+        assert answered == pytest.approx(
+            solve(Model.from_case(alone), history=False).ratio, rel=1e-9
+        )
+    dataset = read_dataset(swept.save(tmp_path / "sweep.nc"))
+    assert dataset["ratio"].dims == dataset["direction"].dims == ("point",)
+    assert dataset["point"].values.tolist() == [1, 2]
+    assert swept.figure().axes[0].get_xlabel() == "number of the point"
+    assert [column.heading for column in swept.tables()[0].columns] == [
+        "velocity_ratio", "direction (deg)", "ratio",
+    ]  # fmt: skip
+
+
 @pytest.mark.slow
 def test_walking_through_a_large_grid_takes_no_memory(monkeypatch):
     monkeypatch.setattr("asperity.sweep.grid._KEPT_TABLES", 256)
@@ -200,6 +240,8 @@ def test_one_and_two_axes_are_drawn_and_three_are_refused():
     assert len(panel.lines) == 2
     many = run(body, ["vibration.velocity_ratio=2:12:1", "vibration.direction=0:90:7.5"]).plot()
     assert [panel.get_ylabel() for panel in many.axes][1] == "velocity ratio"
+    short = run(body, ["friction.max_deflection=0.1,0.2 um"]).plot()
+    assert "(µm)" in short.axes[0].get_xlabel()
     words = run(body, ["friction.law=vector,split"]).plot()
     assert [text.get_text() for text in words.axes[0].get_xticklabels()] == ["vector", "split"]
     with pytest.raises(InputError, match="3 axes; at most 2 can be drawn"):

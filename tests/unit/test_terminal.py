@@ -37,7 +37,16 @@ def test_only_texts_that_may_fold_are_folded_and_no_word_is_lost(width):
 
 def test_a_terminal_too_narrow_for_a_table_cuts_nothing_short():
     text = rendered([TABLE], 10)
-    assert all(word in text for word in ("123456.7", "vibratio", "unit"))
+    assert all(word in text for word in ("123456.7", "vibration", "unit"))
+
+
+def test_a_word_is_broken_only_where_that_makes_the_table_fit():
+    cells = ("aluminium bronze", "centrifugal casting", "123456789012")
+    table = Table((Column("a", folds=True), Column("b", folds=True), Column("c")), (cells,))
+    assert "aluminium  centrifugal  123456789012" in rendered([table], 40)
+    # Eight characters are the least, and fit; less would not.
+    assert "aluminiu  centrifu  123456789012" in rendered([table], 32)
+    assert "aluminium  centrifugal  123456789012" in rendered([table], 20)
 
 
 def test_tables_stand_apart_by_an_empty_line():

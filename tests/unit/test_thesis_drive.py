@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from apparatus.drives import GIVEN
 
+from asperity.commands import case_tables
+from asperity.sweep import read_grid
 from asperity.thesis.contact.derivatives import Before, scheme
 from asperity.thesis.contents import CLAIMS
 from asperity.thesis.drive import claims
@@ -21,6 +23,19 @@ from asperity.thesis.drive.appendix_e import (
 from asperity.thesis.drive.marches import from_start
 from asperity.thesis.drive.sets import AMPLITUDE, RATIOS, SPEED, conditions
 from asperity.thesis.drive.simulations import PARTS, of_set
+
+
+def test_the_table_of_points_that_ships_has_the_thesis_s_simulations():
+    _, axes = read_grid("drive-thesis", case_tables(), (), (), "drive-thesis")
+    shown = [dict(zip([a.path for a in axes], row, strict=True))
+             for row in zip(*(axis.shown for axis in axes), strict=True)]  # fmt: skip
+    asked = [
+        {path: float(text.split()[0]) for path, text in (one.split("=") for one in each.settings)}
+        for number in (1, 2, 3)
+        for each in of_set(number)
+    ]
+    assert shown == asked
+    assert len(asked) == 33
 
 
 def test_each_set_has_eleven_simulations_from_0_1_to_20():

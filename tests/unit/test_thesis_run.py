@@ -108,7 +108,7 @@ def made(tmp_path, monkeypatch):
 ALL = ["claim 9.3", "figure 9.1", "table 9.1", "table 9.2"]
 
 
-@pytest.mark.parametrize("processes", [1, 2])
+@pytest.mark.parametrize("processes", [1, slow(2)])
 def test_a_run_makes_everything_once_and_the_next_finds_it(tmp_path, made, processes):
     lines = []
     first = run(tmp_path, processes=processes)
@@ -208,7 +208,7 @@ def test_the_page_is_there_before_anything_is_made_and_fills(tmp_path, made, mon
     pages = []
     show = reproduction._Reproduction.show
 
-    def shown(work):
+    def shown(work, after=0.0):
         show(work)
         pages.append((work.index.read_text("utf-8"), made()))
 

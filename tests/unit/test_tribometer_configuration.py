@@ -8,6 +8,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.tribometer.calibration import fitted_line
+from asperity.tribometer.options import Reduction, Twin
 from asperity.tribometer.tables import TABLES
 
 
@@ -72,3 +73,9 @@ def test_a_calibration_is_the_line_of_least_squares_with_its_covariance():
 def test_without_points_a_signal_is_in_its_own_unit():
     line = fitted_line([])
     assert (line.gain, line.offset, line.gain_deviation) == (1.0, 0.0, 0.0)
+
+
+def test_a_case_that_does_not_say_it_waits_until_an_encoder_has_counted():
+    # A count is right after two of its times at the latest, a filter behind it after five of its.
+    gate, lag = (Twin.model_fields[f"encoder_{name}"].default for name in ("gate", "lag"))
+    assert Reduction().speed_settling >= 2.0 * gate + 5.0 * lag

@@ -3,6 +3,8 @@
 import dataclasses
 import functools
 import math
+import re
+import signal
 
 import numpy as np
 import pytest
@@ -12,10 +14,14 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.dahl import LAWS
-from asperity.runs import Run
-from asperity.tribometer.fit import study
+from asperity.runs import Interrupted, Run
+from asperity.slider.batch import solve_many
+from asperity.slider.model import Model
+from asperity.tribometer.fit import design, forward, study
+from asperity.tribometer.fit.data import read_measurements
 from asperity.tribometer.fit.estimate import Fit
 from asperity.tribometer.fit.forward import Predictor
+from asperity.tribometer.fit.rigid import limit_of
 from asperity.tribometer.fit.study import answer, prepare
 
 LIMIT, TRANSFER, EXPONENT = "friction.max_deflection", "friction.transfer", "friction.exponent"
@@ -33,9 +39,6 @@ def case(name, *settings):
 @functools.cache
 def exact(name):
     """The model's ratios at the velocity ratios."""
-    from asperity.slider.batch import solve_many
-    from asperity.slider.model import Model
-
     given = case(name, "solve.method=periodic")
     models = [
         Model.from_case(given.replace_values({"vibration.velocity_ratio": float(k)}))
@@ -93,11 +96,43 @@ def test_the_coefficient_of_friction_is_not_in_ratios_of_a_rigid_drive(tmp_path)
     assert not found["friction.mu"].identifiable
 
 
+def test_what_is_looked_at_next_spans_the_measurements_however_many_conditions_differ(tmp_path):
+    # As rig reduce writes them: sliding velocity, amplitude and frequency of each segment.
+    varied = {
+        "slider.drive_velocity": (0.042, 0.0425, 0.043), "vibration.frequency": (250.0, 750.0, 1e3),
+        "vibration.velocity_amplitude": (0.02, 0.059, 0.03),
+    }  # fmt: skip
+    rows = [f"0.{n + 5},0.01,{varied['slider.drive_velocity'][n]},"
+            f"{varied['vibration.frequency'][n]},{varied['vibration.velocity_amplitude'][n]},90"
+            for n in range(3)]  # fmt: skip
+    head = "ratio,sd,slider.drive_velocity [m/s],vibration.frequency [Hz],"
+    head += "vibration.velocity_amplitude [m/s],vibration.direction [deg]"
+    (tmp_path / "data.csv").write_text("\n".join([head, *rows]), "utf-8")
+    found = list(design.candidates(read_measurements(tmp_path / "data.csv", case("table-4.4"))))
+    assert len(found) == 12**3
+    for key, values in varied.items():
+        looked = [one[key] for one in found]
+        assert (min(looked), max(looked)) == pytest.approx((min(values), max(values)))
+
+
+def test_a_fit_hears_ctrl_c_before_its_next_data_set(tmp_path, monkeypatch):
+    solved = []
+
+    def pressed(models):
+        solved.append(len(models))
+        if len(solved) == 2:
+            signal.raise_signal(signal.SIGINT)
+        return solve_many(models)
+
+    monkeypatch.setattr(forward, "solve_many", pressed)
+    path = table(tmp_path / "data.csv", np.linspace(0.9, 0.1, 12))
+    with pytest.raises(Interrupted, match=r"interrupted after 0 of 3 fits and ends of intervals$"):
+        fitted(path, "table-4.3", [LIMIT])
+    assert solved == [12, 12]
+
+
 @pytest.mark.slow
 def test_transfer_and_amplitude_are_one_number_in_transverse_data(tmp_path):
-    from asperity.slider.batch import solve_many
-    from asperity.slider.model import Model
-
     # One amplitude at several sliding velocities, as a rig has it.
     amplitude, speeds = 3.0, np.geomspace(0.3, 2.0, 6)
     settings = ["solve.method=periodic", f"vibration.velocity_amplitude={amplitude} mm/s"]
@@ -137,6 +172,48 @@ def test_the_law_that_made_the_data_meets_them_best(tmp_path):
     assert min(laws["unsplit"].delta_chi2, laws["vector"].delta_chi2) > 20.0
 
 
+@pytest.mark.parametrize(("direction", "k"), [(0.0, 1.5), (0.0, 6.0), (90.0, 2.0), (90.0, 20.0)])
+def test_a_contact_as_good_as_rigid_is_that_of_its_own_deflection(direction, k):
+    # The body itself, stiffer than need be, against the way to the closed form.
+    settings = "slider.drive_velocity=5 mm/s", "friction.mu=0.1", "friction.law=split"
+    given = case("rig-final", *settings, "slider.normal_force=100 N", "friction.transfer=0.9",
+                 "solve.method=periodic", "vibration.frequency=1 kHz",
+                 f"vibration.velocity_ratio={k}", f"vibration.direction={direction} deg",
+                 "friction.max_deflection=0.7 nm")  # fmt: skip
+    model = Model.from_case(given)
+    limit = limit_of(model)
+    assert limit.deflection > 2.0 * 0.7e-9
+    stiff = Model.from_case(given.replace_values({LIMIT: limit.deflection}))
+    true, solved = (one.ratio for one in solve_many([model, stiff]))
+    assert limit.ratio(solved) == pytest.approx(true, abs=1e-5)
+    # However stiff, it asks for no more steps.
+    hard = given.replace_values({LIMIT: 1e-13, "slider.mass": None})
+    predict = Predictor(hard, "slide", forces=False)
+    (value,), why = predict([{}], {})
+    assert not why
+    assert predict.rigid == 1
+    assert value == pytest.approx(limit.rigid, abs=1e-6)
+
+
+def test_a_law_that_cannot_be_fitted_is_told_and_the_others_are(tmp_path, monkeypatch):
+    class Partly(Predictor):
+        def __call__(self, conditions, given):
+            if given["friction.law"] == "vector":
+                return np.full(len(conditions), math.nan), {0: "no answer here"}
+            return super().__call__(conditions, given)
+
+    monkeypatch.setattr(study, "Predictor", Partly)
+    path = table(tmp_path / "data.csv", exact("table-4.3"))
+    result = fitted(path, "table-4.3", [LIMIT], law="all")
+    assert [one.law for one in result.laws] == [law for law in LAWS if law != "vector"]
+    (told,) = result.to_json()["failed"][-1:]
+    assert (told["row"], told["law"]) == (None, "vector")
+    assert "answers 0 of 12 measurements" in told["why"]
+    assert any("law vector is not fitted" in note for note in result.notes)
+    with pytest.raises(ConvergenceError, match="answers 0 of 12"):
+        fitted(path, "table-4.3", [LIMIT], law="vector")
+
+
 def test_an_uncertain_condition_widens_the_intervals(tmp_path):
     values = exact("table-4.3")
     head = "vibration.velocity_ratio,ratio,sd"
@@ -166,6 +243,24 @@ def test_a_gear_on_a_rig_is_fitted_by_the_drive(tmp_path):
     assert found["friction.mu"].value == pytest.approx(0.1344, rel=1e-2)
 
 
+@pytest.mark.slow
+def test_an_elastic_block_is_fitted_by_what_it_settles_to(tmp_path):
+    light = "block.elements=[3, 2, 2]", "block.element=hex8", "solve.method=settled"
+    path = tmp_path / "data.csv"
+    # What this block of eight-node elements settles to with its own 68.75 nm.
+    path.write_text("vibration.velocity_ratio,ratio,sd\n2,0.56182,0.005\n", "utf-8")
+    start = "friction.max_deflection=65 nm"
+    found = fitted(str(path), "block-longitudinal", [LIMIT], start, *light, model="block")
+    (one,) = found.parameters
+    assert one.value == pytest.approx(68.75e-9, rel=2e-3)
+    # A ratio of 0.0024 a nanometre there, of which 0.005 are 2.1 nm.
+    low, high = one.ci95
+    assert (high - low) / (2.0 * 1.96) == pytest.approx(2.1e-9, rel=0.05)
+    # A body that is no point is another: what fits the point does not fit the block.
+    point = numbers(fitted(str(path), "block-longitudinal", [LIMIT], start))[LIMIT]
+    assert point.value != pytest.approx(one.value, rel=2e-3)
+
+
 def test_semicolons_and_decimal_commas_are_read(tmp_path):
     text = "vibration.velocity_ratio;ratio;sd\n2;0,46;0,01\n3;0,26;0,01\n"
     (tmp_path / "data.csv").write_text(text, "utf-8")
@@ -189,6 +284,24 @@ REFUSED = {
     "empty": ("", ["is empty", "headings"]),
     "twice": ("ratio,ratio,sd\n1,1,1\n", ["twice"]),
 }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "model", "said"),
+    [
+        ("gearset-3", "slide", "gearset-3: it is a case of another kind, without one of [slider]"),
+        (
+            "drive-thesis",
+            "slide",
+            "it has no [slider], which --model slide needs; give --model dri",
+        ),
+        ("table-4.3", "drive", "it has no [drive], which --model drive needs; give --model slide"),
+    ],
+)
+def test_a_case_without_the_body_of_a_model_is_refused(tmp_path, name, model, said):
+    path = table(tmp_path / "data.csv", np.ones(12))
+    with pytest.raises(InputError, match=re.escape(said)):
+        prepare(case(name), data=path, free="friction.mu", model=model)
 
 
 @pytest.mark.parametrize("name", REFUSED)

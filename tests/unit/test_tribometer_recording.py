@@ -102,6 +102,42 @@ def test_what_is_no_recording_is_refused(tmp_path, content):
         Recording.open(tmp_path / "run.nc")
 
 
+def _external_link(file, other):
+    del file[layout.RAW]
+    file[layout.RAW] = h5py.ExternalLink(other, layout.RAW)
+
+
+def _soft_link(file, other):
+    file["aside"] = h5py.SoftLink("/nowhere")
+
+
+def _external_numbers(file, other):
+    del file[layout.RAW]
+    file.create_dataset(layout.RAW, (8, 2), "i2", external=[(other, 0, 32)])
+
+
+def _virtual_numbers(file, other):
+    del file[layout.RAW]
+    virtual = h5py.VirtualLayout((8, 2), "i2")
+    virtual[:] = h5py.VirtualSource(other, layout.RAW, (8, 2))
+    file.create_virtual_dataset(layout.RAW, virtual)
+
+
+@pytest.mark.parametrize(
+    "lead_out", [_external_link, _soft_link, _external_numbers, _virtual_numbers]
+)
+def test_a_recording_that_leads_into_another_file_is_refused(tmp_path, lead_out):
+    path, other = tmp_path / "run.nc", tmp_path / "other.nc"
+    for each in (path, other):
+        with recorder(each, configuration="{}") as made:
+            made.append(counts(200), 200 * INTERVAL)
+            made.close()
+    with h5py.File(path, "r+") as file:
+        lead_out(file, str(other))
+    with pytest.raises(StorageError, match="lies in another file"):
+        Recording.open(path)
+
+
 def test_another_netcdf_is_refused_with_what_to_do(tmp_path):
     xr.Dataset({"a": 1}).to_netcdf(tmp_path / "run.nc", engine="h5netcdf")
     with pytest.raises(StorageError, match="asperity rig import"):

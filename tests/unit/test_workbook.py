@@ -2,6 +2,8 @@
 
 import math
 import re
+import shutil
+import subprocess
 import zipfile
 from xml.etree import ElementTree
 
@@ -177,3 +179,53 @@ def test_texts_of_a_workbook_are_no_formulas_and_the_same_content_is_the_same_fi
     assert sheets.cells["one", "A", 2] == "=HYPERLINK(1)"
     assert sheets.cells["one", "B", 2] == Formula("A1&<1", 2.0)
     assert sheets.cells["one", "A", 3] == "\\x1b&<"
+
+
+def without_results(path, target):
+    """Copy a workbook, leaving out what its formulas come to."""
+    with zipfile.ZipFile(path) as package, zipfile.ZipFile(target, "w") as made:
+        for name in package.namelist():
+            content = package.read(name)
+            if name.startswith("xl/worksheets/"):
+                content = re.sub(rb"(</f>|<f/>)<v>[^<]*</v>", rb"\1", content)
+            made.writestr(name, content)
+
+
+def numbers_of(path):
+    """Return the numbers of a workbook that another program wrote, by sheet, column and row."""
+    found = {}
+    with zipfile.ZipFile(path) as package:
+        listed = ElementTree.fromstring(package.read("xl/workbook.xml"))
+        for number, sheet in enumerate(listed.iter(f"{MAIN}sheet"), start=1):
+            text = package.read(f"xl/worksheets/sheet{number}.xml")
+            for cell in ElementTree.fromstring(text).iter(f"{MAIN}c"):
+                value = cell.find(f"{MAIN}v")
+                if value is not None and cell.get("t", "n") == "n":
+                    column, row = re.fullmatch(r"([A-Z]+)(\d+)", cell.get("r")).groups()
+                    found[sheet.get("name"), column, int(row)] = float(value.text)
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("soffice") is None, reason="LibreOffice is not installed here")
+def test_libreoffice_calculates_the_rating_from_the_formulas_alone(tmp_path):
+    found = rated(settings=CASES["polyglycol, fan"]["settings"])
+    sheets = workbook(found, tmp_path)
+    without_results(tmp_path / "rate.xlsx", tmp_path / "bare.xlsx")
+    assert zipfile.ZipFile(tmp_path / "bare.xlsx").read("xl/worksheets/sheet2.xml")
+    subprocess.run(
+        ["soffice", "--headless", f"-env:UserInstallation={(tmp_path / 'home').as_uri()}",
+         "--convert-to", "xlsx:Calc MS Excel 2007 XML", "--outdir", tmp_path / "out",
+         tmp_path / "bare.xlsx"],
+        check=True, capture_output=True, timeout=300,
+    )  # fmt: skip
+    again = numbers_of(tmp_path / "out" / "bare.xlsx")
+    count = 0
+    for standard, rating in found.found.items():
+        by_meaning = {entry.meaning: entry.value for entry in rating}
+        for row, cells in sheets.rows(standard):
+            if isinstance(cells[1], Formula) and cells[3] in by_meaning:
+                value = again[standard, "B", row]
+                assert math.isclose(value, by_meaning[cells[3]], rel_tol=1e-11), cells[3]
+                count += 1
+    assert count > 100

@@ -1,0 +1,73 @@
+"""What the page costs: processor time, bytes and memory of a slider that is dragged."""
+
+import os
+import time
+
+import pytest
+from apparatus.page import Served, memory, processor_time
+
+PERIODIC = {"solve.method": "periodic"}
+CHANGES = 1000
+
+
+@pytest.mark.slow
+def test_a_thousand_changes_cost_little_and_leave_nothing_behind(page):
+    def change(number):
+        settings = PERIODIC | {"vibration.direction": f"{number % 90} deg"}
+        answer = page.do("slide", "table-4.3", settings)
+        assert answer.status == 200
+        return len(answer.body)
+
+    worker = page.child("worker")
+    processes = page.process.pid, worker
+    for number in range(100):
+        change(number)
+    began, held = sum(map(processor_time, processes)), [*map(memory, processes)]
+    sizes = [change(number) for number in range(CHANGES)]
+    spent = sum(map(processor_time, processes)) - began
+    assert max(sizes) <= 16_000
+    # Wall-clock time says nothing on a machine that is shared; this is nearly what it takes alone.
+    assert spent / CHANGES <= 15e-3
+    assert memory(processes[0]) <= 80
+    assert memory(worker) <= 300
+    for process, before in zip(processes, held, strict=True):
+        assert memory(process) - before < 5.0
+
+
+def taken(page, path):
+    """How long it takes to get something, s."""
+    began = time.monotonic()
+    assert page.get(path).status == 200
+    return time.monotonic() - began
+
+
+@pytest.mark.slow
+def test_a_page_is_seen_while_its_kernels_are_compiled_and_lives_by_itself(tmp_path):
+    # Nothing is compiled for this user.
+    page = Served(tmp_path / "folder", {**os.environ, "ASPERITY_CACHE": str(tmp_path / "cache")})
+    try:
+        assert min(taken(page, "/") for _ in range(3)) < 1.0
+        assert not page.get("/api/about").json["ready"]
+        # What needs no kernel is answered meanwhile, the rest as soon as it can be.
+        assert page.do("rate", "gearset-3").status == 200
+        assert not page.get("/api/about").json["ready"]
+        assert page.do("slide", "table-4.3", PERIODIC).status == 200
+        assert page.get("/api/about").json["ready"]
+    finally:
+        assert page.close() == ("", "")
+
+
+def test_who_has_gone_is_passed_over(page):
+    curve = b'{"case": "table-4.3", "options": {"points": 400}}'
+    head = ("POST /api/do/curve HTTP/1.1", *page.own, "Content-Type: application/json",
+            f"Content-Length: {len(curve)}", "", "")  # fmt: skip
+    worker = page.child("worker")
+    page.do("curve", "table-4.3", points=5)
+    began = processor_time(worker)
+    assert page.do("curve", "table-4.3", points=400).status == 200
+    one, began = processor_time(worker) - began, processor_time(worker)
+    for _ in range(10):
+        page.raw("\r\n".join(head).encode() + curve, breaks_off=True)
+    assert page.do("check", "table-4.3").status == 200
+    # At most the one that was begun was solved.
+    assert processor_time(worker) - began < 3.0 * one + 0.5

@@ -1,0 +1,297 @@
+"""A worm gearset in a browser: rated, sized, cut and shaken, as the command line does."""
+
+import io
+import shutil
+from contextlib import closing
+
+import numpy as np
+import pytest
+from apparatus.browser import Seen, answered, copied, settled, shown, tab_to, violations
+from playwright.sync_api import expect
+
+LONGEST = 240_000
+"""How long a job may take whose kernels are not compiled yet, ms."""
+
+NO_WEBGL = """
+const context = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+  return kind.startsWith("webgl") ? null : context.call(this, kind, ...more);
+};
+"""
+"""What makes a browser one that draws nothing in space."""
+COUNT_CALLS = """
+window.most = 0;
+let calls = 0;
+for (const name of ["drawElements", "drawElementsInstanced", "drawArrays", "drawArraysInstanced"]) {
+  const draw = WebGL2RenderingContext.prototype[name];
+  WebGL2RenderingContext.prototype[name] = function (...given) {
+    if (!calls) queueMicrotask(() => { window.most = Math.max(window.most, calls); calls = 0; });
+    calls += 1;
+    return draw.apply(this, given);
+  };
+}
+"""
+"""What tells the most calls that a frame takes."""
+
+
+def at(answer, path):
+    """Return the number of an answer at ``standard.key``."""
+    standard, _, key = path.partition(".")
+    return answer[standard][key]
+
+
+@pytest.fixture
+def gear(seen):
+    page = seen.open("gear", case="gearset-3")
+    expect(page.get_by_role("heading", name="First to fail")).to_be_visible()
+    return page
+
+
+def field(page, path, text):
+    """Type what a key is to be."""
+    box = page.locator(f"#field-{path.replace('.', '-')}")
+    box.fill(text)
+    box.press("Enter")
+    settled(page)
+
+
+def test_the_three_standards_are_those_of_the_command_line(gear, server):
+    field(gear, "gearset.centre_distance", "80 mm")
+    field(gear, "operation.output_torque", "200 N m")
+    answer = answered(copied(gear), server.folder)
+    for path in ("iso14521.eta_ges", "bs721.M_permissible_Nm", "agma6034.safety_torque",
+                 "iso14521.safety_deflection"):  # fmt: skip
+        assert shown(gear, path) == pytest.approx(at(answer, path), rel=1e-12)
+    verdict = gear.get_by_role("region", name="verdict")
+    holds = [safety["holds"] for safety in answer["verdict"]["safeties"]]
+    expect(verdict.get_by_role("cell", name="✓ holds")).to_have_count(sum(holds))
+    expect(verdict.get_by_role("cell", name="✗ fails")).to_have_count(len(holds) - sum(holds))
+
+
+def test_a_bar_that_is_tried_gives_the_efficiency_it_promised(gear, server):
+    words = ["asperity", "sensitivity", "gearset-3", "--json"]
+    sway = answered(words, server.folder)
+    place = sway["rises_percent"].index(10)
+    for name in ("diameter_factor", "worm_speed", "pressure_angle"):
+        gear.get_by_role("button", name=f"try {name.replace('_', ' ')} to").click()
+        settled(gear)
+        promised = sway["inputs"][name]["eta_z1_2"][place]
+        assert shown(gear, "iso14521.eta_z1_2") == pytest.approx(promised, rel=1e-9)
+        gear.get_by_role("button", name="undo").click()
+        settled(gear)
+
+
+def test_the_keyboard_alone_rates_a_gearset_and_tries_a_bar(gear):
+    before = shown(gear, "iso14521.safety_deflection")
+    tab_to(gear, "output torque")
+    gear.keyboard.press("Control+A")
+    gear.keyboard.type("150 N m")
+    gear.keyboard.press("Enter")
+    settled(gear)
+    assert shown(gear, "iso14521.safety_deflection") > 2 * before
+    tab_to(gear, "try worm roughness")
+    gear.keyboard.press("Enter")
+    settled(gear)
+    expect(gear.locator("#field-gearset-worm_roughness")).to_have_value("1.76 um")
+
+
+def test_what_cannot_be_a_gearset_is_told_in_a_line(gear):
+    field(gear, "gearset.centre_distance", "-5 mm")
+    expect(gear.get_by_role("alert")).to_contain_text("gearset.centre_distance")
+
+
+def test_a_saved_gearset_is_the_same_on_the_command_line_and_after_a_reload(gear, server):
+    field(gear, "gearset.diameter_factor", "9")
+    found = shown(gear, "iso14521.eta_ges")
+    gear.get_by_role("button", name="save case").click()
+    gear.get_by_role("dialog").get_by_label("name").fill("wider")
+    gear.get_by_role("button", name="save", exact=True).click()
+    expect(gear.get_by_label("case", exact=True)).to_have_value("wider.toml")
+    settled(gear)
+    answer = answered(["asperity", "rate", "wider.toml", "--json"], server.folder)
+    assert answer["iso14521"]["eta_ges"] == pytest.approx(found, rel=1e-12)
+    gear.reload()
+    expect(gear.locator("#field-gearset-diameter_factor")).to_have_value("9")
+
+
+def test_a_proposal_that_is_taken_is_the_gearset_that_was_proposed(seen, server):
+    page = seen.open("size", case="gearset-3")
+    table = page.get_by_role("region", name="proposals")
+    expect(table).to_be_visible()
+    settled(page)
+    found = answered(copied(page), server.folder)["proposals"]
+    expect(table.get_by_role("button", name="take")).to_have_count(len(found))
+    table.get_by_role("button", name="efficiency").click()
+    best = max(found, key=lambda proposal: proposal["efficiency"])
+    first = table.get_by_role("row").nth(1)
+    expect(first.get_by_role("cell").nth(1)).to_have_text(f"{best['centre_distance_mm']:g}")
+    first.get_by_role("button", name="take").click()
+    expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
+    settled(page)
+    assert shown(page, "iso14521.eta_ges") == pytest.approx(best["efficiency"], rel=1e-9)
+
+
+def test_a_proposal_is_rated_at_its_own_torque_through_the_travel(seen, server):
+    page = seen.open("size", case="worm-15-to-1", output_torque="300 N m")
+    expect(page.get_by_text("a third of the torque above is taken")).to_be_visible()
+    settled(page)
+    assert "through_travel_torque" not in " ".join(copied(page))
+    page.get_by_role("button", name="take a =").first.click()
+    expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
+    settled(page)
+    box = page.locator("#field-operation-through_travel_torque")
+    expect(box).to_have_value("100 N m")
+
+
+def test_a_lever_is_tried_by_a_click(gear):
+    before = shown(gear, "iso14521.safety_deflection")
+    gear.get_by_role("button", name="try 1 % more diameter factor").click()
+    settled(gear)
+    assert shown(gear, "iso14521.safety_deflection") == pytest.approx(1.0542 * before, rel=3e-3)
+
+
+def test_where_an_iso_number_rests_on_another_source_that_is_what_it_is_called(gear):
+    gear.locator("[data-key='iso14521.safety_deflection']").first.click()
+    origin = gear.get_by_role("dialog", name="where the number comes from")
+    expect(origin).to_contain_text("weakest source of what it follows from")
+
+
+def test_a_click_in_the_trade_off_opens_that_gearset(seen, server):
+    page = seen.open("size", case="gearset-3")
+    page.get_by_role("button", name="find the most efficient designs").click()
+    plot = page.locator(".pick .over")
+    plot.wait_for(timeout=LONGEST)
+    answer = answered(["asperity", "optimise", "gearset-3", "--json"], server.folder)
+    designs = page.get_by_role("region", name="designs").locator("tbody tr")
+    # Beside each stands what fails of it; the case fails, and its deflection is told.
+    expect(designs.first).to_contain_text("✗ fails ISO/TR 14521: deflection")
+    expect(designs).to_have_count(2 + len(answer["trade_off"]["eta_z1_2"]))
+    plot.click(position={"x": 2, "y": 40})
+    expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
+    settled(page)
+    curve = answer["trade_off"]
+    assert shown(page, "iso14521.eta_z1_2") == pytest.approx(curve["eta_z1_2"][0], rel=1e-6)
+    assert shown(page, "bs721.M_permissible_Nm") == pytest.approx(
+        curve["M_permissible_Nm"][0], rel=1e-6
+    )
+
+
+def test_a_wheel_is_cut_and_its_lines_move_with_the_worm_where_nothing_draws_in_space(seen, server):
+    seen.page.add_init_script(NO_WEBGL)
+    page = seen.open("flanks", case="gearset-3")
+    page.get_by_role("button", name="cut the wheel").click()
+    page.get_by_text("the lines in touch").wait_for(timeout=LONGEST)
+    expect(page.get_by_text("no WebGL")).to_be_visible()
+    lines = page.locator(".touching")
+    before = lines.get_attribute("d")
+    page.get_by_role("slider", name="angle of the worm").fill("30")
+    expect(lines).not_to_have_attribute("d", before)
+    page.get_by_label("colours", exact=True).select_option("line_load")
+    expect(page.get_by_role("img", name="Line load")).to_be_visible()
+    answer = answered(copied(page), server.folder)
+    for key in ("contact_ratio", "contact_ratio_marked", "pattern_area_fraction"):
+        found = answer["flanks"]["+1"][key]
+        assert shown(page, f"flanks.+1.{key}") == pytest.approx(found, rel=1e-12)
+    page.reload()
+    page.get_by_role("img", name="Line load").wait_for(timeout=LONGEST)
+
+
+def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, server):
+    page = seen.open("drive", case="drive-actuator")
+    page.get_by_role("button", name="shake it").click()
+    page.get_by_text("Worth it?").wait_for(timeout=LONGEST)
+    answer = answered(copied(page), server.folder)
+    for key in ("torque_ratio", "torque_balance", "power_actuator_W", "saved_per_actuator_W_W"):
+        assert shown(page, key) == pytest.approx(answer[key], rel=1e-12)
+    expect(page.locator(".ratio")).to_contain_text("✓ settled")
+    for button, then in (("try each way", "least force on the teeth"),
+                         ("take the motor off", "Creep of the wheel")):  # fmt: skip
+        page.get_by_role("button", name=button).click()
+        page.get_by_text(then).first.wait_for(timeout=LONGEST)
+
+
+def test_a_job_says_that_something_was_set_since(seen):
+    page = seen.open("drive", case="drive-actuator")
+    page.get_by_role("button", name="shake it").click()
+    page.get_by_text("Worth it?").wait_for(timeout=LONGEST)
+    field(page, "operation.output_torque", "50 N m")
+    expect(page.get_by_text("something was set since")).to_be_visible()
+    page.go_back()
+    expect(page.get_by_text("something was set since")).to_have_count(0)
+
+
+def test_in_space_it_takes_few_calls_a_frame_and_turns(browser, server):
+    arguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    kind, path = browser.browser_type, shutil.which("chromium") or "chromium-browser"
+    with closing(kind.launch(executable_path=path, args=arguments)) as drawing:
+        seen = Seen(
+            drawing, server, viewport={"width": 400, "height": 700}, reduced_motion="reduce"
+        )
+        seen.page.add_init_script(COUNT_CALLS)
+        page = seen.open("flanks", case="gearset-3")
+        page.get_by_role("button", name="cut the wheel").click()
+        page.get_by_text("the lines in touch").wait_for(timeout=LONGEST)
+        # Nothing turns by itself where somebody wants none of it.
+        expect(page.get_by_role("button", name="play")).to_be_visible()
+        page.get_by_label("shown", exact=True).select_option("whole")
+        expect(page.locator("canvas.space")).to_be_visible()
+        before = picture(page)
+        page.get_by_role("slider", name="angle of the worm").fill("40")
+        page.wait_for_timeout(500)
+        after = picture(page)
+        assert np.mean(np.any(before != after, axis=-1)) > 0.005
+        assert page.evaluate("window.most") == 5
+
+
+def picture(page):
+    """What is drawn in space, as an array."""
+    from matplotlib.image import imread
+
+    content = page.locator("canvas.space").screenshot(timeout=LONGEST)
+    return imread(io.BytesIO(content))[..., :3]
+
+
+@pytest.mark.parametrize(
+    ("screen", "case", "button", "then"),
+    [
+        ("gear", "gearset-3", "", "First to fail"),
+        ("size", "gearset-3", "find the most efficient designs", "rounded optimum"),
+        ("flanks", "gearset-3", "cut the wheel", "the lines in touch"),
+        ("drive", "drive-actuator", "shake it", "Worth it?"),
+    ],
+)
+def test_nothing_keeps_anybody_out(seen_as, screen, case, button, then):
+    seen = seen_as(bypass_csp=True)
+    seen.page.add_init_script(NO_WEBGL)
+    page = seen.open(screen, case=case)
+    if button:
+        page.get_by_role("button", name=button).click()
+    page.get_by_text(then).first.wait_for(timeout=LONGEST)
+    settled(page)
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        assert violations(page) == []
+    page.set_viewport_size({"width": 360, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+
+
+def test_the_amplitude_of_a_drive_is_set_in_the_form_its_case_says_it(seen):
+    page = seen.open("drive", case="drive-screw")
+    expect(page.get_by_role("slider", name="velocity ratio k")).to_be_visible()
+    field(page, "vibration.velocity_ratio", "1.2")
+    assert "vibration.velocity_ratio=1.2" in page.url
+    page = seen.open("drive", case="drive-thesis")
+    expect(page.get_by_role("slider", name="amplitude", exact=True)).to_be_visible()
+
+
+def test_a_centre_distance_that_its_module_does_not_reach_is_offered_with_one_that_does(
+    gear, server
+):
+    field(gear, "gearset.centre_distance", "90 mm")
+    expect(gear.get_by_role("alert").filter(has_text="profile shift")).to_be_visible()
+    gear.get_by_role("button", name="the same shape at 90 mm").click()
+    settled(gear)
+    expect(gear.get_by_role("alert").filter(has_text="profile shift")).to_have_count(0)
+    wanted = answered(copied(gear), server.folder)["geometry"]
+    assert wanted["centre_distance_mm"] == 90
+    assert wanted["profile_shift"] == pytest.approx(0.018022, abs=1e-3)

@@ -1,0 +1,120 @@
+"""The rig and the thesis in a browser: a recording is dropped and reduced, claims are found."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from apparatus.browser import answered, copied, settled, violations
+from playwright.sync_api import expect
+
+RECORDING = Path(__file__).parents[1] / "answers" / "rig.nc"
+
+
+def dropped(seen):
+    """Open the rig and drop a recording; returns the page."""
+    page = seen.open("rig")
+    page.get_by_label("or drop a file here").set_input_files(RECORDING)
+    expect(page.locator(".signals")).to_be_visible()
+    return page
+
+
+def test_a_recording_that_is_dropped_shows_its_segments_and_is_reduced(seen, server):
+    page = dropped(seen)
+    expect(page.locator(".segment")).to_have_count(1)
+    grip = page.locator(".grip").first
+    grip.focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    settled(page)
+    assert "set.reduction.settling=1.5+s" in page.url
+    page.get_by_role("button", name="reduce").click()
+    change = page.locator("[data-key=torque_change_percent]").first
+    expect(change).to_be_visible(timeout=120_000)
+    words = copied(page)
+    assert "reduction.settling=1.5 s" in words
+    wanted = answered(words, server.folder)["segments"][0]["torque_change_percent"]
+    assert float(change.get_attribute("data-value")) == pytest.approx(wanted, rel=1e-9)
+    page.reload()
+    expect(page.locator("[data-key=torque_change_percent]").first).to_be_visible(timeout=120_000)
+
+
+def test_a_window_follows_the_pointer_at_once_and_no_late_answer_moves_it_back(seen):
+    page = dropped(seen)
+    asked, answers = [], []
+    page.route("**/api/do/signals", lambda route: (asked.append(route), answers.append(route)))
+    grip = page.locator(".grip").first
+    box = grip.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in (30, 60, 90):
+        page.mouse.move(x + step, y)
+        # Nothing is answered while it is dragged, nor asked.
+        moved = grip.bounding_box()
+        assert moved["x"] + moved["width"] / 2 == pytest.approx(x + step, abs=5)
+    assert not asked
+    page.mouse.up()
+    page.wait_for_timeout(600)
+    assert len(asked) == 1
+    there = grip.bounding_box()["x"]
+    # A key is pressed while the answer is under way; it comes late, and moves nothing.
+    page.keyboard.press("ArrowRight")
+    further = grip.bounding_box()["x"]
+    assert further > there
+    answers[0].continue_()
+    page.unroute("**/api/do/signals")
+    page.wait_for_timeout(1500)
+    assert grip.bounding_box()["x"] == pytest.approx(further, abs=0.5)
+    settled(page)
+    assert grip.bounding_box()["x"] == pytest.approx(further, abs=0.5)
+
+
+def test_an_interval_is_a_bar_and_point_and_model_have_marks_of_their_own(seen):
+    page = dropped(seen)
+    page.get_by_role("button", name="reduce").click()
+    plot = page.locator("figure", has_text="Measured change of torque")
+    expect(plot).to_be_visible(timeout=120_000)
+    expect(plot.locator(".drawn circle.point")).to_have_count(1)
+    # One segment: no line is drawn, and the bar of the interval is.
+    expect(plot.locator(".drawn path.line")).to_have_count(1)
+    expect(plot.locator(".legend")).to_contain_text("measured, with its interval")
+    low, high = (float(end) for end in page.locator("tbody tr").first.locator("td").nth(6)
+                 .inner_text().split(" to "))  # fmt: skip
+    plot.get_by_text("as table").click()
+    cells = plot.locator("tbody td").all_inner_texts()
+    assert [float(cell) for cell in cells[2:4]] == pytest.approx([low, high], rel=1e-3)
+
+
+def test_claims_are_found_by_words_and_verdict_and_say_what_makes_them(seen, server):
+    made = {"name": "claim 2.3", "key": "of another version", "plain": {}, "files": {}}
+    folder = server.folder / "out/thesis"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "made.json").write_text(json.dumps([made]))
+    try:
+        page = seen.open("thesis")
+        rows = page.locator("tbody tr")
+        expect(page.get_by_text("69 of 69 claims")).to_be_visible()
+        page.get_by_role("searchbox").fill("oversize alone")
+        expect(rows).to_have_count(1)
+        # What another version made is not shown as this one's.
+        expect(rows.first).to_contain_text("not made here")
+        rows.first.locator("summary").click()
+        expect(rows.first).to_contain_text("asperity thesis --only 2.3")
+        settled(page)
+        page.reload()
+        expect(rows).to_have_count(1)
+        page.get_by_label("reproduced").check()
+        expect(rows).to_have_count(0)
+    finally:
+        shutil.rmtree(folder.parent)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_wrong_with_either(seen_as, scheme):
+    seen = seen_as(color_scheme=scheme, bypass_csp=True)
+    dropped(seen)
+    assert violations(seen.page) == []
+    page = seen.open("thesis")
+    expect(page.locator("tbody tr").first).to_be_visible()
+    assert violations(page) == []

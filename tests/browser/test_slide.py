@@ -1,0 +1,159 @@
+"""The sliding body in a browser: what is dragged, shown, saved and gone back to."""
+
+import re
+
+import pytest
+from apparatus.browser import answered, copied, settled, shown, tab_to
+from playwright.sync_api import expect
+
+NUMBERS = ("ratio", "drive_force_N", "power_vibration_W", "power_friction_W", "power_residual")
+
+
+@pytest.fixture
+def slide(seen):
+    page = seen.open("slide")
+    expect(page.locator("[data-key=ratio]").first).to_be_visible()
+    return page
+
+
+def press(page, name, key, times):
+    page.get_by_role("slider", name=name, exact=True).focus()
+    for _ in range(times):
+        page.keyboard.press(key)
+
+
+def test_numbers_on_the_screen_are_those_of_the_command_that_is_handed_out(slide, server):
+    before = shown(slide, "ratio")
+    press(slide, "direction", "ArrowRight", 40)
+    press(slide, "drive velocity", "ArrowRight", 7)
+    settled(slide)
+    words = copied(slide)
+    assert "vibration.direction=40 deg" in words
+    answer = answered(words, server.folder)
+    assert {key: shown(slide, key) for key in NUMBERS} == pytest.approx(
+        {key: answer[key] for key in NUMBERS}, rel=1e-9, abs=1e-12
+    )
+    assert shown(slide, "ratio") > before
+
+
+def test_a_case_that_is_saved_gives_the_same_on_the_command_line(slide, server):
+    press(slide, "frequency", "ArrowRight", 10)
+    press(slide, "velocity ratio k", "ArrowLeft", 10)
+    settled(slide)
+    ratio = shown(slide, "ratio")
+    slide.get_by_role("button", name="save case").click()
+    slide.get_by_label("name").fill("slower")
+    slide.get_by_role("button", name="save", exact=True).click()
+    expect(slide.get_by_label("case", exact=True)).to_have_value("slower.toml")
+    settled(slide)
+    assert shown(slide, "ratio") == ratio
+    answer = answered(["asperity", "slide", "slower.toml", "--json"], server.folder)
+    assert answer["ratio"] == pytest.approx(ratio, rel=1e-12)
+
+
+def test_reload_and_back_keep_what_is_set(slide):
+    press(slide, "direction", "ArrowRight", 20)
+    settled(slide)
+    ratio = shown(slide, "ratio")
+    press(slide, "direction", "ArrowRight", 20)
+    settled(slide)
+    further = shown(slide, "ratio")
+    slide.reload()
+    box = slide.get_by_label("direction, typed")
+    expect(box).to_have_value("40 deg")
+    expect(slide.locator("[data-key=ratio]").first).to_have_attribute("data-value", str(further))
+    slide.go_back()
+    expect(box).to_have_value("20 deg")
+    expect(slide.locator("[data-key=ratio]").first).to_have_attribute("data-value", str(ratio))
+
+
+def test_the_keyboard_alone_drags_pins_reads_the_table_and_opens_an_origin(slide):
+    expect(slide.get_by_text("Force left over direction")).to_be_visible()
+    tab_to(slide, "velocity ratio k, typed")
+    slide.keyboard.press("Control+A")
+    slide.keyboard.type("12")
+    slide.keyboard.press("Enter")
+    settled(slide)
+    assert shown(slide, "velocity_ratio") == pytest.approx(12, rel=1e-12)
+    tab_to(slide, "0.")
+    slide.keyboard.press("Enter")
+    origin = slide.get_by_role("dialog", name="where the number comes from")
+    expect(origin).to_contain_text(re.compile(r"equation\s*F_dv/F_ds = .*N / .*N"))
+    slide.keyboard.press("Escape")
+    expect(origin).to_be_hidden()
+    tab_to(slide, "pin this curve")
+    slide.keyboard.press("Enter")
+    expect(slide.get_by_role("button", name="unpin")).to_be_visible()
+    tab_to(slide, "Force left over direction as table")
+    slide.keyboard.press("Enter")
+    expect(slide.get_by_role("columnheader", name="direction (deg)")).to_be_visible()
+
+
+def test_what_cannot_be_is_told_in_a_line_that_marks_its_field(slide):
+    box = slide.get_by_label("normal force, typed")
+    box.fill("-3 N")
+    box.press("Enter")
+    expect(slide.get_by_role("alert")).to_contain_text("slider.normal_force")
+    expect(box).to_have_attribute("aria-invalid", "true")
+    slide.get_by_role("button", name="undo 1 change").click()
+    expect(slide.locator(".fault")).to_have_count(0)
+
+
+def test_another_form_of_the_amplitude_is_the_same_state(slide):
+    ratio = shown(slide, "ratio")
+    slide.get_by_label("strength given as").select_option("displacement_amplitude")
+    settled(slide)
+    assert shown(slide, "ratio") == pytest.approx(ratio, rel=1e-4)
+    assert "velocity_ratio=" not in " ".join(copied(slide))
+
+
+def test_pictures_and_numbers_of_a_plot_are_files(slide):
+    expect(slide.get_by_text("Force left over direction")).to_be_visible()
+    for kind, begins in (("PNG", b"\x89PNG"), ("SVG", b"<svg"), ("CSV", b"direction (deg),")):
+        with slide.expect_download() as download:
+            slide.get_by_role("button", name=f"Force left over direction as {kind}").click()
+        with open(download.value.path(), "rb") as file:
+            assert file.read(len(begins)) == begins
+
+
+def test_a_picture_is_drawn_on_white_with_its_legend_whatever_the_page_looks_like(seen_as):
+    texts = {}
+    for scheme in ("light", "dark"):
+        page = seen_as(color_scheme=scheme).open("slide")
+        for title in ("Power", "Over a cycle"):
+            with page.expect_download() as download:
+                page.get_by_role("button", name=f"{title} as SVG").click()
+            with open(download.value.path()) as file:
+                texts[scheme, title] = file.read()
+    for title, legend in (("Power", "lost to friction"), ("Over a cycle", "sliding")):
+        assert texts["light", title] == texts["dark", title]
+        assert legend in texts["light", title]
+
+
+def test_a_number_of_another_base_is_refused_and_a_meaning_names_no_other_unit(slide):
+    box = slide.get_by_label("velocity ratio k, typed")
+    box.fill("0x10")
+    box.press("Enter")
+    alert = slide.get_by_role("alert").filter(has_text="vibration.velocity_ratio")
+    expect(alert).to_be_visible()
+    assert "--set" not in alert.inner_text()
+    assert alert.inner_text().count("vibration.velocity_ratio") == 1
+    slide.get_by_text("every key of the case").click()
+    says = slide.locator("#field-slider-drive_velocity-says")
+    expect(says).to_contain_text("v_d > 0. (")
+
+
+def test_a_case_is_replaced_only_when_that_is_said(slide):
+    def save():
+        slide.get_by_role("button", name="save case").click()
+        slide.get_by_role("dialog").get_by_label("name").fill("twice")
+        slide.get_by_role("button", name="save", exact=True).click()
+
+    save()
+    expect(slide.get_by_label("case", exact=True)).to_have_value("twice.toml")
+    press(slide, "direction", "ArrowRight", 5)
+    settled(slide)
+    save()
+    slide.get_by_role("button", name="replace it").click()
+    expect(slide.get_by_role("dialog")).to_have_count(0)
+    expect(slide.get_by_label("direction, typed")).to_have_value("5 deg")

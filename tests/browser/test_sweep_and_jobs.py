@@ -1,0 +1,118 @@
+"""Grids, elastic blocks and the list of jobs in a browser."""
+
+import re
+
+import pytest
+from apparatus.browser import answered, copied, shown
+from playwright.sync_api import expect
+
+DONE = re.compile(r"done after")
+MINUTES = 240_000
+"""A job may have to wait for another on a busy machine, ms."""
+
+
+def state(page, text):
+    expect(page.locator(".work [role=status]").first).to_have_text(text, timeout=MINUTES)
+
+
+def test_a_grid_that_is_solved_is_what_the_command_line_finds(seen, server):
+    page = seen.open(
+        "sweep", case="body-shaken-along", x="vibration.velocity_ratio~2~8~3~log",
+        y="vibration.direction~0 deg~90 deg~2~even", **{"set.solve.method": "periodic"},
+    )  # fmt: skip
+    expect(page.get_by_text("6 points")).to_be_visible()
+    page.get_by_role("button", name="solve the grid").click()
+    state(page, DONE)
+    expect(page.get_by_text("6 of 6 points")).to_be_visible()
+    page.get_by_text("as table").first.click()
+    rows = page.locator("figure.heat tbody tr").all_inner_texts()
+    found = {tuple(map(float, row.split()[:2])): float(row.split()[2]) for row in rows}
+    assert len(found) == 6
+    words = ["asperity", "slide", "body-shaken-along", "--set", "solve.method=periodic", "--json"]
+    for k, direction in ((2, 0), (8, 90)):
+        more = [f"vibration.velocity_ratio={k}", f"vibration.direction={direction} deg"]
+        sets = [word for each in more for word in ("--set", each)]
+        answer = answered([*words, *sets], server.folder)
+        assert found[k, direction] == pytest.approx(answer["ratio"], rel=1e-5)
+    assert answered([*copied(page), "--json"], server.folder)["points"] == 6
+    with page.expect_download() as download:
+        page.get_by_role("button", name="sweep.nc", exact=True).click()
+    assert download.value.suggested_filename == "sweep.nc"
+    page.reload()
+    expect(page.get_by_text("6 of 6 points")).to_be_visible()
+
+
+def test_a_grid_is_stopped_from_the_list_of_jobs_and_gone_on_with(seen):
+    page = seen.open(
+        "sweep", case="body-shaken-along", x="vibration.velocity_ratio~1~20~40~even",
+        y="vibration.frequency~1 kHz~5 kHz~40~even", **{"set.solve.method": "periodic"},
+    )  # fmt: skip
+    expect(page.get_by_text("1600 points")).to_be_visible()
+    page.get_by_role("button", name="solve the grid").click()
+    expect(page.get_by_text(re.compile(r"[1-9]\d* of 1600"))).not_to_have_count(0, timeout=MINUTES)
+    page.get_by_role("link", name="Jobs", exact=True).click()
+    job = page.locator(".jobs li").filter(has_text="velocity_ratio=1,")
+    job.get_by_role("button", name="stop").click()
+    expect(job.locator(".state")).to_contain_text("stopped", timeout=MINUTES)
+    job.get_by_role("button", name="go on").click()
+    expect(job.locator(".state")).to_contain_text(
+        re.compile("running, [1-9]|done"), timeout=MINUTES
+    )
+    if job.get_by_role("button", name="stop").count():
+        job.get_by_role("button", name="stop").click()
+    expect(job.locator(".state")).to_contain_text(re.compile("stopped|done"), timeout=MINUTES)
+
+
+def test_a_click_is_seen_at_once_and_what_was_solved_when_it_was_stopped_is_shown(seen):
+    page = seen.open(
+        "sweep", case="body-shaken-along", x="vibration.velocity_ratio~1~20~40~even",
+        y="vibration.frequency~1 kHz~7 kHz~40~even", **{"set.solve.method": "periodic"},
+    )  # fmt: skip
+    expect(page.get_by_text(re.compile("1600 points, about"))).to_be_visible()
+    held = []
+    page.route("**/api/jobs", lambda route: held.append(route))
+    button = page.get_by_role("button", name="solve the grid")
+    button.click()
+    state(page, "begun")
+    expect(button).to_be_disabled()
+    held[0].continue_()
+    page.unroute("**/api/jobs")
+    expect(page.get_by_text(re.compile(r"[1-9]\d* of 1600 points"))).to_be_visible(timeout=MINUTES)
+    page.get_by_role("button", name="stop").click()
+    state(page, re.compile("stopped|done"))
+    expect(page.locator("figcaption")).not_to_contain_text(": 0 of")
+    shown_then = page.locator("figcaption").first.inner_text()
+    page.reload()
+    expect(page.locator("figcaption").first).to_have_text(shown_then)
+
+
+def test_a_job_is_deleted_with_its_files_once_that_is_confirmed(seen):
+    page = seen.open(
+        "sweep", case="body-shaken-along", x="vibration.velocity_ratio~3~9~2~log",
+        y="none", **{"set.solve.method": "periodic"},
+    )  # fmt: skip
+    page.get_by_role("button", name="solve the grid").click()
+    state(page, DONE)
+    page.get_by_role("link", name="Jobs", exact=True).click()
+    job = page.locator(".jobs li").filter(has_text="velocity_ratio=3,9")
+    job.get_by_role("button", name="delete").click()
+    page.get_by_role("button", name="keep it").click()
+    expect(job).to_have_count(1)
+    job.get_by_role("button", name="delete").click()
+    job.get_by_role("button", name="delete it").click()
+    expect(job).to_have_count(0)
+
+
+def test_a_block_is_marched_and_its_pressure_shown(seen, server):
+    page = seen.open(
+        "block", case="block-shaken-along",
+        **{"set.block.elements": "[2, 2, 2]", "set.block.element": "hex8",
+           "set.vibration.start": "1 ms", "set.solve.step": "4 us", "set.solve.duration": "3 ms"},
+    )  # fmt: skip
+    page.get_by_role("button", name="march", exact=True).click()
+    expect(page.get_by_text("Pressure under the block")).to_be_visible(timeout=MINUTES)
+    job = page.locator(".work [role=status]").nth(1)
+    expect(job).to_have_text(DONE)
+    words = [word.replace("settled", "march") for word in copied(page)]
+    answer = answered([*words, "--json"], server.folder)
+    assert shown(page, "ratio") == pytest.approx(answer["ratio"], rel=1e-9)

@@ -1,0 +1,46 @@
+"""What is brought along from others is what VENDORED.toml says, with its licences."""
+
+import hashlib
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import asperity
+
+PAGE = Path(asperity.__file__).parent / "web/static/vendor"
+TESTS = Path(__file__).parents[1] / "browser/vendor"
+
+
+@pytest.mark.parametrize("folder", [PAGE, TESTS], ids=["page", "tests"])
+def test_every_vendored_file_is_listed_unchanged_and_has_its_licence(folder):
+    listed = tomllib.loads((folder / "VENDORED.toml").read_text("utf-8"))
+    there = {path.name for path in folder.iterdir() if path.suffix in (".js", ".css")}
+    assert set(listed) == there
+    for name, entry in listed.items():
+        assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == entry["sha256"], name
+        for package in entry["packages"]:
+            assert package["version"]
+            assert package["licence"] in ("MIT", "Apache-2.0", "MPL-2.0")
+            assert len((folder / package["text"]).read_text("utf-8")) > 500
+
+
+def test_a_screen_that_draws_nothing_in_space_takes_at_most_200_kb_and_all_of_it_900():
+    static = PAGE.parent
+    sent = {
+        path: path.stat().st_size
+        for path in static.rglob("*")
+        if path.suffix in (".js", ".css", ".html", ".svg")
+    }
+    in_space = ("three.js", "scene.js", "flanks.js")
+    flat = {path: size for path, size in sent.items() if path.name not in in_space}
+    screens = [size for path, size in flat.items() if path.parent.name == "screens"]
+    assert sum(flat.values()) - sum(screens) + max(screens) <= 200_000
+    assert sum(sent.values()) <= 900_000
+
+
+def test_the_modules_of_the_page_are_short_and_so_are_their_lines():
+    for path in (PAGE.parent / "js").rglob("*.js"):
+        lines = path.read_text("utf-8").splitlines()
+        assert len(lines) <= 300, path.name
+        assert max(map(len, lines)) <= 120, path.name
