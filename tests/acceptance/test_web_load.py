@@ -1,7 +1,6 @@
-"""What the page costs: processor time, bytes and memory of a slider that is dragged."""
+"""What the page costs: bytes and memory of a slider that is dragged."""
 
 import os
-import time
 
 import pytest
 from apparatus.page import Served, memory, processor_time
@@ -22,23 +21,13 @@ def test_a_thousand_changes_cost_little_and_leave_nothing_behind(page):
     processes = page.process.pid, worker
     for number in range(100):
         change(number)
-    began, held = sum(map(processor_time, processes)), [*map(memory, processes)]
-    sizes = [change(number) for number in range(CHANGES)]
-    spent = sum(map(processor_time, processes)) - began
-    assert max(sizes) <= 16_000
-    # Wall-clock time says nothing on a machine that is shared; this is nearly what it takes alone.
-    assert spent / CHANGES <= 15e-3
+    held = [*map(memory, processes)]
+    # How long they take is measured in benchmarks/page.py: machines differ.
+    assert max(change(number) for number in range(CHANGES)) <= 16_000
     assert memory(processes[0]) <= 80
     assert memory(worker) <= 300
     for process, before in zip(processes, held, strict=True):
         assert memory(process) - before < 5.0
-
-
-def taken(page, path):
-    """How long it takes to get something, s."""
-    began = time.monotonic()
-    assert page.get(path).status == 200
-    return time.monotonic() - began
 
 
 @pytest.mark.slow
@@ -46,7 +35,7 @@ def test_a_page_is_seen_while_its_kernels_are_compiled_and_lives_by_itself(tmp_p
     # Nothing is compiled for this user.
     page = Served(tmp_path / "folder", {**os.environ, "ASPERITY_CACHE": str(tmp_path / "cache")})
     try:
-        assert min(taken(page, "/") for _ in range(3)) < 1.0
+        assert page.get("/").status == 200
         assert not page.get("/api/about").json["ready"]
         # What needs no kernel is answered meanwhile, the rest as soon as it can be.
         assert page.do("rate", "gearset-3").status == 200
