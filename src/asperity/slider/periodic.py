@@ -253,7 +253,7 @@ def _longer(cycle: Cycle) -> tuple[bool, float]:
 
 def _growth(jacobian: FloatArray) -> float:
     """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken."""
-    if jacobian.size == 0 or not np.any(jacobian):
+    if not jacobian.any():
         return 0.0
     return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
 
