@@ -31,13 +31,18 @@ def test_a_call_is_left_within_two_seconds(name):
         sent.append(time.perf_counter())
         os.kill(os.getpid(), signal.SIGINT)
 
+    def again_and_again(call):
+        # A fast machine is done with one before it is interrupted.
+        while not sent or time.perf_counter() - sent[0] < MOST_S:
+            call()
+
     # As the kernel of a notebook has it.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.7, interrupt)
     try:
         timer.start()
         with pytest.raises(KeyboardInterrupt):
-            CALLS[name]()
+            again_and_again(CALLS[name])
         assert time.perf_counter() - sent[0] < MOST_S
     finally:
         timer.cancel()
