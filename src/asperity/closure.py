@@ -76,12 +76,6 @@ def source_key(*modules: str, lazy: bool = True) -> str:
     return digest_of(files)
 
 
-@functools.cache
-def package_hash() -> str:
-    """Return a hash of every source of the package."""
-    return digest_of(_PACKAGE.rglob("*.py"))
-
-
 def digest_of(files: Iterable[Path], root: Path = _PACKAGE.parent) -> str:
     """Return a hash of files' names, as seen from a folder, and contents."""
     digest = hashlib.sha256()

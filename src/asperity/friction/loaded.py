@@ -60,6 +60,13 @@ def turning_rate(sx, sy, dx, dy, limit_1, exponent, law):
 
 
 @kernel
+def size_and_most(wx, wy, sx, sy, limit_0, limit_1):
+    """Size of a deflection; how far above the limit that of the start was; and what may be."""
+    above = max(1.0, math.sqrt(sx * sx + sy * sy) / limit_0)
+    return math.sqrt(wx * wx + wy * wy), above, limit_1 * above
+
+
+@kernel
 def slip_back(wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law):
     r"""Deflection ``w`` that a step from ``s`` came to, brought back to a limit that fell.
 
@@ -71,10 +78,7 @@ def slip_back(wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law):
     :math:`o/(s_{max,0} + s_{max,1})` of the slip. The scheme is of order two by it, and since
     friction turns towards the slip, loses no less.
     """
-    start = math.sqrt(sx * sx + sy * sy)
-    size = math.sqrt(wx * wx + wy * wy)
-    above = max(1.0, start / limit_0)
-    most = limit_1 * above
+    size, above, most = size_and_most(wx, wy, sx, sy, limit_0, limit_1)
     over = size - most
     if over <= 0.0:
         return wx, wy

@@ -8,7 +8,14 @@ import math
 
 from asperity.compiled import kernel
 from asperity.friction.dahl import TINY, VECTOR
-from asperity.friction.loaded import DEFLECTION, friction_loss, mean_limit, slip_back, turning_rate
+from asperity.friction.loaded import (
+    DEFLECTION,
+    friction_loss,
+    mean_limit,
+    size_and_most,
+    slip_back,
+    turning_rate,
+)
 from asperity.friction.tangent import limit_slope, update
 
 _NONE = (0.0, 0.0, 0.0, 0.0)
@@ -36,10 +43,7 @@ def _slip_back_slope(
     wx, wy, sx, sy, dx, dy, limit_0, limit_1, exponent, law, ux, uy, tx, ty, rise_0, rise_1
 ):  # fmt: skip
     """Derivative of `loaded.slip_back` for w, the slip and the limits changing by u, t, rise."""
-    start = math.sqrt(sx * sx + sy * sy)
-    size = math.sqrt(wx * wx + wy * wy)
-    above = max(1.0, start / limit_0)
-    most = limit_1 * above
+    size, above, most = size_and_most(wx, wy, sx, sy, limit_0, limit_1)
     over = size - most
     if over <= 0.0:
         return ux, uy

@@ -164,6 +164,15 @@ def share_and_tangent(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, pressure):
 
 
 @kernel
+def _miss(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, full, augmentation, aim_x, aim_y):
+    """How far friction plus r times a slip is from ``aim``, squared; all as `augmented_slip`."""
+    _, _, _, wx, wy = share_of(sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, full / p.mu)
+    rx = full * wx + augmentation * (d1x + d2x) - aim_x
+    ry = full * wy + augmentation * (d1y + d2y) - aim_y
+    return rx * rx + ry * ry
+
+
+@kernel
 def augmented_slip(
     sx, sy, size, d1x, d1y, d2x, d2y, one_sided, p, full, augmentation, aim_x, aim_y
 ):  # fmt: skip
@@ -208,10 +217,7 @@ def augmented_slip(
     for start in range(2):
         ax = d1x if start == 0 else -d2x
         ay = d1y if start == 0 else -d2y
-        _, _, _, wx, wy = share_of(sx, sy, size, ax, ay, d2x, d2y, one_sided, p, pressure)
-        rx = full * wx + augmentation * (ax + d2x) - aim_x
-        ry = full * wy + augmentation * (ay + d2y) - aim_y
-        miss = rx * rx + ry * ry
+        miss = _miss(sx, sy, size, ax, ay, d2x, d2y, one_sided, p, full, augmentation, aim_x, aim_y)
         if miss < best:
             best = miss
             mx = ax
@@ -236,10 +242,9 @@ def augmented_slip(
         while step > 1e-3:
             ax = mx + step * cx
             ay = my + step * cy
-            _, _, _, wx, wy = share_of(sx, sy, size, ax, ay, d2x, d2y, one_sided, p, pressure)
-            rx = full * wx + augmentation * (ax + d2x) - aim_x
-            ry = full * wy + augmentation * (ay + d2y) - aim_y
-            miss = rx * rx + ry * ry
+            miss = _miss(
+                sx, sy, size, ax, ay, d2x, d2y, one_sided, p, full, augmentation, aim_x, aim_y
+            )
             if miss < best:
                 best = miss
                 mx = ax

@@ -33,6 +33,14 @@ def next_step(system, state, end):
 
 @uncounted
 @kernel(inline="always")
+def _free(place, rate, push, dt):
+    """Place and rate at the end of a step of what is pushed alike all through it."""
+    half = rate + 0.5 * dt * push
+    return place + dt * half, half + 0.5 * dt * push
+
+
+@uncounted
+@kernel(inline="always")
 def move(system, state, dt, q, v):
     """Fill in poses and rates at the end of a step; what is imposed is added to what is free."""
     time = state.time + dt
@@ -43,27 +51,21 @@ def move(system, state, dt, q, v):
     state.wave_ahead = wave
     state.rate_ahead = rate
     if system.turns:
-        half = state.turn_rate + 0.5 * dt * state.turn_push
-        q[0] = state.turn + dt * half
-        v[0] = half + 0.5 * dt * state.turn_push
+        q[0], v[0] = _free(state.turn, state.turn_rate, state.turn_push, dt)
     else:
         q[0] = system.speed * time + system.shake_motor * wave
         v[0] = system.speed + system.shake_motor * rate
     q[0] += system.shake_worm_turn * wave
     v[0] += system.shake_worm_turn * rate
     if system.shifts:
-        half = state.shift_rate + 0.5 * dt * state.shift_push
-        q[1] = state.shift + dt * half
-        v[1] = half + 0.5 * dt * state.shift_push
+        q[1], v[1] = _free(state.shift, state.shift_rate, state.shift_push, dt)
     else:
         q[1] = system.shake_seat * wave
         v[1] = system.shake_seat * rate
     q[1] += system.shake_worm_shift * wave
     v[1] += system.shake_worm_shift * rate
     if system.rolls:
-        half = state.roll_rate + 0.5 * dt * state.roll_push
-        q[2] = state.roll + dt * half
-        v[2] = half + 0.5 * dt * state.roll_push
+        q[2], v[2] = _free(state.roll, state.roll_rate, state.roll_push, dt)
     else:
         q[2] = state.roll
         v[2] = 0.0
@@ -73,9 +75,9 @@ def move(system, state, dt, q, v):
     v[4] = 0.0
     if system.bends:
         for i in range(3):
-            half = state.bent_rate[i] + 0.5 * dt * state.bent_push[i]
-            state.bent_ahead[i] = state.bent[i] + dt * half
-            state.bent_going[i] = half + 0.5 * dt * state.bent_push[i]
+            state.bent_ahead[i], state.bent_going[i] = _free(
+                state.bent[i], state.bent_rate[i], state.bent_push[i], dt
+            )
         q[1] += state.bent_ahead[0]
         v[1] += state.bent_going[0]
         q[3] -= state.bent_ahead[1]

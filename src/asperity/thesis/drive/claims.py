@@ -19,7 +19,7 @@ RADIUS = 9.76e-3
 """At which one point on the worm of gearset 3 has the torque of its loaded teeth, m."""
 
 _TORQUE = "asperity.drive.point.MeshPoint.worm_torque"
-_SAVED_MASS, _SAVED_DIAMETER, _SAVED_LENGTH, _SAVED_COST = 6.0, 0.05, 0.03, 23.0
+_SAVED_MASS, _SAVED_DIAMETER, _SAVED_LENGTH = 6.0, 0.05, 0.03
 # A motor of cast iron or aluminium, copper and steel; kg/m3.
 _DENSITIES = (3500.0, 7500.0)
 _SHORTEST = 0.8

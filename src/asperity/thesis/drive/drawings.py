@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 _K = r"velocity ratio $k_w = v_a/v_g$"
 _RATIO = r"$T_{Bv}/T_{Bs}$"
 _GREY = "#D9D9D9"
-_SCALE: dict[str, Any] = {"linthresh": 0.5, "linscale": 0.6}
 _TICKS = (0.1, 0.5, 1, 2, 3, 5, 10, 20)
 
 

@@ -33,9 +33,6 @@ SLIDE_ROLL = (0.44, 0.88, 0.94)
 AMPLITUDES = {"transverse": 0.059, "longitudinal": 0.087}
 """v_a at 750 Hz, m/s (6.5.2, 6.6.2)."""
 
-LARGEST_REDUCTION = {"transverse": 0.86, "longitudinal": 0.78}
-"""Of the torque, at 750 Hz (6.8)."""
-
 STROKE = 32e-6
 """m (6.4.4)."""
 
