@@ -40,20 +40,26 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+@pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    # Parts of a campaign differ in one parameter alone; of each campaign one part is run at least.
+    # Last, when ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
+    # Parts of a campaign differ in the parameter it is over, or in any if it names none. Of each
+    # campaign one part is run at least, but where another test tries the statement on less.
     share = config.getoption("share")
     if share >= 1.0:
         return
     campaigns = defaultdict(list)
     for item in items:
         if mark := item.get_closest_marker("campaign"):
-            parameters = {**item.callspec.params}
-            del parameters[mark.kwargs["over"]]
-            campaigns[item.nodeid.partition("[")[0], repr(sorted(parameters.items()))].append(item)
+            over, tried_by = map(mark.kwargs.get, ("over", "tried_by"))
+            if tried_by and not hasattr(item.module, tried_by):
+                raise pytest.UsageError(f"{item.nodeid}: no {tried_by} is in its module")
+            apart = [one for one in item.callspec.params.items() if over and one[0] != over]
+            campaign = item.nodeid.partition("[")[0], repr(sorted(apart)), not tried_by
+            campaigns[campaign].append(item)
     left_out = set()
-    for parts in campaigns.values():
-        count = max(1, round(share * len(parts)))
+    for (*_, least), parts in campaigns.items():
+        count = max(least, round(share * len(parts)))
         left_out |= set(parts) - {parts[math.floor(n * len(parts) / count)] for n in range(count)}
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])

@@ -78,7 +78,7 @@ def _marked(group, *marks):
     ]
 
 
-SLOW = pytest.mark.slow, pytest.mark.campaign(over="line")
+SLOW = pytest.mark.slow, pytest.mark.campaign
 
 
 @pytest.mark.parametrize(("command", "line"), _marked("ordinary") + _marked("slow", *SLOW))

@@ -41,7 +41,7 @@ def test_march_and_periodic_state_agree(case, law):
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="first")
+@pytest.mark.campaign(tried_by="test_march_and_periodic_state_agree")
 @pytest.mark.parametrize("first", range(0, 90, 15))
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("case", CASES)

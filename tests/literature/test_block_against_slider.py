@@ -49,7 +49,7 @@ def is_the_sliding_body(found):
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="k")
+@pytest.mark.campaign
 @pytest.mark.parametrize(("way", "k"), CASES)
 def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_that_is_between(
     way, k
@@ -60,7 +60,7 @@ def test_a_guided_block_is_the_sliding_body_and_its_compliance_in_series_is_all_
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="k")
+@pytest.mark.campaign
 @pytest.mark.parametrize(("way", "k"), CALM)
 def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(way, k):
     found = block(way, k).settled()
@@ -70,7 +70,7 @@ def test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series(w
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="k")
+@pytest.mark.campaign
 @pytest.mark.parametrize(("way", "k"), ROCKING)
 def test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking(way, k):
     free = block(way, k).settled()
@@ -83,7 +83,9 @@ def test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking(wa
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="case")
+@pytest.mark.campaign(
+    tried_by="test_a_free_block_is_the_sliding_body_with_the_blocks_compliance_in_series"
+)
 @pytest.mark.parametrize("case", [("transverse", 6), ("coupled", 2)])
 def test_on_the_shipped_mesh_too_a_block_is_the_sliding_body_with_its_compliance(case):
     found = block(*case, mesh=()).settled()
@@ -93,7 +95,9 @@ def test_on_the_shipped_mesh_too_a_block_is_the_sliding_body_with_its_compliance
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="way")
+@pytest.mark.campaign(
+    tried_by="test_what_takes_a_free_block_further_from_the_sliding_body_is_its_rocking"
+)
 @pytest.mark.parametrize("way", ["longitudinal", "coupled"])
 def test_on_the_shipped_mesh_too_it_is_the_rocking_at_k_20(way):
     found = block(way, 20, mesh=()).settled()

@@ -279,7 +279,9 @@ def test_cylinders_stick_within_cattaneo_s_strip():
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="count")
+@pytest.mark.campaign(
+    tried_by="test_spheres_stick_within_cattaneo_s_circle_and_give_as_mindlin_says"
+)
 @pytest.mark.parametrize("count", [4, 5])
 def test_spheres_of_finite_elements_slip_as_cattaneo_and_mindlin_say(quarter_patch, count):
     half = 1.25 * A

@@ -172,7 +172,6 @@ def _is_made(starts, teeth, factor, angle, shift, hob, size):
     return True
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("every", [61, slow(17)])
 def test_nearly_all_of_a_sample_of_gearsets_have_valid_meshes(every):
     sample = _GRID[::every]
@@ -181,7 +180,7 @@ def test_nearly_all_of_a_sample_of_gearsets_have_valid_meshes(every):
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="hob")
+@pytest.mark.campaign(tried_by="test_nearly_all_of_a_sample_of_gearsets_have_valid_meshes")
 @pytest.mark.parametrize("hob", [Hob(), Hob(oversize=1.12, tilt="2 deg")], ids=["same", "larger"])
 def test_nine_in_ten_of_all_gearsets_have_valid_meshes_and_the_others_a_reason(hob):
     made = [case for case in _GRID if _is_made(*case, hob, 0.8)]

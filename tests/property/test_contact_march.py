@@ -177,7 +177,7 @@ DROPS = {
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="name")
+@pytest.mark.campaign
 @pytest.mark.parametrize(("name", "element", "step"), grid([*DROPS], ["hex8", "hex27"], STEPS))
 def test_a_dropped_block_never_has_more_energy_than_it_fell_with(name, element, step):
     problem = block(*DROPS[name], "vibration.velocity_ratio=0", element=element)

@@ -71,7 +71,7 @@ def test_from_two_milliseconds_on_the_law_follows_the_cycle_mean_drive_force(cas
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="speed")
+@pytest.mark.campaign
 @pytest.mark.parametrize(("case", "speed", "law_name"), grid(CASES, [0.5, 1, 2, 6, 20], LAWS))
 def test_its_ratio_is_the_marchs(case, speed, law_name):
     marched, homogenised = both(

@@ -1,8 +1,10 @@
 """A run keeps what is done, goes on at its cell, and latches with vibration and motors off."""
 
 import dataclasses
+import functools
 import os
 import random
+import resource
 import shutil
 import signal
 
@@ -30,6 +32,17 @@ def undisturbed(tmp_path_factory):
     answer = rigs.run(rigs.small_case(), folder)
     assert answer.failure is None
     return folder, answer
+
+
+@pytest.fixture(scope="module")
+def lasting(undisturbed, tmp_path_factory):
+    """Processor time of a run in a process of its own, s."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert rigs.killed_run(
+        rigs.small_case(), tmp_path_factory.mktemp("lasting"), 60.0, resume=False
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def test_a_run_does_every_step_and_records_every_cell(undisturbed):
@@ -150,25 +163,27 @@ def killed_and_resumed(case, folder, draw):
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_runs_that_are_killed_go_on_to_the_same_cells(undisturbed, tmp_path):
+def test_runs_that_are_killed_go_on_to_the_same_cells(undisturbed, lasting, tmp_path):
     folder, _ = undisturbed
     rng = random.Random(1)
-    kills = killed_and_resumed(rigs.small_case(), tmp_path / "run", lambda: rng.uniform(0.1, 0.5))
+    moment = functools.partial(rng.uniform, 0.2 * lasting, 0.8 * lasting)
+    kills = killed_and_resumed(rigs.small_case(), tmp_path / "run", moment)
     assert kills >= 1
     assert rigs.cells(tmp_path / "run") == rigs.cells(folder)
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-@pytest.mark.campaign(over="part")
+@pytest.mark.campaign(tried_by="test_runs_that_are_killed_go_on_to_the_same_cells")
 @pytest.mark.parametrize("part", range(10))
-def test_a_hundred_killed_runs_give_the_undisturbed_cells(undisturbed, tmp_path, part):
+def test_a_hundred_killed_runs_give_the_undisturbed_cells(undisturbed, lasting, tmp_path, part):
     folder, _ = undisturbed
     rng = random.Random(part)
+    moment = functools.partial(rng.uniform, 0.05 * lasting, 1.2 * lasting)
     runs = kills = 0
     while kills < 10:
         here = tmp_path / f"run-{runs}"
-        kills += killed_and_resumed(rigs.small_case(), here, lambda: rng.uniform(0.05, 0.8))
+        kills += killed_and_resumed(rigs.small_case(), here, moment)
         assert rigs.cells(here) == rigs.cells(folder)
         runs += 1
 

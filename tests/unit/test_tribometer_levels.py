@@ -186,7 +186,7 @@ def found_in_125(name):
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="name")
+@pytest.mark.campaign(tried_by="test_intervals_cover_and_do_not_lean")
 @pytest.mark.parametrize("name", [*NOISES, ALL])
 def test_intervals_of_a_thousand_files_cover_in_92_to_97_percent(name):
     if name == ALL:
