@@ -1,5 +1,6 @@
 """A recording holds what was recorded, says what is missing, and survives being killed."""
 
+import contextlib
 import json
 import os
 import random
@@ -185,10 +186,9 @@ def killed(folder, number, block, wait):
     child = os.fork()
     if not child:
         try:
-            os.dup2(tells, 1)
             sys.argv = ["", str(path), str(block)]
-            sys.stdout = open(1, "w", encoding="utf-8", closefd=False)
-            exec(WRITER, {})
+            with open(tells, "w", encoding="utf-8") as out, contextlib.redirect_stdout(out):
+                exec(WRITER, {})
         finally:
             os._exit(1)
     os.close(tells)
