@@ -14,8 +14,9 @@ from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.pressed import march_pressed
 from asperity.slider.result import SlideResult
-from asperity.slider.shooting import ACCEPTED, SETTLING, differentiated, most_unknowns, shoot
+from asperity.slider.shooting import ACCEPTED, SETTLING, differentiated, shoot
 from asperity.slider.summary import history_of, summarise
+from asperity.slider.unknowns import most_unknowns
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64

@@ -21,6 +21,12 @@ from asperity.slider.kernels import clear, march_block
 from asperity.slider.other_drives import carried, damped
 from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed, node_load
 from asperity.slider.scaled import COULOMB, NODE, PRESSED_NODE, SPRINGS
+from asperity.slider.unknowns import (
+    most_unknowns,
+    read_unknowns,
+    unknown_scales,
+    write_unknowns,
+)
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
@@ -28,88 +34,6 @@ _NEWTON_STEPS = 25
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
 SETTLING = (20, 80, 320, 1280)  # cycles before each further attempt
-
-
-@kernel
-def _slides_across(p):
-    """Whether anything moves across the drive."""
-    return p.base_y != 0.0 or p.mobility_y > 0.0
-
-
-@kernel
-def most_unknowns(springs):
-    """Return the most unknowns a body with such springs can have."""
-    return 7 + springs.size
-
-
-@kernel
-def _read(state, springs, p, q, unknowns):
-    """Take the unknowns a body has from its state; returns how many they are."""
-    count = 0
-    if not p.rigid:
-        unknowns[count] = state.stretch
-        unknowns[count + 1] = state.velocity_x
-        count += 2
-    # A lateral motion the contact does not see (transfer 0) is as periodic at one speed as another.
-    if p.mobility_y > 0.0 and p.own_1 + p.own_2 > 0.0:
-        unknowns[count] = state.velocity_y
-        count += 1
-    if p.model != COULOMB and p.model != SPRINGS:
-        unknowns[count] = state.deflection_x
-        unknowns[count + 1] = state.deflection_y
-        count += 2
-    if q is not None:
-        if q.mobility > 0.0:
-            unknowns[count] = state.penetration
-            unknowns[count + 1] = state.rise
-            count += 2
-        for axis in range(2 if _slides_across(p) else 1):
-            for j in range(springs.shape[1]):
-                unknowns[count] = springs[axis, j]
-                count += 1
-    return count
-
-
-@kernel
-def _write(unknowns, p, q, state, springs):
-    """Put the unknowns into a state, as `_read` takes them from it."""
-    count = 0
-    if not p.rigid:
-        state.stretch = unknowns[count]
-        state.velocity_x = unknowns[count + 1]
-        count += 2
-    if p.mobility_y > 0.0 and p.own_1 + p.own_2 > 0.0:
-        state.velocity_y = unknowns[count]
-        count += 1
-    if p.model != COULOMB and p.model != SPRINGS:
-        state.deflection_x = unknowns[count]
-        state.deflection_y = unknowns[count + 1]
-        count += 2
-    if q is not None:
-        if q.mobility > 0.0:
-            state.penetration = unknowns[count]
-            state.rise = unknowns[count + 1]
-            count += 2
-        for axis in range(2 if _slides_across(p) else 1):
-            for j in range(springs.shape[1]):
-                springs[axis, j] = unknowns[count]
-                count += 1
-
-
-@kernel
-def _scales(state, springs, p, q, scales):
-    """Size each unknown is measured by; returns how many they are."""
-    sizes = np.zeros_like(state)
-    if not p.rigid:
-        sizes[0].stretch = 1.0 / p.stiffness
-    sizes[0].velocity_x = p.drive
-    sizes[0].velocity_y = p.drive
-    sizes[0].deflection_x = 1.0
-    sizes[0].deflection_y = 1.0
-    if q is not None:
-        sizes[0].penetration = 1.0
-        sizes[0].rise = math.sqrt(q.mobility)
-    return _read(sizes[0], np.ones_like(springs), p, q, scales)
 
 
 @kernel
@@ -155,15 +79,17 @@ def _run(state, springs, p, q, increments, rises, sums):
 
 
 @kernel
-def _defect(start, springs, p, q, increments, rises, sums, scales, count, end, defect):
+def _defect(
+    start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+):  # fmt: skip
     """Scaled change of the unknowns over a cycle from ``start``; returns its largest part."""
     before = np.empty(count)
     after = np.empty(count)
-    _read(start[0], springs, p, q, before)
+    read_unknowns(start[0], springs, p, q, before)
     end[0] = start[0]
-    end_springs = springs.copy()
+    end_springs[:] = springs
     _run(end[0], end_springs, p, q, increments, rises, sums)
-    _read(end[0], end_springs, p, q, after)
+    read_unknowns(end[0], end_springs, p, q, after)
     worst = 0.0
     for i in range(count):
         defect[i] = (after[i] - before[i]) / scales[i]
@@ -181,11 +107,12 @@ def differentiate(
     """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown."""
     end = np.empty_like(start)
     trial = np.empty_like(start)
+    end_springs = np.empty_like(springs)
     trial_springs = np.empty_like(springs)
     here = np.empty(count)
     there = np.empty(count)
     other = np.empty(count)
-    _read(start[0], springs, p, q, here)
+    read_unknowns(start[0], springs, p, q, here)
     for j in range(count):
         trial[0] = start[0]
         trial_springs[:] = springs
@@ -193,18 +120,27 @@ def differentiate(
         # At first towards the inside: a difference across the limit would be one-sided.
         signed = -change * side if here[j] > 0.0 else change * side
         there[j] += signed * scales[j]
-        _write(there, p, q, trial[0], trial_springs)
-        _defect(trial, trial_springs, p, q, increments, rises, sums, scales, count, end, other)
+        write_unknowns(there, p, q, trial[0], trial_springs)
+        _defect(
+            trial, trial_springs, p, q, increments, rises, sums, scales, count, end, end_springs,
+            other,
+        )  # fmt: skip
         for i in range(count):
             jacobian[i, j] = (other[i] - defect[i]) / signed
 
 
 @kernel
-def _newton(start, springs, p, q, increments, rises, sums, scales, count, jacobian):
-    """Newton from ``start``, which ends at the best state found; returns (defect, cycles run)."""
-    end = np.empty_like(start)
+def _newton(
+    start, springs, p, q, increments, rises, sums, scales, count, jacobian, end, end_springs
+):  # fmt: skip
+    """Newton from ``start``, which ends at the best state found; returns (defect, cycles run).
+
+    ``end`` and ``end_springs`` are the state a cycle on.
+    """
     trial = np.empty_like(start)
     trial_springs = np.empty_like(springs)
+    trial_end = np.empty_like(start)
+    trial_end_springs = np.empty_like(springs)
     here = np.empty(count)
     there = np.empty(count)
     defect = np.empty(count)
@@ -212,13 +148,15 @@ def _newton(start, springs, p, q, increments, rises, sums, scales, count, jacobi
     matrix = np.empty((count, count))
     step = np.empty(count)
     cycles = 1
-    worst = _defect(start, springs, p, q, increments, rises, sums, scales, count, end, defect)
+    worst = _defect(
+        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+    )
     fresh = False
     side = 1.0
     for _ in range(_NEWTON_STEPS):
         if worst <= TOLERANCE:
             break
-        _read(start[0], springs, p, q, here)
+        read_unknowns(start[0], springs, p, q, here)
         if not fresh:
             # Steps that shrink with the defect do not reach a kink the answer is not at.
             change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE))
@@ -241,15 +179,15 @@ def _newton(start, springs, p, q, increments, rises, sums, scales, count, jacobi
             trial_springs[:] = springs
             for j in range(count):
                 there[j] = here[j] + length * step[j] * scales[j]
-            _write(there, p, q, trial[0], trial_springs)
+            write_unknowns(there, p, q, trial[0], trial_springs)
             if p.model != COULOMB:
                 size = math.sqrt(trial[0].deflection_x ** 2 + trial[0].deflection_y ** 2)
                 if q is None and size > 1.5:
                     trial[0].deflection_x *= 1.0 / size
                     trial[0].deflection_y *= 1.0 / size
             reached = _defect(
-                trial, trial_springs, p, q, increments, rises, sums, scales, count, end,
-                trial_defect,
+                trial, trial_springs, p, q, increments, rises, sums, scales, count, trial_end,
+                trial_end_springs, trial_defect,
             )  # fmt: skip
             cycles += 1
             if reached < worst * (1.0 - 0.1 * length):
@@ -267,18 +205,24 @@ def _newton(start, springs, p, q, increments, rises, sums, scales, count, jacobi
         # The differences cost a cycle an unknown: keep them while they still gain a digit.
         fresh = reached < 0.1 * worst and length == 1.0
         worst = reached
-        _read(trial[0], trial_springs, p, q, there)
-        _write(there, p, q, start[0], springs)
+        read_unknowns(trial[0], trial_springs, p, q, there)
+        write_unknowns(there, p, q, start[0], springs)
+        end[0] = trial_end[0]
+        end_springs[:] = trial_end_springs
         for i in range(count):
             defect[i] = trial_defect[i]
     return worst, cycles
 
 
 @kernel
-def _first_guess(start, springs, p, q, increments, rises, sums, scales, count):
-    """Find a state to start from; returns its defect, if it is periodic already, and cycles run."""
+def _first_guess(
+    start, springs, p, q, increments, rises, sums, scales, count, end, end_springs
+):  # fmt: skip
+    """Find a state to start from; returns its defect, if it is periodic already, and cycles run.
+
+    ``end`` and ``end_springs`` are the state a cycle on, if it is.
+    """
     state = start[0]
-    end = np.empty_like(start)
     steps = increments.size - 1
     # Where the slip never reverses, friction at its limit and a body at drive velocity is a
     # periodic state (longitudinal, k <= 1). Newton is at a loss there: the approach takes
@@ -292,8 +236,9 @@ def _first_guess(start, springs, p, q, increments, rises, sums, scales, count):
     if not p.rigid:
         state.stretch = 1.0 / p.stiffness
     worst = _defect(
-        start, springs, p, q, increments, rises, sums, scales, count, end, np.empty(count)
-    )
+        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs,
+        np.empty(count),
+    )  # fmt: skip
     if worst <= 1e-12:
         return worst, 1
     # Friction under the drive's mean motion alone tells the mean force to start from.
@@ -340,25 +285,31 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         Size of the Jacobian.
     """
     scales = np.empty(most_unknowns(springs))
-    count = _scales(start, springs, p, q, scales)
+    count = unknown_scales(start, springs, p, q, scales)
     used = 0
     worst = np.inf
+    end = np.empty_like(start)
+    end_springs = np.empty_like(springs)
     if settle == 0:
-        worst, used = _first_guess(start, springs, p, q, increments, rises, sums, scales, count)
+        worst, used = _first_guess(
+            start, springs, p, q, increments, rises, sums, scales, count, end, end_springs
+        )
     else:
         for _ in range(settle):
             _run(start[0], springs, damped(p), q, increments, rises, sums)
         used = settle
     if worst > 1e-12:
         worst, cycles = _newton(
-            start, springs, p, q, increments, rises, sums, scales, count, jacobian
-        )
+            start, springs, p, q, increments, rises, sums, scales, count, jacobian, end,
+            end_springs,
+        )  # fmt: skip
         used += cycles
     if worst <= ACCEPTED:
-        # Once around to bring the node forces in, once for the sums.
-        _run(start[0], springs, p, q, increments, rises, sums)
+        # Once more around for the sums, from the end of a cycle, where the node forces belong.
+        start[0] = end[0]
+        springs[:] = end_springs
         run_cycle(start[0], springs, p, q, increments, rises, sums)
-        used += 2
+        used += 1
     return worst, used, count
 
 
@@ -366,11 +317,12 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
 def differentiated(start, springs, p, q, increments, rises, sums, count):
     """Jacobian of the map over a cycle, less one, in scaled unknowns; ``sums`` are overwritten."""
     scales = np.empty(most_unknowns(springs))
-    _scales(start, springs, p, q, scales)
+    unknown_scales(start, springs, p, q, scales)
     end = np.empty_like(start)
+    end_springs = np.empty_like(springs)
     defect = np.empty(count)
     jacobian = np.empty((count, count))
-    _defect(start, springs, p, q, increments, rises, sums, scales, count, end, defect)
+    _defect(start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect)
     differentiate(
         start, springs, p, q, increments, rises, sums, scales, count, _DIFFERENCE, 1.0, defect,
         jacobian,
