@@ -13,6 +13,32 @@ AXE = Path(__file__).parents[1] / "browser/vendor/axe.js"
 LONG = 30_000
 """How long a thing may take to be seen on a busy machine, ms."""
 
+TELL_REST = """
+const { setTimeout: later, clearTimeout: never, fetch: ask } = window;
+const soon = new Set();
+let asked = 0;
+window.setTimeout = (act, delay = 0, ...given) => {
+  // What looks again and again at a job is no change that is under way.
+  if (delay > 400) return later(act, delay, ...given);
+  const name = later(() => { soon.delete(name); act(...given); }, delay);
+  soon.add(name);
+  return name;
+};
+window.clearTimeout = (name) => { soon.delete(name); never(name); };
+window.fetch = (...given) => {
+  asked += 1;
+  return ask(...given).finally(() => { asked -= 1; });
+};
+const moves = (one) => one.playState === "running" && one.effect.getComputedTiming().endTime < 1e4;
+window.rest = async () => {
+  for (let still = 0; still < 4; ) {
+    await new Promise(requestAnimationFrame);
+    still = soon.size || asked || document.getAnimations().some(moves) ? 0 : still + 1;
+  }
+};
+"""
+"""What lets a page tell when nothing of it is to be done soon, is asked, or moves."""
+
 
 class Seen:
     """A page in a context of its own.
@@ -32,6 +58,7 @@ class Seen:
         self.origin = f"http://127.0.0.1:{server.port}"
         self.context = browser.new_context(**{"viewport": {"width": 1400, "height": 900}} | context)
         self.context.set_default_timeout(LONG)
+        self.context.add_init_script(TELL_REST)
         self.page = self.context.new_page()
         self.complaints, self.elsewhere = [], []
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
@@ -63,7 +90,7 @@ class Seen:
 
 def settled(page):
     """Wait until the address says what is set and nothing is asked any more."""
-    page.wait_for_timeout(450)
+    page.evaluate("rest()")
     expect(page.locator(".busy.on")).to_have_count(0)
 
 

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from apparatus.browser import copied, violations
+from apparatus.browser import copied, settled, violations
 from playwright.sync_api import expect
 
 import asperity
@@ -19,8 +19,7 @@ def ready(page):
     expect(
         page.get_by_text(re.compile("One moment|being compiled|forms are coming"))
     ).to_have_count(0)
-    page.wait_for_timeout(700)
-    expect(page.locator(".busy.on")).to_have_count(0)
+    settled(page)
 
 
 @pytest.mark.parametrize("screen", SCREENS)
@@ -28,10 +27,9 @@ def test_axe_finds_nothing_in_light_or_dark(seen_as, screen):
     page = seen_as(bypass_csp=True).open(screen)
     ready(page)
     page.evaluate("document.querySelectorAll('main details').forEach((one) => { one.open = true })")
-    page.wait_for_timeout(300)
     for scheme in ("light", "dark"):
         page.emulate_media(color_scheme=scheme)
-        page.wait_for_timeout(300)
+        settled(page)
         assert violations(page) == [], scheme
 
 
