@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asperity.errors import InputError, StorageError, plain
+from asperity.errors import InputError, StorageError, plain, shown
 
 if TYPE_CHECKING:
     import xarray
@@ -30,6 +30,9 @@ _LONG_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*{_KEY_PART}(?:[ \t]*\.[ \t]*{_KEY_P
 
 _TEMPORARY = re.compile(r"\..*\.asperity-([0-9a-f]{8})-([0-9]+)-[0-9a-f]{12}(?:\.[^.]*)?")
 
+
+_PORTABLE = re.compile(r"[A-Za-z0-9][A-Za-z0-9 _.+-]{0,99}")
+_RESERVED = re.compile(r"(?i)(con|prn|aux|nul|com[0-9]|lpt[0-9])(\.|$)")
 
 _inputs: contextvars.ContextVar[set[tuple[int, int]] | None] = contextvars.ContextVar(
     "inputs", default=None
@@ -262,6 +265,20 @@ def _flush_folder(folder: Path) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
+
+
+def portable(name: str) -> bool:
+    """Whether a file can be called so on every system, and in an address."""
+    plainly = _PORTABLE.fullmatch(name) and not name.endswith((".", " "))
+    return bool(plainly) and not _RESERVED.match(name)
+
+
+def require_portable(name: str) -> None:
+    """Refuse a name that a file cannot have on every system."""
+    if not portable(name):
+        raise InputError(
+            f"{shown(name)} is not a name of a file here; take letters, digits, '-', '_', '.'"
+        )
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> Path:

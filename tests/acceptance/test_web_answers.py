@@ -133,6 +133,10 @@ def test_behind_each_number_stand_symbol_meaning_source_and_trust(page):
         answer = page.do(verb, case, PERIODIC if verb == "slide" else {}).json
         entries = {entry["key"]: entry for entry in answer["entries"]}
         assert all(entry["source"] and entry["trust"] for entry in entries.values())
+    # Where an equation is surer than what it rests on, both are told.
+    efficiency = entries["iso14521.eta_ges2_1"]
+    assert efficiency["source"].endswith("(from memory)")
+    assert efficiency["own"].endswith("(verified)")
     mu = entries["iso14521.mu_zm"]
     assert mu["value"] == answer["answer"]["iso14521"]["mu_zm"]
     assert "mu_0T" in mu["equation"]

@@ -180,6 +180,60 @@ def test_an_upload_has_a_plain_name_and_a_known_ending(page):
     assert len(sorted(page.folder.iterdir())) == len(before) + 1
 
 
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("e.toml", b"x = 1\n", "e.toml is no case that can be used: line 1: x stands outside"),
+        ("f.toml", b"", "f.toml is no case: no command takes"),
+        ("g.toml", b"\xff\xfe", "g.toml cannot be read: byte 0 is not UTF-8"),
+        ("k.TOML", b"[slider]\nmas = '1 kg'\n", "k.toml is no case that can be used: line 1"),
+        ("d.nc", b"hello", "d.nc is no recording of a rig, or it is damaged"),
+        ("b.mat", b"hello", "b.mat cannot be read: not a MATLAB file"),
+        ("a.csv?recorded", b"hello", "a.csv: row 1 is 'hello'"),
+        ("t.csv", b"1,\xff\n", "t.csv cannot be read: byte 2 is not UTF-8"),
+    ],
+)
+def test_what_nothing_reads_is_refused_by_its_name_and_leaves_nothing(page, name, content, says):
+    before = sorted(page.folder.iterdir())
+    answer = page.ask("PUT", f"/api/files/{name}", content)
+    assert answer.status == 400
+    assert answer.error.startswith(says)
+    assert "upload" not in answer.error
+    assert sorted(page.folder.iterdir()) == before
+
+
+def test_another_file_of_a_name_takes_its_place_only_when_that_is_said(page):
+    put = "/api/files/twice.csv"
+    assert page.ask("PUT", put, b"1,2\n").status == 200
+    assert page.ask("PUT", put, b"1,2\n").status == 200
+    assert page.ask("PUT", put, b"3,4\n").status == 409
+    assert page.get(put).body == b"1,2\n"
+    assert page.ask("PUT", f"{put}?replace", b"3,4\n").status == 200
+    assert page.get(put).body == b"3,4\n"
+
+
+def test_a_check_looks_into_no_file_outside_the_folder(page, tmp_path):
+    (tmp_path / "other.csv").write_text("secretword,1\n")
+    named = f'samples = "{tmp_path}/other.csv"'
+    text = page.do("check", "table-4.3").json["toml"]
+    text = text.replace('waveform = "sine"', f'waveform = "sampled"\n{named}')
+    assert named in text
+    assert page.ask("POST", "/api/save", {"name": "outside", "toml": text}).status == 200
+    asked = page.do("check", "outside.toml"), page.ask("PUT", "/api/files/o.toml", text.encode())
+    for answer in asked:
+        assert answer.status == 400
+        assert "lies outside the folder" in answer.error
+        assert "secretword" not in answer.error
+    assert not (page.folder / "o.toml").exists()
+
+
+def test_a_folder_is_served_by_one_page(page, asperity_process):
+    code, output, errors = asperity_process("page", "--no-browser", "--folder", page.folder)
+    assert (code, output) == (2, "")
+    assert f"is served already at http://127.0.0.1:{page.port}" in errors
+    assert errors.count("\n") == 1
+
+
 def test_a_file_that_is_a_link_is_neither_read_nor_written(page, tmp_path):
     target = tmp_path / "target.csv"
     target.write_text("kept\n")

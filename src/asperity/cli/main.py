@@ -3,6 +3,7 @@
 import sys
 
 from asperity.cli import interrupt
+from asperity.interrupts import hear_again
 
 TYPE_CHECKING = False  # as typing has it, which takes its time
 if TYPE_CHECKING:
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
 def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
     interrupt.at_once()
+    hear_again()
     try:
         from asperity.cli.application import run
 

@@ -140,7 +140,12 @@ def entries(
         if source is not GIVEN:
             source = weakest(source, fact.source, *rests_on)
             trusted[fact.symbol] = source
-        made.append(Entry(fact.key, fact.symbol, value, fact.unit, fact.meaning, equation, source))
+        made.append(
+            Entry(
+                fact.key, fact.symbol, value, fact.unit, fact.meaning, equation, source,
+                of_equation=None if source in (GIVEN, fact.source) else fact.source,
+            )
+        )  # fmt: skip
     return tuple(made)
 
 

@@ -48,6 +48,8 @@ class Entry:
         Where the equation, or the weakest number it rests on, comes from.
     assumed : bool
         Whether it is a default and not what the user gave.
+    of_equation : Source, optional
+        Where the equation itself comes from, if `source` is that of a number it rests on.
     """
 
     key: str
@@ -58,6 +60,7 @@ class Entry:
     equation: str
     source: Source
     assumed: bool = False
+    of_equation: Source | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.value, float) and not math.isfinite(self.value):

@@ -84,6 +84,10 @@ class Origin(Protocol):
         """Where that stands, or whoever measured it."""
 
     @property
+    def of_equation(self) -> object:
+        """Where the equation itself stands, if `source` is of what it rests on; else None."""
+
+    @property
     def trust(self) -> str:
         """How far it can be relied upon."""
 

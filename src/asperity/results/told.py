@@ -42,6 +42,7 @@ def _entries(result: Result) -> Iterator[dict[str, Any]]:
             "meaning": label.meaning,
             "equation": origin.equation if origin else "",
             "source": str(origin.source) if origin else how,
+            **({"own": str(origin.of_equation)} if origin and origin.of_equation else {}),
             "trust": origin.trust if origin else "computed",
             "resolution": entry.resolution,
         }

@@ -3,6 +3,7 @@
 from typing import Any
 
 from asperity.casefile import Case, told
+from asperity.casefile.check import check_case
 from asperity.commands import case_tables
 from asperity.commands.asked import Asked, Body, mapping, settings
 from asperity.errors import InputError
@@ -11,7 +12,7 @@ from asperity.results.told import told as told_of
 from asperity.results.variables import variables
 from asperity.runs import Run
 from asperity.start.write import as_set, as_written
-from asperity.web.ask import asked_of, case_of
+from asperity.web.ask import asked_of, case_of, confine
 from asperity.web.folder import SO_FAR, Folder
 
 _MOST_POINTS = 400
@@ -70,6 +71,7 @@ def check(folder: Folder, body: Body) -> dict[str, Any]:
     from asperity.start.check import check
 
     asked = asked_of({**body, "command": "slide"}, folder)
+    confine(check_case(folder.case_name(asked.name), case_tables(), asked.settings)[0], folder)
     found = check(folder.case_name(asked.name), asked.settings)
     try:
         text = as_set(case_of(asked, folder))
@@ -121,6 +123,15 @@ def thesis(folder: Folder, body: Body) -> dict[str, Any]:
     from asperity.thesis.reproduce.ledger import ledger
 
     return ledger(folder.thesis)
+
+
+def received(folder: Folder, body: Body) -> dict[str, Any]:
+    """Look at what was put into the folder before it takes its name."""
+    from asperity.start.received import look_at
+
+    part, name, recorded = folder.inside(str(body["part"])), str(body["name"]), body["recorded"]
+    look_at(part, name, recorded=recorded, allowed=lambda case: confine(case, folder))
+    return {"name": name}
 
 
 def named(folder: Folder, body: Body) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """What is answered at which address."""
 
 import contextlib
+import filecmp
 import json
 import os
 import tempfile
@@ -121,11 +122,19 @@ class Page:
 
     async def _upload(self, request: Request) -> Response:
         path = self.folder.file(request.path_params["name"])
-        handle, part = tempfile.mkstemp(prefix=".upload-", dir=self.folder.path)
+        path = path.with_suffix(path.suffix.lower())
+        query = request.query_params
+        handle, part = tempfile.mkstemp(path.suffix, ".upload-", self.folder.path)
         try:
             with os.fdopen(handle, "wb") as file:
                 async for each in parts_of(request, MOST_FILE):
                     file.write(each)
+            asked = {"part": part, "name": path.name, "recorded": "recorded" in query}
+            looked = await self._ask("received", request, json.dumps(asked).encode())
+            if looked.status_code != 200:
+                return looked
+            if "replace" not in query and path.exists() and not filecmp.cmp(part, path, False):
+                raise Refused(409, f"{path.name} is there already and holds something else")
             write_atomically(path, lambda target: os.replace(part, target))
         finally:
             with contextlib.suppress(FileNotFoundError):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from asperity.errors import InputError, shown
 from asperity.shipped import shipped_case
+from asperity.store import portable, require_portable
 
 CASE = ".toml"
 ENDINGS = (CASE, ".csv", ".txt", ".nc", ".mat", ".tdms")
@@ -17,8 +18,6 @@ STATE, REQUEST, ANSWER, SO_FAR = "state.json", "request.json", "answer.json", "s
 """A job's own files, beside those of its answer."""
 
 _JOB = re.compile(r"[0-9a-f]{32}")
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9 _.+-]{0,99}")
-_RESERVED = re.compile(r"(?i)(con|prn|aux|nul|com[0-9]|lpt[0-9])(\.|$)")
 
 
 class Folder:
@@ -35,10 +34,7 @@ class Folder:
 
     def file(self, name: str) -> Path:
         """Return a file of the folder by its name, there or not; refuses any other name."""
-        if not _NAME.fullmatch(name) or _RESERVED.match(name) or name.endswith((".", " ")):
-            raise InputError(
-                f"{shown(name)} is not a name of a file here; take letters, digits, '-', '_', '.'"
-            )
+        require_portable(name)
         if not name.lower().endswith(ENDINGS):
             raise InputError(f"{name}: it must end in {', '.join(ENDINGS)}")
         return self.inside(name)
@@ -72,7 +68,7 @@ class Folder:
             path.name
             for path in self.path.iterdir()
             if path.name.lower().endswith(ENDINGS)
-            and _NAME.fullmatch(path.name)
+            and portable(path.name)
             and not path.is_symlink()
             and path.is_file()
         )
@@ -99,6 +95,5 @@ class Folder:
 
     def thesis_file(self, name: str) -> Path:
         """Return a file that ``asperity thesis`` left, there or not."""
-        if _NAME.fullmatch(name):
-            return self.inside(self.thesis / name)
-        raise InputError(f"{shown(name)} is not the name of a file")
+        require_portable(name)
+        return self.inside(self.thesis / name)

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from asperity.interrupts import hear_again
 from asperity.runs.interrupt import stop_of, stop_with_input
 from asperity.web.folder import REQUEST, Folder
 
@@ -28,6 +29,7 @@ def main(folder: str, identity: str) -> int:
             output.write(json.dumps(told) + "\n")
             output.flush()
 
+    hear_again()
     stop_with_input(_GRACE)
     try:
         return _done(Folder(Path(folder)), identity, say)

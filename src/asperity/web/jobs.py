@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import StorageError
+from asperity.processes import begun, end
 from asperity.store import read_bytes, read_text, reason, write_text
-from asperity.web.child import begun, end
 from asperity.web.folder import ANSWER, REQUEST, STATE, Folder
 from asperity.web.guard import Refused
 from asperity.web.record import ENDED, Job

@@ -10,7 +10,7 @@ import json
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
-from asperity.web import child
+from asperity import processes
 from asperity.web.verbs import VERBS, told
 
 _TRIES = 3
@@ -49,12 +49,12 @@ class Live:
         self.up.clear()
         self.ready.clear()
         self._frames = asyncio.Queue()
-        self._process = await child.begun(*self._begin)
+        self._process = await processes.begun(*self._begin)
         self._reader = asyncio.create_task(self._read(self._process, self._frames))
 
     def kill(self) -> None:
         """End the process at once."""
-        child.end(self._process)
+        processes.end(self._process)
 
     async def stop(self) -> None:
         """End the process and wait until it has."""

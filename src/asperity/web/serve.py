@@ -11,11 +11,13 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 from asperity.errors import InputError, StorageError
+from asperity.processes import alone
 from asperity.start.listed import opened
 from asperity.store import reason
 from asperity.web.folder import Folder
 
 HOST = "127.0.0.1"
+_HELD = ".asperity-page"
 PORT = 8321
 """Where the page is if nothing else is asked for and nobody else is there."""
 
@@ -80,7 +82,9 @@ def serve(
             for worker in page.workers.values():
                 worker.kill()
 
-    with contextlib.suppress(KeyboardInterrupt), contextlib.closing(listening):
+    taken = f"is served already at http://{HOST}:{number}; open the address printed there, or "
+    held = alone(place.resolve() / _HELD, taken + "take another --folder")
+    with contextlib.suppress(KeyboardInterrupt), contextlib.closing(listening), held:
         # What the page reads it may also write: nothing is noted as the input of a command.
         contextvars.Context().run(asyncio.run, life())
 

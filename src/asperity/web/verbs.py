@@ -33,7 +33,7 @@ LIVE = {
 }
 """Those that are asked at ``/api/do/``, of the worker that solves."""
 
-DESK = dict.fromkeys(("forms", "opened", "named", "thesis", "data"), Verb(60.0))
+DESK = dict.fromkeys(("forms", "opened", "named", "received", "thesis", "data"), Verb(60.0))
 """Those that look something up, of a worker that never waits for one that solves."""
 
 VERBS = LIVE | DESK

@@ -13,7 +13,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError, plain
 from asperity.runs import Run
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.importing.columns import Sampled, sampled
+from asperity.tribometer.importing.columns import Columns, Sampled, sampled
 from asperity.tribometer.importing.mat import read_mat
 from asperity.tribometer.importing.result import Imported
 from asperity.tribometer.importing.tdms import read_tdms
@@ -64,6 +64,24 @@ def _form(path: Path, head: bytes) -> str:
     if head.startswith(b"MATLAB") or path.suffix.lower() == ".mat":
         return _MAT
     return _TEXT
+
+
+def read_export(path: Path, name: str) -> Columns:
+    """Read what an oscilloscope's program wrote; refuses what is no such file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    name : str
+        What messages call it.
+    """
+    with path.open("rb") as opened:
+        form = _form(path, opened.read(128))
+    if form == _OWN:
+        raise InputError(f"{name} is HDF5 of no known kind; export it as .csv, .mat or .tdms")
+    columns: Columns = _READERS[form](path, name)
+    return columns
 
 
 def answer(problem: Importable, run: Run) -> Imported:

@@ -15,6 +15,9 @@ export class Refused extends Error {
   }
 }
 
+/** Of a file that is there already and holds something else. */
+export const THERE = 409;
+
 async function ask(path, options = {}) {
   const headers = { "X-Asperity-Token": token(), ...options.headers };
   let response;
@@ -64,11 +67,16 @@ export const fetchRaw = (path, { signal: stop } = {}) => ask(path, { signal: sto
 /** Take something away for good. */
 export const remove = (path) => ask(path, { method: "DELETE" });
 
-/** Put a file into the folder. @param {File} file */
-export async function upload(file) {
-  const path = `/api/files/${encodeURIComponent(file.name)}`;
+/** Put a recording, an export or a case into the folder; another of its name only if that is wanted. */
+export async function upload(file, replace = false) {
+  const path = `/api/files/${encodeURIComponent(file.name)}?recorded${replace ? "&replace" : ""}`;
   const headers = { "Content-Type": "application/octet-stream" };
-  return (await ask(path, { method: "PUT", headers, body: file })).json();
+  try {
+    return await (await ask(path, { method: "PUT", headers, body: file })).json();
+  } catch (error) {
+    if (error.status !== THERE || !confirm(`${error.message}. Replace it?`)) throw error;
+    return upload(file, true);
+  }
 }
 
 /** Hear of a job until it ends. @param {(event: object) => void} onEvent @param {AbortSignal} stop */

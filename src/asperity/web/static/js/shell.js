@@ -1,6 +1,6 @@
 /** What is around every screen: where to go, the case, what to take along, what went wrong. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { about, forgetCase, loadAbout, post } from "./api.js";
+import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, route, useCase } from "./state.js";
 
@@ -83,9 +83,6 @@ function CasePicker({ kinds, first, start = {} }) {
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
 }
-
-/** Of a file that is there already and holds something else. */
-const THERE = 409;
 
 /** Save the case with what is set as a file of the folder, and open it. */
 function Save({ toml }) {

@@ -1,0 +1,27 @@
+"""No Ctrl-C is lost, wherever Python is when it comes."""
+
+import os
+import signal
+import sys
+import threading
+
+_SOON = 0.02
+
+
+def hear_again() -> None:
+    """Let a Ctrl-C that came where nothing can be raised be heard a moment later.
+
+    Python drops what is raised while something is being cleaned up, a Ctrl-C with it, and prints
+    that it did.
+    """
+    usual = sys.unraisablehook
+
+    def dropped(what: "sys.UnraisableHookArgs") -> None:
+        if isinstance(what.exc_value, KeyboardInterrupt):
+            again = threading.Timer(_SOON, os.kill, (os.getpid(), signal.SIGINT))
+            again.daemon = True
+            again.start()
+        else:
+            usual(what)
+
+    sys.unraisablehook = dropped

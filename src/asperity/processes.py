@@ -1,0 +1,77 @@
+"""Processes beside this one, each a session of its own, and what one holds alone."""
+
+import asyncio
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from asperity.errors import InputError, StorageError, plain
+from asperity.store import reason
+
+
+@contextlib.contextmanager
+def alone(path: Path, says: str) -> Iterator[None]:
+    """Hold a file while something is done, so that no other process does the same.
+
+    It is given up with the process, however that ends; where the system has no such locks nothing
+    is held.
+
+    Parameters
+    ----------
+    path : Path
+        The file, which is made and removed.
+    says : str
+        What another one that asks for it is told, behind the folder's name.
+
+    Raises
+    ------
+    InputError
+        Another process holds it.
+    StorageError
+        It cannot be made.
+    """
+    try:
+        import fcntl
+    except ImportError:
+        yield
+        return
+    try:
+        file = path.open("a+", encoding="utf-8")
+    except OSError as error:
+        raise StorageError(f"{plain(str(path))} cannot be written: {reason(error)}") from None
+    with file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            file.seek(0)
+            line = plain(file.read(1000).strip())
+            raise InputError(f"{plain(str(path.parent))} {line}") from None
+        file.truncate(0)
+        file.write(says)
+        file.flush()
+        try:
+            yield
+        finally:
+            path.unlink(missing_ok=True)
+
+
+async def begun(module: str, *arguments: str) -> asyncio.subprocess.Process:
+    """Begin a module of this package as a process; its standard streams lead here."""
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-P", "-m", module, *arguments,
+        stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, start_new_session=True,
+    )  # fmt: skip
+
+
+def end(process: asyncio.subprocess.Process | None) -> None:
+    """End a process at once, with all that it began."""
+    if process is None or process.returncode is not None:
+        return
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        if os.name == "posix":
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
