@@ -57,6 +57,15 @@ def _rate_slope(
 
 
 @kernel
+def _direction_slope(x, y, size, ux, uy):
+    """Direction of a vector of a size; what a change ``u`` of it is to the size and to that."""
+    ex = x / size
+    ey = y / size
+    along = ex * ux + ey * uy
+    return ex, ey, along, (ux - ex * along) / size, (uy - ey * along) / size
+
+
+@kernel
 def _midpoint_slope(
     sx, sy, d1x, d1y, d2x, d2y, exponent, law, ux, uy, t1x, t1y, t2x, t2y
 ):  # fmt: skip
@@ -74,11 +83,7 @@ def _midpoint_slope(
     ex_t = 0.0
     ey_t = 0.0
     if size > TINY:
-        ex = sx / size
-        ey = sy / size
-        size_t = ex * ux + ey * uy
-        ex_t = (ux - ex * size_t) / size
-        ey_t = (uy - ey * size_t) / size
+        ex, ey, size_t, ex_t, ey_t = _direction_slope(sx, sy, size, ux, uy)
     if exponent != 1.0 and size > TINY:
         share = min(size, 1.0)
         rate = rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law)
@@ -94,11 +99,7 @@ def _midpoint_slope(
     rate = 0.0
     rate_t = 0.0
     if half > TINY:
-        ex = hx / half
-        ey = hy / half
-        half_t = ex * hx_t + ey * hy_t
-        ex_t = (hx_t - ex * half_t) / half
-        ey_t = (hy_t - ey * half_t) / half
+        ex, ey, half_t, ex_t, ey_t = _direction_slope(hx, hy, half, hx_t, hy_t)
         share = half / scale
         share_t = (half_t - share * scale_t) / scale
         if share >= 1.0:

@@ -187,6 +187,18 @@ def prime(state, p, increments):
 
 
 @kernel
+def pull_and_loss(free, stretch, wx, wx1, last_fd, p):
+    """Drive force at a node, and the work lost in the drive's damper in the step before it.
+
+    ``free`` is the force without the body's velocities ``wx`` before and ``wx1`` after the node.
+    """
+    mean = 0.5 * (wx + wx1)
+    drag = p.damping * (p.drive - mean)
+    last_drag = last_fd - p.stiffness * (stretch - p.drive + wx) - p.pull
+    return free - p.damping * mean, 0.5 * (drag + last_drag) * (p.drive - wx)
+
+
+@kernel
 def march_block(state, sums, p, increments, steps, nodes):
     """March ``steps`` steps; ``increments`` holds one more, of the step that follows.
 
@@ -264,10 +276,8 @@ def march_block(state, sums, p, increments, steps, nodes):
             wx1 = drive
             fd = fx
         else:
-            fd = free - damping * 0.5 * (wx + wx1)
-            drag = damping * (drive - 0.5 * (wx + wx1))
-            last_drag = last_fd - stiffness * (stretch - drive + wx) - p.pull
-            sums.drag_work += 0.5 * (drag + last_drag) * (drive - wx)
+            fd, lost = pull_and_loss(free, stretch, wx, wx1, last_fd, p)
+            sums.drag_work += lost
         add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, rigid)
         if recording:
             record(nodes[n], fx, fy, fd, sx, sy, (n + 1) * drive - stretch, y, wx1, wy1)

@@ -23,7 +23,14 @@ from asperity.friction.springs import (
     stored_in_springs,
 )
 from asperity.normal import elastic_force, indentation
-from asperity.slider.kernels import add_step, clear, condense, node_forces, record
+from asperity.slider.kernels import (
+    add_step,
+    clear,
+    condense,
+    node_forces,
+    pull_and_loss,
+    record,
+)
 from asperity.slider.scaled import COULOMB, DAHL, LUGRE, SPRINGS
 from asperity.waveform import displacement_at, fill_increments
 
@@ -252,10 +259,8 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             wx1 = p.drive
             fd = fx
         else:
-            fd = free - p.damping * 0.5 * (wx + wx1)
-            drag = p.damping * (p.drive - 0.5 * (wx + wx1))
-            last_drag = last_fd - p.stiffness * (state.stretch - p.drive + wx) - p.pull
-            sums.drag_work += 0.5 * (drag + last_drag) * (p.drive - wx)
+            fd, lost = pull_and_loss(free, state.stretch, wx, wx1, last_fd, p)
+            sums.drag_work += lost
         add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, p.rigid)
         _add_load(
             sums, last_load, load, last_elastic, elastic, last_d, d, height, max(gain, 0.0), wear
