@@ -166,11 +166,16 @@ def test_progress_is_told():
     assert told == [(1, 3), (2, 3), (3, 3)]
 
 
-def test_a_work_of_more_than_a_minute_is_announced_once(monkeypatch):
-    now = [0.0]
+@pytest.fixture
+def timed(monkeypatch):
+    """A run, the clock in its sight, which a test sets, and what it tells."""
+    now, told = [0.0], []
     monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
-    told = []
-    run = Run(notify=told.append)
+    return Run(notify=told.append), now, told
+
+
+def test_a_work_of_more_than_a_minute_is_announced_once(timed):
+    run, now, told = timed
     for done in range(1, 100):
         now[0] += 1.0
         run.checkpoint(done, 1000)
@@ -178,11 +183,8 @@ def test_a_work_of_more_than_a_minute_is_announced_once(monkeypatch):
 
 
 @pytest.mark.parametrize("compiling", [1, 2])
-def test_steps_that_compile_are_no_measure_of_what_a_work_takes(monkeypatch, compiling):
-    now = [0.0]
-    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
-    told = []
-    run = Run(notify=told.append)
+def test_steps_that_compile_are_no_measure_of_what_a_work_takes(timed, compiling):
+    run, now, told = timed
     run.checkpoint(0, 1600)
     for done in range(1, 1601):
         now[0] += 18.0 if done <= compiling else 0.02
@@ -191,11 +193,8 @@ def test_steps_that_compile_are_no_measure_of_what_a_work_takes(monkeypatch, com
     assert told in ([], ["this will take about 32 seconds"])
 
 
-def test_before_more_than_two_steps_are_measured_nothing_is_forecast(monkeypatch):
-    now = [0.0]
-    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
-    told = []
-    run = Run(notify=told.append)
+def test_before_more_than_two_steps_are_measured_nothing_is_forecast(timed):
+    run, now, told = timed
     for done in range(3):
         run.checkpoint(done, 100)
         now[0] += 10.0
@@ -205,22 +204,16 @@ def test_before_more_than_two_steps_are_measured_nothing_is_forecast(monkeypatch
     assert len(told) == 1
 
 
-def test_a_short_work_is_not_announced(monkeypatch):
-    now = [0.0]
-    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
-    told = []
-    run = Run(notify=told.append)
+def test_a_short_work_is_not_announced(timed):
+    run, now, told = timed
     for done in range(1, 50):
         now[0] += 1.0
         run.checkpoint(done, 50)
     assert told == []
 
 
-def test_a_forecast_of_more_than_a_minute_is_announced_and_not_said_again(monkeypatch):
-    now = [0.0]
-    monkeypatch.setattr(run_module.time, "monotonic", lambda: now[0])
-    told = []
-    run = Run(notify=told.append)
+def test_a_forecast_of_more_than_a_minute_is_announced_and_not_said_again(timed):
+    run, now, told = timed
     run.forecast(20.0, "9 points")
     run.forecast(810.0, "9e+09 steps")
     for done in range(1, 100):

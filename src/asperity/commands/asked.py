@@ -91,7 +91,7 @@ class Asked(NamedTuple):
             "files": dict(_contents(self.texts())),
             "project": case.raw.get("project") if case else None,
         }
-        code = code_key(self.command.solve.partition(":")[0])
+        code = code_key(self.command.module)
         return key(code, case.canonical() if case else "", repr(sorted(parts.items())))
 
 

@@ -86,8 +86,8 @@ class Command:
         On the command line, behind the name of its group if it has one: ``rig reduce``.
     summary, files : str
         What it does, and what ``--out`` leaves, in a sentence each.
-    prepare, solve : str
-        ``"module:function"``, imported where used.
+    module : str
+        Where its ``prepare`` and ``answer`` stand, imported when they are used.
     options : tuple of Option
         What it takes beside a case.
     counts : str
@@ -116,8 +116,7 @@ class Command:
     name: str
     summary: str
     files: str
-    prepare: str
-    solve: str
+    module: str
     options: tuple[Option, ...] = ()
     counts: str = ""
     read: str = ""
@@ -144,11 +143,11 @@ class Command:
                 f"{case.source}: it is a case of another kind, without {tables}, which asperity "
                 f"{self.name} needs; asperity check {case.source} tells which commands take it"
             )
-        return loaded(self.prepare)(case, **options)
+        return loaded(f"{self.module}:prepare")(case, **options)
 
     def solved(self, problem: Any, run: "Run") -> "Result":
         """Return the answer to a problem."""
-        answer: Result = loaded(self.solve)(problem, run)
+        answer: Result = loaded(f"{self.module}:answer")(problem, run)
         return answer
 
     @property

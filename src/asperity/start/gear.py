@@ -23,8 +23,7 @@ SIZE = Command(
     "size",
     "Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.",
     "With --out also size.json, size.nc and a case file for each proposal.",
-    prepare="",
-    solve="",
+    module="",
     case="",
     options=(
         Option("ratio", "of the speeds", "RATIO", default=None),

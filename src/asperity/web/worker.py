@@ -17,7 +17,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from asperity.commands.place import loaded
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.web.folder import Folder
 from asperity.web.verbs import LIVE, object_of, told
@@ -98,7 +97,7 @@ def _load() -> Callable[[], object]:
 
     for command in COMMANDS:
         if command.name in LIVE:
-            loaded(command.solve)
+            importlib.import_module(command.module)
     for module in ("slider.curves", "start.check", "tribometer.reduction.overview"):
         importlib.import_module(f"asperity.{module}")
     importlib.import_module("numba")
