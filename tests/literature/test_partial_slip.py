@@ -241,7 +241,7 @@ def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
 
 @pytest.mark.slow
 def test_dahl_friction_of_small_deflection_slips_as_cattaneo_and_mindlin_say(quarter_of_half_space):
-    pair = spheres(quarter_of_half_space, 12, 0.0)
+    pair = spheres(quarter_of_half_space, 10, 0.0)
     off = []
     for limit in (0.01, 0.003, 0.001):
         cycle = Cycle(pair, pair.friction(limit, DAHL, 1.0), 0.7)
