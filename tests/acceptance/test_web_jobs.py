@@ -173,7 +173,11 @@ def test_the_worker_that_is_killed_is_replaced(page):
     os.kill(page.child("worker"), signal.SIGKILL)
     time.sleep(0.2)
     assert page.do("slide", "table-4.3", PERIODIC).json["answer"]["ratio"] == before
-    # While it is at something, who asked is told.
+
+
+@pytest.mark.slow
+def test_a_worker_that_does_not_answer_is_replaced_and_who_asked_is_told(page):
+    before = page.do("slide", "table-4.3", PERIODIC).json["answer"]["ratio"]
     worker = page.child("worker")
     os.kill(worker, signal.SIGSTOP)
     began = time.monotonic()

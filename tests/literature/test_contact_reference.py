@@ -182,7 +182,9 @@ def test_with_modes_a_shaken_block_moves_as_the_whole_one_within_a_thousandth(el
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="step")
+@pytest.mark.campaign(
+    tried_by="test_with_modes_a_shaken_block_moves_as_the_whole_one_within_a_thousandth"
+)
 @pytest.mark.parametrize("step", [1e-5, 1e-6])
 def test_with_modes_a_block_of_27_node_elements_moves_as_the_whole_one(step):
     settings = ["block.elements=[4, 3, 3]", "block.modes=24", "vibration.direction=45"]

@@ -148,12 +148,13 @@ def test_the_wheel_has_the_volume_of_its_mesh_and_of_what_is_turned(made):
     assert read.check.volume == pytest.approx(rim_and_disc(wheel, BLANKS), rel=1e-5)
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     "changes",
     [
+        {"starts": 4, "wheel_teeth": 25, "hand": "left", "flank": "ZK", "axial_module": "8 mm"},
         # The rim beside the throat needs finer grids than the throat.
         {"starts": 2, "wheel_teeth": 60, "axial_module": "4 mm", "diameter_factor": 9.0},
-        {"starts": 4, "wheel_teeth": 25, "hand": "left", "flank": "ZK", "axial_module": "8 mm"},
     ],
 )
 def test_wheels_whose_parts_need_grids_of_their_own_close(changes):
