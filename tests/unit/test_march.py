@@ -13,6 +13,7 @@ from asperity.results.ledger import guard
 from asperity.runs import Interrupted, Run
 from asperity.runs.tree import read_tree, write_tree
 from asperity.slider import TABLES, Model, Stopped, solve, solve_many
+from asperity.slider.kernels import condense
 from asperity.slider.march import March, march
 
 LAWS = ["split", "unsplit", "vector"]
@@ -350,6 +351,16 @@ def test_the_history_shows_what_a_stretch_swings_through():
         assert np.all(mean <= greatest)
     long = history.span > 1e-4
     assert np.all(history.friction_max[long, 0] - history.friction_min[long, 0] > 5.0)
+
+
+def test_a_stretch_of_any_length_is_condensed_to_mean_least_and_greatest():
+    drawn = np.random.default_rng(5).normal(size=(13, 9))
+    for length in range(1, 14):
+        nodes, rows = drawn[:length], np.empty((3, 9))
+        condense(nodes, *rows)
+        assert rows[0] == pytest.approx(nodes.mean(axis=0), rel=1e-13, abs=1e-15)
+        assert rows[1].tolist() == nodes.min(axis=0).tolist()
+        assert rows[2].tolist() == nodes.max(axis=0).tolist()
 
 
 def test_a_mean_over_a_stretch_stands_at_its_mean_time():

@@ -7,6 +7,7 @@ from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.slider import Model, Slider, Solve
 from asperity.vibration import Vibration
+from asperity.waveform import displacement_at, fill_increments
 
 WAVES = {
     "sine": {"waveform": "sine", "frequency": 4000.0},
@@ -101,6 +102,18 @@ def test_the_vibration_starts_at_zero_and_rises(name):
     first = displacement(shape, np.linspace(0.0, 0.02, 21))
     assert np.all(np.diff(first) > 0.0)
     assert first[0] == 0.0
+
+
+@pytest.mark.parametrize("ramp", [0.0, 2.0])
+@pytest.mark.parametrize("lead", [0.0, 0.25, -0.1])
+@pytest.mark.parametrize("wave", WAVES.values(), ids=WAVES)
+def test_increments_are_differences_of_displacements_to_the_last_bit(wave, lead, ramp, folder):
+    shape = Vibration(velocity_ratio=1.0, **wave, units="SI").shape(folder)
+    numbers = shape.wave(lead=lead)._replace(ramp=ramp)
+    found = np.empty(300)
+    fill_increments(numbers, -1.3, 0.017, found)
+    there = [displacement_at(numbers, -1.3 + n * 0.017) for n in range(301)]
+    assert found.tolist() == np.diff(there).tolist()
 
 
 def test_a_step_across_the_start_moves_only_by_the_part_after_it():
