@@ -9,7 +9,7 @@ def grid(*axes):
     """Return every combination of the axes' values as parameters of a test.
 
     Ordinary are as many of them as the longest axis has values, so that each value of each axis
-    occurs; the others are slow.
+    occurs; the others are slow, and parts of a campaign.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ def grid(*axes):
     return [
         pytest.param(
             *(axis[n] for axis, n in zip(axes, place, strict=True)),
-            marks=() if place in ordinary else pytest.mark.slow,
+            marks=() if place in ordinary else (pytest.mark.slow, pytest.mark.campaign),
         )
         for place in itertools.product(*(range(len(axis)) for axis in axes))
     ]

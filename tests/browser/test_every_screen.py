@@ -33,6 +33,7 @@ def test_axe_finds_nothing_in_light_or_dark(seen_as, screen):
         assert violations(page) == [], scheme
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize("screen", SCREENS)
 def test_reload_and_back_lead_to_the_same_screen(seen, screen):
     page = seen.open(screen)
