@@ -24,6 +24,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.casefile import Case, told
 from asperity.drive.friction_curve import FrictionCurve
+from asperity.drive.lugre import static_ratio
 from asperity.drive.parameters import Drive
 from asperity.errors import InputError
 from asperity.friction import Friction
@@ -142,15 +143,21 @@ def mesh_friction(case: Case, gearset: Gearset, operation: Operation, drive: Dri
     mu = float(tooth_friction(rating_inputs(case), operation.worm_speed * circle))
     if Friction.table not in case:
         return Friction(model="coulomb", mu=mu)
-    return case.require(Friction).model_copy(update={"mu": mu}, units="SI")
+    given = case.require(Friction)
+    if static_ratio(given) > 1.0:
+        raise InputError(
+            f"friction.static_mu is {given.static_mu:g}, but with drive.friction 'iso14521' the "
+            "standard says how friction falls with the speed: leave it out"
+        )
+    return given.model_copy(update={"mu": mu, "static_mu": None}, units="SI")
 
 
 def check_friction(friction: Friction) -> None:
     """Refuse what a mesh's friction is not."""
-    if friction.model not in ("coulomb", "dahl"):
+    if friction.model not in ("coulomb", "dahl", "lugre"):
         raise InputError(
             f"friction.model is '{friction.model}', which is of a sliding body; between teeth it "
-            "must be 'coulomb' or 'dahl'"
+            "must be 'coulomb', 'dahl' or 'lugre'"
         )
     for key, only in (("law", "vector"), ("transfer", 1.0), ("load_exponent", 1.0)):
         value = getattr(friction, key)
@@ -159,7 +166,7 @@ def check_friction(friction: Friction) -> None:
                 f"friction.{key} is {value!r}, which is of a sliding body; between teeth it is "
                 f"{only!r}: leave it out"
             )
-    if friction.model == "dahl" and friction.keeps != "stiffness":
+    if friction.model != "coulomb" and friction.keeps != "stiffness":
         raise InputError(
             "friction.keeps is 'deflection', which makes energy where the force between teeth "
             "swings; it must be 'stiffness': leave it out"

@@ -18,7 +18,6 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
-from asperity.drive.friction_curve import friction_at
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
@@ -27,6 +26,7 @@ from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult, inputs
 from asperity.drive.solve import prepare as prepare_drive
 from asperity.errors import AsperityError, ConvergenceError
+from asperity.friction import Friction
 from asperity.results import Result, quantity
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
@@ -103,7 +103,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     reduced = reduction(problem, run)
     model = ReducedModel(problem, reduced)
     point = model.point
-    at_rest = float(friction_at(model.curve, 0.0))
+    at_rest = model.holding
     share = point.holding_share(at_rest)
     locked = share < 1.0
     force = point.normal_force(problem.load, -min(share, 1.0) * at_rest)
@@ -127,7 +127,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         threshold = search.threshold(amplitudes, creeps[:-1])
         if threshold is None:
             notes.append("no amplitude up to 20 times its elastic slip sets it free")
-        if problem.friction.model == "dahl" and problem.friction.exponent > 0.0:
+        if _creeps_always(problem.friction):
             notes.append(
                 f"friction.exponent is {problem.friction.exponent:g}: such asperities creep at any "
                 "amplitude; exponent 0 holds"
@@ -162,6 +162,11 @@ def _along(problem: DriveProblem, model: ReducedModel) -> float:
         "wheel-axial": point.radius / point.length,
         "screw": point.length / radius,
     }[problem.mode]
+
+
+def _creeps_always(friction: Friction) -> bool:
+    """Return whether asperities creep at any amplitude; brittle ones hold."""
+    return friction.model != "coulomb" and friction.exponent > 0.0
 
 
 class _Search:
@@ -213,8 +218,7 @@ class _Search:
 
     def _below(self, creeping: float) -> tuple[float, float] | None:
         """Return an amplitude that holds and one that creeps, below one that creeps; or None."""
-        friction = self._problem.friction
-        if friction.model == "dahl" and friction.exponent > 0.0:
+        if _creeps_always(self._problem.friction):
             return None
         for _ in range(_DEEPEST):
             tried = np.array([*(_LOWER * creeping), creeping])

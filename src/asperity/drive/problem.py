@@ -267,6 +267,12 @@ class DriveProblem:
                 "drive.friction is 'iso14521', which drive.model 'reduced' takes; elastic teeth "
                 "are marched with 'constant' (--static takes both)"
             )
+        if self.friction.model == "lugre" and self.drive.model == "teeth":
+            raise InputError(
+                "friction.model is 'lugre', which drive.model 'reduced' takes; points of elastic "
+                "teeth that lose static friction jump, which a step's equilibrium does not "
+                "follow: march teeth with 'coulomb' or 'dahl' (--static takes it)"
+            )
         for key, what in (("load_inertia", "inertia of the load"), ("contact_damping", "damping")):
             if getattr(self.drive, key) is None:
                 example = "3.2e-3 kg m**2" if key == "load_inertia" else "0.01 s/m"

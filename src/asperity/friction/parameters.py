@@ -38,7 +38,8 @@ class Friction(Table):
     stribeck_velocity : float or str
         LuGre: :math:`v_s`, m/s; 0 for no Stribeck effect.
     contact_damping, viscous_damping : float or str
-        LuGre: :math:`h_t` on the deflection's rate and :math:`h_v` on the slip, N s/m.
+        LuGre: :math:`h_t` on the deflection's rate and :math:`h_v` on the slip, N s/m; between
+        teeth at the normal force without vibration, with which they go.
     keeps : {'stiffness', 'deflection'}
         What Dahl's and LuGre's asperities keep where the normal force changes, see
         `asperity.friction.loaded`. ``deflection`` gains energy.

@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.drive.friction_curve import friction_at
 from asperity.drive.interface import AT
 from asperity.drive.motion.system import STATE, System
 from asperity.drive.problem import DriveProblem
@@ -177,7 +176,7 @@ def begin(
     force, torque = model.normal_force, model.worm_torque
     if locked:
         # The worm holds without a torque, by as much friction as that takes.
-        at_rest = float(friction_at(model.curve, 0.0))
+        at_rest = model.holding
         friction = -min(point.holding_share(at_rest), 1.0) * at_rest
         force = point.normal_force(problem.load, friction)
         torque = point.worm_torque(problem.load, friction)

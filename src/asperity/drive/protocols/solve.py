@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from asperity.drive.actuator import Demand, demand, elastic_energy, system_efficiency
 from asperity.drive.closed_form import screw_ratio
+from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.march import Judgement, March, Records, bands_of, mean
@@ -238,7 +239,8 @@ def _closed_form(problem: DriveProblem, model: ReducedModel) -> float | None:
     """Ratio of a screw far above the resonances; None where there is no such form."""
     slides = problem.mode == "screw" and problem.drive.protocol not in _WORM_ALONE
     sine = problem.vibrated[0].waveform == "sine"
-    if not (slides and sine and problem.drive.friction == "constant"):
+    constant = problem.drive.friction == "constant" and not of_speed(problem.friction)
+    if not (slides and sine and constant):
         return None
     return float(screw_ratio(model.point, model.friction, problem.velocity_ratio))
 

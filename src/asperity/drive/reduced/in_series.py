@@ -55,8 +55,45 @@ def _relaxed(decay, before, gone):
 
 
 @uncounted
+@kernel(inline="always")
+def _above(sx, sy, limit):
+    """By how much a deflection was above its limit, which LuGre's is as the slip speeds up."""
+    start = math.sqrt(sx * sx + sy * sy)
+    return start / limit if start > (1.0 + _CLOSE) * limit else 1.0
+
+
+@uncounted
 @kernel
-def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
+def _springing_back(ax, ay, bx, by, more):
+    """As `ductile` has it, the relaxation of a deflection above the limit: within bounds."""
+    low = 0.0
+    high = math.sqrt(bx * bx + by * by) + more * math.sqrt(ax * ax + ay * ay)
+    decay = high
+    gone = 1.0
+    off = math.inf
+    for _ in range(_ITERATIONS):
+        gone = -math.expm1(-decay)
+        bent = more * gone
+        tx = bx + bent * ax
+        ty = by + bent * ay
+        way = math.sqrt(tx * tx + ty * ty)
+        off = way - decay - bent
+        if abs(off) <= _CLOSE * (1.0 + decay) or high - low <= _CLOSE * _CLOSE * high:
+            break
+        if off > 0.0:
+            low = decay
+        else:
+            high = decay
+        slope = 1.0 + more * (1.0 - gone) * (1.0 - (ax * tx + ay * ty) / (way + TINY))
+        decay = decay + off / slope if slope != 0.0 else high
+        if not low < decay < high:
+            decay = 0.5 * (low + high)
+    return decay, gone, off
+
+
+@uncounted
+@kernel
+def ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     r"""Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
 
     Unless the limit falls below what comes out, it is one equation, for the relaxation
@@ -79,6 +116,8 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     decay = max(far, slip * slip / soft if soft > 0.0 else 0.0)
     gone = _relaxed(decay, 0.0, 0.0)
     off = math.inf
+    if ax * ax + ay * ay > 1.0:
+        decay, gone, off = _springing_back(ax, ay, bx, by, more)
     for _ in range(_ITERATIONS):
         bent = more * gone
         tx = bx + bent * ax
@@ -98,22 +137,26 @@ def _ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     wy = sy + share * (dy - decay * sy)
     size = math.sqrt(wx * wx + wy * wy)
     if limit_1 < limit_0 and not size <= limit_1:
-        back = limit_1 / size
+        above = _above(sx, sy, limit_0)
+        if size <= above * limit_1:
+            return wx, wy, abs(off) / (1.0 + decay)
+        back = above * limit_1 / size
         return _slipping_back(
-            sx, sy, back * wx, back * wy, dx, dy, limit_0, limit_1, more, decay, gone
+            sx, sy, back * wx, back * wy, dx, dy, limit_0, limit_1, above, more, decay, gone
         )
     return wx, wy, abs(off) / (1.0 + decay)
 
 
 @uncounted
 @kernel
-def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, more, decay, gone):
-    """As `_ductile`, where the limit falls below the deflection (`friction.loaded.slip_back`).
+def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, more, decay, gone):
+    """As `ductile`, where the limit falls below the deflection (`friction.loaded.slip_back`).
 
     Newton's steps from ``w``, their tangent without how far it is turned on. Where it kinks they
     are halved.
     """
     over = 2.0 / (limit_0 + limit_1)
+    most = above * limit_1
     last = math.inf
     off = 0.0
     stepx = 0.0
@@ -129,13 +172,13 @@ def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, more, decay, gone):
         gain = gone / decay
         ux = sx * left + tx * gain
         uy = sy * left + ty * gain
-        beyond = math.sqrt(ux * ux + uy * uy) - limit_1
+        beyond = math.sqrt(ux * ux + uy * uy) - most
         back = 1.0
         if beyond > 0.0:
-            turn = 0.5 * over * beyond
+            turn = 0.5 * over * beyond / above
             ux += turn * tx
             uy += turn * ty
-            back = limit_1 / math.sqrt(ux * ux + uy * uy)
+            back = most / math.sqrt(ux * ux + uy * uy)
             ux *= back
             uy *= back
         ex = ux - wx
@@ -160,8 +203,8 @@ def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, more, decay, gone):
         yy = gain + py * cy
         if beyond > 0.0:
             # Back on the limit, only what lies across the deflection still counts.
-            nx = -uy / limit_1
-            ny = ux / limit_1
+            nx = -uy / most
+            ny = ux / most
             px = back * (nx * xx + ny * yx)
             py = back * (nx * xy + ny * yy)
             xx, xy, yx, yy = nx * px, nx * py, ny * px, ny * py
@@ -220,7 +263,7 @@ def deflect(exponent, more, sx, sy, dx, dy, limit_0, limit_1):
     elif exponent == 1.0 and more == 0.0:
         wx, wy = relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1)
     elif exponent == 1.0:
-        wx, wy, off = _ductile(sx, sy, dx, dy, limit_0, limit_1, more)
+        wx, wy, off = ductile(sx, sy, dx, dy, limit_0, limit_1, more)
     else:
         wx, wy, off = _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more)
     return wx, wy, off

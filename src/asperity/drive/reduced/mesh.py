@@ -5,7 +5,7 @@ wheel, :math:`z`, of which the approach is :math:`\pm n_g g + n_r z` and the sli
 :math:`\mp n_r g + n_g z` with the normal's parts. Friction keeps
 its stiffness while the load changes (`asperity.friction.loaded`). The teeth's compliance along the
 flank lies in series with the asperities: the slip at the asperities is what the teeth's bending
-leaves of the way (`asperity.drive.reduced.in_series`).
+leaves of the way (`asperity.drive.reduced.in_series`, `asperity.drive.reduced.lugre`).
 """
 
 import math
@@ -17,6 +17,7 @@ from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import AT
 from asperity.drive.reduced.in_series import deflect
 from asperity.drive.reduced.law import force_and_energy
+from asperity.drive.reduced.lugre import LuGre, deflect_damped
 from asperity.uncounted import uncounted
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
@@ -52,7 +53,9 @@ class Mesh(NamedTuple):
     curve : FrictionCurve
         Coefficient of friction over the sliding speed; of one value where it is constant.
     friction : float
-        That of the load without vibration.
+        That of the load without vibration; LuGre's kinetic one.
+    lugre : LuGre
+        Its Stribeck curve and dampings.
     """
 
     lead: float
@@ -71,11 +74,13 @@ class Mesh(NamedTuple):
     yielding: float
     curve: FrictionCurve
     friction: float
+    lugre: LuGre
 
 
 # Way along, across and towards the wheel, then of each flank: deflection along and across over the
-# limit, limit, approach, damping force.
-_WAYS, _FLANK = 3, 5
+# limit, limit, approach, damping force; of LuGre friction of its dampings along and across, and
+# Stribeck's share.
+_WAYS, _FLANK = 3, 8
 STATES = _WAYS + 2 * _FLANK
 
 
@@ -102,11 +107,30 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         limit_1 *= friction_at(mesh.curve, speed) / mesh.friction
     dx = scale * along
     dy = scale * across
-    wx, wy, off = deflect(mesh.exponent, mesh.yielding, sx, sy, dx, dy, limit_0, limit_1)
     full = mesh.friction * mesh.reference
     unit = full * mesh.limit
-    stiff = 1.0 + mesh.yielding
-    lost = (sx + wx) * (dx - stiff * (wx - sx)) + (sy + wy) * (dy - stiff * (wy - sy))
+    if mesh.lugre.damps:
+        rx = committed[at + 5]
+        ry = committed[at + 6]
+        wx, wy, hx, hy, tx, ty, share, off = deflect_damped(
+            mesh.lugre, mesh.yielding, sx, sy, rx, ry, dx, dy, limit_0, limit_1,
+            load / mesh.reference, committed[at + 7], mesh.limit / dt, dt,
+        )  # fmt: skip
+        trial[at + 5] = hx
+        trial[at + 6] = hy
+        trial[at + 7] = share
+        fx = wx + hx
+        fy = wy + hy
+        lost = (sx + wx) * (tx - (wx - sx)) + (sy + wy) * (ty - (wy - sy))
+        lost += (rx + hx) * tx + (ry + hy) * ty
+        bent = wx * wx + wy * wy + mesh.yielding * (fx * fx + fy * fy)
+    else:
+        wx, wy, off = deflect(mesh.exponent, mesh.yielding, sx, sy, dx, dy, limit_0, limit_1)
+        stiff = 1.0 + mesh.yielding
+        lost = (sx + wx) * (dx - stiff * (wx - sx)) + (sy + wy) * (dy - stiff * (wy - sy))
+        bent = stiff * (wx * wx + wy * wy)
+        fx = wx
+        fy = wy
     trial[at] = wx
     trial[at + 1] = wy
     trial[at + 2] = limit_1
@@ -114,13 +138,13 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     trial[at + 4] = damped
     # Work of the damping's force over the part of the step in which the flank touches.
     way = max(d, 0.0) - max(committed[at + 3], 0.0)
-    out[AT.stored] += energy + 0.5 * stiff * unit * (wx * wx + wy * wy)
+    out[AT.stored] += energy + 0.5 * unit * bent
     out[AT.friction] += 0.5 * unit * lost
     out[AT.damping] += 0.5 * (committed[at + 4] + damped) * way
     out[AT.residual] = max(out[AT.residual], off)
     if d + _AHEAD * max(rate, 0.0) * dt > 0.0:
         out[AT.approach] = max(out[AT.approach], abs(rate))
-    return load, full * wx, full * wy
+    return load, full * fx, full * fy
 
 
 @uncounted
@@ -170,10 +194,11 @@ def advance(mesh, committed, trial, q, v, dt, out):
 
 @uncounted
 @kernel(inline="always")
-def settle_in(mesh, state, q, share):
+def settle_in(mesh, state, q, share, damped, stribeck):
     """Set a state as if the worm had slid at pose ``q`` to a share of full friction under the load.
 
-    The flank that drives carries the reference load, the other nothing.
+    The flank that drives carries the reference load, the other nothing; ``damped`` is the share
+    of friction that LuGre's dampings add, ``stribeck`` that of its kinetic friction.
     """
     r = mesh.radius / mesh.length
     p = mesh.lead / mesh.length
@@ -190,4 +215,7 @@ def settle_in(mesh, state, q, share):
     state[_WAYS] = share * elastic / mesh.reference
     state[_WAYS + 2] = elastic / mesh.reference
     state[_WAYS + 3] = d
+    state[_WAYS + 5] = damped * elastic / mesh.reference
+    state[_WAYS + 7] = stribeck
+    state[_WAYS + _FLANK + 7] = stribeck
     state[_WAYS + _FLANK + 3] = 2.0 * towards - d - mesh.backlash

@@ -12,14 +12,17 @@ from asperity.arrays import FloatArray
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import OUTS, POSES
+from asperity.drive.lugre import check_passive, static_ratio, steady_friction
 from asperity.drive.motion.system import System
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
+from asperity.drive.reduced.lugre import LuGre
 from asperity.drive.reduced.march import march
 from asperity.drive.reduced.mesh import STATES, Mesh, settle_in
 from asperity.drive.reduced.reduction import Reduction
 from asperity.errors import InputError
+from asperity.friction.lugre import stribeck_share
 
 _FASTER = 3.0  # than sliding and vibration together, up to where friction is tabulated
 # Coulomb's friction on rigid teeth gives by so much of the normal approach at full friction.
@@ -58,15 +61,33 @@ class ReducedModel:
             return FrictionCurve(1.0, np.array([problem.friction.mu]))
         if problem.case is None:
             raise InputError("drive.friction is 'iso14521', which needs a case with [operation]")
-        fastest = self.sliding_speed
-        if problem.vibration is not None:
-            fastest += problem.velocity
-        return friction_curve(rating_inputs(problem.case), _FASTER * fastest)
+        return friction_curve(rating_inputs(problem.case), self.fastest)
 
     @functools.cached_property
     def friction(self) -> float:
         """Coefficient of friction without vibration."""
+        problem = self.problem
+        return steady_friction(
+            problem.friction, self.kinetic, self.point, problem.load, self.sliding_speed
+        )
+
+    @functools.cached_property
+    def kinetic(self) -> float:
+        """The same; of LuGre without what its speed adds."""
         return float(friction_at(self.curve, self.sliding_speed))
+
+    @property
+    def holding(self) -> float:
+        """Coefficient of friction up to which the flanks hold."""
+        return float(friction_at(self.curve, 0.0)) * static_ratio(self.problem.friction)
+
+    @property
+    def fastest(self) -> float:
+        """Sliding speed that is not passed, m/s."""
+        speed = self.sliding_speed
+        if self.problem.vibration is not None:
+            speed += self.problem.velocity
+        return _FASTER * speed
 
     @property
     def sliding_speed(self) -> float:
@@ -101,8 +122,7 @@ class ReducedModel:
     @functools.cached_property
     def elastic_slip(self) -> float:
         """Way along the flank from none to full friction without vibration, m."""
-        full = self.friction * self.normal_force
-        bending = self.reduction.compliance * full
+        bending = self.reduction.compliance * self.kinetic * self.normal_force
         if self.problem.friction.model == "coulomb":
             return bending or _GIVE * self.approach
         return bending + self.problem.friction.deflection_limit(self.normal_force)
@@ -113,7 +133,7 @@ class ReducedModel:
         problem, point = self.problem, self.point
         cell, rows = self.law.table(self.normal_force)
         limit, exponent, yielding = self.elastic_slip, 0.0, 0.0
-        if problem.friction.model == "dahl":
+        if problem.friction.model != "coulomb":
             limit = problem.friction.deflection_limit(self.normal_force)
             exponent = problem.friction.exponent
             yielding = self.elastic_slip / limit - 1.0
@@ -133,7 +153,25 @@ class ReducedModel:
             exponent=exponent,
             yielding=yielding,
             curve=self.curve,
-            friction=self.friction,
+            friction=self.kinetic,
+            lugre=self.lugre,
+        )
+
+    @functools.cached_property
+    def lugre(self) -> LuGre:
+        """LuGre's numbers; refuses dampings that make energy."""
+        law = self.problem.friction
+        if law.model != "lugre":
+            return LuGre(damps=False)
+        full = self.kinetic * self.normal_force
+        check_passive(law, full, self.fastest)
+        stiffness = full / law.deflection_limit(self.normal_force)
+        return LuGre(
+            damps=True,
+            static_ratio=static_ratio(law),
+            stribeck_speed=law.stribeck_velocity,
+            rate_time=law.contact_damping / stiffness,
+            slip_time=law.viscous_damping / stiffness,
         )
 
     def march(
@@ -146,7 +184,7 @@ class ReducedModel:
         stop: npt.NDArray[np.int64],
     ) -> int:
         """March so many stretches as there are rows, see `asperity.drive.reduced.march.march`."""
-        room = np.empty_like(committed), np.empty((2, POSES)), np.empty(OUTS)
+        room = np.zeros_like(committed), np.empty((2, POSES)), np.empty(OUTS)
         done: int = march(self.mesh, system, states, committed, *room, stretch, rows, stop)
         return done
 
@@ -154,14 +192,27 @@ class ReducedModel:
         """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
         mesh = self.mesh
         force, energy = force_and_energy(mesh.cell, mesh.rows, approach)
-        bent = share * force / mesh.reference
-        unit = mesh.friction * mesh.reference * mesh.limit * (1.0 + mesh.yielding)
-        return float(energy + 0.5 * unit * bent * bent)
+        asperities, dampings, _ = self._shares(share)
+        bent = asperities**2 + mesh.yielding * (asperities + dampings) ** 2
+        unit = mesh.friction * mesh.reference * mesh.limit * (force / mesh.reference) ** 2
+        return float(energy + 0.5 * unit * bent)
+
+    def _shares(self, share: float) -> tuple[float, float, float]:
+        """A share of full friction over the kinetic one: of asperities, dampings, and Stribeck's.
+
+        Flanks that hold, which have a share below 0, do not slide.
+        """
+        whole = share * self.friction / self.kinetic
+        law = self.lugre
+        if share < 0.0 or not law.damps:
+            return whole, 0.0, law.static_ratio
+        stribeck = stribeck_share(self.sliding_speed, law.static_ratio, law.stribeck_speed)
+        return share * stribeck, whole - share * stribeck, stribeck
 
     def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
         """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
         committed = np.zeros(STATES)
-        settle_in(self.mesh, committed, pose, share)
+        settle_in(self.mesh, committed, pose, *self._shares(share))
         return committed
 
     @property
@@ -191,4 +242,11 @@ class ReducedModel:
     def stiffness(self) -> tuple[float, float]:
         """Of the mesh without vibration along the normal and along the flank, N/m."""
         slope = float(self.law.exact(np.array([self.approach]))[1][0])
-        return slope, self.friction * self.normal_force / self.elastic_slip
+        full, law = self.kinetic * self.normal_force, self.problem.friction
+        along = full / self.elastic_slip
+        damping = law.contact_damping + law.viscous_damping
+        if damping > 0.0:
+            # Over a short step dampings hold the asperities fast, behind what the teeth give.
+            held = full / law.deflection_limit(self.normal_force) + damping / self.problem.step
+            along = 1.0 / (self.reduction.compliance + 1.0 / held)
+        return slope, along

@@ -4,6 +4,7 @@ import dataclasses
 import json
 from typing import TYPE_CHECKING
 
+from asperity.drive.lugre import of_speed
 from asperity.drive.problem import DriveProblem
 from asperity.rating import RatingOptions
 from asperity.runs import Run
@@ -67,7 +68,8 @@ def kept_under(problem: DriveProblem) -> str:
     tables = (
         problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc,
         # Where friction is one number, neither its law nor the speed bears on the teeth.
-        *(() if drive["friction"] == "constant" else (problem.operation, rating)),
+        *((problem.operation, rating) if drive["friction"] != "constant" else ()),
+        *((problem.operation, problem.friction) if of_speed(problem.friction) else ()),
     )  # fmt: skip
     given = [None if table is None else table.model_dump(mode="json") for table in tables]
     asked = [*given, problem.load, problem.friction.mu]

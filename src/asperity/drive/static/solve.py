@@ -13,6 +13,7 @@ from asperity.contact.candidates.records import Body, answer_of, candidates_of
 from asperity.contact.candidates.wrench import place_of
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import friction_at
+from asperity.drive.lugre import of_speed, steady_friction
 from asperity.drive.problem import DriveProblem
 from asperity.drive.shafts import compliances_of
 from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
@@ -68,6 +69,12 @@ def condensed(problem: DriveProblem, run: Run) -> Sector:
 
 def friction_of(problem: DriveProblem, speed: float) -> float:
     """Return the coefficient of friction while the drive runs steadily and slides at a speed."""
+    mu = _kinetic(problem, speed)
+    point = problem.point(problem.drive.effective_radius)
+    return steady_friction(problem.friction, mu, point, problem.load, speed)
+
+
+def _kinetic(problem: DriveProblem, speed: float) -> float:
     if problem.drive.friction == "constant":
         return problem.friction.mu
     if problem.case is None:
@@ -119,7 +126,7 @@ class StaticModel:
     def _sliding_speed(self) -> float:
         """Speed at which the flanks slide where they bear, m/s, which friction hardly moves."""
         drive, speed = self.problem.drive, self.problem.worm_speed
-        if drive.friction == "constant":
+        if drive.friction == "constant" and not of_speed(self.problem.friction):
             return self.problem.sliding_speed
         if drive.effective_radius is not None:
             return self.problem.point(drive.effective_radius).sliding_speed(speed)
