@@ -109,7 +109,7 @@ def test_a_tooth_takes_the_forces_that_increments_on_its_whole_flank_take():
     )
     whole = np.zeros((len(q) - 1, 2))
     for place in range(mesh.teeth):
-        tooth = float(mesh.gathered[place, 0])
+        tooth = float(mesh.gathered[place]["tooth"])
         problem = IncrementProblem(
             sector.body.flexibility,
             surface,

@@ -27,7 +27,7 @@ from asperity.contact.candidates.records import (
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.drive.elastic.memory import HEAD, RECORD, block_of, bring, displace, points_at
-from asperity.drive.elastic.near import AHEAD, WAY, gathered_near, reach_of
+from asperity.drive.elastic.near import AHEAD, gathered_near, reach_of
 from asperity.drive.elastic.rim import answered, disagreement, moved_by, taken
 from asperity.drive.interface import AT, POSES
 from asperity.drive.teeth.placing import place_worm, to_space
@@ -149,7 +149,7 @@ def _write(mesh, k, trial, at, tooth, side, q, v, dt, reach, out):
         for c in range(3):
             way = max(way, abs(answer.u[j + c] - mesh.shape[k, j + c]))
     # Along the normal at most the length of what each direction has moved.
-    mesh.gathered[k, WAY] = math.sqrt(3.0) * way
+    mesh.gathered[k].way = math.sqrt(3.0) * way
     mesh.rim.seen[k] = mesh.rim.given[k]
     spread(own, shapes, answer.force, mesh.work.nodal)
     taken(mesh.rim, k, own.nodes, own.counts[1], mesh.work.nodal)

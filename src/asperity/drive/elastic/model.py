@@ -15,8 +15,7 @@ from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.elastic.march import march
 from asperity.drive.elastic.memory import states
 from asperity.drive.elastic.mesh import advance
-from asperity.drive.elastic.near import GATHERED
-from asperity.drive.elastic.records import Mesh
+from asperity.drive.elastic.records import GATHERED, Mesh
 from asperity.drive.elastic.rim import rim_of
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.motion.system import System
@@ -125,8 +124,8 @@ class TeethModel(ReducedModel):
         interface = forward.interface._replace(friction=point)
         laws = Laws(interface, _TOLERANCE, forward.floor, _STEPS)
         other = RigidSurface.worm(self.sector.wheel.pair.worm, side=-1).numbers
-        gathered = np.zeros((places, GATHERED))
-        gathered[:, 0] = np.inf
+        gathered = np.zeros(places, GATHERED)
+        gathered["tooth"] = np.inf
         return Mesh(
             body=body,
             stand=contact.stand,

@@ -12,10 +12,6 @@ from asperity.drive.interface import POSES
 AHEAD = 4.0  # steps in which surfaces are about to touch
 _NEAR = 3e-6  # to the worm, within which faces are looked at, m
 
-# Where candidates were gathered: tooth, poses, least distance, reach, elastic way since.
-_LEAST_GAP, _REACH, WAY = 1 + POSES, 2 + POSES, 3 + POSES
-GATHERED = 4 + POSES
-
 
 @kernel
 def _travelled(mesh, seen, q):
@@ -26,11 +22,12 @@ def _travelled(mesh, seen, q):
     """
     places = mesh.body.places
     middle = places[places.shape[0] // 2, 1]
-    worm = mesh.stand.lead * (q[0] - seen[1]) + (q[1] - seen[2])
-    wheel = q[2] - seen[3]
+    was = seen.poses
+    worm = mesh.stand.lead * (q[0] - was[0]) + (q[1] - was[1])
+    wheel = q[2] - was[2]
     # Half the height of a tooth and how far it stands from the middle of the mesh: of its pitch.
     reach = 3.0 * mesh.stand.pitch * middle
-    across = abs(q[3] - seen[4]) + abs(q[4] - seen[5])
+    across = abs(q[3] - was[3]) + abs(q[4] - was[4])
     return abs(worm - middle * wheel) + reach * abs(wheel) + across
 
 
@@ -47,24 +44,24 @@ def reach_of(mesh, v, dt):
 def gathered_near(mesh, k, laws, committed, at, tooth, q, reach):
     """Gather a tooth's faces near the worm, unless those there are will do; if any are near."""
     seen = mesh.gathered[k]
-    if seen[0] == tooth:
-        way = _travelled(mesh, seen, q) + seen[WAY] + way_of(mesh.rim, k)
-        if way + reach <= seen[_REACH]:
+    if seen.tooth == tooth:
+        way = _travelled(mesh, seen, q) + seen.way + way_of(mesh.rim, k)
+        if way + reach <= seen.reach:
             return mesh.candidates.counts[k, 0] > 0
-        if seen[_LEAST_GAP] - way > reach:
+        if seen.least_gap - way > reach:
             return False
     u = mesh.shape[k]
     own = candidates_of(mesh.candidates, k)
     displace(mesh, k, committed, at, tooth, True, own.nodes, 0, u)
-    seen[_LEAST_GAP] = collect(
+    seen.least_gap = collect(
         mesh.body, laws.interface.counter, mesh.rotation[1], mesh.translation[1], u, 2.0 * reach,
         own,
     )  # fmt: skip
-    seen[0] = tooth
+    seen.tooth = tooth
     for c in range(POSES):
-        seen[1 + c] = q[c]
-    seen[_REACH] = 2.0 * reach
-    seen[WAY] = 0.0
+        seen.poses[c] = q[c]
+    seen.reach = 2.0 * reach
+    seen.way = 0.0
     rim, same = mesh.rim, committed[at] == tooth
     for i in range(rim.seen.shape[1]):
         rim.seen[k, i] = committed[at + 2 + i] if same else rim.given[k, i]
@@ -77,5 +74,6 @@ def forget(mesh):
 
     Which faces were gathered and by which inverse a tooth was solved shows in the last digits.
     """
-    mesh.gathered[:, 0] = math.inf
+    for k in range(mesh.gathered.size):
+        mesh.gathered[k].tooth = math.inf
     mesh.kept.size[:] = 0

@@ -2,10 +2,26 @@
 
 from typing import NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.candidates.records import Answer, Body, Candidates, History, Kept, Laws, Work
 from asperity.drive.elastic.rim import Rim
+from asperity.drive.interface import POSES
 from asperity.drive.teeth.placing import Stand
+
+GATHERED = np.dtype(
+    [
+        ("tooth", np.float64),
+        ("poses", np.float64, (POSES,)),
+        ("least_gap", np.float64),
+        ("reach", np.float64),
+        ("way", np.float64),
+    ]
+)
+"""Where a tooth's candidates were gathered: which tooth it was, poses, least distance, how far they
+reach; and the elastic way since."""
 
 
 class Mesh(NamedTuple):
@@ -32,8 +48,7 @@ class Mesh(NamedTuple):
     history: History
     earlier: FloatArray  #: (4k, 3): Committed forces, N
     work: Work
-    #: (2K, g): Where candidates were gathered: tooth, poses, least distance, reach, elastic way
-    gathered: FloatArray
+    gathered: npt.NDArray[np.void]  #: (2K,) of `GATHERED`
     shape: FloatArray  #: (2K, 3n): Displacement of the nodes when they were
     rotation: FloatArray  #: (2, 3, 3): Of the worm before and after the step
     translation: FloatArray  #: (2, 3)
