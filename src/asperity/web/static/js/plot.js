@@ -16,7 +16,7 @@ import { digits } from "./units.js";
  *   onPick?: (x: number) => void}} Shown
  */
 
-const [LEFT, RIGHT, TOP, BOTTOM] = [66, 14, 8, 42];
+export const [LEFT, RIGHT, TOP, BOTTOM] = [66, 14, 8, 42];
 /** Between two ticks at least, along and up. */
 const [APART, ABOVE] = [75, 42];
 const CAP = 5;
@@ -40,7 +40,7 @@ export function ticks(low, high, log, count) {
 }
 
 /** Where values lie between two places; `margin` is free beyond the least and the greatest. */
-function scale(lists, { log, range, margin = 0 }, from, to) {
+export function scale(lists, { log, range, margin = 0 }, from, to) {
   const known = lists.flat().filter((value) => number(value) && (!log || value > 0));
   let [low, high] = range ?? (known.length ? [Math.min(...known), Math.max(...known)] : [0, 1]);
   if (low === high) [low, high] = log ? [low / 2, high * 2] : [low - 1, high + 1];
@@ -105,7 +105,7 @@ function Drawn({ line, colour, places, across, up }) {
 }
 
 /** How wide a box is, as it is seen. */
-function useWidth() {
+export function useWidth() {
   const box = useRef(null);
   const [width, setWidth] = useState(0);
   useLayoutEffect(() => {
@@ -117,6 +117,18 @@ function useWidth() {
   }, []);
   return [box, Math.max(width, 200)];
 }
+
+/** Grid, ticks and names of an axis along and of one or two up. */
+export const Axes = ({ across, ups, right, bottom, along, upward }) => html`
+  ${across.ticks.map((tick) => html`<path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
+    <text x=${across.at(tick)} y=${bottom + 16} text-anchor="middle">${digits(tick, 6)}</text>`)}
+  ${ups.slice(0, 2).map((up, side) => up.ticks.map((tick) => html`
+    ${side ? null : html`<path class="grid-line" d=${`M${LEFT} ${up.at(tick)}H${right}`} />`}
+    <text x=${side ? right + 6 : LEFT - 6} y=${up.at(tick) + 4} text-anchor=${side ? "start" : "end"}>
+      ${digits(tick, 6)}</text>`))}
+  ${upward.slice(0, 2).map((said, side) => html`<text text-anchor="middle"
+    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
+  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
 
 /** @param {Shown} props */
 export function Plot(props) {
@@ -151,15 +163,7 @@ export function Plot(props) {
           table beneath`}>
         ${bands.map(({ from, to }) => html`<rect class="band" x=${across.at(from)} y=${TOP}
           width=${across.at(to) - across.at(from)} height=${bottom - TOP} />`)}
-        ${across.ticks.map((tick) => html`<path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
-          <text x=${across.at(tick)} y=${bottom + 16} text-anchor="middle">${digits(tick, 6)}</text>`)}
-        ${ups.slice(0, 2).map((up, side) => up.ticks.map((tick) => html`
-          ${side ? null : html`<path class="grid-line" d=${`M${LEFT} ${up.at(tick)}H${right}`} />`}
-          <text x=${side ? right + 6 : LEFT - 6} y=${up.at(tick) + 4} text-anchor=${side ? "start" : "end"}>
-            ${digits(tick, 6)}</text>`))}
-        ${axis.slice(0, 2).map((said, side) => html`<text text-anchor="middle"
-          transform=${`translate(${side ? width - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
-        <text x=${(LEFT + right) / 2} y=${height - 8} text-anchor="middle">${named(x)}</text>
+        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} />
         ${lines.map((line) => html`<${Drawn} key=${line.label} line=${line} colour=${line.colour} across=${across}
           places=${line.x ?? x.values} up=${upOf(line)} />`)}
         ${marks.map((mark) => (number(mark.y)

@@ -50,6 +50,7 @@ const SCALED = new Set(["m", "s", "N", "W", "J", "Pa", "Hz", "m/s", "N/m", "V", 
 export function readable(value, unit, count = 5) {
   if (!Number.isFinite(value)) return ["–", unit];
   const size = Math.abs(value);
+  if (unit === "rad" && size > 0 && size < 2e-3) return [digits(1e6 * value, count), "µrad"];
   if (unit === "rad") return [digits((value * 180) / Math.PI, count), "deg"];
   if (SCALED.has(unit) && size > 0) {
     const [prefix, one] = STEPS.find(([, step]) => size >= step * 0.99999) ?? STEPS.at(-1);

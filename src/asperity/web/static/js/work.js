@@ -12,10 +12,14 @@ const ENDED = ["stopped", "done", "failed"];
 /** Jobs that were begun here, by what was asked: another visit finds them again. */
 const begun = {};
 
+/** The same, with its keys in one order, whichever was set first. */
+const ordered = (value) => (value?.constructor === Object
+  ? Object.entries(value).sort().map(([key, each]) => [key, ordered(each)]) : value);
+
 /** A short name for what is asked. @param {object} body */
 function nameOf(body) {
   let sum = 5381;
-  for (const sign of JSON.stringify(body)) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
+  for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
   return sum.toString(36);
 }
 
@@ -97,8 +101,10 @@ export function lasting(seconds) {
 }
 
 /** How far a job is and how long it still takes, in words. */
-export function left({ state, done, total, seconds }) {
-  if (ENDED.includes(state)) return `${state} after ${lasting(seconds)}`;
+export function left({ state, done, total, seconds, answered }) {
+  const without = answered && state === "stopped" ? ", with its answer, without all of its files" : "";
+  if (ENDED.includes(state)) return `${state} after ${lasting(seconds)}${without}`;
+  if (answered) return "answered; its files are being written";
   if (!total) return state;
   const rest = done > 0.02 * total && seconds > 2 ? `, about ${lasting((seconds * (total - done)) / done)} left` : "";
   return `${state}, ${done} of ${total}${rest}`;

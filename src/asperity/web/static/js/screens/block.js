@@ -91,7 +91,7 @@ function Settled({ work }) {
   return html`<div class="headline"><p class="large"><${Num} entry=${numbers.ratio} count=${4} /></p>
       <p>elastic block; the rigid body <${Num} entry=${numbers.slider_ratio} count=${4} /><br />
         <${Num} entry=${numbers.unsteadiness} label count=${2} /></p></div>
-    ${data ? html`<${Plot} title="Friction over a settled cycle"
+    ${data ? html`<${Plot} title="Friction over a settled cycle" y="friction (N)"
       x=${{ label: "phase, cycles", values: data.phase.values }} series=${[
         { label: "elastic block", unit: "N", values: along(data.friction) },
         { label: "rigid body", unit: "N", values: along(data.slider_friction), dash: [4, 3], colour: 6 }]} />` : null}

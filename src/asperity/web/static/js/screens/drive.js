@@ -111,7 +111,7 @@ function Locking({ answer, found, data }) {
   return html`<p class="big"><${Verdict} ok=${answer.locked}
       yes="holds its load without vibration" no="runs back without vibration" /></p>
     <${Facts} found=${found} keys=${HELD} />
-    ${data ? html`<${Plot} title="Creep of the wheel, the motor off" x=${x} xlog=${true} series=${[
+    ${data ? html`<${Plot} title="Creep of the wheel, the motor off" y="creep (rad/s)" x=${x} xlog=${true} series=${[
       { label: "marched", unit: "rad/s", values: data.creep_over.values, points: "round" },
       { label: "far beyond the threshold, closed form", unit: "rad/s", values: data.creep_limit.values, dash: [6, 4] },
     ]} />` : null}`;

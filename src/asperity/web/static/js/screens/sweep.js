@@ -1,13 +1,11 @@
 /** A case over a grid: axes, how long it takes, a map that fills, and the file of it. */
 import { html, useEffect, useState } from "../../vendor/preact.js";
 import { commandLine, forms, get, useCaseFile, useLive } from "../api.js";
-import { Figure } from "../figure.js";
 import { AllKeys, Box, fieldOf, words } from "../form.js";
-import { Legend, shade, span } from "../map.js";
+import { Heat } from "../heat.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
-import { named } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
 import { Files, lasting, useJob, Work } from "../work.js";
 
@@ -168,33 +166,4 @@ function Found({ name, names, data }) {
   return across ? html`<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across} values=${values} />`
     : html`<${Plot} title=${title} x=${down} height=${340}
       series=${[{ label: title, unit: plain(units), values, points: "round" }]} />`;
-}
-
-/** A grid of values as a map: what is not there yet is left free. */
-function Heat({ title, unit, down, across, values }) {
-  const known = values.filter((value) => value !== null);
-  const range = span(known);
-  const [columns, rows] = [across.values.length, down.values.length];
-  const places = values.map((value, cell) => ({ value, cell, x: cell % columns, y: Math.floor(cell / columns) }));
-  const end = (axis, last) => digits(axis.values.at(last ? -1 : 0), 4);
-  const said = ({ value, x, y }) =>
-    `${digits(value, 4)} ${unit} at ${digits(down.values[y], 4)}, ${digits(across.values[x], 4)}`;
-  const whole = `${title} over ${named(across)} and ${named(down)}, from ${digits(range[0], 3)} to `
-    + `${digits(range[1], 3)} ${unit}; the numbers are in the table beneath`;
-  const colour = (value) => shade((value - range[0]) / (range[1] - range[0]));
-  return html`<${Figure} title=${`${title}: ${known.length} of ${values.length} points`} kind="heat" columns=${() => [
-      { ...down, values: places.map(({ y }) => down.values[y]) },
-      { ...across, values: places.map(({ x }) => across.values[x]) }, { label: title, unit, values }]}>
-    <div class="frame">
-      <p class="up"><span>${end(down, true)}</span><b>${named(down)}</b><span>${end(down, false)}</span></p>
-      <svg class="drawn" viewBox=${`0 0 ${columns} ${rows}`} preserveAspectRatio="none" role="img"
-        aria-label=${whole}>
-        ${places.filter(({ value }) => value !== null).map((one) => html`<rect key=${one.cell} x=${one.x}
-          y=${rows - 1 - one.y} width="1.02" height="1.02" fill=${colour(one.value)}>
-          <title>${said(one)}</title></rect>`)}
-      </svg>
-      <p class="along"><span>${end(across, false)}</span><b>${named(across)}</b><span>${end(across, true)}</span></p>
-    </div>
-    <${Legend} range=${range} unit=${unit} label=${title} />
-  <//>`;
 }
