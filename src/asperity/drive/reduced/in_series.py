@@ -116,7 +116,7 @@ def ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     decay = max(far, slip * slip / soft if soft > 0.0 else 0.0)
     gone = _relaxed(decay, 0.0, 0.0)
     off = math.inf
-    if ax * ax + ay * ay > 1.0:
+    if _above(sx, sy, limit_0) > 1.0:
         decay, gone, off = _springing_back(ax, ay, bx, by, more)
     for _ in range(_ITERATIONS):
         bent = more * gone

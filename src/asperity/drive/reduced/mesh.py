@@ -123,12 +123,12 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         fy = wy + hy
         lost = (sx + wx) * (tx - (wx - sx)) + (sy + wy) * (ty - (wy - sy))
         lost += (rx + hx) * tx + (ry + hy) * ty
-        bent = wx * wx + wy * wy + mesh.yielding * (fx * fx + fy * fy)
+        bent = 0.5 * unit * (wx * wx + wy * wy + mesh.yielding * (fx * fx + fy * fy))
     else:
         wx, wy, off = deflect(mesh.exponent, mesh.yielding, sx, sy, dx, dy, limit_0, limit_1)
         stiff = 1.0 + mesh.yielding
         lost = (sx + wx) * (dx - stiff * (wx - sx)) + (sy + wy) * (dy - stiff * (wy - sy))
-        bent = stiff * (wx * wx + wy * wy)
+        bent = 0.5 * stiff * unit * (wx * wx + wy * wy)
         fx = wx
         fy = wy
     trial[at] = wx
@@ -138,7 +138,7 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     trial[at + 4] = damped
     # Work of the damping's force over the part of the step in which the flank touches.
     way = max(d, 0.0) - max(committed[at + 3], 0.0)
-    out[AT.stored] += energy + 0.5 * unit * bent
+    out[AT.stored] += energy + bent
     out[AT.friction] += 0.5 * unit * lost
     out[AT.damping] += 0.5 * (committed[at + 4] + damped) * way
     out[AT.residual] = max(out[AT.residual], off)

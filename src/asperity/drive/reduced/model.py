@@ -122,7 +122,8 @@ class ReducedModel:
     @functools.cached_property
     def elastic_slip(self) -> float:
         """Way along the flank from none to full friction without vibration, m."""
-        bending = self.reduction.compliance * self.kinetic * self.normal_force
+        full = self.kinetic * self.normal_force
+        bending = self.reduction.compliance * full
         if self.problem.friction.model == "coulomb":
             return bending or _GIVE * self.approach
         return bending + self.problem.friction.deflection_limit(self.normal_force)
@@ -193,18 +194,21 @@ class ReducedModel:
         mesh = self.mesh
         force, energy = force_and_energy(mesh.cell, mesh.rows, approach)
         asperities, dampings, _ = self._shares(share)
-        bent = asperities**2 + mesh.yielding * (asperities + dampings) ** 2
-        unit = mesh.friction * mesh.reference * mesh.limit * (force / mesh.reference) ** 2
-        return float(energy + 0.5 * unit * bent)
+        bent, damped = (each * force / mesh.reference for each in (asperities, dampings))
+        unit = mesh.friction * mesh.reference * mesh.limit
+        teeth = mesh.yielding * damped * (2.0 * bent + damped)
+        return float(energy + 0.5 * unit * ((1.0 + mesh.yielding) * bent * bent + teeth))
 
     def _shares(self, share: float) -> tuple[float, float, float]:
         """A share of full friction over the kinetic one: of asperities, dampings, and Stribeck's.
 
         Flanks that hold, which have a share below 0, do not slide.
         """
-        whole = share * self.friction / self.kinetic
         law = self.lugre
-        if share < 0.0 or not law.damps:
+        if not law.damps:
+            return share, 0.0, 1.0
+        whole = share * self.friction / self.kinetic
+        if share < 0.0:
             return whole, 0.0, law.static_ratio
         stribeck = stribeck_share(self.sliding_speed, law.static_ratio, law.stribeck_speed)
         return share * stribeck, whole - share * stribeck, stribeck
