@@ -36,6 +36,21 @@ def test_a_drive_is_swept_over_its_own_keys_with_balance_and_settled_beside_the_
     assert "closed form" in axes.get_legend().get_texts()[-1].get_text()
 
 
+def test_rows_of_a_table_of_points_are_not_joined_by_a_line(tmp_path):
+    (tmp_path / "points.csv").write_text(
+        "vibration.velocity_ratio,vibration.frequency [kHz]\n1.5,20\n1.2,15\n2,20\n"
+    )
+    settings = (*GIVEN, "drive.protocol=window")
+    case, axes = read_grid("drive-screw", case_tables(), settings, (), str(tmp_path / "points.csv"))
+    swept = run(case, axes, cache=False)
+    drawn = [line for line in swept.figure().axes[0].lines if len(line.get_xdata()) == 3]
+    assert len(drawn) >= 2
+    assert {line.get_linestyle() for line in drawn} == {"None"}
+    assert all(line.get_marker() not in ("", "None") for line in drawn)
+    ratio = swept.arrays["torque_ratio"]
+    assert any(line.get_ydata() == pytest.approx(ratio) for line in drawn)
+
+
 @pytest.fixture(scope="module")
 def mapped():
     over = ["vibration.velocity_ratio=0.5,1.5", "vibration.frequency=2,20 kHz"]

@@ -19,7 +19,7 @@ from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 MOST_POINTS = 1_000_000  # some 300 MB, and a quarter of an hour where each takes a millisecond
 _PATH = re.compile(KEY)
-_POINT = "point"  # the dimension of values that change together
+POINT = "point"  # the dimension of values that change together
 _FORMS = "1,2,3 or start:stop:step"
 _GRAIN = Decimal("1e-9")
 
@@ -223,7 +223,7 @@ def _columns(path: Path, tables: Mapping[str, type[Table]], subject: Subject) ->
         model, key = _key_of(heading[1], where, tables, subject)
         unit = (heading[2] or "").strip()
         parts = tuple(f"{cells[place].strip()} {unit}".strip() for _, cells in rows[1:])
-        written = _Written(where, model, key, parts, along=_POINT)
+        written = _Written(where, model, key, parts, along=POINT)
         if empty := next((row for row, cells in rows[1:] if not cells[place].strip()), None):
             written.refuse(f"row {empty} is empty; give every row a value")
         if unit and written.quantity is None:

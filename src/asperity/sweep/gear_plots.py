@@ -7,6 +7,7 @@ import numpy as np
 from asperity.rating.demands import DEMANDS
 from asperity.rating.verdict import NAMES
 from asperity.results.figures import BLACK, COLOURS, DASHES, legend, panels
+from asperity.sweep.axes import POINT
 from asperity.sweep.maps import axis_label, plane, ticks
 
 if TYPE_CHECKING:
@@ -32,15 +33,18 @@ def plot_along(dataset: "xr.Dataset") -> "Figure":
     places = axis.values[order] if numeric else order
     figure, (upper, lower) = panels(2, width=9.0, height=7.6)
     standards = list(NAMES)
-    every = -(-axis.size // _MOST_MARKED)
+    # Neighbouring rows of a table of points need not belong together.
+    apart = name == POINT
+    every = 1 if apart else -(-axis.size // _MOST_MARKED)
+    line = "" if apart else "-"
     for number, demand in enumerate(DEMANDS):
         variable = f"{demand.standard}_{demand.key}"
         if variable in dataset:
             upper.plot(
                 places, dataset[variable].values[order] / demand.asked,
                 color=COLOURS[number % len(COLOURS)], marker=_MARKERS[number % len(_MARKERS)],
-                dashes=DASHES[standards.index(demand.standard)], markersize=4.0,
-                markevery=every, label=f"{NAMES[demand.standard]} {demand.name}",
+                linestyle=line if apart else (0, DASHES[standards.index(demand.standard)]),
+                markersize=4.0, markevery=every, label=f"{NAMES[demand.standard]} {demand.name}",
             )  # fmt: skip
     upper.axhline(1.0, color=BLACK, linewidth=1.2)
     upper.set_ylabel("safety over what is asked")
@@ -50,7 +54,7 @@ def plot_along(dataset: "xr.Dataset") -> "Figure":
         if variable in dataset:
             lower.plot(
                 places, 100.0 * dataset[variable].values[order], color=colour, marker=marker,
-                markersize=4.0, markevery=every, label=label,
+                markersize=4.0, markevery=every, linestyle=line, label=label,
             )  # fmt: skip
     lower.set_ylabel("efficiency (%)")
     lower.set_xlabel(axis_label(axis))

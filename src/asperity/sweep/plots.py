@@ -6,6 +6,7 @@ import numpy as np
 
 from asperity.errors import InputError
 from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
+from asperity.sweep.axes import POINT
 from asperity.sweep.gear_plots import plot_along, plot_plane
 from asperity.sweep.maps import balances, plot_map, resonances
 from asperity.sweep.result import MOST_AXES
@@ -133,7 +134,13 @@ def _line(panel: "Axes", axis: "xr.DataArray", values: np.ndarray, **style: Any)
     order = np.argsort(axis.values) if numeric else np.arange(len(values))
     if len(values) > _MOST_MARKED:
         style["marker"] = ""
-    line = "-" if numeric else ""
+    # Neighbouring rows of a table of points need not belong together.
+    if numeric and axis.name != POINT:
+        line = "-"
+    else:
+        line = ""
+        style = {"marker": "_"} | {name: how for name, how in style.items() if name != "dashes"}
+        style["marker"] = style["marker"] or "o"
     panel.plot(axis.values[order], values[order], markersize=4.0, linestyle=line, **style)
 
 
