@@ -54,7 +54,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             over, tried_by = map(mark.kwargs.get, ("over", "tried_by"))
             if tried_by and not hasattr(item.module, tried_by):
                 raise pytest.UsageError(f"{item.nodeid}: no {tried_by} is in its module")
-            apart = [one for one in item.callspec.params.items() if over and one[0] != over]
+            given = item.callspec.params if hasattr(item, "callspec") else {}
+            apart = [one for one in given.items() if over and one[0] != over]
             campaign = item.nodeid.partition("[")[0], repr(sorted(apart)), not tried_by
             campaigns[campaign].append(item)
     left_out = set()

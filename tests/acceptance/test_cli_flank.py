@@ -1,6 +1,7 @@
 """`asperity flank` as a user runs it: numbers, files, and what is refused."""
 
 import csv
+import gc
 import json
 import math
 import re
@@ -164,6 +165,8 @@ def without(monkeypatch):
     """Hide a package that is installed, and what of it another test has loaded."""
 
     def hide(package):
+        # What a test before has drawn with it asks for it once more when it goes.
+        gc.collect()
         loaded = [name for name in sys.modules if name.startswith(f"{package}.")]
         for name in (package, *loaded):
             monkeypatch.setitem(sys.modules, name, None)
@@ -178,6 +181,7 @@ def in_space(request):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_files_hold_the_same_numbers_and_every_picture(asperity, without, tmp_path, in_space):
     folder = tmp_path / "new" / "out"
     step = ("--step",) if in_space else ()

@@ -251,6 +251,7 @@ def picture(page):
     return imread(io.BytesIO(content))[..., :3]
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     ("screen", "case", "button", "then"),
     [

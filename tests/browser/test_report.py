@@ -66,6 +66,7 @@ def reports(tmp_path_factory):
     return made
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_report_fits_each_width_and_asks_for_nothing(browser, reports, tmp_path, command):
     asked, said = [], []

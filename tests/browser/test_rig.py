@@ -110,6 +110,7 @@ def test_claims_are_found_by_words_and_verdict_and_say_what_makes_them(seen, ser
         shutil.rmtree(folder.parent)
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_wrong_with_either(seen_as, scheme):
     seen = seen_as(color_scheme=scheme, bypass_csp=True)

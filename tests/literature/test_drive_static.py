@@ -232,6 +232,7 @@ def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_sta
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_sector_of_five_takes_the_torque_of_another_implementation")
 def test_torque_deflection_and_transmission_error_agree_on_two_meshes():
     coarse, finer = (model_of(f"drive.density={d}", phases=24) for d in ("coarse", "intermediate"))
     one, other = (model.courses([Asked(LOAD)])[0] for model in (coarse, finer))

@@ -139,6 +139,7 @@ def test_a_left_hand_gearset_is_the_mirror_image(tmp_path):
     assert write_step(tmp_path / "worm.step", worm_body(left.pair, 20.0)).check.volume > 0
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     "changes",
     [

@@ -359,6 +359,7 @@ def test_the_whole_body_is_solved_to_second_order():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     ("elevation", "law", "control"),
     [(30.0, "linear", "force"), (150.0, "hertz", "force"), (90.0, "hertz", "displacement")],

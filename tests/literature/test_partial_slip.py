@@ -240,6 +240,9 @@ def test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes(
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(
+    tried_by="test_dahl_friction_tends_to_coulomb_friction_as_its_deflection_vanishes"
+)
 def test_dahl_friction_of_small_deflection_slips_as_cattaneo_and_mindlin_say(quarter_of_half_space):
     pair = spheres(quarter_of_half_space, 10, 0.0)
     off = []

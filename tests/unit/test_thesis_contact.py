@@ -72,6 +72,7 @@ def test_a_block_is_read_anew_in_longer_windows_until_they_agree(monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_block_is_read_anew_in_longer_windows_until_they_agree")
 def test_a_rocking_block_read_for_twice_as_long_comes_to_the_same(monkeypatch):
     settings = (*LIGHT, "vibration.velocity_ratio=20")
     found = blocks.settle("block-longitudinal", settings)
