@@ -138,14 +138,6 @@ def test_by_the_standard_friction_is_its_own_whatever_the_table_says_or_lacks():
     assert given.max_deflection == 70e-9
 
 
-def test_elastic_teeth_are_not_marched_with_the_standard_s_friction_but_loaded_with_it():
-    settings = ["drive.friction=iso14521", "drive.model=teeth"]
-    read = read_case("drive-screw", case_tables(), settings)
-    with pytest.raises(InputError, match=r"drive.friction is 'iso14521'.*--static takes both"):
-        DriveProblem.from_case(read)
-    assert DriveProblem.from_case(read, shaken=False).friction.mu > 0.0
-
-
 def test_teeth_rated_otherwise_are_kept_apart_where_friction_is_the_standard_s():
     def kept(*settings):
         return kept_under(

@@ -18,6 +18,7 @@ from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
 from asperity.contact.interface.friction import DAHL, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
+from asperity.drive.elastic.friction import point_at
 from asperity.drive.elastic.memory import states
 from asperity.drive.elastic.mesh import advance
 from asperity.drive.elastic.model import TeethModel
@@ -28,6 +29,8 @@ from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
+from asperity.drive.static.solve import StaticModel
+from asperity.drive.static.sweep import Asked
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, TeethContact
 from asperity.drive.teeth.placing import place_worm
 from asperity.errors import ConvergenceError
@@ -280,6 +283,51 @@ def test_a_screw_near_the_resonance_begins_of_elastic_teeth_as_of_these_reduced(
     assert teeth.energy_ratio == pytest.approx(reduced.energy_ratio, abs=0.01)
     assert teeth.closure < 1e-4
     assert teeth.open_share == 0.0
+
+
+def test_by_the_standard_s_friction_teeth_are_loaded_as_without_vibration():
+    settings = ("drive.friction=iso14521", "drive.flanks=driving", "drive.phases=8")
+    model = model_of(*settings, "vibration.displacement_amplitude=1e-6 um", "drive.window=1")
+    static = StaticModel(model.problem, Run())
+    (course,) = static.courses([Asked(model.problem.load)])
+    assert static.friction == pytest.approx(model.friction, rel=0.01)
+    wanted = float(course.worm_torque.mean())
+    point = model.point
+    slope = point.worm_torque(1.0, static.friction) / point.worm_torque(1.0, model.friction)
+    assert model.worm_torque * slope == pytest.approx(wanted, rel=1e-3)
+    march = march_of(model)
+    march.go(1)
+    assert model.teeth.sliding.share == pytest.approx([1.0, 1.0], abs=1e-3)
+    assert march.rows["worm_torque"][0] / march.rows["time"][0] == pytest.approx(-wanted, rel=0.02)
+
+
+@pytest.mark.parametrize("way", [("vibration.mode=screw",), ("vibration.mode=torsional",)])
+def test_by_the_standard_s_friction_they_go_with_the_speed_as_those_reduced(way):
+    model = model_of(
+        "drive.friction=iso14521", "drive.flanks=driving", "vibration.frequency=20 kHz",
+        "vibration.velocity_ratio=0.9", "drive.protocol=window", "drive.window=6", *way,
+    )  # fmt: skip
+    teeth = solve_shaken(model.problem, model, Run())
+    reduced = solve_shaken(model.problem, ReducedModel(model.problem, GIVEN), Run())
+    constant = model_of(
+        "drive.flanks=driving", "vibration.frequency=20 kHz", "vibration.velocity_ratio=0.9",
+        "drive.protocol=window", "drive.window=6", *way,
+    )  # fmt: skip
+    plain = solve_shaken(constant.problem, ReducedModel(constant.problem, GIVEN), Run())
+    assert teeth.torque_ratio == pytest.approx(reduced.torque_ratio, abs=0.02)
+    assert abs(reduced.torque_ratio - plain.torque_ratio) > 0.03
+    assert teeth.energy_ratio == pytest.approx(reduced.energy_ratio, abs=0.02)
+    assert teeth.closure < 1e-4
+    assert teeth.ledger.friction > 0.0
+
+
+def test_asperities_keep_their_stiffness_as_the_friction_of_teeth_changes():
+    model = model_of("drive.flanks=driving")
+    given = model.teeth.laws.interface.friction
+    found = point_at(given, 1.3)
+    assert found.mu == 1.3 * given.mu
+    assert found.mu / found.limit == pytest.approx(given.mu / given.limit, rel=1e-15)
+    assert point_at(given, 1.0) == given
 
 
 @pytest.mark.slow

@@ -262,11 +262,6 @@ class DriveProblem:
                 f"operation.worm_speed is {self.worm_speed * 30.0 / math.pi:.4g} rpm; a drive is "
                 "marched at 1e6 rpm at most"
             )
-        if self.drive.friction != "constant" and self.drive.model == "teeth":
-            raise InputError(
-                "drive.friction is 'iso14521', which drive.model 'reduced' takes; elastic teeth "
-                "are marched with 'constant' (--static takes both)"
-            )
         if self.friction.model == "lugre" and self.drive.model == "teeth":
             raise InputError(
                 "friction.model is 'lugre', which drive.model 'reduced' takes; points of elastic "

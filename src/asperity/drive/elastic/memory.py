@@ -8,8 +8,8 @@ from asperity.drive.interface import POSES
 
 # Poses and generalised forces of the damping; then for each tooth its number, how many points
 # touch, the amplitude that its neighbours moved it by, its load on them and that of a step before,
-# and of each point: number, deflection (3), pressure over the reference, force (3), the force a
-# step before (3).
+# and of each point: number, deflection (3), pressure over the reference times friction's share,
+# force (3), the force a step before (3).
 HEAD = 2 * POSES
 RECORD = 11
 
@@ -33,8 +33,11 @@ def states(mesh: Mesh) -> int:
 
 
 @kernel
-def bring(mesh, k, committed, at, tooth):
-    """Bring what a tooth remembers to its candidates: asperities, forces, displacement."""
+def bring(mesh, k, committed, at, tooth, share):
+    """Bring what a tooth remembers to its candidates: asperities, forces, displacement.
+
+    The limit that asperities had is told over that of this step's ``share`` of friction.
+    """
     own = candidates_of(mesh.candidates, k)
     points = 4 * own.counts[0]
     history, force = mesh.history, mesh.answer.force[k]
@@ -53,7 +56,7 @@ def bring(mesh, k, committed, at, tooth):
         if face < 0:
             continue
         q = 4 * face + number % 4
-        history.size[q] = committed[entry + 4]
+        history.size[q] = committed[entry + 4] / share
         for c in range(3):
             history.deflection[q, c] = committed[entry + 1 + c]
             # Continued as from the step before.

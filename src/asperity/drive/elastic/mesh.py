@@ -26,6 +26,7 @@ from asperity.contact.candidates.records import (
 )
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
+from asperity.drive.elastic.friction import find_shares, laws_at
 from asperity.drive.elastic.memory import HEAD, RECORD, block_of, bring, displace, points_at
 from asperity.drive.elastic.near import AHEAD, gathered_near, reach_of
 from asperity.drive.elastic.rim import answered, disagreement, moved_by, taken
@@ -80,7 +81,7 @@ def _approach(mesh, side, q, v, x, y, z, nx, ny, nz):
 
 
 @kernel
-def _write(mesh, k, trial, at, tooth, side, q, v, dt, reach, out):
+def _write(mesh, k, trial, at, tooth, side, share, q, v, dt, reach, out):
     """Write what a tooth remembers, and add up energies, losses and the damping's wrench.
 
     Returns the normal force.
@@ -118,7 +119,7 @@ def _write(mesh, k, trial, at, tooth, side, q, v, dt, reach, out):
         entry = first + RECORD * count
         count += 1
         trial[entry] = 4.0 * own.face[point // 4] + point % 4
-        trial[entry + 4] = answer.size[point]
+        trial[entry + 4] = share * answer.size[point]
         elastic = 0.0
         face = point // 4
         for c in range(3):
@@ -207,7 +208,8 @@ def _expect(mesh, committed, block, numbers):
 def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
     """Solve for one tooth and add what it does; its memory is written."""
     side = 1 if place < mesh.teeth else -1
-    laws = mesh.laws if side > 0 else mesh.back
+    share = mesh.sliding.share[0 if side > 0 else 1]
+    laws = laws_at(mesh.laws if side > 0 else mesh.back, share)
     stand, shift, before = mesh.stand, mesh.moved, committed[:POSES]
     angle = q[2] + mesh.ahead + stand.pitch * tooth
     rim = mesh.rim
@@ -233,7 +235,7 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
     )  # fmt: skip
     _drifted(mesh)
     own, answer = candidates_of(mesh.candidates, place), answer_of(mesh.answer, place)
-    bring(mesh, place, committed, at, tooth)
+    bring(mesh, place, committed, at, tooth, share)
     displace(
         mesh,
         place,
@@ -262,7 +264,7 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
         residual = _LOST
     mesh.counted[0] += took
     out[AT.residual] = max(out[AT.residual], residual)
-    normal = _write(mesh, place, trial, at, tooth, side, q, v, dt, reach, out)
+    normal = _write(mesh, place, trial, at, tooth, side, share, q, v, dt, reach, out)
     for i in range(count):
         trial[at + 2 + count + i] = rim.loads[place, i]
     out[AT.driving if side > 0 else AT.back] += normal
@@ -279,6 +281,13 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
 @kernel
 def advance(mesh, committed, trial, q, v, dt, out):
     """Advance the mesh over a step, see `asperity.drive.interface`."""
+    find_shares(mesh.sliding, v)
+    solve_teeth(mesh, committed, trial, q, v, dt, out)
+
+
+@kernel
+def solve_teeth(mesh, committed, trial, q, v, dt, out):
+    """Solve for all teeth at the end of a step; as `advance`, with friction as it was found."""
     block = block_of(mesh)
     rim, numbers, damped = mesh.rim, mesh.numbers, mesh.damped
     reach = reach_of(mesh, v, dt)

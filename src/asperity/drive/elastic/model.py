@@ -12,9 +12,10 @@ from asperity.arrays import FloatArray
 from asperity.contact.candidates.records import Answer, Candidates, History, Kept, Laws, Work
 from asperity.contact.interface.friction import DAHL, PointFriction
 from asperity.contact.interface.rigid import RigidSurface
+from asperity.drive.elastic.friction import Sliding
 from asperity.drive.elastic.march import march
 from asperity.drive.elastic.memory import states
-from asperity.drive.elastic.mesh import advance
+from asperity.drive.elastic.mesh import solve_teeth
 from asperity.drive.elastic.records import GATHERED, Mesh
 from asperity.drive.elastic.rim import rim_of
 from asperity.drive.interface import AT, OUTS, POSES
@@ -74,7 +75,7 @@ class TeethModel(ReducedModel):
     @functools.cached_property
     def contact(self) -> TeethContact:
         """The teeth held against the worm."""
-        return TeethContact(self.sector, self.problem.friction.mu)
+        return TeethContact(self.sector, self.friction)
 
     @functools.cached_property
     def courses(self) -> tuple[Course, Course, float]:
@@ -136,6 +137,7 @@ class TeethModel(ReducedModel):
             flanks=flanks,
             ahead=contact.touching_angle(0.0, np.zeros(3)),
             damping=problem.drive.contact_damping or 0.0,
+            sliding=self._sliding,
             friction_stiffness=self.friction * pressure / limit,
             stiffness=CONTACT_STIFFNESS,
             candidates=Candidates.room(body, places),
@@ -162,6 +164,14 @@ class TeethModel(ReducedModel):
             counted=np.zeros(1, np.int64),
         )
 
+    @property
+    def _sliding(self) -> Sliding:
+        point = self.point
+        return Sliding(
+            self.curve, self.friction, point.lead, point.radius, point.length, point.arm,
+            point.normal_across, point.normal_radial, np.ones(2),
+        )  # fmt: skip
+
     def march(
         self,
         system: System,
@@ -178,13 +188,15 @@ class TeethModel(ReducedModel):
     def _slid(self, pose: FloatArray, sense: float) -> tuple[FloatArray, FloatArray]:
         """What the mesh remembers at a pose after sliding, and its answer."""
         before = np.zeros(states(self.teeth))
+        # As fast as the drive runs; what holds is at rest.
+        self.teeth.sliding.share[:] = 1.0 if sense > 0.0 else self.holding / self.friction
         after = np.zeros_like(before)
         out = np.zeros(OUTS)
         turn = sense * _SLIDE
         # Asperities that only just touch are slid through by a second step.
         for _ in range(2):
             before[:POSES] = pose - np.array([turn, 0.0, turn / self.point.ratio, 0.0, 0.0])
-            advance(self.teeth, before, after, pose, np.zeros(POSES), 1.0, out)
+            solve_teeth(self.teeth, before, after, pose, np.zeros(POSES), 1.0, out)
             before = after.copy()
         return after, out
 

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.candidates.records import Answer, Body, Candidates, History, Kept, Laws, Work
+from asperity.drive.elastic.friction import Sliding
 from asperity.drive.elastic.rim import Rim
 from asperity.drive.interface import POSES
 from asperity.drive.teeth.placing import Stand
@@ -40,6 +41,7 @@ class Mesh(NamedTuple):
     flanks: int  #: 1 or 2
     ahead: float  #: Angle of the wheel at which the driving flank touches at pose 0, rad
     damping: float  #: c of the contact, s/m
+    sliding: Sliding  #: Friction over the speed
     friction_stiffness: float  #: Of the asperities, Pa/m
     stiffness: float  #: Of the flanks' surfaces, Pa/m
     candidates: Candidates
