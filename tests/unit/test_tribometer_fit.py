@@ -466,6 +466,7 @@ def test_400_longitudinal_sets_spread_by_the_bound_and_intervals_cover(tmp_path,
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_400_longitudinal_sets_spread_by_the_bound_and_intervals_cover")
 def test_400_sets_of_both_directions_spread_by_the_bound_and_cover(tmp_path, monkeypatch):
     sets = Sets(tmp_path, BOTH)
     assert sets.off < 0.03 * NOISE
