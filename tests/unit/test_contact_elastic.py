@@ -159,6 +159,24 @@ def test_a_matrix_that_is_not_positive_definite_is_refused(solver):
     body = elastic_body(box(SIZE, (2, 1, 1)), STEEL, solver=solver)
     with pytest.raises(InputError, match="not positive definite"):
         factorise(-body.stiffness[body.moving][:, body.moving], solver)
+    with pytest.raises(InputError, match="not positive definite"):
+        factorise(-body.stiffness[body.moving][:, body.moving], solver, np.array([3, 5]))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("tied", [None, "top"])
+def test_a_flexibility_is_what_unit_forces_do_whatever_order_they_are_asked_in(solver, tied):
+    wanted = np.random.default_rng(3).permutation(3 * 27)[:20]
+    body = elastic_body(box(SIZE, (2, 2, 2)), STEEL, tied=tied, solver=solver, loaded=wanted)
+    plain = elastic_body(box(SIZE, (2, 2, 2)), STEEL, tied=tied, solver=solver)
+    forces = np.zeros((3 * 27, len(wanted)))
+    forces[wanted, np.arange(len(wanted))] = 1.0
+    moved = plain.response(forces)
+    if tied is not None:
+        assert not np.isin(wanted, body.moving).all()
+    tolerance = 1e-12 * np.abs(moved).max()
+    np.testing.assert_allclose(body.flexibility(), moved[wanted], rtol=0.0, atol=tolerance)
+    np.testing.assert_allclose(body.response(forces), moved, rtol=0.0, atol=tolerance)
 
 
 def test_a_body_that_is_not_held_is_refused():

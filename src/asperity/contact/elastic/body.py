@@ -10,7 +10,7 @@ where :math:`K_s` is the stiffness with six freedoms held; which six does not ma
 :math:`\sum_j \phi_j \phi_j^T/\omega_j^2` over all elastic modes of unit generalised mass.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -43,6 +43,8 @@ class ElasticBody:
     element: ElementName  #: Element
     tied: IntArray  #: Nodes that do not move, or move with a rigid body; none if the body is free
     wanted_solver: str = "auto"  #: Direct solver
+    #: Freedoms of which the flexibility among each other is wanted
+    loaded: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
     @property
     def free(self) -> bool:
@@ -98,14 +100,14 @@ class ElasticBody:
     def moving(self) -> IntArray:
         """Freedoms solved for: those not tied, or all but six of a free body."""
         held = np.zeros(3 * len(self.mesh.points), dtype=bool)
-        held[self._isostatic() if self.free else _freedoms(self.tied)] = True
+        held[self._isostatic() if self.free else freedoms_of(self.tied)] = True
         return np.flatnonzero(~held)
 
     def _isostatic(self) -> IntArray:
         # Six freedoms that hold the body, far apart; chosen among the nodes on its bounding box.
         points = self.mesh.points
         ends = np.unique(np.concatenate([points.argmin(axis=0), points.argmax(axis=0)]))
-        rows = _freedoms(ends)
+        rows = freedoms_of(ends)
         size = float(np.linalg.norm(np.ptp(points, axis=0)))
         scaled = self.rigid[rows] / np.r_[1.0, 1.0, 1.0, size, size, size]
         _, _, order = qr(scaled.T, pivoting=True)
@@ -114,7 +116,23 @@ class ElasticBody:
     @cached_property
     def factorisation(self) -> Factorisation:
         """The stiffness of the freedoms solved for, factorised."""
-        return factorise(self.stiffness[self.moving][:, self.moving], self.wanted_solver)
+        matrix = self.stiffness[self.moving][:, self.moving]
+        last = np.searchsorted(self.moving, self.loaded[np.isin(self.loaded, self.moving)])
+        return factorise(matrix, self.wanted_solver, last)
+
+    def flexibility(self) -> FloatArray:
+        """Return what `response` is at each of the freedoms `loaded` under 1 N at each, (k, k)."""
+        moves = np.isin(self.loaded, self.moving)
+        found = np.zeros((len(moves), len(moves)))
+        found[np.ix_(moves, moves)] = self.factorisation.inverse_among_last()
+        if self.free:
+            # As `response` takes the rigid motion out of loads and answers.
+            moved = np.zeros_like(self.inertia)
+            moved[self.moving] = self.factorisation.solve(self.inertia[self.moving])
+            relief = np.linalg.solve(self.rigid_mass, self.rigid[self.loaded].T)
+            found -= moved[self.loaded] @ relief
+            found -= relief.T @ (moved[self.loaded].T - self.inertia.T @ moved @ relief)
+        return 0.5 * (found + found.T)
 
     def response(self, forces: FloatArray) -> FloatArray:
         """Return the displacements under static nodal forces in N, (3N,) or (3N, k) both, m.
@@ -137,13 +155,14 @@ class ElasticBody:
         error = self.stiffness @ answer - forces
         if self.free:
             error += self.inertia @ np.linalg.solve(self.rigid_mass, self.rigid.T @ forces)
-        error[_freedoms(self.tied)] = 0.0
+        error[freedoms_of(self.tied)] = 0.0
         size = np.linalg.norm(forces, axis=0)
         relative = np.linalg.norm(error, axis=0)[size > 0.0] / size[size > 0.0]
         return float(relative.max(initial=0.0))
 
 
-def _freedoms(nodes: IntArray) -> IntArray:
+def freedoms_of(nodes: IntArray) -> IntArray:
+    """Return the three freedoms of each node."""
     rows: IntArray = (3 * np.asarray(nodes)[:, None] + np.arange(3)).reshape(-1)
     return rows
 
@@ -155,6 +174,7 @@ def elastic_body(
     element: str | None = None,
     tied: str | None = None,
     solver: str = "auto",
+    loaded: IntArray | None = None,
 ) -> ElasticBody:
     """Return an elastic body after checking that it is one and that it is held.
 
@@ -170,6 +190,8 @@ def elastic_body(
         Name of a node set, or of a face set, that is tied rigidly; left out, the body is free.
     solver : {'auto', 'pypardiso', 'superlu'}
         Direct solver.
+    loaded : ndarray of int, optional
+        Freedoms of which the flexibility among each other is wanted, each once.
 
     Raises
     ------
@@ -192,7 +214,8 @@ def elastic_body(
             mesh.face_nodes(tied) if tied not in mesh.node_sets else mesh.node_set(tied)
         )
         _check_held(mesh.points, nodes, tied)
-    return ElasticBody(mesh, material, name, nodes, solver)
+    wanted = np.empty(0, dtype=np.int64) if loaded is None else loaded
+    return ElasticBody(mesh, material, name, nodes, solver, wanted)
 
 
 def _check_one_piece(mesh: HexMesh) -> None:

@@ -1,6 +1,8 @@
 """The direct solver of symmetric positive definite systems: PARDISO where installed, else SuperLU.
 
-Many right-hand sides come at once, so the matrix is factorised once and solved with in blocks.
+Many right-hand sides come at once, so the matrix is factorised once and solved with in blocks. Of
+the inverse among some unknowns, as the flexibility of a surface is, SuperLU needs no solve at all:
+where these are eliminated last, what is left of the matrix then is the inverse of it.
 """
 
 import copy
@@ -13,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from asperity.arrays import FloatArray
+from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, MissingExtraError, choices
 
 SOLVERS = ("pypardiso", "superlu")
@@ -72,7 +74,9 @@ class Factorisation:
 
     matrix: sparse.csr_array  #: (n, n): What was factorised
     solver: str  #: What factorised it
+    last: IntArray  #: (k,): Unknowns that were eliminated last
     _solve: Callable[[FloatArray], FloatArray] = field(repr=False)
+    _left: Callable[[], FloatArray] | None = field(repr=False)
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Return the solution of one or several right-hand sides, shape (n,) or (n, k)."""
@@ -83,6 +87,19 @@ class Factorisation:
             answer[:, block] = self._solve(np.asfortranarray(columns[:, block]))
         return answer.reshape(right.shape)
 
+    def inverse_among_last(self) -> FloatArray:
+        """Return the inverse's rows and columns of the unknowns `last`, shape (k, k)."""
+        if self._left is not None:
+            found: FloatArray = np.asarray(np.linalg.inv(self._left()), dtype=np.float64)
+            return found
+        inverse = np.empty((len(self.last), len(self.last)))
+        for first in range(0, len(self.last), COLUMNS_AT_A_TIME):
+            some = self.last[first : first + COLUMNS_AT_A_TIME]
+            right = np.zeros((self.matrix.shape[0], len(some)))
+            right[some, np.arange(len(some))] = 1.0
+            inverse[:, first : first + len(some)] = self.solve(right)[self.last]
+        return inverse
+
     def residual(self, right: FloatArray, answer: FloatArray) -> float:
         """Return the largest relative residual of the columns, shape (n, k) each."""
         error = np.linalg.norm(self.matrix @ answer - right, axis=0)
@@ -90,8 +107,19 @@ class Factorisation:
         return float((error[size > 0] / size[size > 0]).max(initial=0.0))
 
 
-def factorise(matrix: sparse.csr_array, solver: str = "auto") -> Factorisation:
+def factorise(
+    matrix: sparse.csr_array, solver: str = "auto", last: IntArray | None = None
+) -> Factorisation:
     """Factorise a symmetric positive definite matrix.
+
+    Parameters
+    ----------
+    matrix : csr_array, shape (n, n)
+        The matrix.
+    solver : {'auto', 'pypardiso', 'superlu'}
+        What factorises it.
+    last : ndarray of int, shape (k,), optional
+        Unknowns among which the inverse is wanted, each once.
 
     Raises
     ------
@@ -99,8 +127,16 @@ def factorise(matrix: sparse.csr_array, solver: str = "auto") -> Factorisation:
         The matrix is not positive definite: the body is not held, or a cell is turned inside out.
     """
     name = installed_solver(solver)
+    wanted = np.empty(0, dtype=np.int64) if last is None else last
+    left: Callable[[], FloatArray] | None = None
     try:
-        solve = _pardiso(matrix) if name == "pypardiso" else _superlu(matrix)
+        if name == "pypardiso":
+            solve = _pardiso(matrix)
+        elif len(wanted):
+            eliminated = _Eliminated(matrix, wanted)
+            solve, left = eliminated.solve, eliminated.left
+        else:
+            solve = _superlu(matrix).solve
     except _NotPositiveError:
         raise InputError(
             "the body's stiffness is not positive definite; hold the body and check its cells"
@@ -109,7 +145,7 @@ def factorise(matrix: sparse.csr_array, solver: str = "auto") -> Factorisation:
         raise InputError(
             f"{matrix.shape[0]} unknowns do not fit in this machine's memory; take fewer elements"
         ) from None
-    return Factorisation(matrix, name, solve)
+    return Factorisation(matrix, name, wanted, solve, left)
 
 
 class _NotPositiveError(Exception):
@@ -159,14 +195,41 @@ class _Pardiso:
         return answer
 
 
-def _superlu(matrix: sparse.csr_array) -> Callable[[FloatArray], FloatArray]:
+def _superlu(matrix: sparse.csr_array, **ordering: Any) -> Any:
     from scipy.sparse.linalg import splu
 
+    how = SYMMETRIC_PATTERN | ordering
     try:
-        factors = splu(sparse.csc_matrix(matrix), **SYMMETRIC_PATTERN, diag_pivot_thresh=0.0)
+        factors = splu(sparse.csc_matrix(matrix), **how, diag_pivot_thresh=0.0)
     except RuntimeError as error:
         raise _NotPositiveError from error
     if not (factors.U.diagonal() > 0.0).all():
         raise _NotPositiveError
-    solve: Callable[[FloatArray], FloatArray] = factors.solve
-    return solve
+    return factors
+
+
+class _Eliminated:
+    """Factors of which some unknowns come last, the others in an order of little fill."""
+
+    def __init__(self, matrix: sparse.csr_array, last: IntArray) -> None:
+        # SuperLU tells an order only with its factors, which are given back at once.
+        order = np.argsort(_superlu(matrix).perm_c)
+        self._order = np.concatenate([order[~np.isin(order, last)], last])
+        moved = matrix[self._order][:, self._order]
+        self._factors = _superlu(moved, permc_spec="NATURAL")
+        self._count = len(last)
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        answer = np.empty_like(right)
+        answer[self._order] = self._factors.solve(right[self._order])
+        return answer
+
+    def left(self) -> FloatArray:
+        """Return what is left of the matrix when all but the last unknowns are eliminated."""
+        factors, count = self._factors, self._count
+        begin = factors.shape[0] - count
+        if any((order[begin:] < begin).any() for order in (factors.perm_c, factors.perm_r)):
+            raise _NotPositiveError  # a pivot was no good
+        lower, upper = (part[begin:, begin:].toarray() for part in (factors.L, factors.U))
+        left: FloatArray = lower @ upper
+        return left[np.ix_(factors.perm_r[begin:] - begin, factors.perm_c[begin:] - begin)]
