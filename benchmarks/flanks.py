@@ -26,7 +26,7 @@ from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.analysis import analyse
 from asperity.flanks.meshing.pattern.marking import pattern
 from asperity.flanks.meshing.transmission import transmission
-from asperity.flanks.study import prepare
+from asperity.flanks.study.flank import prepare
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.distance import distances

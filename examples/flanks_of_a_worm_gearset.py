@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from asperity.casefile import read_case
-from asperity.flanks.study import prepare, study
+from asperity.flanks.study.flank import prepare, study
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
 from asperity.results.figures import STYLE

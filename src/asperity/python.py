@@ -24,7 +24,7 @@ from asperity.runs import Run
 
 if TYPE_CHECKING:
     from asperity.casefile.check import Mistake
-    from asperity.flanks.result import FlankStudy
+    from asperity.flanks.study.result import FlankStudy
     from asperity.rating.rate import Rated
     from asperity.results import Result
     from asperity.slider.result import SlideResult

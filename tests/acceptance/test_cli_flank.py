@@ -304,7 +304,7 @@ def test_what_was_reached_may_be_no_number(capsys, monkeypatch):
     def lost(prepared):
         raise ConvergenceError("lost", reached={"backlash_mm": math.nan})
 
-    monkeypatch.setattr("asperity.flanks.study.study", lost)
+    monkeypatch.setattr("asperity.flanks.study.flank.study", lost)
     with pytest.raises(SystemExit) as ended:
         main(["flank", "gearset-3b", "--json"])
     assert ended.value.code == 3

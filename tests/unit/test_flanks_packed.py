@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.flanks.export.space.packed import MOST_BYTES, MOST_TRIANGLES
-from asperity.flanks.study import prepare, prepare_gearset, study
+from asperity.flanks.study.flank import prepare, prepare_gearset, study
 from asperity.gearset import Gearset
 
 NEAR = 0.3

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from asperity.flanks import plots
+from asperity.flanks.study import plots
 
 ROWS, COLUMNS = 12, 15
 FACE = np.broadcast_to(np.linspace(-6.0, 6.0, COLUMNS), (ROWS, COLUMNS))

@@ -86,7 +86,7 @@ COMMANDS = (
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
         "With --out also report.html, rate.json, rate.nc, rate.csv and rate.xlsx, a workbook of "
         "live formulas.",
-        module="asperity.flanks.rated",
+        module="asperity.flanks.study.rated",
         brief=True,
         needs=("gearset", "operation"),
         draws=False,
@@ -157,7 +157,7 @@ COMMANDS = (
         "Cut a worm wheel exactly: its contact, transmission error, backlash and mesh.",
         "With --out also report.html, flank.json, flank.nc, pictures, tooth and worm as mesh and "
         "surface, and gearset.glb, both turning.",
-        module="asperity.flanks.study",
+        module="asperity.flanks.study.flank",
         needs=("gearset",),
         options=(
             Option(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.flanks.plots import outline
+from asperity.flanks.study.plots import outline
 from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
 from asperity.thesis.drawing import limit
 from asperity.thesis.flanks.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint

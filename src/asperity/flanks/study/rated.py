@@ -13,8 +13,8 @@ from asperity.results.table import Table
 from asperity.runs import Run
 
 if TYPE_CHECKING:
-    from asperity.flanks.result import FlankStudy
-    from asperity.flanks.study import Prepared
+    from asperity.flanks.study.flank import Prepared
+    from asperity.flanks.study.result import FlankStudy
 
 _PICTURES = "pattern", "contact-lines"
 
@@ -32,14 +32,14 @@ def prepare(case: Case, *, standard: str = ALL, pattern: bool = False) -> Asked:
     Raises
     ------
     InputError
-        As from `asperity.rating.rate.prepare` and `asperity.flanks.study.prepare`.
+        As from `asperity.rating.rate.prepare` and `asperity.flanks.study.flank.prepare`.
     """
     rating = prepare_rating(case, standard=standard)
     if not pattern:
         return Asked(rating, None)
-    from asperity.flanks import study
+    from asperity.flanks.study import flank
 
-    return Asked(rating, study.prepare(case, density="coarse"))
+    return Asked(rating, flank.prepare(case, density="coarse"))
 
 
 def answer(asked: Asked, run: Run) -> Rated:
@@ -55,9 +55,9 @@ def answer(asked: Asked, run: Run) -> Rated:
     rated = rated_answer(asked.rating, run)
     if asked.flanks is None:
         return rated
-    from asperity.flanks import study
+    from asperity.flanks.study import flank
 
-    return dataclasses.replace(rated, contact=_contact(study.study(asked.flanks)))
+    return dataclasses.replace(rated, contact=_contact(flank.study(asked.flanks)))
 
 
 def _contact(found: "FlankStudy") -> Section:

@@ -17,7 +17,7 @@ from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
-from asperity.flanks.result import FlankStudy, ToothMesh
+from asperity.flanks.study.result import FlankStudy, ToothMesh
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from asperity.results.report import Picture
 
 _DRAWING = "drawing.csv"
-_PLOTS = "asperity.flanks.plots"
+_PLOTS = "asperity.flanks.study.plots"
 _DIRECTIONS = {
     "axial": "worm along its axis",
     "torsional": "worm about its axis",

@@ -1,0 +1,1 @@
+"""The commands about flanks: what is asked, the answer and its pictures."""
