@@ -77,27 +77,51 @@ class Mesh(NamedTuple):
     lugre: LuGre
 
 
-# Way along, across and towards the wheel, then of each flank: deflection along and across over the
-# limit, limit, approach, damping force; of LuGre friction of its dampings along and across, and
-# Stribeck's share.
-_WAYS, _FLANK = 3, 8
-STATES = _WAYS + 2 * _FLANK
+class _Ways(NamedTuple):
+    """Where the ways stand in a state: along, across and towards the wheel."""
+
+    along: int = 0
+    across: int = 1
+    towards: int = 2
+
+
+class _Kept(NamedTuple):
+    """Where what a flank keeps stands behind these, of each flank.
+
+    Deflection along and across over the limit, limit, approach, damping force; of LuGre friction of
+    its dampings along and across, and Stribeck's share.
+    """
+
+    along: int = 0
+    across: int = 1
+    limit: int = 2
+    approach: int = 3
+    damped: int = 4
+    rate_along: int = 5
+    rate_across: int = 6
+    stribeck: int = 7
+
+
+_WAYS, _KEPT = _Ways(), _Kept()
+_DRIVING = len(_WAYS)
+_BACK = _DRIVING + len(_KEPT)
+STATES = _BACK + len(_KEPT)
 
 
 @uncounted
 @kernel(inline="always")
 def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     """One flank: normal force, friction along and across; energies are added to ``out``."""
-    sx = committed[at]
-    sy = committed[at + 1]
-    limit_0 = committed[at + 2]
+    sx = committed[at + _KEPT.along]
+    sy = committed[at + _KEPT.across]
+    limit_0 = committed[at + _KEPT.limit]
     elastic, energy = force_and_energy(mesh.cell, mesh.rows, d)
     load = elastic * max(1.0 + mesh.damping * rate, 0.0)
     # Where damping alone unloads a flank, it touches still: stored energy and damping go on.
-    if d <= 0.0 and committed[at + 3] <= 0.0 and limit_0 == 0.0:
-        for place in range(_FLANK):
+    if d <= 0.0 and committed[at + _KEPT.approach] <= 0.0 and limit_0 == 0.0:
+        for place in range(len(_KEPT)):
             trial[at + place] = 0.0
-        trial[at + 3] = d
+        trial[at + _KEPT.approach] = d
         return 0.0, 0.0, 0.0
     damped = load - elastic
     scale = 1.0 / mesh.limit
@@ -110,15 +134,15 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
     full = mesh.friction * mesh.reference
     unit = full * mesh.limit
     if mesh.lugre.damps:
-        rx = committed[at + 5]
-        ry = committed[at + 6]
+        rx = committed[at + _KEPT.rate_along]
+        ry = committed[at + _KEPT.rate_across]
         wx, wy, hx, hy, tx, ty, share, off = deflect_damped(
             mesh.lugre, mesh.yielding, sx, sy, rx, ry, dx, dy, limit_0, limit_1,
-            load / mesh.reference, committed[at + 7], mesh.limit / dt, dt,
+            load / mesh.reference, committed[at + _KEPT.stribeck], mesh.limit / dt, dt,
         )  # fmt: skip
-        trial[at + 5] = hx
-        trial[at + 6] = hy
-        trial[at + 7] = share
+        trial[at + _KEPT.rate_along] = hx
+        trial[at + _KEPT.rate_across] = hy
+        trial[at + _KEPT.stribeck] = share
         fx = wx + hx
         fy = wy + hy
         lost = (sx + wx) * (tx - (wx - sx)) + (sy + wy) * (ty - (wy - sy))
@@ -131,16 +155,16 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         bent = 0.5 * stiff * unit * (wx * wx + wy * wy)
         fx = wx
         fy = wy
-    trial[at] = wx
-    trial[at + 1] = wy
-    trial[at + 2] = limit_1
-    trial[at + 3] = d
-    trial[at + 4] = damped
+    trial[at + _KEPT.along] = wx
+    trial[at + _KEPT.across] = wy
+    trial[at + _KEPT.limit] = limit_1
+    trial[at + _KEPT.approach] = d
+    trial[at + _KEPT.damped] = damped
     # Work of the damping's force over the part of the step in which the flank touches.
-    way = max(d, 0.0) - max(committed[at + 3], 0.0)
+    way = max(d, 0.0) - max(committed[at + _KEPT.approach], 0.0)
     out[AT.stored] += energy + bent
     out[AT.friction] += 0.5 * unit * lost
-    out[AT.damping] += 0.5 * (committed[at + 4] + damped) * way
+    out[AT.damping] += 0.5 * (committed[at + _KEPT.damped] + damped) * way
     out[AT.residual] = max(out[AT.residual], off)
     if d + _AHEAD * max(rate, 0.0) * dt > 0.0:
         out[AT.approach] = max(out[AT.approach], abs(rate))
@@ -159,12 +183,12 @@ def advance(mesh, committed, trial, q, v, dt, out):
     across = p * turned + r * shifted
     rate = mesh.across * (p * (mesh.radius * v[0] - v[3]) + r * (v[1] - mesh.arm * v[2]))
     nearer = mesh.radial * v[4]
-    way = along - committed[0]
-    aside = mesh.radial * (across - committed[1])
-    inward = mesh.across * (q[4] - committed[2])
-    trial[0] = along
-    trial[1] = across
-    trial[2] = q[4]
+    way = along - committed[_WAYS.along]
+    aside = mesh.radial * (across - committed[_WAYS.across])
+    inward = mesh.across * (q[4] - committed[_WAYS.towards])
+    trial[_WAYS.along] = along
+    trial[_WAYS.across] = across
+    trial[_WAYS.towards] = q[4]
     out[AT.stored] = 0.0
     out[AT.friction] = 0.0
     out[AT.damping] = 0.0
@@ -173,10 +197,10 @@ def advance(mesh, committed, trial, q, v, dt, out):
     d = mesh.across * across
     towards = mesh.radial * q[4]
     driving, drag, side = _touch(
-        mesh, committed, trial, _WAYS, d + towards, rate + nearer, way, inward - aside, dt, out
+        mesh, committed, trial, _DRIVING, d + towards, rate + nearer, way, inward - aside, dt, out
     )
     back, back_drag, back_side = _touch(
-        mesh, committed, trial, _WAYS + _FLANK, towards - d - mesh.backlash, nearer - rate, way,
+        mesh, committed, trial, _BACK, towards - d - mesh.backlash, nearer - rate, way,
         inward + aside, dt, out,
     )  # fmt: skip
     pull = -drag - back_drag
@@ -206,16 +230,16 @@ def settle_in(mesh, state, q, share, damped, stribeck):
     shifted = q[1] - mesh.arm * q[2]
     for place in range(STATES):
         state[place] = 0.0
-    state[0] = r * turned - p * shifted
-    state[1] = p * turned + r * shifted
-    state[2] = q[4]
+    state[_WAYS.along] = r * turned - p * shifted
+    state[_WAYS.across] = p * turned + r * shifted
+    state[_WAYS.towards] = q[4]
     towards = mesh.radial * q[4]
-    d = mesh.across * state[1] + towards
+    d = mesh.across * state[_WAYS.across] + towards
     elastic, _ = force_and_energy(mesh.cell, mesh.rows, d)
-    state[_WAYS] = share * elastic / mesh.reference
-    state[_WAYS + 2] = elastic / mesh.reference
-    state[_WAYS + 3] = d
-    state[_WAYS + 5] = damped * elastic / mesh.reference
-    state[_WAYS + 7] = stribeck
-    state[_WAYS + _FLANK + 7] = stribeck
-    state[_WAYS + _FLANK + 3] = 2.0 * towards - d - mesh.backlash
+    state[_DRIVING + _KEPT.along] = share * elastic / mesh.reference
+    state[_DRIVING + _KEPT.limit] = elastic / mesh.reference
+    state[_DRIVING + _KEPT.approach] = d
+    state[_DRIVING + _KEPT.rate_along] = damped * elastic / mesh.reference
+    state[_DRIVING + _KEPT.stribeck] = stribeck
+    state[_BACK + _KEPT.stribeck] = stribeck
+    state[_BACK + _KEPT.approach] = 2.0 * towards - d - mesh.backlash
