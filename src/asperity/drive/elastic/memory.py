@@ -1,34 +1,60 @@
 """What elastic teeth remember from step to step: loads on each other, and points that touch."""
 
+from typing import NamedTuple
+
 from asperity.compiled import kernel
 from asperity.contact.candidates.records import candidates_of
 from asperity.drive.elastic.records import Mesh
 from asperity.drive.elastic.rim import moved_by
 from asperity.drive.interface import POSES
 
-# Poses and generalised forces of the damping; then for each tooth its number, how many points
-# touch, the amplitude that its neighbours moved it by, its load on them and that of a step before,
-# and of each point: number, deflection (3), pressure over the reference times friction's share,
-# force (3), the force a step before (3).
+
+class _Tooth(NamedTuple):
+    """Where what a tooth remembers stands, behind poses and generalised forces of the damping.
+
+    Its number, how many points touch, the amplitude that its neighbours moved it by; behind that
+    its load on them and that of a step before, and its points.
+    """
+
+    number: int = 0
+    touching: int = 1
+    moved: int = 2
+
+
+class _Point(NamedTuple):
+    """Where what a point remembers stands.
+
+    Number, deflection (3), pressure over the reference times friction's share, force (3), the
+    force a step before (3); and where the next point begins.
+    """
+
+    number: int = 0
+    deflection: int = 1
+    size: int = 4
+    force: int = 5
+    earlier: int = 8
+    end: int = 11
+
+
 HEAD = 2 * POSES
-RECORD = 11
+TOOTH, POINT = _Tooth(), _Point()
 
 
 @kernel
 def points_at(mesh):
     """Where in a tooth's memory its points begin."""
-    return 2 + 3 * mesh.rim.shapes.shape[1]
+    return TOOTH.moved + 3 * mesh.rim.shapes.shape[1]
 
 
 @kernel
 def block_of(mesh):
     """Floats that a tooth's memory has at most."""
-    return points_at(mesh) + RECORD * mesh.body.weights.shape[0]
+    return points_at(mesh) + POINT.end * mesh.body.weights.shape[0]
 
 
 def states(mesh: Mesh) -> int:
     """Return the floats that a mesh remembers."""
-    own = 2 + 3 * mesh.rim.shapes.shape[1] + RECORD * len(mesh.body.weights)
+    own = TOOTH.moved + 3 * mesh.rim.shapes.shape[1] + POINT.end * len(mesh.body.weights)
     return int(HEAD + mesh.flanks * mesh.teeth * own)
 
 
@@ -47,21 +73,23 @@ def bring(mesh, k, committed, at, tooth, share):
             history.deflection[q, c] = 0.0
             force[q, c] = 0.0
             mesh.earlier[q, c] = 0.0
-    count = int(committed[at + 1]) if committed[at] == tooth else 0
+    count = int(committed[at + TOOTH.touching]) if committed[at + TOOTH.number] == tooth else 0
     first = at + points_at(mesh)
     for i in range(count):
-        entry = first + RECORD * i
-        number = int(committed[entry])
+        entry = first + POINT.end * i
+        number = int(committed[entry + POINT.number])
         face = own.place[number // 4]
         if face < 0:
             continue
         q = 4 * face + number % 4
-        history.size[q] = committed[entry + 4] / share
+        history.size[q] = committed[entry + POINT.size] / share
         for c in range(3):
-            history.deflection[q, c] = committed[entry + 1 + c]
+            history.deflection[q, c] = committed[entry + POINT.deflection + c]
             # Continued as from the step before.
-            force[q, c] = 2.0 * committed[entry + 5 + c] - committed[entry + 8 + c]
-            mesh.earlier[q, c] = committed[entry + 5 + c]
+            force[q, c] = (
+                2.0 * committed[entry + POINT.force + c] - committed[entry + POINT.earlier + c]
+            )
+            mesh.earlier[q, c] = committed[entry + POINT.force + c]
     return count
 
 
@@ -74,25 +102,25 @@ def displace(mesh, place, committed, at, tooth, all_nodes, nodes, number, u):
     for i in range(total):
         j = 3 * (i if all_nodes else nodes[i])
         u[j] = u[j + 1] = u[j + 2] = 0.0
-    if committed[at] != tooth:
+    if committed[at + TOOTH.number] != tooth:
         # New here: as if its neighbours had moved it before.
         moved_by(mesh.rim, mesh.rim.given[place], all_nodes, nodes, number, u)
         return
-    moved = committed[at + 2 : at + 2 + mesh.rim.shapes.shape[1]]
+    moved = committed[at + TOOTH.moved : at + TOOTH.moved + mesh.rim.shapes.shape[1]]
     moved_by(mesh.rim, moved, all_nodes, nodes, number, u)
-    count = int(committed[at + 1])
+    count = int(committed[at + TOOTH.touching])
     if count == 0:
         return
     nodal[:] = 0.0
     first = at + points_at(mesh)
     for i in range(count):
-        entry = first + RECORD * i
-        point = int(committed[entry])
+        entry = first + POINT.end * i
+        point = int(committed[entry + POINT.number])
         for b in range(4):
             j = 3 * body.faces[point // 4, b]
             share = body.shapes[point % 4, b]
             for c in range(3):
-                nodal[j + c] += share * committed[entry + 5 + c]
+                nodal[j + c] += share * committed[entry + POINT.force + c]
     for m in range(nodal.shape[0] // 3):
         k = 3 * m
         fx = nodal[k]

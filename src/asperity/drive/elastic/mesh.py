@@ -27,7 +27,7 @@ from asperity.contact.candidates.records import (
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.drive.elastic.friction import find_shares, laws_at
-from asperity.drive.elastic.memory import HEAD, RECORD, block_of, bring, displace, points_at
+from asperity.drive.elastic.memory import HEAD, POINT, TOOTH, block_of, bring, displace, points_at
 from asperity.drive.elastic.near import AHEAD, gathered_near, reach_of
 from asperity.drive.elastic.rim import answered, disagreement, moved_by, taken
 from asperity.drive.interface import AT, POSES
@@ -116,18 +116,18 @@ def _write(mesh, k, trial, at, tooth, side, share, q, v, dt, reach, out):
                 out[AT.approach] = max(out[AT.approach], abs(rate))
         if p <= 0.0:
             continue
-        entry = first + RECORD * count
+        entry = first + POINT.end * count
         count += 1
-        trial[entry] = 4.0 * own.face[point // 4] + point % 4
-        trial[entry + 4] = share * answer.size[point]
+        trial[entry + POINT.number] = 4.0 * own.face[point // 4] + point % 4
+        trial[entry + POINT.size] = share * answer.size[point]
         elastic = 0.0
         face = point // 4
         for c in range(3):
             f = w * answer.traction[point, c]
             answer.force[point, c] = f
-            trial[entry + 1 + c] = s1[c]
-            trial[entry + 5 + c] = f
-            trial[entry + 8 + c] = mesh.earlier[point, c]
+            trial[entry + POINT.deflection + c] = s1[c]
+            trial[entry + POINT.force + c] = f
+            trial[entry + POINT.earlier + c] = mesh.earlier[point, c]
             u = 0.0
             for b in range(4):
                 u += shapes[point % 4, b] * answer.u[3 * own.faces[face, b] + c]
@@ -142,8 +142,8 @@ def _write(mesh, k, trial, at, tooth, side, share, q, v, dt, reach, out):
         pull[1, 0] += y * fz - z * fy
         pull[1, 1] += z * fx - x * fz
         pull[1, 2] += x * fy - y * fx
-    trial[at] = tooth
-    trial[at + 1] = count
+    trial[at + TOOTH.number] = tooth
+    trial[at + TOOTH.touching] = count
     way = 0.0
     for i in range(own.counts[1]):
         j = 3 * own.nodes[i]
@@ -196,11 +196,17 @@ def _expect(mesh, committed, block, numbers):
     for place in range(numbers.shape[0]):
         at = HEAD + place * block
         side = 1 if place < mesh.teeth else -1
-        there = committed[at] == side * numbers[place] and committed[at + 1] > 0.0
+        there = (
+            committed[at + TOOTH.number] == side * numbers[place]
+            and committed[at + TOOTH.touching] > 0.0
+        )
         for i in range(count):
             load = 0.0
             if there:
-                load = 2.0 * committed[at + 2 + count + i] - committed[at + 2 + 2 * count + i]
+                load = (
+                    2.0 * committed[at + TOOTH.moved + count + i]
+                    - committed[at + TOOTH.moved + 2 * count + i]
+                )
             rim.loads[place, i] = load
 
 
@@ -214,16 +220,18 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
     angle = q[2] + mesh.ahead + stand.pitch * tooth
     rim = mesh.rim
     count = rim.shapes.shape[1]
-    same = committed[at] == tooth
-    trial[at] = tooth
-    trial[at + 1] = 0.0
+    same = committed[at + TOOTH.number] == tooth
+    trial[at + TOOTH.number] = tooth
+    trial[at + TOOTH.touching] = 0.0
     for i in range(count):
-        trial[at + 2 + i] = rim.given[place, i]
-        trial[at + 2 + count + i] = 0.0
-        trial[at + 2 + 2 * count + i] = committed[at + 2 + count + i] if same else 0.0
+        trial[at + TOOTH.moved + i] = rim.given[place, i]
+        trial[at + TOOTH.moved + count + i] = 0.0
+        trial[at + TOOTH.moved + 2 * count + i] = (
+            committed[at + TOOTH.moved + count + i] if same else 0.0
+        )
     shift[0], shift[2] = q[4], -q[1]
     place_worm(stand, q[0], shift, angle, q[3], side, mesh.rotation[1], mesh.translation[1])
-    touched = same and committed[at + 1] > 0.0
+    touched = same and committed[at + TOOTH.touching] > 0.0
     near = gathered_near(mesh, place, laws, committed, at, tooth, q, reach)
     if not near and not touched:
         rim.loads[place] = 0.0
@@ -266,7 +274,7 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
     out[AT.residual] = max(out[AT.residual], residual)
     normal = _write(mesh, place, trial, at, tooth, side, share, q, v, dt, reach, out)
     for i in range(count):
-        trial[at + 2 + count + i] = rim.loads[place, i]
+        trial[at + TOOTH.moved + count + i] = rim.loads[place, i]
     out[AT.driving if side > 0 else AT.back] += normal
     to_space(angle, side, mesh.vectors)
     _act(mesh, mesh.vectors, q, mesh.damped)
