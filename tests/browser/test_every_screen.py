@@ -76,6 +76,20 @@ def test_case_and_command_are_taken_along_before_anything_is_solved(seen):
         assert copied(page)[:2] == ["asperity", command]
 
 
+def test_an_address_opens_in_another_tab_and_each_has_its_own_settings(seen):
+    first = seen.open("gear", case="worm-15-to-1")
+    ready(first)
+    second = seen.context.new_page()
+    second.goto(first.url)
+    ready(second)
+    second.get_by_label("starts", exact=True).fill("3")
+    second.get_by_label("starts", exact=True).press("Enter")
+    expect(second).to_have_url(re.compile("starts=3"))
+    assert "starts" not in first.url
+    expect(first.get_by_label("starts", exact=True)).to_have_value("4")
+    second.close()
+
+
 def test_no_token_is_told_and_nothing_is_shown(browser, server):
     context = browser.new_context()
     page = context.new_page()

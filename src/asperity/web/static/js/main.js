@@ -2,7 +2,7 @@
 import { html, render, signal, useEffect } from "../vendor/preact.js";
 import { about, loadAbout, loadForms } from "./api.js";
 import { App } from "./shell.js";
-import { route } from "./state.js";
+import { handed, route } from "./state.js";
 
 /** In the order in which they are offered. @type {import("./shell.js").Listed[]} */
 const SCREENS = [
@@ -51,6 +51,8 @@ async function wait() {
   if (!about.value?.ready) setTimeout(wait, 1000);
 }
 
-render(html`<${Page} />`, document.body);
-wait();
-loadForms().catch((error) => (trouble.value = error));
+handed.then(() => {
+  render(html`<${Page} />`, document.body);
+  wait();
+  loadForms().catch((error) => (trouble.value = error));
+});

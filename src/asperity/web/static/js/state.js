@@ -31,6 +31,24 @@ export const route = signal(read());
 /** What a request must bring, as it was handed over in the address. */
 export const token = () => sessionStorage.getItem(TOKEN) ?? "";
 
+/** What tabs of this page tell each other: nothing asks for the token, a text is it. */
+const tabs = new BroadcastChannel(TOKEN);
+/** How long a tab without a token waits for one that has it, ms. */
+const PATIENCE = 300;
+
+/** Done once the token is there, of the address or of another tab, or nobody has it. */
+export const handed = new Promise((done) => {
+  tabs.onmessage = ({ data }) => {
+    if (!data && token()) tabs.postMessage(token());
+    if (!data || token()) return;
+    sessionStorage.setItem(TOKEN, data);
+    done();
+  };
+  if (token()) return done();
+  tabs.postMessage("");
+  setTimeout(done, PATIENCE);
+});
+
 /** Forms of the same thing, by `table.key`: of those only one may be set. Filled with the forms. */
 export const instead = new Map();
 
