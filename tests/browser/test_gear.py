@@ -208,6 +208,8 @@ def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, s
                          ("take the motor off", "Creep of the wheel")):  # fmt: skip
         page.get_by_role("button", name=button).click()
         page.get_by_text(then).first.wait_for(timeout=LONGEST)
+    page.set_viewport_size({"width": 360, "height": 900})
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
 
 
 def test_a_job_says_that_something_was_set_since(seen):
