@@ -130,7 +130,7 @@ function TradeOff({ answer }) {
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
         single(designs[0], 1), single(designs[1], 2)]} />
     <p class="says">A click on the curve opens that gearset.</p>
-    <${Table} region="designs" wide="whole" kind="middle" rows=${designs} columns=${[
+    <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
       ["open", take], ["design", ({ says }) => says],
       ["permissible torque (N m)", ({ torque }) => digits(torque, 4), "right"],
       ["efficiency (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
