@@ -133,6 +133,15 @@ def test_what_cannot_be_written_is_said_in_one_line(asperity, tmp_path, argument
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
 
 
+def test_a_drive_that_is_all_but_none_is_one_line(asperity, tmp_path):
+    code, output, errors = asperity(
+        "export", "table-4.4", "--to", "csv", "--set", "solve.method=periodic",
+        "--set", "slider.drive_stiffness=1.8e-156 N/m", cwd=tmp_path,
+    )  # fmt: skip
+    assert (code, output, errors.count("\n")) == (3, "", 1)
+    assert "the powers do not balance" in errors
+
+
 def test_a_line_feed_in_the_name_of_a_case_begins_no_line_of_a_deck(asperity, tmp_path):
     name = "a\n*INCLUDE, INPUT=theirs.inp\n.toml"
     (tmp_path / name).write_bytes(shipped_cases()["block-longitudinal"].read_bytes())

@@ -315,6 +315,17 @@ def test_a_worm_that_hardly_turns_is_refused_in_one_line(asperity, options):
     assert errors.count("\n") == 1
 
 
+def test_friction_that_no_factor_brings_to_the_limit_has_no_factor(asperity):
+    code, output, errors = asperity(
+        "rate", "gearset-2", "--set", "rating.base_friction=9.6085e-317",
+        "--standard", "iso14521", "--json",
+    )  # fmt: skip
+    assert (code, errors) == (0, "")
+    verdicts = one_object(output)["self_locking"]["verdicts"]
+    assert [verdict["factor_to_limit"] for verdict in verdicts] == [None, None]
+    assert all(0.0 < verdict["friction"] < 1e-300 for verdict in verdicts)
+
+
 OIL = """
 [source.us]
 name = "our supplier"

@@ -62,8 +62,12 @@ class Verdict:
 
     @property
     def factor_to_limit(self) -> float | None:
-        """What the friction must be multiplied by to reach the limit; None without friction."""
-        return self.limit / self.friction if self.friction > 0.0 else None
+        """What the friction must be multiplied by to reach the limit.
+
+        None without friction, or with so little that no number reaches the limit.
+        """
+        factor = self.limit / self.friction if self.friction > 0.0 else math.inf
+        return factor if math.isfinite(factor) else None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -31,7 +31,8 @@ def energies(state: np.void, p: Parameters, *, elastic: bool) -> tuple[float, fl
     """
     # All at once: a record of NumPy takes as long for one number as for all.
     stretch, wx, wy, sx, sy, fx, fy, drive_force, _ = state.item()[-9:]
-    total = 0.5 * p.stiffness * stretch**2
+    # A spring that is all but none is stretched beyond what a float squares: inf, not an error.
+    total = 0.5 * p.stiffness * (stretch * stretch)
     if p.mobility_x > 0.0:
         mobility = p.mobility_x * 2.0 / (1.0 + p.retained)
         before = wx - mobility * (drive_force - fx)
