@@ -524,3 +524,9 @@ def test_a_ramp_is_left_out_and_the_answer_says_so():
     assert ramped.ratio == at_once.ratio
     assert [note for note in ramped.notes if "vibration.ramp is left out" in note]
     assert not [note for note in at_once.notes if "ramp" in note]
+
+
+@pytest.mark.parametrize("speed", ["6.005e-297 mm/s", "1e-290 mm/s", "1e-305 mm/s"])
+def test_a_drive_velocity_no_cubic_reaches_is_refused(speed):
+    with pytest.raises(InputError, match="too far apart"):
+        solve(body("table-4.3", "solve.method=homogenised", f"slider.drive_velocity={speed}"))

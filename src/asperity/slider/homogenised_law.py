@@ -128,11 +128,14 @@ class HomogenisedLaw:
         return *self._pieces(FORCE), self.viscous
 
     def _pieces(self, column: int) -> tuple[FloatArray, FloatArray]:
+        cubic = self._cubic(self.table[:, column])
+        return np.ascontiguousarray(cubic.x), np.ascontiguousarray(cubic.c)
+
+    def _cubic(self, values: FloatArray) -> Any:
         from scipy.interpolate import PchipInterpolator
 
-        with in_proportion(), np.errstate(over="raise"):
-            cubic: Any = PchipInterpolator(self.velocity, self.table[:, column])
-        return np.ascontiguousarray(cubic.x), np.ascontiguousarray(cubic.c)
+        with in_proportion(), np.errstate(over="raise", divide="raise"):
+            return PchipInterpolator(self.velocity, values)
 
     @overload
     def __call__(self, velocity: float) -> float: ...
@@ -156,9 +159,7 @@ class HomogenisedLaw:
 
     def normal_to_the_plane(self, velocity: FloatArray) -> dict[str, FloatArray]:
         """What ``pressed`` names at some velocities; beyond the table's ends, that of the end."""
-        from scipy.interpolate import PchipInterpolator
-
-        cubic: Any = PchipInterpolator(self.velocity, self.table[:, COLUMNS:])
+        cubic = self._cubic(self.table[:, COLUMNS:])
         found = cubic(np.clip(velocity, self.velocity[0], self.velocity[-1]))
         return dict(zip(self.pressed, found.T, strict=True))
 
