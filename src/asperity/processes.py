@@ -38,17 +38,25 @@ def alone(path: Path, says: str) -> Iterator[None]:
     except ImportError:
         yield
         return
-    try:
-        file = path.open("a+", encoding="utf-8")
-    except OSError as error:
-        raise StorageError(f"{plain(str(path))} cannot be written: {reason(error)}") from None
-    with file:
+    while True:
+        try:
+            file = path.open("a+", encoding="utf-8")
+        except OSError as error:
+            raise StorageError(f"{plain(str(path))} cannot be written: {reason(error)}") from None
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        except BlockingIOError:
             file.seek(0)
-            line = plain(file.read(1000).strip())
+            line = plain(file.read(1000).strip()) or says
+            file.close()
             raise InputError(f"{plain(str(path.parent))} {line}") from None
+        except OSError:  # a file system without locks
+            break
+        if _stands(path, file.fileno()):
+            break
+        # The one that held it has removed it since it was opened: it would keep nobody out.
+        file.close()
+    with file:
         file.truncate(0)
         file.write(says)
         file.flush()
@@ -56,6 +64,13 @@ def alone(path: Path, says: str) -> Iterator[None]:
             yield
         finally:
             path.unlink(missing_ok=True)
+
+
+def _stands(path: Path, opened: int) -> bool:
+    try:
+        return os.path.samestat(path.stat(), os.fstat(opened))
+    except OSError:
+        return False
 
 
 async def begun(module: str, *arguments: str) -> asyncio.subprocess.Process:

@@ -2,12 +2,8 @@
 
 import contextlib
 import contextvars
-import functools
-import hashlib
 import os
-import platform
 import re
-import secrets
 import stat
 import tempfile
 import tomllib
@@ -16,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from asperity.errors import InputError, StorageError, plain, shown
+from asperity.leftovers import remove_leftovers, temporary_beside
 
 if TYPE_CHECKING:
     import xarray
@@ -27,8 +24,6 @@ _MOST_TOML_BYTES = 1_000_000
 # The reader of TOML takes memory by the square of the parts of a dotted key.
 _KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*{_KEY_PART}(?:[ \t]*\.[ \t]*{_KEY_PART}){{16}}", re.M)
-
-_TEMPORARY = re.compile(r"\..*\.asperity-([0-9a-f]{8})-([0-9]+)-[0-9a-f]{12}(?:\.[^.]*)?")
 
 
 _PORTABLE = re.compile(r"[A-Za-z0-9][A-Za-z0-9 _.+-]{0,99}")
@@ -201,9 +196,7 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
     """
     path = Path(path)
     _refuse_input(path)
-    # The suffix stays, because drawing libraries choose the format by it.
-    owner = f"asperity-{_here()}-{os.getpid()}-{secrets.token_hex(6)}"
-    temporary = path.with_name(f".{path.stem[:80]}.{owner}{path.suffix}")
+    temporary = temporary_beside(path)
     try:
         write(temporary)
         with temporary.open("rb+") as file:
@@ -222,38 +215,17 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
     return path
 
 
-@functools.cache
-def _here() -> str:
-    """Return what tells apart the machines, and on one the containers, that count processes."""
-    try:
-        space = os.readlink("/proc/self/ns/pid")
-    except OSError:
-        space = ""
-    return hashlib.sha256(f"{platform.node()}\0{space}".encode()).hexdigest()[:8]
+def stamp(path: Path) -> tuple[int, int, int]:
+    """Return what tells a file that was read from one that was changed or put in its place since.
 
-
-def remove_leftovers(folder: Path) -> None:
-    """Remove temporary files of this package whose process was killed while it wrote them.
-
-    A file of a process that lives, of another machine or of another program stays.
+    Raises
+    ------
+    OSError
+        There is no such file.
     """
-    for path in folder.glob(".*.asperity-*"):
-        name = _TEMPORARY.fullmatch(path.name)
-        if name and name[1] == _here() and not _lives(int(name[2])):
-            with contextlib.suppress(OSError):
-                path.unlink()
-
-
-def _lives(process: int) -> bool:
-    if os.name != "posix":
-        return True  # there, asking ends the process
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        pass
-    return True
+    found = path.stat()
+    # A copy may bring its time of change along, never the other one.
+    return found.st_mtime_ns, found.st_ctime_ns, found.st_size
 
 
 def _flush_folder(folder: Path) -> None:

@@ -231,9 +231,9 @@ class Vibration(Table):
                 raise InputError("vibration.samples is missing")
             path = ((folder or Path()) / self.samples).absolute()
             try:
-                stamp = path.stat().st_mtime_ns
+                stamp = store.stamp(path)
             except OSError:
-                stamp = 0
+                stamp = 0, 0, 0
             shape = _sampled(path, stamp)
             if self.frequency is None:
                 return self._started(shape)
@@ -274,7 +274,7 @@ class Vibration(Table):
 
 
 @functools.lru_cache(maxsize=32)
-def _sampled(path: Path, stamp: int) -> Shape:
+def _sampled(path: Path, stamp: tuple[int, ...]) -> Shape:
     """Read and check a samples file; cached by its time of change."""
     time, value = _read_samples(path)
     name = f"vibration.samples: {path}"
@@ -326,24 +326,24 @@ def _steps_to_follow(velocity: FloatArray) -> float:
 
 def _read_samples(path: Path) -> tuple[FloatArray, FloatArray]:
     name = f"vibration.samples: {path}"
-    lines = io.StringIO(store.read_text(path, name), newline="")
+    lines = csv.reader(io.StringIO(store.read_text(path, name), newline=""))
     try:
-        rows = [row for row in csv.reader(lines) if row and not row[0].startswith("#")]
+        rows = [(lines.line_num, row) for row in lines if row and not row[0].startswith("#")]
     except csv.Error as error:
         raise InputError(f"{name} cannot be read: {error}") from None
     pairs: list[tuple[float, float]] = []
-    for number, row in enumerate(rows, start=1):
+    for number, row in rows:
         try:
             pair = float(row[0]), float(row[1])
         except (ValueError, IndexError):
-            if number == 1 and len(row) >= 2 and not any(map(_is_number, row[:2])):
+            if number == rows[0][0] and len(row) >= 2 and not any(map(_is_number, row[:2])):
                 continue
             raise InputError(
-                f"{name}: row {number} is {shown(','.join(row))}; it must hold two numbers: time "
+                f"{name}: line {number} is {shown(','.join(row))}; it must hold two numbers: time "
                 "in s, displacement in m"
             ) from None
         if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
-            raise InputError(f"{name}: row {number} is {shown(','.join(row))}; fill the gap")
+            raise InputError(f"{name}: line {number} is {shown(','.join(row))}; fill the gap")
         pairs.append(pair)
     if len(pairs) < 8:
         raise InputError(f"{name} holds {len(pairs)} samples; a period needs at least 8")

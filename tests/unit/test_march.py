@@ -14,7 +14,7 @@ from asperity.runs import Interrupted, Run
 from asperity.runs.tree import read_tree, write_tree
 from asperity.slider import TABLES, Model, Stopped, solve, solve_many
 from asperity.slider.kernels import condense
-from asperity.slider.march import March, march
+from asperity.slider.march import March, march, march_key
 
 LAWS = ["split", "unsplit", "vector"]
 EXPONENTS = [0, 0.5, 1, 1.5, 2]
@@ -474,3 +474,18 @@ def test_a_batch_whose_powers_do_not_balance_leaves_the_error_in_its_place(monke
     for answer in solve_many([model, model]):
         assert isinstance(answer, ConvergenceError)
         assert answer.reached["ratio"] > 0.0
+
+
+def test_a_march_of_another_period_from_the_same_file_is_another_march(tmp_path):
+    keys = set()
+    for frequency in (4000.0, 2000.0):
+        cycles = np.linspace(0.0, 1.0, 65)
+        rows = zip(cycles / frequency, 1e-6 * np.sin(2.0 * math.pi * cycles), strict=True)
+        (tmp_path / "wave.csv").write_text("".join(f"{t:.17g},{u:.17g}\n" for t, u in rows))
+        case = read_case("table-4.3", TABLES)
+        vibration = case["vibration"].model_copy(
+            update={"waveform": "sampled", "samples": tmp_path / "wave.csv", "frequency": None}
+        )
+        slider, friction, solve_by = (case[name] for name in ("slider", "friction", "solve"))
+        keys.add(march_key(Model(slider, friction, vibration, solve_by), history=False))
+    assert len(keys) == 2

@@ -326,3 +326,54 @@ def test_a_bench_stops_the_vibration_before_the_motors_whatever_fails():
     )  # fmt: skip
     assert bench.safe() == ("vibration: is deaf", "steel: is deaf")
     assert tuple(order) == names
+
+
+class Wrong(Switch):
+    """One whose making safe ends otherwise than it may."""
+
+    def __init__(self, name, order, error):
+        super().__init__(name, order)
+        self.error = error
+
+    def safe(self):
+        self.order.append(self.name)
+        error, self.error = self.error, None
+        if error is not None:
+            raise error
+
+
+def bench_of(order, vibration):
+    motors = {name: Switch(name, order) for name in ("steel", "bronze")}
+    scope, tachometer = Switch("scope", order), Switch("tachometer", order)
+    return Bench(scope, vibration, motors, tachometer, None, WallClock())
+
+
+@pytest.mark.parametrize("error", [KeyError("waveform"), InputError("the terminal was closed")])
+def test_motors_are_stopped_whatever_the_vibration_raises(error):
+    order = []
+    said = bench_of(order, Wrong("vibration", order, error)).safe()
+    assert order == ["vibration", "steel", "bronze", "scope", "tachometer"]
+    assert said == (f"vibration: {type(error).__name__}: {error}",)
+
+
+def test_ctrl_c_while_all_is_made_safe_is_heard_when_it_is():
+    order = []
+    with pytest.raises(KeyboardInterrupt):
+        bench_of(order, Wrong("vibration", order, KeyboardInterrupt())).safe()
+    assert order == ["vibration", "vibration", "steel", "bronze", "scope", "tachometer"]
+
+
+def test_a_command_that_needs_what_is_not_set_yet_is_an_instruments_error(controller):
+    _, line = controller
+    line._says = line._says.model_copy(update={"stop": "OFF {waveform}"})
+    with pytest.raises(InstrumentError, match="needs the waveform, which is not set yet"):
+        line.safe()
+
+
+def test_a_supply_that_answers_no_number_is_named():
+    class Output:
+        voltage, current, output_enabled = "1 V or so", 0.0, False
+
+    steel = pymeasure_supply.PyMeasureSupply(Output(), "supply of steel")
+    with pytest.raises(InstrumentError, match="supply of steel did not do as it was told"):
+        steel.reading()

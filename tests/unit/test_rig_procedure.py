@@ -14,6 +14,7 @@ from apparatus import rigs
 from apparatus.grid import slow
 
 from asperity.errors import InputError
+from asperity.processes import alone
 from asperity.runs import Run
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure import journal as journals
@@ -394,4 +395,12 @@ def test_a_request_to_end_makes_everything_safe(tmp_path):
 def test_a_plan_that_cannot_be_run_is_refused_before_anything_moves(setting, said, tmp_path):
     with pytest.raises(InputError, match=said):
         rigs.run(rigs.small_case(setting), tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_second_run_into_the_same_folder_touches_no_instrument(tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "open_bench", lambda *_: pytest.fail("an instrument was opened"))
+    held = alone(tmp_path / study._HELD, "is written by a run that goes on; choose another --out")
+    with held, pytest.raises(InputError, match="is written by a run that goes on; choose"):
+        rigs.run(rigs.small_case(), tmp_path)
     assert not list(tmp_path.iterdir())

@@ -1,8 +1,10 @@
 """Long works: kept now and then, interrupted between steps, gone on with, bit for bit."""
 
 import dataclasses
+import errno
 import os
 import signal
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -143,6 +145,25 @@ def test_a_damaged_state_is_set_aside_and_told(tmp_path):
     told = []
     assert work(Run(folder=tmp_path, notify=told.append), 100) == (5050.0, 0)
     assert "set aside as run.interrupted.npz.damaged" in told[0]
+
+
+def test_a_state_that_cannot_be_opened_is_told_and_stays(tmp_path, monkeypatch):
+    with pytest.raises(Interrupted):
+        work(Run(folder=tmp_path), 100, press_at=40)
+    (file,) = tmp_path.iterdir()
+    kept = file.read_bytes()
+
+    def opened(path, mode="r"):
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    told = []
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "open", opened)
+        assert Run(folder=tmp_path, notify=told.append).resume(KEY) is None
+        assert Cache(tmp_path, told.append).get("run.interrupted") is None
+    assert len(told) == 1
+    assert told[0].endswith("cannot be read: too many open files; begins anew")
+    assert file.read_bytes() == kept
 
 
 def test_a_work_without_a_folder_is_interrupted_without_a_trace(tmp_path):

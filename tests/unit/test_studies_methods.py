@@ -242,6 +242,9 @@ def test_methods_of_a_file_of_ones_own_are_compared(file):
         ('"us"', '"them"', r"from is 'them'; it must be one of 'us'"),
         ('"one source"', '"sure"', r"\[source\.us\]: confidence is 'sure'"),
         ("[method.wax]", "[method.wax", r"methods\.toml: not valid TOML"),
+        ("[method.wax]", "[methods.wax]", r"\[methods\] is not a table .*did you mean 'method'"),
+        ("[method.wax]", "[method]", r"\[method\] must hold tables with names"),
+        ("[source.us]", "source = 3\n[method.us]", r"\[source\] must hold tables with names"),
     ],
 )
 def test_a_wrong_file_of_methods_is_refused_with_its_place(file, old, new, message):

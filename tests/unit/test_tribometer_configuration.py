@@ -1,14 +1,17 @@
 """A rig's configuration: what ships, what follows from it, and what is refused in a line."""
 
 import datetime
+import tomllib
 
 import numpy as np
 import pytest
 
 from asperity.casefile import read_case
 from asperity.errors import InputError
+from asperity.start.write import toml, written
 from asperity.tribometer.calibration import fitted_line
 from asperity.tribometer.options import Reduction, Twin
+from asperity.tribometer.report.study import _cells
 from asperity.tribometer.tables import TABLES
 
 
@@ -79,3 +82,16 @@ def test_a_case_that_does_not_say_it_waits_until_an_encoder_has_counted():
     # A count is right after two of its times at the latest, a filter behind it after five of its.
     gate, lag = (Twin.model_fields[f"encoder_{name}"].default for name in ("gate", "lag"))
     assert Reduction().speed_settling >= 2.0 * gate + 5.0 * lag
+
+
+def test_a_case_with_a_date_is_written_as_it_was_read():
+    given = 'channels.torque_steel={ channel = "A", date = 2019-05-01, "odd key" = 08:30:00 }'
+    raw = tomllib.loads(given)
+    assert tomllib.loads(written(raw)) == raw
+    assert toml(raw["channels"]["torque_steel"]["date"]) == "2019-05-01"
+
+
+def test_a_report_counts_the_cells_of_a_plan_within_the_cases_own_limits():
+    settings = 'plan.frequencies=["500 Hz"]', 'plan.steel_supplies=["28 V"]'
+    limits = 'limits.steel_supply="30 V"'
+    assert _cells(read_case("rig-final", TABLES, (*settings, limits))) > 0

@@ -490,3 +490,21 @@ def test_of_100_sets_the_law_that_made_them_is_told(tmp_path, monkeypatch):
     assert sets.off < 0.2 * NOISE
     told = [sets.fitted(seed, monkeypatch).law for seed in range(100)]
     assert told.count("split") >= 99
+
+
+@pytest.mark.parametrize("deviation", ["sd", "sd [kN]", "sd [N]"])
+def test_a_deviation_is_in_the_unit_of_what_is_measured_unless_it_says_otherwise(
+    tmp_path, deviation
+):
+    file = tmp_path / "data.csv"
+    sd = 0.1 if "[N]" in deviation else 1e-4
+    file.write_text(f"vibration.velocity_ratio,force [kN],{deviation}\n2,0.0055,{sd}\n")
+    found = read_measurements(file, read_case("table-4.4", case_tables()))
+    assert (found.values[0], found.deviations[0]) == pytest.approx((5.5, 0.1))
+
+
+def test_a_deviation_of_a_ratio_has_no_unit(tmp_path):
+    file = tmp_path / "data.csv"
+    file.write_text("vibration.velocity_ratio,ratio,sd [N]\n2,0.5,0.01\n")
+    with pytest.raises(InputError, match="the column sd has a unit beside 'ratio'; leave it out"):
+        read_measurements(file, read_case("table-4.4", case_tables()))

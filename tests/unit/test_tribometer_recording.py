@@ -72,6 +72,16 @@ def test_lost_and_late_samples_are_gaps(tmp_path):
     assert "late" in late.reason
 
 
+def test_lost_samples_are_one_gap_though_a_block_was_not_full(tmp_path):
+    path = tmp_path / "run.nc"
+    with recorder(path) as made:
+        made.append(counts(100), 0.1, first=0)
+        made.append(counts(50), 0.15, first=100)
+        made.append(counts(100), 5.25, first=5150)
+    (lost,) = Recording.open(path).gaps
+    assert lost.reason == "5000 samples lost"
+
+
 def test_samples_that_are_no_values_are_not_numbers(tmp_path):
     path, given = tmp_path / "run.nc", counts(100)
     given[3, 0], given[4, 0], given[5, 0] = layout.MISSING, layout.BEYOND, -layout.BEYOND

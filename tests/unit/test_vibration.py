@@ -1,4 +1,5 @@
 import math
+import os
 
 import numpy as np
 import pytest
@@ -205,7 +206,7 @@ def test_a_byte_order_mark_costs_no_sample(tmp_path):
 def test_a_first_row_with_a_number_in_it_is_no_header(tmp_path, first):
     (tmp_path / "wave.csv").write_text("".join(f"{row}\n" for row in [first, *rows_of()[1:]]))
     vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
-    assert f"row 1 is '{first}'" in refusal(vibration.shape, tmp_path)
+    assert f"line 1 is '{first}'" in refusal(vibration.shape, tmp_path)
 
 
 @pytest.mark.parametrize("cycles", [1, 20])
@@ -294,6 +295,23 @@ def test_samples_that_are_no_period_are_refused(rows, message, tmp_path):
     text = refusal(vibration.shape, tmp_path)
     assert message in text
     assert str(tmp_path / "wave.csv") in text
+
+
+def test_a_wrong_sample_is_named_by_its_line(tmp_path):
+    rows = ["# by us", "", "time,displacement", *rows_of()[1:]]
+    rows[6] = "0.1,x"
+    (tmp_path / "wave.csv").write_text("\n".join(rows))
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
+    assert "line 7 is '0.1,x'" in refusal(vibration.shape, tmp_path)
+
+
+def test_samples_put_in_place_of_others_are_read_though_they_are_no_younger(tmp_path):
+    file = tmp_path / "wave.csv"
+    vibration = Vibration(velocity_ratio=1.0, **WAVES["sampled"], units="SI")
+    for period in (2.5e-4, 5.0e-4):
+        file.write_text("\n".join(rows_of(period=period)))
+        os.utime(file, ns=(10**18, 10**18))
+        assert vibration.shape(tmp_path).frequency == pytest.approx(1.0 / period)
 
 
 def test_samples_that_cannot_be_read_are_refused(tmp_path):

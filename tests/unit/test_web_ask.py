@@ -80,3 +80,28 @@ def test_every_command_can_be_asked_and_says_how_on_a_terminal(folder, command):
             left = {key: value for key, value in options.items() if key != name}
             with pytest.raises(InputError, match=f"needs {name}"):
                 asked_of({**body, "options": left}, folder)
+
+
+def asked_key(folder, command, **body):
+    return asked_of({"command": command, **body}, folder).key(None)
+
+
+def test_what_lies_beside_recordings_is_part_of_what_is_asked(folder):
+    run = folder.path / "run"
+    run.mkdir()
+    (run / "file-01.nc").write_bytes(b"recorded")
+    (run / "journal.jsonl").write_text("{}\n")
+    before = asked_key(folder, "rig report", arguments={"folder": str(run)})
+    assert asked_key(folder, "rig report", arguments={"folder": str(run)}) == before
+    (run / "journal.jsonl").write_text('{}\n{"kind": "weighed"}\n')
+    assert asked_key(folder, "rig report", arguments={"folder": str(run)}) != before
+
+
+def test_data_files_of_ones_own_are_part_of_what_is_asked(folder, tmp_path, monkeypatch):
+    file = tmp_path / "mine.toml"
+    keys = set()
+    monkeypatch.setenv("ASPERITY_MATERIALS", str(file))
+    for text in ("", "# of another week\n"):
+        file.write_text(text)
+        keys.add(asked_key(folder, "rate", case="gearset-2"))
+    assert len(keys) == 2

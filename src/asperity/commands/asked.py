@@ -2,7 +2,7 @@
 
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,6 +11,7 @@ from asperity.commands.command import Command
 from asperity.commands.listed import COMMANDS
 from asperity.errors import InputError, nearest, shown
 from asperity.runs.key import code_key, key
+from asperity.store import stamp
 
 Body = Mapping[str, Any]
 
@@ -83,12 +84,14 @@ class Asked(NamedTuple):
         case : Case or None
             As it was read; None where the command takes none by name.
         """
+        from asperity.gearset.library import own_files
+
         parts = {
             "command": self.command.name,
             "case": self.name,
             "given": self.given,
             "settings": sorted(self.settings),
-            "files": dict(_contents(self.texts())),
+            "files": dict(_contents((*self.texts(), *own_files()))),
             "project": case.raw.get("project") if case else None,
         }
         code = code_key(self.command.module)
@@ -112,13 +115,13 @@ def mapping(body: Body, name: str) -> Body:
     return given
 
 
-def _contents(texts: Iterator[str]) -> Iterator[tuple[str, str]]:
+def _contents(texts: Iterable[str]) -> Iterator[tuple[str, str]]:
     """Yield the files that are named, each with a hash of what it holds."""
     for text in texts:
         if os.path.isfile(text):  # also of a name too long for one
             with open(text, "rb") as file:
                 yield text, hashlib.file_digest(file, "sha256").hexdigest()
         elif os.path.isdir(text):
-            for each in sorted(Path(text).glob("*.nc")):
-                found = each.stat()
-                yield str(each), f"{found.st_mtime_ns} {found.st_size}"
+            for each in sorted(Path(text).iterdir()):
+                if each.is_file() and not each.name.startswith("."):
+                    yield str(each), str(stamp(each))

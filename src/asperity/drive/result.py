@@ -281,7 +281,8 @@ def inputs(problem: DriveProblem) -> dict[str, Any]:
     """Return the values of a problem's tables as numbers in SI and texts, by ``table.key``."""
     tables = (
         problem.gearset, problem.operation, problem.friction, problem.drive, problem.shaft,
-        problem.vibration, problem.actuator, problem.mount,
+        problem.vibration, problem.actuator, problem.mount, problem.hob, problem.modification,
+        problem.disc, problem.solve,
     )  # fmt: skip
     return {
         # netCDF has no truths and no lists.

@@ -122,7 +122,7 @@ def resolve(model: type[T], value: object, context: Any = None) -> T:
     return value
 
 
-_Stamps = tuple[tuple[Path, int], ...]
+_Stamps = tuple[tuple[Path, tuple[int, int, int]], ...]
 
 
 @functools.lru_cache(maxsize=256)
@@ -166,15 +166,20 @@ def add_files(paths: Sequence[str]) -> None:
     _library(_stamps())
 
 
+def own_files() -> tuple[str, ...]:
+    """Return the data files that the user named."""
+    return tuple(filter(None, os.environ.get(VARIABLE, "").split(os.pathsep)))
+
+
 def _stamps() -> _Stamps:
     stamps = []
-    for path in map(Path, filter(None, os.environ.get(VARIABLE, "").split(os.pathsep))):
+    for path in map(Path, own_files()):
         try:
-            stamps.append((path.absolute(), path.stat().st_mtime_ns))
+            stamps.append((path.absolute(), store.stamp(path)))
         except OSError as error:
             raise InputError(
-                f"{path} cannot be read: {(error.strerror or str(error)).lower()}; name a data "
-                f"file in --materials or {VARIABLE}"
+                f"{path} cannot be read: {store.reason(error)}; name a data file in --materials "
+                f"or {VARIABLE}"
             ) from None
     return tuple(stamps)
 

@@ -38,7 +38,8 @@ def variables(path: Path, names: Sequence[str] = ()) -> dict[str, dict[str, Any]
             while waiting:
                 name = waiting.pop(0)
                 if name not in file.variables:
-                    raise InputError(f"{name!r} is not in {path.name}{nearest(name, made)}")
+                    meant = nearest(name, file.variables)
+                    raise InputError(f"{name!r} is not in {path.name}{meant}")
                 one = file.variables[name]
                 left -= math.prod(one.shape) if names else 0
                 if left < 0:

@@ -124,18 +124,23 @@ def _sheet(sheet: Sheet) -> str:
     )
 
 
+def _number(value: float) -> str:
+    """Return a number as Python writes it, also one of NumPy's."""
+    return repr(int(value) if isinstance(value, int) else float(value))
+
+
 def _cells(row: int, values: Sequence[Any]) -> Iterator[str]:
     style = _PLAIN if row else _BOLD
     for column, value in enumerate(values):
         begin = f'<c r="{chr(ord("A") + column)}{row + 1}" s="{style}"'
         if isinstance(value, Input):
-            yield f'{begin[:-2]}{_INPUT}"><v>{value.value!r}</v></c>'
+            yield f'{begin[:-2]}{_INPUT}"><v>{_number(value.value)}</v></c>'
         elif isinstance(value, Formula):
             kind = ' t="str"' if isinstance(value.value, str) else ""
             shown = value.value if isinstance(value.value, str) else repr(float(value.value))
             yield f"{begin}{kind}><f>{escape(value.text)}</f><v>{escape(shown)}</v></c>"
         elif isinstance(value, int | float) and not isinstance(value, bool):
-            yield f"{begin}><v>{value!r}</v></c>"
+            yield f"{begin}><v>{_number(value)}</v></c>"
         elif value != "":
             # An inline text is never taken for a formula.
             text = escape(plain(str(value)))

@@ -9,6 +9,7 @@ from typing import Any
 from asperity.errors import StorageError
 from asperity.runs.cache import set_aside
 from asperity.runs.tree import DamagedError, Tree, read_tree, write_tree
+from asperity.store import reason
 
 # Between two times of keeping lie so many seconds, and so much of the time that takes.
 _PAUSE = 0.5
@@ -44,7 +45,10 @@ class Keeper:
         except DamagedError as error:
             self._notify(f"{error}; {set_aside(self.path)}; begins anew")
             return None
-        except OSError:
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            self._notify(f"{self.path} cannot be read: {reason(error)}; begins anew")
             return None
         if tree.get(_KEY) != self._key:
             self._notify(f"{self.path} is of another case or version; begins anew")

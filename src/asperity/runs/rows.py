@@ -63,16 +63,23 @@ class Rows:
         for first in range(0, len(keys), _AT_A_TIME):
             some = keys[first : first + _AT_A_TIME]
             marks = ",".join("?" * len(some))
-            query = f"SELECT key, value, checksum FROM results WHERE key IN ({marks})"
-            found: list[tuple[str, bytes, int]] = []
+            query = f"SELECT key, value, checksum, day FROM results WHERE key IN ({marks})"
+            found: list[tuple[str, bytes, int, int]] = []
             with self._trouble_told():
                 if self._database is not None:
                     found = self._database.execute(query, some).fetchall()
-            for key, value, checksum in found:
+                    self._still_asked_for([(key,) for key, _, _, day in found if day < _long_ago()])
+            for key, value, checksum, _ in found:
                 with contextlib.suppress(ValueError, TypeError):
                     if zlib.crc32(value) == checksum:
                         rows[key] = json.loads(value)
         return rows
+
+    def _still_asked_for(self, keys: list[tuple[str]]) -> None:
+        if keys and self._database is not None:
+            with self._database as database:
+                renew = f"UPDATE results SET day = {_today()} WHERE key = ?"
+                database.executemany(renew, keys)
 
     def put(self, rows: Mapping[str, Row]) -> None:
         """Keep rows, all or none of them."""
@@ -99,6 +106,8 @@ class Rows:
     def _trouble_told(self) -> Iterator[None]:
         try:
             yield
+        except sqlite3.ProgrammingError:  # ours
+            raise
         except sqlite3.OperationalError as error:
             self.close()
             self._notify(f"{self._path}: {error}; results are no longer kept in this cache")
@@ -134,3 +143,7 @@ def _open(path: Path) -> sqlite3.Connection:
 
 def _today() -> int:
     return int(time.time() // 86400)
+
+
+def _long_ago() -> int:
+    return _today() - KEPT_DAYS // 4

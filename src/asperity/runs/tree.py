@@ -53,24 +53,28 @@ def read_tree(path: str | os.PathLike[str]) -> Tree:
 
     Raises
     ------
-    FileNotFoundError
-        There is no such file.
+    OSError
+        There is no such file, or it cannot be opened.
     DamagedError
         It is not what was written.
     """
-    try:
-        # Opened here, since NumPy leaves a file open that it cannot read.
-        with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
-            # An array's header may ask for less than there is, whose checksum is then not seen.
-            if file.zip.testzip() is not None:
-                raise ValueError("a checksum is wrong")
-            arrays = {name: file[name] for name in file.files}
-        tree: Tree = _restored(json.loads(str(arrays.pop(_PLAN))), arrays)
-    except FileNotFoundError:
-        raise
-    except Exception:
-        # What a damaged file raises depends on the byte.
-        raise DamagedError(f"{path} is damaged, or nothing of ours") from None
+    # Opened here, since NumPy leaves a file open that it cannot read; and a file that cannot be
+    # opened is not a damaged one.
+    with Path(path).open("rb") as opened:
+        whole = False
+        try:
+            with np.load(opened, allow_pickle=False) as file:
+                # An array's header may ask for less than there is, whose checksum is not seen then.
+                if file.zip.testzip() is not None:
+                    raise ValueError("a checksum is wrong")
+                whole = True
+                arrays = {name: file[name] for name in file.files}
+            tree: Tree = _restored(json.loads(str(arrays.pop(_PLAN))), arrays)
+        except Exception as error:
+            if whole and isinstance(error, MemoryError):
+                raise
+            # What a damaged file raises depends on the byte.
+            raise DamagedError(f"{path} is damaged, or nothing of ours") from None
     return tree
 
 

@@ -237,5 +237,6 @@ def march_key(model: Model, *, history: bool) -> str:
     """Return the key a march's state is kept under."""
     tables = (model.slider, model.friction, model.vibration, model.solve, model.normal)
     texts = ["" if table is None else table.model_dump_json() for table in tables]
+    # A sampled wave's table, and the frequency of its file where the case says none.
     wave = AT_REST.table if model.shape is None else model.shape.table
-    return key(code_key(__name__), str(history), *texts, wave)
+    return key(code_key(__name__), str(history), *texts, repr(model.frequency), wave)

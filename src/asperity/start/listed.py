@@ -67,12 +67,11 @@ def opened(case: str, folder: Path | None) -> tuple[Path, str, str]:
 def _looked_at(path: Path) -> tuple[str, str] | None:
     """Return kind and title of a case, None for what is none."""
     try:
-        found = path.stat()
-        return _read(path, found.st_mtime_ns, found.st_size)
+        return _read(path, store.stamp(path))
     except (InputError, StorageError, OSError):
         return None
 
 
 @functools.lru_cache(maxsize=256)
-def _read(path: Path, _changed: int, _size: int) -> tuple[str, str]:
+def _read(path: Path, _stamp: tuple[int, ...]) -> tuple[str, str]:
     return kind_of(store.read_toml(path)), describe(path)

@@ -10,7 +10,7 @@ from pydantic import Field, SkipValidation
 
 from asperity import store
 from asperity.casefile import Table
-from asperity.errors import InputError, choices, shown, suggestion
+from asperity.errors import InputError, choices, nearest, shown, suggestion
 from asperity.gearset.materials import BaseOilName
 from asperity.sources import Source
 from asperity.units import Quantity
@@ -26,6 +26,7 @@ Kind = Literal["oil", "additive", "coating", "vibration"]
 
 _SHIPPED = Path(__file__).parent / "data" / "methods.toml"
 _LITERATURE = _SHIPPED.with_name("literature.toml")
+_SECTIONS = ("source", "method")
 _TEXT_ONLY = {"text_only": True}
 
 
@@ -102,6 +103,15 @@ def _shipped() -> tuple[Method, ...]:
 def _read(path: Path) -> tuple[Method, ...]:
     raw = store.read_toml(path)
     sources = {}
+    for section in raw:
+        if section not in _SECTIONS:
+            known = nearest(section, _SECTIONS)
+            raise InputError(f"{path.name}: [{section}] is not a table of methods{known}")
+        named = raw[section]
+        if not isinstance(named, dict) or not all(isinstance(v, dict) for v in named.values()):
+            raise InputError(
+                f'{path.name}: [{section}] must hold tables with names, as in [{section}."x"]'
+            )
     for key, values in raw.get("source", {}).items():
         try:
             sources[key] = Source(**values)

@@ -4,7 +4,6 @@ import contextlib
 import filecmp
 import json
 import os
-import tempfile
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from starlette.staticfiles import StaticFiles
 
 from asperity import __version__
 from asperity.errors import AsperityError
+from asperity.leftovers import temporary_beside
 from asperity.start.listed import listed
 from asperity.store import read_text, write_atomically, write_text
 from asperity.web.folder import CASE, MOST_FILE, Folder
@@ -124,9 +124,9 @@ class Page:
         path = self.folder.file(request.path_params["name"])
         path = path.with_suffix(path.suffix.lower())
         query = request.query_params
-        handle, part = tempfile.mkstemp(path.suffix, ".upload-", self.folder.path)
+        part = str(temporary_beside(path))
         try:
-            with os.fdopen(handle, "wb") as file:
+            with open(part, "xb") as file:
                 async for each in parts_of(request, MOST_FILE):
                     file.write(each)
             asked = {"part": part, "name": path.name, "recorded": "recorded" in query}

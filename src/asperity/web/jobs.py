@@ -169,12 +169,9 @@ class Jobs:
         ended = "stopped"
         try:
             job.process = await begun("asperity.web.job", str(self._folder.path), job.id)
-            assert job.process.stdout is not None
             if job.stopping:
                 end(job.process)
-            with contextlib.suppress(ValueError):
-                while line := await job.process.stdout.readline():
-                    job.hear(line)
+            await _heard(job, job.process)
             ended = job.ended(await job.process.wait())
         except OSError as error:
             job.error, job.exit_code = f"the job cannot begin: {error}", 1
@@ -184,3 +181,15 @@ class Jobs:
             job.process = None
             job.set(ended)
             self._next()
+
+
+async def _heard(job: Job, process: asyncio.subprocess.Process) -> None:
+    """Take what a job's process says, until it says no more."""
+    assert process.stdout is not None
+    line = b" "
+    while line:
+        # A line that is longer than any of ours, or none of ours, ends nothing.
+        with contextlib.suppress(ValueError):
+            line = await process.stdout.readline()
+            if line:
+                job.hear(line)

@@ -79,16 +79,22 @@ class Live:
         asked = VERBS[verb]
         for _ in range(_TRIES):
             # What it takes to begin, on a busy machine or for the first time, is not its answer's.
-            with contextlib.suppress(TimeoutError):
-                begun = self.ready if asked.kernels else self.up
-                await asyncio.wait_for(begun.wait(), _SLOWEST_START)
+            if self._lives:
+                with contextlib.suppress(TimeoutError):
+                    begun = self.ready if asked.kernels else self.up
+                    await asyncio.wait_for(begun.wait(), _SLOWEST_START)
             async with self._turn:
                 if await gone():
                     return _line(499, "nobody waits for the answer", 1)
-                if self._process is not None and self._process.returncode is None:
+                if self._lives:
                     return await self._answer(verb, body, asked.seconds)
-                await self.start()
+                with contextlib.suppress(OSError):
+                    await self.start()
         return _line(500, f"the process that answers {verb} does not begin", 1)
+
+    @property
+    def _lives(self) -> bool:
+        return self._process is not None and self._process.returncode is None
 
     async def _answer(self, verb: str, body: bytes, seconds: float) -> Answer:
         process = self._process
@@ -113,7 +119,8 @@ class Live:
 
     async def _again(self) -> None:
         await self.stop()
-        await self.start()
+        with contextlib.suppress(OSError):  # whoever asks next begins it
+            await self.start()
 
     async def _read(
         self, process: asyncio.subprocess.Process, frames: asyncio.Queue[Answer | None]

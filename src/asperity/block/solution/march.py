@@ -180,10 +180,7 @@ class BlockMarch:
         except BaseException:
             self.stepper.restore(self.progress.snapshot)
             raise
-        result = self._result()
-        if not all(math.isfinite(n) for n in result.to_json().values() if isinstance(n, float)):
-            raise ConvergenceError(_NOT_FINITE)
-        return result
+        return self._result()
 
     def _go_on(self, **changed: Any) -> None:
         snapshot = self.stepper.snapshot()
@@ -269,6 +266,9 @@ class BlockMarch:
         residual = abs(halves[1] - halves[0]) / force
         mean = sums.drive_force / span
         powers = power_ledger(sums, start, end)
+        # Its residual has every power in it.
+        if not all(map(math.isfinite, (mean, residual, powers.residual))):
+            raise ConvergenceError(_NOT_FINITE)
         return BlockResult(
             problem=problem,
             model=model,

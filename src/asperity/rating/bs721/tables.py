@@ -191,17 +191,18 @@ def read_tables(path: str | os.PathLike[str] | None = None) -> Tables:
         Names the file and table, and what is wrong.
     """
     if path is None:
-        return _read(None, 0)
+        return _read(None, ())
     file = Path(path).absolute()
     try:
-        return _read(file, file.stat().st_mtime_ns)
+        return _read(file, store.stamp(file))
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(f"{path} cannot be read: {reason}; name a file of tables") from None
+        raise InputError(
+            f"{path} cannot be read: {store.reason(error)}; name a file of tables"
+        ) from None
 
 
 @functools.lru_cache(maxsize=16)
-def _read(path: Path | None, stamp: int) -> Tables:
+def _read(path: Path | None, stamp: tuple[int, ...]) -> Tables:
     raw = _parse(_SHIPPED)
     origin = dict.fromkeys(raw, _SHIPPED.name)
     if path is not None:

@@ -107,6 +107,9 @@ def read_measurements(path: Path, case: Case) -> Measurements:
             f"{name}: the columns must hold 'ratio' or 'force [N]', and 'sd', its standard "
             "deviation"
         )
+    columns = [_as(measured[0], one) if one.key == DEVIATION else one for one in columns]
+    if measured[0].key == RATIO and any(one.key == DEVIATION and one.unit for one in columns):
+        raise InputError(f"{name}: the column sd has a unit beside 'ratio'; leave it out")
     table = [_row(columns, cells, name, number) for number, cells in lines[1:]]
     values = np.array([row[measured[0].key, False] for row in table], dtype=float)
     conditions = [
@@ -127,6 +130,12 @@ def read_measurements(path: Path, case: Case) -> Measurements:
         name, measured[0].key == FORCE, values, deviations, tuple(conditions), uncertain,
         tuple(number for number, _ in lines[1:]),
     )  # fmt: skip
+
+
+def _as(measured: _Column, deviation: _Column) -> _Column:
+    """Return a column of deviations, in the unit of what is measured where it has none."""
+    unit = deviation.unit or measured.unit
+    return dataclasses.replace(deviation, unit=unit, quantity=measured.quantity)
 
 
 def _row(
@@ -153,12 +162,10 @@ def _column(place: int, text: str, case: Case, name: str) -> _Column:
         )
     deviation, key, unit = bool(head[1]), head[2], (head[3] or "").strip()
     if "." not in key:
-        wanted = {RATIO: "", FORCE: "N", DEVIATION: unit}[key]
+        wanted = "N" if key == FORCE else ""
         if unit and key == RATIO:
             raise InputError(f"{name}: the column ratio has a unit, {unit!r}; leave it out")
-        return _Column(
-            place, False, key, unit or wanted, Quantity(wanted and "N", "a number", "1 N")
-        )
+        return _Column(place, False, key, unit or wanted, Quantity(wanted, "a number", "1 N"))
     table, _, own = key.partition(".")
     with told(case):
         if table not in case.known:

@@ -5,6 +5,7 @@ their safe state at any time, as often as one likes, and the bench does so in on
 off, then motors off.
 """
 
+import contextlib
 import dataclasses
 import time
 from collections.abc import Mapping
@@ -274,18 +275,27 @@ class Bench:
         tuple of str
             What could not be switched off; one failure keeps none of the others.
         """
-        failures = []
-        for instrument in self.instruments:
+        failures, interrupted = [], None
+        waiting = list(self.instruments)
+        while waiting:
+            instrument = waiting.pop(0)
             try:
                 instrument.safe()
+            except KeyboardInterrupt as error:
+                if interrupted is None:
+                    # It may have been in the middle of this one: once more, and on with the rest.
+                    waiting.insert(0, instrument)
+                interrupted = error
             except (InstrumentError, OSError) as error:
                 failures.append(f"{instrument.name}: {error}")
+            except Exception as error:  # of a driver, or our own: the motors must stop all the same
+                failures.append(f"{instrument.name}: {type(error).__name__}: {error}")
+        if interrupted is not None:
+            raise interrupted
         return tuple(failures)
 
     def close(self) -> None:
         """Let go of all of them."""
         for instrument in self.instruments:
-            try:
+            with contextlib.suppress(Exception):
                 instrument.close()
-            except (InstrumentError, OSError):
-                continue

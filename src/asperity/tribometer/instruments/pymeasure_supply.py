@@ -67,8 +67,10 @@ class PyMeasureSupply:
 
     def reading(self) -> Reading:
         """Return what it gives."""
-        voltage = float(self._done(lambda: self._output.voltage))
-        return Reading(voltage, float(self._done(lambda: self._output.current)))
+        return Reading(
+            self._done(lambda: float(self._output.voltage)),
+            self._done(lambda: float(self._output.current)),
+        )
 
     def close(self) -> None:
         """Let go of it; the line is that of the driver."""

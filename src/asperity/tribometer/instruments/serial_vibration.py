@@ -106,7 +106,13 @@ class SerialVibration:
 
     def _tell(self, command: str) -> None:
         """Send a command and look at the answer, if the dialect has one."""
-        text = command.format(**self._set)
+        try:
+            text = command.format(**self._set)
+        except KeyError as error:
+            raise InstrumentError(
+                f"{self.name}: {command!r} needs the {error.args[0]}, which is not set yet",
+                kind="not safe",
+            ) from None
         if not self._says.answer:
             self._send(text)
             return

@@ -8,6 +8,7 @@ import numpy as np
 
 from asperity.casefile import Case
 from asperity.errors import AsperityError, InputError, choices, plain, suggestion
+from asperity.processes import alone
 from asperity.runs import Run
 from asperity.runs.key import key
 from asperity.tribometer.channels import Channels
@@ -29,6 +30,7 @@ from asperity.tribometer.procedure.steps import Action, sequence
 from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
 
+_HELD = ".rig-run"
 _LEAST_SAMPLES_A_CYCLE = 2.5
 _RECORDED = frozenset(("rest", "cell", "save"))
 
@@ -124,19 +126,21 @@ def answer(problem: RunProblem, run: Run) -> RunResult:
     Raises
     ------
     InputError
-        There is no folder, or what is in it does not fit.
+        There is no folder, what is in it does not fit, or another run writes there.
     """
     if run.folder is None:
         raise InputError("a run needs --out DIR, a folder for its recordings and its journal")
-    if problem.backend == REPLAY:
-        names = [f"{one.name}.nc" for one in problem.files]
-        bench = replay_bench(Path(problem.recordings), names)
-    else:
-        bench = open_bench(problem.case, problem.backend)
-    try:
-        return _run(problem, bench, run, run.folder)
-    finally:
-        bench.close()
+    # Before any instrument is touched: it may be the other one's.
+    with alone(run.folder / _HELD, "is written by a run that goes on; choose another --out"):
+        if problem.backend == REPLAY:
+            names = [f"{one.name}.nc" for one in problem.files]
+            bench = replay_bench(Path(problem.recordings), names)
+        else:
+            bench = open_bench(problem.case, problem.backend)
+        try:
+            return _run(problem, bench, run, run.folder)
+        finally:
+            bench.close()
 
 
 def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult:

@@ -102,6 +102,7 @@ class Recorder:
             self._tables = {name: h5[name] for name in (*layout.BLOCKS, *layout.EVENTS)}
             self._rows = {name: np.zeros(_ROWS, self._tables[name].dtype) for name in layout.BLOCKS}
             self._clock = 0.0
+            self._came = 0.0
             self._ahead = _Ahead(path, 2 * self._waiting.nbytes + _RESERVE)
             self._flush()
 
@@ -119,8 +120,9 @@ class Recorder:
             a gap.
         """
         if first is not None and first != self._first + self._filled:
-            self._write_waiting(clock)
+            self._write_waiting(self._came)
             self._first = first
+        self._came = clock
         counts = np.ascontiguousarray(counts, np.int16)
         done = 0
         while done < len(counts):
@@ -149,7 +151,7 @@ class Recorder:
         """Write what is left; compress the file, whole or not at all."""
         if self._file is None:
             return
-        self._write_waiting(self._clock)
+        self._write_waiting(self._came)
         with self._trouble_told():
             self._close()
             if compress:

@@ -75,23 +75,24 @@ def answer(problem: Gathered, run: Run) -> Report:
         for one in reduced.segments
         if one.quality == REFUSED
     ]
-    plan = problem.require(Plan) if Plan.table in problem else Plan()
     return Report(
         reduced=reduced, conditions=tuple(_conditions(problem, reduced.segments)),
         refused=(*problem.refused, *left), recordings=len(problem.reducible),
         measured=sum(one.quality != REFUSED for one in reduced.segments),
-        left_out=len(problem.refused) + len(left), planned=_cells(plan),
+        left_out=len(problem.refused) + len(left), planned=_cells(problem),
         simulated=any(one.recording.simulated for one in problem.reducible), notes=reduced.notes,
     )  # fmt: skip
 
 
-def _cells(plan: Plan) -> int:
+def _cells(case: Case) -> int:
     from asperity.tribometer.parameters import Limits
     from asperity.tribometer.plan.matrix import planned_files
 
+    plan = case.require(Plan) if Plan.table in case else Plan()
+    limits = case.require(Limits) if Limits.table in case else Limits()
     if not plan.frequencies or not plan.steel_supplies:
         return 0
-    return sum(len(one.cells) for one in planned_files(plan, Limits()))
+    return sum(len(one.cells) for one in planned_files(plan, limits))
 
 
 def _conditions(problem: Gathered, segments: Sequence[SegmentResult]) -> Iterator[tuple[str, str]]:
