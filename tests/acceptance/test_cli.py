@@ -202,7 +202,7 @@ def test_a_sweep_is_readable_as_a_matrix_or_a_list(asperity):
     assert re.search(r"^6 +0\.404\d* +0\.336\d*$", output, re.MULTILINE)
     _, output, _ = asperity(*sweep, "--over", "vibration.direction=0:88:1")
     assert re.search(r"^direction \(deg\) +ratio$", output, re.MULTILINE)
-    assert "... and 29 more rows; --out or --json gives all" in output
+    assert "... and 29 more rows; the files of --out, and --json, hold all" in output
 
 
 def test_a_sweep_in_which_a_point_fails_hands_back_the_others_and_ends_with_3(asperity, tmp_path):

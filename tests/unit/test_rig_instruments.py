@@ -1,5 +1,6 @@
 """Every instrument does what its protocol says, whoever made it; and says so when it cannot."""
 
+import functools
 import importlib
 import sys
 
@@ -212,6 +213,7 @@ def test_a_port_that_is_none_is_one_line():
         ("set_frequency", "{frequency:x}", "cannot be filled in"),
         ("start", "{frequency.__class__}", "may hold"),
         ("stop", "Aus\u00e4", "not in ASCII"),
+        ("stop", "0 {waveform}", "may hold neither"),
     ],
 )
 def test_a_dialect_that_cannot_be_spoken_is_refused(key, text, said):
@@ -342,6 +344,11 @@ class Wrong(Switch):
             raise error
 
 
+def _pressed(order):
+    order.append("vibration")
+    raise KeyboardInterrupt
+
+
 def bench_of(order, vibration):
     motors = {name: Switch(name, order) for name in ("steel", "bronze")}
     scope, tachometer = Switch("scope", order), Switch("tachometer", order)
@@ -358,16 +365,20 @@ def test_motors_are_stopped_whatever_the_vibration_raises(error):
 
 def test_ctrl_c_while_all_is_made_safe_is_heard_when_it_is():
     order = []
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt, match="interrupted") as caught:
         bench_of(order, Wrong("vibration", order, KeyboardInterrupt())).safe()
-    assert order == ["vibration", "vibration", "steel", "bronze", "scope", "tachometer"]
+    assert order == ["vibration", "steel", "bronze", "scope", "tachometer", "vibration"]
+    assert caught.value.failures == ()
 
 
-def test_a_command_that_needs_what_is_not_set_yet_is_an_instruments_error(controller):
-    _, line = controller
-    line._says = line._says.model_copy(update={"stop": "OFF {waveform}"})
-    with pytest.raises(InstrumentError, match="needs the waveform, which is not set yet"):
-        line.safe()
+def test_ctrl_c_again_and_again_turns_to_the_next_instrument_and_ends_at_last():
+    order = []
+    stuck = Wrong("vibration", order, None)
+    stuck.safe = functools.partial(_pressed, order)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        bench_of(order, stuck).safe()
+    assert order[:5] == ["vibration", "steel", "bronze", "scope", "tachometer"]
+    assert caught.value.failures == ("vibration: interrupted",)
 
 
 def test_a_supply_that_answers_no_number_is_named():

@@ -13,6 +13,7 @@ from asperity.results.ledger import Ledger
 from asperity.results.quantity import Number, Sentence
 from asperity.slider.result import table_inputs
 
+_EQUAL = 5e-3  # of a power, as of what makes a state settled
 _OVER_TIME, _CYCLES = ("time",), ("cycle",)
 
 
@@ -111,7 +112,7 @@ class DriveResult(Drawn):
         "T_m/T_R - 1", "", "what the mesh gives the wheel beyond its load, over it"
     )
     settled: bool = quantity("", "", "periodic and balanced")
-    spread: float | None = quantity("", "", "of the ratio between the last three blocks")
+    spread: float | None = quantity("", "", "spread of what is to stay, over the last three blocks")
     torque_ratio_window: float | None = quantity(
         "T_Bw/T_Bs", "", "the same over the first cycles, whatever the balance"
     )
@@ -242,12 +243,16 @@ def _energy(answer: DriveResult) -> str:
         before = answer.efficiency_static
         word = "saves energy" if efficiency > before else "saves no energy"
         return Sentence(
-            said, ", efficiency ", Number.of(efficiency, ".3g", "system_efficiency"), " for ",
+            said, ", efficiency with the actuator's electrical side ",
+            Number.of(efficiency, ".3g", "system_efficiency"), ", without vibration ",
             Number.of(before, ".3g", "efficiency_static"),
-            f" with the actuator's electrical side: it {word}",
+            f": it {word}" if answer.settled else "",
         )  # fmt: skip
-    word = "saves power" if ratio < 1.0 else "saves no power"
-    return Sentence(said, f": it {word}, the actuator's electrical side ([actuator]) not counted")
+    word = ": it saves power" if ratio < 1.0 - _EQUAL else ": it saves no power"
+    return Sentence(
+        said, word if answer.settled else "",
+        ", the actuator's electrical side ([actuator]) not counted",
+    )  # fmt: skip
 
 
 def _contact(answer: DriveResult) -> str:

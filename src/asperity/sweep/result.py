@@ -278,7 +278,7 @@ def _table(
         rows = [[*place, *numbers] for place, numbers in itertools.islice(pairs, _MOST_ROWS + 1)]
     more = len(axes[0].shown) if matrix else values.size
     if more > _MOST_ROWS:
-        left = f"... and {more - _MOST_ROWS} more rows; --out or --json gives all"
+        left = f"... and {more - _MOST_ROWS} more rows; the files of --out, and --json, hold all"
         remarks = (left, *remarks)
     return Table.of(headings, rows[:_MOST_ROWS], remarks=remarks)
 

@@ -189,7 +189,7 @@ async def _heard(job: Job, process: asyncio.subprocess.Process) -> None:
     line = b" "
     while line:
         # A line that is longer than any of ours, or none of ours, ends nothing.
-        with contextlib.suppress(ValueError):
+        with contextlib.suppress(ValueError, KeyError):
             line = await process.stdout.readline()
             if line:
                 job.hear(line)

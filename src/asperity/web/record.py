@@ -105,6 +105,8 @@ class Job:
     def hear(self, line: bytes) -> None:
         """Take what its process says."""
         told = json.loads(line)
+        if not isinstance(told, dict):
+            raise ValueError("it must be an object")
         if "begun" in told:
             self.begun = True
         elif "done" in told:

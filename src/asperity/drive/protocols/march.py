@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.drive.headline import BALANCED
 from asperity.drive.interface import SOLVED
 from asperity.drive.motion.system import SUMS, System
 from asperity.errors import ConvergenceError
@@ -18,9 +19,11 @@ from asperity.runs.tree import Tree
 
 Records = npt.NDArray[np.void]
 
-# Means of three blocks within this of each other and a balanced wheel make a state periodic; a
-# march ends early only where they agree ten times better.
-PERIODIC, BALANCED = 5e-3, 5e-3
+# Means of three blocks within this of each other, a balanced wheel and no more than so much of the
+# power that goes into store make a state periodic; a march ends early only where they agree ten
+# times better.
+PERIODIC, STORED = 5e-3, 5e-3
+_POWERS = ("drive", "actuator", "load", "friction")
 _EARLY = 0.1
 _BLOCKS = 3
 _BLOCK_SECONDS = 2e-3
@@ -57,13 +60,16 @@ class Judgement:
     Attributes
     ----------
     settled : bool
-        Three blocks agree, and the wheel is balanced.
+        Three blocks agree, the wheel is balanced, and next to nothing is stored.
     surely : bool
         They agree so well that nothing is gained by going on.
     spread : float
         Of the blocks' mean torques, over the torque without vibration.
     balance : float
         What the mesh gives the wheel beyond the load, over the load, in all three.
+    stored : float
+        Mean power that goes into store, or out of it where negative, over the largest of the
+        powers, in all three.
     cycles : int
         In the blocks together.
     """
@@ -72,6 +78,7 @@ class Judgement:
     surely: bool
     spread: float
     balance: float
+    stored: float
     cycles: int
 
 
@@ -229,9 +236,20 @@ class March:
         means = per_block[measure].sum(axis=1) / per_block["time"].sum(axis=1) / scale
         spread = float(np.ptp(means))
         balance = self.balance(last)
-        settled = spread <= PERIODIC and abs(balance) <= BALANCED
-        surely = spread <= _EARLY * PERIODIC and abs(balance) <= _EARLY * BALANCED
-        return Judgement(settled, settled and surely, spread, balance, last.size)
+        stored = self.into_store(last.size)
+        off = max(spread / PERIODIC, abs(balance) / BALANCED, abs(stored) / STORED)
+        return Judgement(off <= 1.0, off <= _EARLY, spread, balance, stored, last.size)
+
+    def into_store(self, cycles: int) -> float:
+        """Return what the last cycles have stored, over the largest of their powers.
+
+        A heavy worm is slowed and speeded up, or a soft shaft wound up, long after torque and wheel
+        agree from block to block.
+        """
+        last = self.rows[-cycles:]
+        before = self.stored if cycles == self.rows.size else self.rows[-cycles - 1]["stored"]
+        most = max(abs(last[name].sum()) for name in _POWERS)
+        return float((last["stored"][-1] - before) / most) if most else 0.0
 
     def balance(self, rows: Records) -> float:
         """Return what the mesh gives the wheel beyond its load, over that.

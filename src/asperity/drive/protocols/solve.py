@@ -27,6 +27,7 @@ _AFTER_SECONDS = 40e-3
 _QUASI_STATIC = 1.0 / 3.0
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
+_OF_BLOCKS = {"back-drive": "wheel's speed", "held-wheel": "wheel's torque"}
 _ADVICE = "give a smaller solve.step"
 _WORM_ALONE = ("held-wheel", "back-drive")  # protocols that have no sliding of their own
 
@@ -110,7 +111,7 @@ def _first_cycles(march: March, window: int, torque: float) -> Judgement:
     march.go(window - march.rows.size)
     rows = march.rows
     spread = float(np.ptp(rows["torque"] / rows["time"])) / torque
-    return Judgement(False, False, spread, march.balance(rows), window)
+    return Judgement(False, False, spread, march.balance(rows), march.into_store(window), window)
 
 
 def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: Run) -> bool | None:
@@ -265,9 +266,11 @@ def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tup
             f"{100.0 * judged.balance:.2g} %: no state that lasts"
         )
     elif not judged.settled:
+        what = _OF_BLOCKS.get(problem.drive.protocol, "torque ratio")
         notes.append(
-            f"aperiodic: the torque ratio of three blocks of cycles spreads by "
-            f"{judged.spread:.2g}, and the wheel is out of balance by {100 * judged.balance:.2g} %"
+            f"aperiodic: the {what} of three blocks of cycles spreads by {judged.spread:.2g}, the "
+            f"wheel is out of balance by {100 * judged.balance:.2g} %, and "
+            f"{100 * judged.stored:.2g} % of the power goes into store"
         )
     mode, frequency = model.tooth_mode, problem.vibrated[1].frequency
     if mode is not None and frequency > _QUASI_STATIC * mode:

@@ -29,7 +29,7 @@ class Controller(Table):
         What ends a line both ways.
     set_waveform, set_frequency, start, stop : str
         Commands; ``{waveform}`` and ``{frequency}`` (Hz) stand for what is set, with a format as
-        in ``{frequency:.0f}``.
+        in ``{frequency:.0f}``; not in ``stop``, which is sent before anything is set.
     answer : str
         What it answers to each of them; empty: nothing.
     identify, ask_frequency, keep_alive : str
@@ -73,6 +73,11 @@ class Controller(Table):
                     f"controller.{key} is {text!r}; it may hold {{waveform}} and {{frequency}}, "
                     f"not {choices(sorted(wrong))}"
                 )
+        if "{" in self.stop:
+            raise InputError(
+                f"controller.stop is {self.stop!r}; it is sent before anything is set, and may "
+                "hold neither {waveform} nor {frequency}"
+            )
         for key in ("set_waveform", "set_frequency", "start", "stop", "answer", "identify",
                     "ask_frequency", "keep_alive", "sine", "triangle"):  # fmt: skip
             if not getattr(self, key).isascii():

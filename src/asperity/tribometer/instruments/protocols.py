@@ -40,6 +40,20 @@ class InstrumentError(AsperityError):
         self.kind = kind
 
 
+class MadeSafe(KeyboardInterrupt):
+    """Ctrl-C that came while everything was made safe.
+
+    Parameters
+    ----------
+    failures : tuple of str
+        What could not be switched off.
+    """
+
+    def __init__(self, failures: tuple[str, ...]) -> None:
+        super().__init__("interrupted")
+        self.failures = failures
+
+
 @dataclasses.dataclass(frozen=True)
 class Input:
     """An input of an oscilloscope.
@@ -274,24 +288,26 @@ class Bench:
         -------
         tuple of str
             What could not be switched off; one failure keeps none of the others.
+
+        Raises
+        ------
+        MadeSafe
+            Ctrl-C came meanwhile, which turns to the next instrument and ends nothing.
         """
-        failures, interrupted = [], None
-        waiting = list(self.instruments)
-        while waiting:
-            instrument = waiting.pop(0)
+        left, pressed = list(self.instruments), 0
+        failures: list[str] = []
+        while left:
             try:
-                instrument.safe()
-            except KeyboardInterrupt as error:
-                if interrupted is None:
-                    # It may have been in the middle of this one: once more, and on with the rest.
-                    waiting.insert(0, instrument)
-                interrupted = error
-            except (InstrumentError, OSError) as error:
-                failures.append(f"{instrument.name}: {error}")
-            except Exception as error:  # of a driver, or our own: the motors must stop all the same
-                failures.append(f"{instrument.name}: {type(error).__name__}: {error}")
-        if interrupted is not None:
-            raise interrupted
+                _switch_off(left, failures)
+            except KeyboardInterrupt:
+                pressed += 1
+                if pressed > len(self.instruments):
+                    failures += [f"{instrument.name}: interrupted" for instrument in left]
+                    break
+                # Whatever it was at may hang: the others first.
+                left.append(left.pop(0))
+        if pressed:
+            raise MadeSafe(tuple(failures))
         return tuple(failures)
 
     def close(self) -> None:
@@ -299,3 +315,15 @@ class Bench:
         for instrument in self.instruments:
             with contextlib.suppress(Exception):
                 instrument.close()
+
+
+def _switch_off(left: list[Instrument], failures: list[str]) -> None:
+    """Switch instruments off, in their order, and take those that are done off the list."""
+    while left:
+        try:
+            left[0].safe()
+        except (InstrumentError, OSError) as error:
+            failures.append(f"{left[0].name}: {error}")
+        except Exception as error:  # of a driver, or our own: the motors must stop all the same
+            failures.append(f"{left[0].name}: {type(error).__name__}: {error}")
+        left.pop(0)

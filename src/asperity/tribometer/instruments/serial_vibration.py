@@ -106,13 +106,7 @@ class SerialVibration:
 
     def _tell(self, command: str) -> None:
         """Send a command and look at the answer, if the dialect has one."""
-        try:
-            text = command.format(**self._set)
-        except KeyError as error:
-            raise InstrumentError(
-                f"{self.name}: {command!r} needs the {error.args[0]}, which is not set yet",
-                kind="not safe",
-            ) from None
+        text = command.format(**self._set)
         if not self._says.answer:
             self._send(text)
             return

@@ -19,7 +19,7 @@ from asperity.runs import Run
 from asperity.runs.interrupt import Interrupted, terminable
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
-from asperity.tribometer.instruments.protocols import Bench, InstrumentError, WallClock
+from asperity.tribometer.instruments.protocols import Bench, InstrumentError, MadeSafe, WallClock
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
@@ -155,7 +155,10 @@ class Machine:
 
     def _ended(self, error: BaseException) -> AsperityError:
         """Make everything safe, then say why; what is no fault of the rig is raised on."""
-        failures = self._bench.safe()
+        try:
+            failures = self._bench.safe()
+        except MadeSafe as again:
+            error, failures = again, again.failures
         still = {"still_on": list(failures)} if failures else {}
         if self._logger is not None:
             self._logger.abandon()

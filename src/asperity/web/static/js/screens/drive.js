@@ -56,14 +56,16 @@ function Ledger({ answer, found }) {
 function Worth({ answer, found }) {
   const electrical = answer.system_efficiency !== null;
   const [after, before] = electrical ? [answer.system_efficiency, answer.efficiency_static]
-    : [1 / answer.energy_ratio, 1];
+    : [0.995 / answer.energy_ratio, 1];
   const says = electrical
     ? `with the actuator's electrical power the efficiency is ${digits(100 * after, 3)} %, `
       + `without vibration ${digits(100 * before, 3)} %`
     : `mechanical power put in is ${digits(answer.energy_ratio, 3)} times that without; `
       + "give an [actuator] for its electrical power";
   return html`<h3>Worth it?</h3>
-    <p><${Verdict} ok=${after > before} yes="it saves power" no="it takes more power than it saves" /> ${says}</p>
+    <p>${answer.settled
+      ? html`<${Verdict} ok=${after > before} yes="it saves power" no="it saves no power" />`
+      : "no verdict, since the state has not settled:"} ${says}</p>
     ${answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
       ${` motor ${answer.motor_shaken} for ${answer.motor_plain}; with the actuator `}
