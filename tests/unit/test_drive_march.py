@@ -403,3 +403,34 @@ def test_a_cycle_marched_in_parts_is_the_same_cycle(monkeypatch):
     assert parts.force_max == pytest.approx(whole.force_max, rel=1e-9)
     assert parts.ledger.friction == pytest.approx(whole.ledger.friction, rel=1e-9)
     assert parts.steps == whole.steps
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ("drive.worm_inertia=100 kg m**2",),
+        (
+            "drive.worm_inertia=1e-3 kg m**2",
+            "shaft.torsional_stiffness=1 N m/rad",
+            "vibration.frequency=20 kHz",
+        ),
+    ],
+)
+def test_a_drive_whose_power_goes_into_store_is_not_settled_though_its_torque_stays(settings):
+    found = solved("vibration.velocity_ratio=1.5", *settings)
+    assert abs(found.spread) < 5e-3
+    assert abs(found.torque_balance) < 5e-3
+    assert abs(found.ledger.stored) > 0.05 * found.ledger.drive
+    assert not found.settled
+    assert any("of the power goes into store" in note for note in found.notes)
+    torque, energy, _ = found.headline()
+    assert torque.endswith("a ratio that need not last")
+    assert "saves" not in energy
+
+
+def test_a_load_beyond_the_table_of_deflections_is_told():
+    most = problem().drive.deflection[-1][0]
+    for load, beyond in ((most, False), (2.0 * most, True)):
+        given = solved(f"operation.output_torque={load} N m", "drive.protocol=window")
+        said = [note for note in given.notes if "it is carried on beyond its end" in note]
+        assert len(said) == beyond

@@ -128,6 +128,18 @@ def test_an_interrupted_work_goes_on_where_it_was(tmp_path):
     assert told == []
 
 
+def test_what_was_kept_before_is_told_where_nothing_is_kept_now(tmp_path):
+    run = Run(folder=tmp_path)
+    run.resume(KEY)
+    with run.going_on():
+        run._keeper.keep({"done": 3})
+        os.kill(os.getpid(), signal.SIGINT)
+        with pytest.raises(
+            Interrupted, match=r"after 3 of 9 cycles; the same command goes on from"
+        ):
+            run.checkpoint(3, 9, what="cycles")
+
+
 def test_a_state_of_something_else_is_not_gone_on_from(tmp_path):
     with pytest.raises(Interrupted):
         work(Run(folder=tmp_path), 100, press_at=40)

@@ -127,7 +127,10 @@ def plot_powers(dataset: "xr.Dataset") -> "Figure":
         [name for _, name, _ in _POWERS], values, color=[colour for *_, colour in _POWERS],
         height=0.6,
     )  # fmt: skip
-    axes.bar_label(bars, [_power(value) for value in values], padding=3)
+    # To the right of zero and of its bar: to the left of a short one stand the names.
+    for value, bar in zip(values, bars, strict=True):
+        at = (max(value, 0.0), bar.get_y() + 0.5 * bar.get_height())
+        axes.annotate(_power(value), at, (3.0, 0.0), textcoords="offset points", va="center")
     axes.axhline(1.5, color=BLACK, linewidth=0.8)
     axes.invert_yaxis()
     axes.margins(x=0.15)

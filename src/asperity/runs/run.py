@@ -153,14 +153,14 @@ class Run:
             Ctrl-C was pressed; what is kept is said.
         """
         self._tell(done, total)
-        keeper = self._keeper if state is not None else None
+        keeper = self._keeper
         if self._ears.heard:
             line = f"interrupted after {done} of {total} {what}"
             if keeper is not None and state is not None and done:
                 with contextlib.suppress(StorageError):
                     keeper.keep(state())
-                if keeper.kept:
-                    line += f"; the same command goes on from {keeper.path}"
+            if keeper is not None and keeper.kept:
+                line += f"; the same command goes on from {keeper.path}"
             raise Interrupted(line)
         if keeper is not None and state is not None:
             keeper.now_and_then(state)

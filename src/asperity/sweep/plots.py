@@ -114,7 +114,7 @@ def _mark_unsettled(
     places = along.values if _is_numeric(along) else np.arange(along.size)
     for column, out in zip(values.T, loose.T, strict=True):
         panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)
-    panel.set_title(balances(dataset), loc="left", fontsize=10.0)
+    panel.set_title(balances(dataset).replace("; ", ";\n"), loc="left", fontsize=10.0)
 
 
 def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:

@@ -177,6 +177,11 @@ class TeethSetup:
     def notes(self) -> list[str]:
         """Return what stands at the head of a deck."""
         end = self.balance
+        teeth, sharing = self.model.sector.teeth, np.count_nonzero(end.action.normal)
+        alone = (
+            f" Its load is shared by {sharing} teeth, and this deck has {teeth}: its torques are "
+            "smaller, and only their ratio may be compared."
+        )
         return [
             "SI units: m, kg, s, N, Pa. The wheel's axis is Z through the origin, its middle tooth "
             "about +Y.",
@@ -186,7 +191,7 @@ class TeethSetup:
             "runs, until friction is that of sliding.",
             f"asperity itself, on exact flanks, shaft rigid: {self.problem.load:.6g} N m on the "
             f"wheel, {end.worm_torque:.6g} N m on the worm, ratio "
-            f"{self.problem.load / end.worm_torque:.5g}.",
+            f"{self.problem.load / end.worm_torque:.5g}." + (alone if teeth < sharing else ""),
         ]
 
 

@@ -138,18 +138,18 @@ class March:
         calls = self.mesh.step_seconds * self.cycle / (_CALL_SECONDS * self.system.longest)
         while self.rows.size < target:
             if calls > 1.0:
-                found = self._slow_cycle(math.ceil(calls))
+                found = self._slow_cycle(math.ceil(calls), max(of, target))
             else:
                 count = min(max(1, int(1.0 / calls)), target - self.rows.size)
                 found = self.stretches(count, self.cycle)
             self.rows = np.concatenate([self.rows, found])
             self._run.checkpoint(self.rows.size, max(of, target), self._kept, "cycles")
 
-    def _slow_cycle(self, calls: int) -> Records:
+    def _slow_cycle(self, calls: int, of: int) -> Records:
         """March one cycle in so many calls, between which Ctrl-C is heard."""
         whole = self.stretches(1, self.cycle / calls)
         for _ in range(calls - 1):
-            self._run.checkpoint(self.rows.size, self.rows.size + 1, what="cycles")
+            self._run.checkpoint(self.rows.size, of, what="cycles")
             part = self.stretches(1, self.cycle / calls)
             for name in whole.dtype.names or ():
                 if name.endswith("_min"):
@@ -216,7 +216,7 @@ class March:
         # Its ramp is no part of a periodic state.
         ramp = math.ceil(self.system.wave.ramp)
         most = ramp + longest_march(block, self.system.frequency, duration)
-        steps = most * self.cycle / self.system.longest
+        steps = (most - self.rows.size) * self.cycle / self.system.longest
         self._run.forecast(self.mesh.step_seconds * steps, f"{steps:.3g} steps")
         if self.rows.size < ramp:
             self.go(ramp - self.rows.size, of=most)

@@ -221,8 +221,8 @@ class ReducedModel:
 
     @property
     def tooth_mode(self) -> float | None:
-        """Lowest natural frequency of a tooth, Hz; None of a mesh without teeth."""
-        return None
+        """Lowest natural frequency of a tooth, Hz; None where teeth are not known."""
+        return self.reduction.mode
 
     @property
     def pitch(self) -> float | None:

@@ -30,12 +30,15 @@ class Reduction:
         Of the teeth along the flank, m/N.
     notes : tuple of str
         Where they come from, as far as a reader should know.
+    mode : float or None
+        Lowest natural frequency of a tooth, Hz; None where teeth are not known.
     """
 
     radius: float | None
     deflection: tuple[tuple[float, float], ...]
     compliance: float
     notes: tuple[str, ...] = ()
+    mode: float | None = None
 
 
 def reduction(problem: DriveProblem, run: Run) -> Reduction:
@@ -51,6 +54,12 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
         )
     if drive.tangential_compliance is None:
         notes.append("drive.tangential_compliance is left out: teeth are rigid along the flank")
+    most = max(torque for torque, _ in drive.deflection)
+    if problem.load > most:
+        notes.append(
+            f"drive.deflection goes up to {most:.4g} N m, and the load is {problem.load:.4g} N m: "
+            "it is carried on beyond its end"
+        )
     return Reduction(
         drive.effective_radius, drive.deflection, drive.tangential_compliance or 0.0, tuple(notes)
     )
@@ -103,4 +112,5 @@ def _of_teeth(problem: DriveProblem, run: Run) -> Reduction:
             f"deflection, radius and compliance are those of {drive.teeth} elastic teeth on a rim, "
             f"{drive.density} mesh",
         ),
+        teeth.mode,
     )

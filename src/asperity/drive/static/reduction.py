@@ -13,6 +13,7 @@ from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.solve import StaticModel, contact_means
 from asperity.drive.static.sweep import Asked
 from asperity.drive.teeth.contact import TeethContact
+from asperity.drive.teeth.mode import lowest_mode
 from asperity.errors import InputError
 from asperity.runs import Run
 
@@ -32,6 +33,7 @@ class TeethReduced:
     radius: float  #: Effective radius on the worm: the closed form's with the same torque, m
     compliance: float  #: Of the teeth along the flank, m/N
     normal_force: float  #: Under the load, N
+    mode: float  #: Lowest natural frequency of a tooth cut out with its rim, Hz
 
 
 def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> TeethReduced:
@@ -66,6 +68,7 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
         radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
         compliance=float(compliance),
         normal_force=float(whole / phases),
+        mode=lowest_mode(model.sector.wheel, problem.gearset.wheel_material),
     )
 
 
