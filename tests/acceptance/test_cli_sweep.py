@@ -89,3 +89,15 @@ def test_a_cache_folder_that_cannot_be_written_costs_a_line(asperity, new_user):
     assert code == 0
     assert len(json.loads(output)["ratio"]) == 3
     assert errors == "no cache folder can be written to; results are not kept\n"
+
+
+def test_words_that_do_not_go_together_are_told_of_their_point(asperity):
+    code, output, errors = asperity(
+        "sweep", "drive-screw", "--over", "vibration.mode=axial,screw",
+        "--over", "vibration.applied_to=worm,wheel",
+    )  # fmt: skip
+    assert (code, output) == (2, "")
+    assert errors == (
+        "drive-screw: vibration.mode=axial, vibration.applied_to=wheel: vibration.applied_to is "
+        "'wheel'; vibration.mode 'axial' is applied to 'worm' or 'seat'\n"
+    )

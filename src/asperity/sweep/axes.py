@@ -160,6 +160,9 @@ def read_grid(
         for setting, axis in zip(first, written, strict=True):
             message = message.replace(f"--set {setting}:", f"{axis.text}:")
         raise InputError(message) from None
+    axes = {axis.path for axis in written}
+    own = {path: setting for path, setting in case.settings.items() if path not in axes}
+    case = dataclasses.replace(case, settings=own)
     return case, _within_bounds([_axis(axis, case) for axis in written])
 
 

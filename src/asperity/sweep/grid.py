@@ -79,7 +79,8 @@ class Grid:
             except AsperityError as error:
                 # A word that is not known is a slip; numbers within their bounds may not agree.
                 if not (self.subject.gaps and all(axis.numeric for axis in self.axes)):
-                    raise InputError(f"{self.describe(index)}: {error}") from None
+                    why = str(error).removeprefix(f"{self.case.source}: ")
+                    raise InputError(f"{self.describe(index)}: {why}") from None
                 name = key(self.subject.name, self.describe(index), str(error))
                 yield Point(index, error, name, ())
 
