@@ -180,7 +180,7 @@ def test_a_wheel_is_cut_and_its_lines_move_with_the_worm_where_nothing_draws_in_
     seen.page.add_init_script(NO_WEBGL)
     page = seen.open("flanks", case="gearset-3")
     page.get_by_role("button", name="cut the wheel").click()
-    page.get_by_text("the lines in touch").wait_for(timeout=LONGEST)
+    page.get_by_text("the lines nearest to the worm").wait_for(timeout=LONGEST)
     expect(page.get_by_text("no WebGL")).to_be_visible()
     lines = page.locator(".touching")
     before = lines.get_attribute("d")
@@ -232,7 +232,7 @@ def test_in_space_it_takes_few_calls_a_frame_and_turns(browser, server):
         seen.page.add_init_script(COUNT_CALLS)
         page = seen.open("flanks", case="gearset-3")
         page.get_by_role("button", name="cut the wheel").click()
-        page.get_by_text("the lines in touch").wait_for(timeout=LONGEST)
+        page.get_by_text("the lines nearest to the worm").wait_for(timeout=LONGEST)
         # Nothing turns by itself where somebody wants none of it.
         expect(page.get_by_role("button", name="play")).to_be_visible()
         page.get_by_label("shown", exact=True).select_option("whole")
@@ -259,7 +259,7 @@ def picture(page):
     [
         ("gear", "gearset-3", "", "First to fail"),
         ("size", "gearset-3", "find the most efficient designs", "rounded optimum"),
-        ("flanks", "gearset-3", "cut the wheel", "the lines in touch"),
+        ("flanks", "gearset-3", "cut the wheel", "the lines nearest to the worm"),
         ("drive", "drive-actuator", "shake it", "Worth it?"),
     ],
 )

@@ -116,7 +116,7 @@ function Space({ gears, shown, options }) {
   </section>`;
 }
 
-/** The contact lines of an angle as they lie on a map. */
+/** The contact lines of an angle as they lie on a map: on them the gap is least, nought or not. */
 function linesOf({ header, arrays }, side, phi) {
   const n = nearest(header, phi);
   const [from, to] = arrays[`lines.begin.${side}`].slice(n, n + 2);
@@ -138,7 +138,8 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
     return { x: at.map((k) => p[k + 2]), y: at.map((k) => Math.hypot(p[k], p[k + 1])), cells };
   }, [gears, side]);
   const lines = linesOf(gears, side, phi);
-  const map = useMemo(() => told && html`<${FlankMap} title=${`${told.word}, flank s = ${side}, and the lines in touch`}
+  const title = `${told?.word}, flank s = ${side}, and the lines nearest to the worm`;
+  const map = useMemo(() => told && html`<${FlankMap} title=${title}
     label=${told.meaning} unit=${told.unit} ...${grid} values=${values} range=${range} lines=${lines} />`,
   [grid, values, lines]);
   const sides = ["+1", "-1"].map((each) => [each, header.sides[each]]);
