@@ -5,7 +5,7 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from asperity.errors import InputError, StorageError, plain
@@ -79,6 +79,23 @@ async def begun(module: str, *arguments: str) -> asyncio.subprocess.Process:
         sys.executable, "-P", "-m", module, *arguments,
         stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, start_new_session=True,
     )  # fmt: skip
+
+
+def lives(process: asyncio.subprocess.Process | None) -> bool:
+    """Return whether a process is there, and has not ended."""
+    return process is not None and process.returncode is None
+
+
+async def heard(process: asyncio.subprocess.Process, hear: Callable[[bytes], None]) -> None:
+    """Take the lines that a process says, until it says no more."""
+    assert process.stdout is not None
+    line = b" "
+    while line:
+        # A line that is longer than any of ours, or none of ours, ends nothing.
+        with contextlib.suppress(ValueError, KeyError):
+            line = await process.stdout.readline()
+            if line:
+                hear(line)
 
 
 def end(process: asyncio.subprocess.Process | None) -> None:

@@ -50,6 +50,19 @@ TOLERANCES = (
         ("thesis *", place, 1e-6, "exhibits of the optimised gearsets, found as above")
         for place in ("figure-3.4.nc:*", "figure-3.5.nc:*", "table-3.6.csv:*", "table-3.7.csv:*")
     ),
+    (
+        "rig reduce *",
+        "*",
+        1e-8,
+        "sines and levels are fitted to noise, and linear algebra has its own kernels for each "
+        "processor: 3e-10 between one with and one without AVX-512",
+    ),
+    (
+        "export table-4.4 *",
+        "law.csv:across *",
+        1.0,
+        "there is no force across: what stands there is rounding, 1e-11 of the force along",
+    ),
     ("flank *", "*.glb:*", 1e-6, "vertices are written in single precision"),
     ("flank *", "*.stl:*", 1e-6, "vertices are written in single precision"),
 )

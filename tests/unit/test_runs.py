@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from asperity.errors import StorageError
 from asperity.runs import Interrupted, Run
 from asperity.runs import run as run_module
 from asperity.runs.cache import Cache
@@ -235,6 +236,20 @@ def test_before_more_than_two_steps_are_measured_nothing_is_forecast(timed):
     run.checkpoint(3, 100)
     run.checkpoint(4, 100)
     assert len(told) == 1
+
+
+def test_a_look_that_cannot_be_written_ends_nothing_and_is_told_once():
+    looks, told = [], []
+
+    def look(made):
+        looks.append(made())
+        raise StorageError("so-far.nc cannot be written: no space left on device")
+
+    run = Run(watch=look, notify=told.append)
+    for n in range(2):
+        run.watch(lambda n=n: n)
+    assert looks == [0]
+    assert told == ["so-far.nc cannot be written: no space left on device; goes on without"]
 
 
 def test_a_short_work_is_not_announced(timed):

@@ -70,7 +70,7 @@ class Run:
         watch: Watch | None = None,
     ) -> None:
         self.notify = notify or _silent
-        self.watch = watch or _silent
+        self._watch = watch or _silent
         self._progress = progress or _silent
         self._begun: tuple[float, int] | None = None
         self._marks: list[tuple[float, int]] = []
@@ -80,6 +80,14 @@ class Run:
         self._path = None if folder is None else folder / f"{stem}.interrupted.npz"
         self._keeper: Keeper | None = None
         self._ears = Ears()
+
+    def watch(self, made: Callable[[], Any]) -> None:
+        """Let what is there of an answer be looked at; a full disk costs the look and no more."""
+        try:
+            self._watch(made)
+        except StorageError as error:
+            self._watch = _silent
+            self.notify(f"{error}; goes on without")
 
     def forecast(self, seconds: float, what: str) -> None:
         """Announce a work that will take long, before it begins.

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import StorageError
-from asperity.processes import begun, end
+from asperity.processes import begun, end, heard
 from asperity.store import read_bytes, read_text, reason, write_text
 from asperity.web.folder import ANSWER, REQUEST, STATE, Folder
 from asperity.web.guard import Refused
@@ -171,7 +171,7 @@ class Jobs:
             job.process = await begun("asperity.web.job", str(self._folder.path), job.id)
             if job.stopping:
                 end(job.process)
-            await _heard(job, job.process)
+            await heard(job.process, job.hear)
             ended = job.ended(await job.process.wait())
         except OSError as error:
             job.error, job.exit_code = f"the job cannot begin: {error}", 1
@@ -181,15 +181,3 @@ class Jobs:
             job.process = None
             job.set(ended)
             self._next()
-
-
-async def _heard(job: Job, process: asyncio.subprocess.Process) -> None:
-    """Take what a job's process says, until it says no more."""
-    assert process.stdout is not None
-    line = b" "
-    while line:
-        # A line that is longer than any of ours, or none of ours, ends nothing.
-        with contextlib.suppress(ValueError, KeyError):
-            line = await process.stdout.readline()
-            if line:
-                job.hear(line)

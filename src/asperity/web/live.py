@@ -45,11 +45,14 @@ class Live:
         self._reader: asyncio.Task[None] | None = None
 
     async def start(self) -> None:
-        """Begin the process; it warms by itself."""
+        """Begin the process, which warms by itself; where it cannot, whoever asks next does."""
         self.up.clear()
         self.ready.clear()
         self._frames = asyncio.Queue()
-        self._process = await processes.begun(*self._begin)
+        try:
+            self._process = await processes.begun(*self._begin)
+        except OSError:
+            return
         self._reader = asyncio.create_task(self._read(self._process, self._frames))
 
     def kill(self) -> None:
@@ -79,22 +82,17 @@ class Live:
         asked = VERBS[verb]
         for _ in range(_TRIES):
             # What it takes to begin, on a busy machine or for the first time, is not its answer's.
-            if self._lives:
+            if processes.lives(self._process):
                 with contextlib.suppress(TimeoutError):
                     begun = self.ready if asked.kernels else self.up
                     await asyncio.wait_for(begun.wait(), _SLOWEST_START)
             async with self._turn:
                 if await gone():
                     return _line(499, "nobody waits for the answer", 1)
-                if self._lives:
+                if processes.lives(self._process):
                     return await self._answer(verb, body, asked.seconds)
-                with contextlib.suppress(OSError):
-                    await self.start()
+                await self.start()
         return _line(500, f"the process that answers {verb} does not begin", 1)
-
-    @property
-    def _lives(self) -> bool:
-        return self._process is not None and self._process.returncode is None
 
     async def _answer(self, verb: str, body: bytes, seconds: float) -> Answer:
         process = self._process
@@ -119,8 +117,7 @@ class Live:
 
     async def _again(self) -> None:
         await self.stop()
-        with contextlib.suppress(OSError):  # whoever asks next begins it
-            await self.start()
+        await self.start()
 
     async def _read(
         self, process: asyncio.subprocess.Process, frames: asyncio.Queue[Answer | None]

@@ -2,7 +2,6 @@
 
 import contextlib
 import json
-import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 from asperity.casefile import Case
 from asperity.commands.asked import Asked
 from asperity.commands.execution import Teller
-from asperity.errors import ConvergenceError, StorageError
+from asperity.errors import ConvergenceError
 from asperity.results import Result
 from asperity.results.files import write_content
 from asperity.store import write_text
@@ -57,12 +56,7 @@ class JobTeller(Teller):
         """Leave what is there of an answer where it is looked at, in a tenth of the time."""
         began = time.monotonic()
         if began >= self._look:
-            try:
-                made().save(self._home / SO_FAR)
-            except StorageError as error:
-                self.note(f"{error}; goes on without")
-                self._look = math.inf
-                return
+            made().save(self._home / SO_FAR)
             self._look = time.monotonic() + max(1.0, 10.0 * (time.monotonic() - began))
 
     def unsolved(self, error: ConvergenceError) -> None:

@@ -192,8 +192,8 @@ class March:
         return rows
 
     def settle(
-        self, *, window: int, scale: float, duration: float | None, measure: str = "torque",
-        pitch: float | None = None,
+        self, *, window: int, scale: float, power: float, duration: float | None,
+        measure: str = "torque", pitch: float | None = None,
     ) -> Judgement:  # fmt: skip
         """March until the state is periodic, or for as long as that is waited for.
 
@@ -203,6 +203,8 @@ class March:
             Least cycles in a block.
         scale : float
             Of what is to stay: the torque without vibration, N m.
+        power : float
+            Of the motor without vibration, W.
         measure : str
             What is to stay, by the name of its sum.
         duration : float, optional
@@ -224,32 +226,33 @@ class March:
         while True:
             marched = self.rows.size - ramp
             if marched >= _BLOCKS * block and marched % block == 0:
-                found = self.judged(block, measure, scale)
+                found = self.judged(block, measure, scale, power)
                 if found.surely or self.rows.size >= most:
                     return found
             self.go(block - marched % block, of=most)
 
-    def judged(self, block: int, measure: str, scale: float) -> Judgement:
+    def judged(self, block: int, measure: str, scale: float, power: float) -> Judgement:
         """Judge the last three blocks of so many cycles; parameters as in `settle`."""
         last = self.rows[-_BLOCKS * block :]
         per_block = last.reshape(_BLOCKS, block)
         means = per_block[measure].sum(axis=1) / per_block["time"].sum(axis=1) / scale
         spread = float(np.ptp(means))
         balance = self.balance(last)
-        stored = self.into_store(last.size)
+        stored = self.into_store(last.size, power)
         off = max(spread / PERIODIC, abs(balance) / BALANCED, abs(stored) / STORED)
         return Judgement(off <= 1.0, off <= _EARLY, spread, balance, stored, last.size)
 
-    def into_store(self, cycles: int) -> float:
+    def into_store(self, cycles: int, power: float) -> float:
         """Return what the last cycles have stored, over the largest of their powers.
 
         A heavy worm is slowed and speeded up, or a soft shaft wound up, long after torque and wheel
-        agree from block to block.
+        agree from block to block. Where next to nothing moves, the motor's power without vibration
+        says what is little.
         """
         last = self.rows[-cycles:]
         before = self.stored if cycles == self.rows.size else self.rows[-cycles - 1]["stored"]
-        most = max(abs(last[name].sum()) for name in _POWERS)
-        return float((last["stored"][-1] - before) / most) if most else 0.0
+        most = max(*(abs(last[name].sum()) for name in _POWERS), power * last["time"].sum())
+        return float((last["stored"][-1] - before) / most)
 
     def balance(self, rows: Records) -> float:
         """Return what the mesh gives the wheel beyond its load, over that.

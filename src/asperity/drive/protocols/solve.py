@@ -60,14 +60,16 @@ def solve_shaken(
     if kept := run.resume(key(code_key(__name__, type(model).__module__), asked(problem))):
         march.restore(kept)
     window = problem.drive.window
+    power = model.worm_torque * problem.worm_speed
     with run.going_on():
         shown: Records | None = None
         if problem.drive.protocol == "window":
-            judged = _first_cycles(march, window, model.worm_torque)
+            judged = _first_cycles(march, window, model.worm_torque, power)
         else:
             measure, scale = _measured(problem, model)
             judged = march.settle(
-                window=window, measure=measure, scale=scale, duration=problem.solve.duration,
+                window=window, measure=measure, scale=scale, power=power,
+                duration=problem.solve.duration,
                 pitch=model.pitch if moving.speed else None,
             )  # fmt: skip
         creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
@@ -106,12 +108,13 @@ def _measured(problem: DriveProblem, model: ReducedModel) -> tuple[str, float]:
     return "torque", model.worm_torque
 
 
-def _first_cycles(march: March, window: int, torque: float) -> Judgement:
+def _first_cycles(march: March, window: int, torque: float, power: float) -> Judgement:
     """March the first cycles alone; they are not a periodic state, whatever they look like."""
     march.go(window - march.rows.size)
     rows = march.rows
     spread = float(np.ptp(rows["torque"] / rows["time"])) / torque
-    return Judgement(False, False, spread, march.balance(rows), march.into_store(window), window)
+    stored = march.into_store(window, power)
+    return Judgement(False, False, spread, march.balance(rows), stored, window)
 
 
 def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: Run) -> bool | None:
