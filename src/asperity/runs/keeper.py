@@ -39,7 +39,13 @@ class Keeper:
         self._next = time.monotonic() + _PAUSE
 
     def restore(self) -> Tree | None:
-        """Return the state a work like this was left in, None where there is none."""
+        """Return the state a work like this was left in, None where there is none.
+
+        Raises
+        ------
+        StorageError
+            There is one that cannot be read, and would be written over.
+        """
         try:
             tree = read_tree(self.path)
         except DamagedError as error:
@@ -48,8 +54,10 @@ class Keeper:
         except FileNotFoundError:
             return None
         except OSError as error:
-            self._notify(f"{self.path} cannot be read: {reason(error)}; begins anew")
-            return None
+            raise StorageError(
+                f"{self.path} cannot be read: {reason(error)}; it holds what was done before: make "
+                "it readable, or take it away to begin anew"
+            ) from None
         if tree.get(_KEY) != self._key:
             self._notify(f"{self.path} is of another case or version; begins anew")
             return None

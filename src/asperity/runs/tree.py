@@ -4,6 +4,7 @@ A tree is a mapping of names to arrays, numbers, texts, truths, None, lists and 
 """
 
 import dataclasses
+import errno
 import json
 import os
 import types
@@ -72,6 +73,8 @@ def read_tree(path: str | os.PathLike[str]) -> Tree:
             tree: Tree = _restored(json.loads(str(arrays.pop(_PLAN))), arrays)
         except Exception as error:
             if whole and isinstance(error, MemoryError):
+                raise
+            if isinstance(error, OSError) and error.errno == errno.EIO:
                 raise
             # What a damaged file raises depends on the byte.
             raise DamagedError(f"{path} is damaged, or nothing of ours") from None
