@@ -63,6 +63,13 @@ TOLERANCES = (
         1.0,
         "there is no force across: what stands there is rounding, 1e-11 of the force along",
     ),
+    (
+        "flank *",
+        "*hertz_pressure_mean_MPa",
+        1e-10,
+        "a mean over lines that end where rounding has it: it moved by 5e-12 between one processor "
+        "with and one without AVX-512",
+    ),
     ("flank *", "*.glb:*", 1e-6, "vertices are written in single precision"),
     ("flank *", "*.stl:*", 1e-6, "vertices are written in single precision"),
 )

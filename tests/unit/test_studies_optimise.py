@@ -310,3 +310,19 @@ def test_a_fixed_tooth_friction_leaves_nothing_to_optimise():
     tables = case.require(Gearset), case.require(Operation), case.require(RatingOptions)
     with pytest.raises(InputError, match=r"^rating.friction is 0.05, .* leave it out"):
         optimise(*tables)
+
+
+def test_what_has_no_say_stays_as_near_as_it_may_to_where_it_was():
+    # The edition of 1998 knows no pressure angle: every one that the hob can cut is as good.
+    found = optimise(*gearset("gearset-3", "rating.iso14521_edition=1998"))
+    assert found.to_json()["optimum"]["pressure_angle_deg"] == pytest.approx(20.0, abs=0.5)
+    assert found.gain > 0.03
+
+
+def test_of_several_tops_the_nearest_to_the_first_start_is_taken():
+    def merit(points):
+        return np.stack([-((points[:, 0] - 0.5) ** 2), points[:, 0]], axis=-1)
+
+    top = climb(merit, [np.array([0.1, 0.3]), *spread(2, 8)])
+    assert top.point == pytest.approx([0.5, 0.3], abs=1e-6)
+    assert top.agreed == 9

@@ -25,6 +25,7 @@ _STEP = 1e-6
 _MARGIN = 1e-9
 _SLACK = 1e-12
 _SAME = 1e-6
+_TIED = 1e-9
 _BACK: FloatArray = np.array([0.0, *np.geomspace(1e-9, 1.0, 37)])
 _IMPOSSIBLE = -1.0
 _STILL = 1e-6
@@ -90,7 +91,8 @@ def climb(merit: Rows, starts: Sequence[FloatArray]) -> Top | None:
     Returns
     -------
     Top or None
-        The highest of the tops that keep all constraints; None if there is none.
+        The highest of the tops that keep all constraints, of several as high the one nearest to
+        the first start; None if there is none.
     """
     return climb_together(merit, [(lambda rows: rows, starts)])[0]
 
@@ -103,14 +105,17 @@ def climb_together(worth: Rows, hills: Sequence[Hill]) -> list[Top | None]:
     rope = _Rope(worth, len(climbers))
     with ThreadPoolExecutor(len(climbers)) as pool:
         ends = iter([*pool.map(rope.climb, range(len(climbers)), *zip(*climbers, strict=True))])
-    return [_highest([next(ends) for _ in starts]) for _, starts in hills]
+    return [_highest([next(ends) for _ in starts], starts[0]) for _, starts in hills]
 
 
-def _highest(ends: Sequence[tuple[float, FloatArray] | None]) -> Top | None:
+def _highest(ends: Sequence[tuple[float, FloatArray] | None], start: FloatArray) -> Top | None:
     tops = [end for end in ends if end is not None]
     if not tops:
         return None
-    height, point = max(tops, key=lambda top: top[0])
+    highest = max(height for height, _ in tops)
+    # Where a coordinate has no say, rounding alone would choose among tops.
+    tied = [top for top in tops if highest - top[0] <= _TIED]
+    height, point = min(tied, key=lambda top: float(np.linalg.norm(top[1] - start)))
     return Top(point, height, sum(height - other <= _SAME for other, _ in tops))
 
 
