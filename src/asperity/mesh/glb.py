@@ -28,6 +28,8 @@ _TURN_OF_A_KEY = 0.25
 _METAL = {"metallicFactor": 0.2, "roughnessFactor": 0.6}
 # Directions that agree so far are one.
 _DIGITS = 5
+# Cosine of the angle beyond which an edge is seen.
+_SMOOTH = math.cos(math.radians(30.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,22 +63,16 @@ class Node:
     colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
 
 
-def write_glb(
-    path: str | os.PathLike[str],
-    nodes: Sequence[Node],
-    *,
-    crease: float = 30.0,
-    seconds: float = 4.0,
-) -> Path:
+def write_glb(path: str | os.PathLike[str], nodes: Sequence[Node], *, seconds: float = 4.0) -> Path:
     """Write nodes, at least one, as a scene, atomically, shaded between creases.
 
-    A crease is an edge at which two triangles meet that is seen: beyond this angle in degrees. glTF
+    A crease is an edge at which two triangles meet that is seen: beyond 30 degrees. glTF
     counts in metres and has y upwards: the file holds a scale and a turn, the coordinates stay.
     Nodes that turn have an animation that goes through the scene's cycle in so many ``seconds``.
     """
     if not nodes:
         raise InputError("there is no surface to write; give at least one")
-    scene = _Scene(math.cos(math.radians(crease)), seconds)
+    scene = _Scene(seconds)
     children = [scene.node(node) for node in nodes]
     if len(scene.units) != 1:
         raise InputError("a scene needs surfaces, all of one unit")
@@ -95,11 +91,11 @@ def write_glb(
 class _Scene:
     """What a file holds, as it grows."""
 
-    def __init__(self, smooth: float, seconds: float) -> None:
+    def __init__(self, seconds: float) -> None:
         self.binary = bytearray()
         self.nodes: list[dict[str, Any]] = []
         self.units: set[str] = set()
-        self._smooth, self._seconds = smooth, seconds
+        self._seconds = seconds
         self._views: list[dict[str, Any]] = []
         self._accessors: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
@@ -165,7 +161,7 @@ class _Scene:
         if known is not None:
             return known[0]
         self.units.add(surface.unit)
-        corner, normals = _shaded(surface, self._smooth)
+        corner, normals = _shaded(surface)
         # Corners that share point and normal are one vertex.
         keys = np.column_stack([corner, np.round(normals, _DIGITS) + 0.0])
         _, first, order = np.unique(keys, axis=0, return_index=True, return_inverse=True)
@@ -220,11 +216,11 @@ class _Scene:
         return len(self._accessors) - 1
 
 
-def _shaded(surface: Surface, smooth: float) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def _shaded(surface: Surface) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return the point and the normal of every corner of every triangle.
 
     A corner's normal is the mean of its point's mean normal and stays that of its own triangle
-    where the two differ by more than the crease.
+    where the two differ too much.
     """
     own = surface.normals()
     corners = surface.triangles
@@ -234,7 +230,7 @@ def _shaded(surface: Surface, smooth: float) -> tuple[NDArray[np.int64], NDArray
     length = np.linalg.norm(mean, axis=1, keepdims=True)
     mean = np.divide(mean, length, out=np.zeros_like(mean), where=length > 0)
     normals = mean[corners]
-    sharp = np.einsum("mci,mi->mc", normals, own) < smooth
+    sharp = np.einsum("mci,mi->mc", normals, own) < _SMOOTH
     normals[sharp] = np.broadcast_to(own[:, None], normals.shape)[sharp]
     # A triangle without area has no normal, and glTF allows none of length 0.
     normals[np.linalg.norm(normals, axis=-1) == 0] = [0.0, 0.0, 1.0]

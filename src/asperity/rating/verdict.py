@@ -147,8 +147,8 @@ class Verdict(NamedTuple):
             "film": None if self.film is None else self.film.to_json(),
         }
 
-    def sentences(self, within: str = "verdict") -> Iterator[str]:
-        """Yield whether it holds, and what fails first; it stands ``within`` that in JSON."""
+    def sentences(self) -> Iterator[str]:
+        """Yield whether it holds, and what fails first."""
         holds = [NAMES[name] for name, holds in self.holds.items() if holds]
         fails = [NAMES[name] for name, holds in self.holds.items() if not holds]
         parts = [f"does not hold by {_and(fails)}"] if fails else []
@@ -157,7 +157,7 @@ class Verdict(NamedTuple):
         first = self.first
         if first is None:
             return
-        d, own = first.demand, f"{within}.safeties.{self.safeties.index(first)}"
+        d, own = first.demand, f"verdict.safeties.{self.safeties.index(first)}"
         said: list[str] = [
             f"{'nearest to its limit' if first.holds else 'first to fail'}: {d.name} by "
             f"{NAMES[d.standard]}, {d.symbol} ",
@@ -168,14 +168,14 @@ class Verdict(NamedTuple):
         ]
         if self.levers:
             strongest = (
-                lever.told(f"{within}.moved_by.{place}")
+                lever.told(f"verdict.moved_by.{place}")
                 for place, lever in enumerate(self.levers[:_MOST_LEVERS])
             )
             said += ["; a percent of it brings most: ", Sentence.joined(strongest)]
         yield Sentence(*said)
         if self.alternatives:
             better = (
-                other.told(d.asked, f"{within}.alternatives.{place}")
+                other.told(d.asked, f"verdict.alternatives.{place}")
                 for place, other in enumerate(self.alternatives)
             )
             yield Sentence("best listed: ", Sentence.joined(better))

@@ -16,6 +16,7 @@ Words = Sequence[str]
 
 LETTERS = 3.0
 _ARROW = 2.0
+_HATCH = 1.6
 _PENS = {
     "wide": 'stroke-width="0.45"',
     "narrow": 'stroke-width="0.2"',
@@ -100,12 +101,12 @@ class Drawing:
             f"{''.join(map(_span, parts))}</text>"
         )
 
-    def arrow(self, tip: Point, towards: Point, size: float = _ARROW) -> None:
+    def arrow(self, tip: Point, towards: Point) -> None:
         """Draw the head of an arrow at its tip, coming from a point."""
         length = math.dist(tip, towards) or 1.0
         ux, uy = (tip[0] - towards[0]) / length, (tip[1] - towards[1]) / length
-        back = tip[0] - size * ux, tip[1] - size * uy
-        wide = size / 6.0
+        back = tip[0] - _ARROW * ux, tip[1] - _ARROW * uy
+        wide = _ARROW / 6.0
         corners = [tip, (back[0] - wide * uy, back[1] + wide * ux),
                    (back[0] + wide * uy, back[1] - wide * ux)]  # fmt: skip
         self.line(corners, "narrow", closed=True, fill="#000")
@@ -148,11 +149,11 @@ class Drawing:
             place = middle[0] if not beside else ends[1][0] + beside
             self.text((place, at - 0.8), words)
 
-    def hatch(self, corners: Sequence[Point], step: float = 1.6) -> None:
+    def hatch(self, corners: Sequence[Point]) -> None:
         """Draw lines at 45 degrees over what is cut: a polygon, by even and odd crossings."""
         turned = [(x + y, x - y) for x, y in corners]
         low, high = min(u for u, _ in turned), max(u for u, _ in turned)
-        u = low + 0.37 * step
+        u = low + 0.37 * _HATCH
         while u < high:
             crossings = []
             for (u0, v0), (u1, v1) in zip(turned, [*turned[1:], turned[0]], strict=True):
@@ -162,7 +163,7 @@ class Drawing:
             for v0, v1 in zip(crossings[::2], crossings[1::2], strict=False):
                 ends = [((u + v) / 2.0, (u - v) / 2.0) for v in (v0, v1)]
                 self.line(ends, "narrow")
-            u += step * math.sqrt(2.0)
+            u += _HATCH * math.sqrt(2.0)
 
     def svg(self) -> str:
         """Return the drawing as an element of a page, as large as it is on paper."""

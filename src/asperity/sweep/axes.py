@@ -163,7 +163,7 @@ def read_grid(
     axes = {axis.path for axis in written}
     own = {path: setting for path, setting in case.settings.items() if path not in axes}
     case = dataclasses.replace(case, settings=own)
-    return case, _within_bounds([_axis(axis, case) for axis in written])
+    return case, _within_bounds([_axis(axis) for axis in written])
 
 
 def read_first(
@@ -187,10 +187,10 @@ def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
     over, points
         As for `read_grid`.
     case : Case
-        Gives the tables, and the unit of a number without one.
+        Gives the tables.
     """
     written = _written(over, points, case.known, subject_of(case))
-    return _within_bounds([_axis(axis, case) for axis in written])
+    return _within_bounds([_axis(axis) for axis in written])
 
 
 def _named_tables(name_or_path: str, settings: Sequence[str]) -> dict[str, object]:
@@ -292,7 +292,7 @@ def _within_bounds(axes: list[Axis]) -> list[Axis]:
     return axes
 
 
-def _axis(written: _Written, case: Case) -> Axis:
+def _axis(written: _Written) -> Axis:
     quantity = written.quantity
     if quantity is None:
         return _words(written)

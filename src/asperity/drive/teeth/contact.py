@@ -67,8 +67,8 @@ class Action:
 
 
 @kernel
-def _act(body, stand, side, angles, candidates, answer, work, with_slope, out, slope, forces):
-    """Sum up what all teeth feel; where nothing is asked of the slope it stays 0."""
+def _act(body, side, angles, candidates, answer, work, out, slope, forces):
+    """Sum up what all teeth feel."""
     part = np.zeros(6)
     local = np.zeros((6, 6))
     two = np.zeros((2, 3))
@@ -85,8 +85,6 @@ def _act(body, stand, side, angles, candidates, answer, work, with_slope, out, s
         forces[k] = two[0]
         out[:3] += two[0]
         out[3:] += two[1]
-        if not with_slope:
-            continue
         local[:] = 0.0
         wrench_slope(body, own, answer_of(answer, k), work, local)
         for i in range(2):
@@ -112,8 +110,6 @@ class TeethContact:
         Flank of the teeth, 1 (driving) or -1.
     coupled : bool
         Whether teeth give way to what loads their neighbours.
-    stiffness : float
-        Of the surfaces, Pa/m.
     """
 
     def __init__(
@@ -123,7 +119,6 @@ class TeethContact:
         *,
         side: int = 1,
         coupled: bool = True,
-        stiffness: float = CONTACT_STIFFNESS,
     ) -> None:
         self.sector = sector
         self.side = side
@@ -141,7 +136,6 @@ class TeethContact:
             else np.empty((0, size, size))
         )
         self._friction = friction
-        self._stiffness = stiffness
         self._history = History.none(body)
         self._collected: FloatArray | None = None
 
@@ -156,10 +150,10 @@ class TeethContact:
         point = PointFriction(COULOMB, friction, _ELASTIC_SLIP)
         interface = Interface(
             body.faces, body.shapes, body.weights, body.places, self.worm.numbers,
-            NormalLaw("linear", self._stiffness).numbers, point.numbers(0.0),
+            NormalLaw("linear", CONTACT_STIFFNESS).numbers, point.numbers(0.0),
         )  # fmt: skip
         reach = float(np.abs(body.places).max()) + float(np.abs(self.stand.origin).max())
-        floor = _ROUNDING * reach * self._stiffness * float(np.linalg.norm(surface.nodal_area))
+        floor = _ROUNDING * reach * CONTACT_STIFFNESS * float(np.linalg.norm(surface.nodal_area))
         return Laws(interface, _TOLERANCE, floor, _STEPS)
 
     def placed(
@@ -213,7 +207,6 @@ class TeethContact:
         shift: FloatArray,
         *,
         sense: int = 1,
-        with_slope: bool = True,
         tolerance: float = _TOLERANCE,
     ) -> Action:
         """Return what a worm at a place does to the wheel.
@@ -226,8 +219,6 @@ class TeethContact:
             Of the worm along the axes of its own frame, m.
         sense : int
             1: both turn forwards; -1 backwards; 0: without friction.
-        with_slope : bool
-            Whether to find how it changes with the worm's place.
         tolerance : float
             To which teeth that give way to each other agree, of the forces.
 
@@ -243,15 +234,13 @@ class TeethContact:
         angles, rotation, translation = self.placed(beta, phi, shift)
         self._collect(beta, phi, shift, numbers, rotation, translation)
         slip, turn = np.zeros((len(angles), 3)), np.zeros((len(angles), 3, 3))
-        for k, angle in enumerate(angles):
-            sliding(
-                stand, rotation[k], translation[k], angle, self.side, float(sense), slip[k], turn[k]
-            )
+        for k in range(len(angles)):
+            sliding(stand, rotation[k], translation[k], self.side, float(sense), slip[k], turn[k])
         laws = self.laws(self._friction if sense else 0.0)
         residual, iterations = solve_all(
             body, self.side * np.array(numbers), self.blocks, self.candidates,
             (rotation, translation, slip, turn), laws, self._history, self.answer, self.kept,
-            self.work, tolerance, with_slope,
+            self.work, tolerance, True,
         )  # fmt: skip
         if residual == newton.FULL:
             raise FullError("more of the teeth touches the worm than could be")
@@ -263,8 +252,8 @@ class TeethContact:
         total, slope, forces = np.zeros(6), np.zeros((6, 6)), np.zeros((len(angles), 3))
         try:
             _act(
-                body, stand, self.side, angles, self.candidates, self.answer, self.work,
-                with_slope, total, slope, forces,
+                body, self.side, angles, self.candidates, self.answer, self.work,
+                total, slope, forces,
             )  # fmt: skip
         except np.linalg.LinAlgError as error:
             raise ConvergenceError(

@@ -113,7 +113,7 @@ def to_space(angle, side, vectors):
 
 
 @kernel
-def sliding(stand, rotation, translation, angle, side, sense, shift, turn):
+def sliding(stand, rotation, translation, side, sense, shift, turn):
     """Write how worm material moves past a tooth as both turn, ``shift + turn @ x`` a radian.
 
     ``sense`` is 1 forwards, -1 backwards.

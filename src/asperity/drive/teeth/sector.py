@@ -111,7 +111,7 @@ def sector(
     # One tooth has no neighbours; the others have theirs from the coarse mesh.
     together = density == _COARSE
     found = _condensed(wheel, material, counts, teeth, together, notify)
-    surface = _own_surface(wheel, counts, teeth)
+    surface = _own_surface(wheel, counts)
     size = len(surface.positions)
     turn = _middle(wheel, teeth)
     middle = _block(found, teeth, size, 0, 0, together, turn, turn)
@@ -122,7 +122,7 @@ def sector(
         if not together:
             coarse_counts = contact_counts(_COARSE)
             rim = _condensed(wheel, material, coarse_counts, teeth, True, notify)
-            coarse = _own_surface(wheel, coarse_counts, teeth)
+            coarse = _own_surface(wheel, coarse_counts)
             seconds, residual = seconds + rim.seconds, max(residual, rim.residual)
         count = len(coarse.positions)
         pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
@@ -177,7 +177,7 @@ def _condensed(
     return condense(mesh, elastic, _LOADED, element=ELEMENT, tied=RIM, notify=notify)
 
 
-def _own_surface(wheel: Wheel, counts: Counts, teeth: int) -> ContactSurface:
+def _own_surface(wheel: Wheel, counts: Counts) -> ContactSurface:
     """The middle tooth's flank in its own frame; that of a mesh of one tooth is the same."""
     return contact_surface(own_mesh(wheel, counts), _flank(1))
 

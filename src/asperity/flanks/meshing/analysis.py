@@ -13,7 +13,7 @@ from asperity.flanks.meshing.ease_off import EaseOff, ease_off
 from asperity.flanks.meshing.kinematics import Kinematics, kinematics
 from asperity.flanks.meshing.lubrication import Load, LoadedLines, loaded_lines
 from asperity.flanks.meshing.pattern.area import node_areas
-from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
+from asperity.flanks.meshing.pattern.marking import Pattern, pattern
 from asperity.flanks.meshing.transmission import SAMPLES, Transmission, transmission
 from asperity.flanks.meshing.vibration_share import (
     DIRECTIONS,
@@ -42,10 +42,8 @@ LABELS: Labels = {
     "part": (PARTS, "along and across the sliding velocity, along the normal"),
 }
 
-ANGLES = 32
-"""Angles of the worm over a pitch at which the load is found for maps."""
-
-_ANGLES = 8
+# Angles of the worm over a pitch at which the load is found: for numbers, and for maps.
+_ANGLES, _MAPPED = 8, 32
 # What changes its sign in the mirror image Z -> -Z. Across the sliding is a normal times a
 # velocity, and turns round.
 _MIRRORED: dict[str, float | tuple[float, ...]] = {
@@ -147,18 +145,14 @@ class FlankAnalysis(Quantities):
         """Return the contact lines of all teeth at an angle of the worm, rad."""
         return contact_lines(self.motion, self.grid, self.pair.geometry.starts, worm_angle)
 
-    def under_load(self, angles: int = ANGLES) -> tuple[LoadedLines, ...]:
-        """Return the contact lines under load at so many angles of the worm over a pitch.
+    def under_load(self) -> tuple[LoadedLines, ...]:
+        """Return the contact lines under load at angles of the worm over a pitch, for maps.
 
         None without a load. Errors as of `loaded_lines`.
         """
         if self.load is None:
             return ()
-        pitch = 2.0 * math.pi / self.pair.geometry.starts
-        return tuple(
-            loaded_lines(self.transmission, self.contact_lines(pitch * n / angles), self.load)
-            for n in range(angles)
-        )
+        return _over_a_pitch(self.transmission, self.motion, self.grid, self.load, _MAPPED)
 
     def line_load(self, loaded: Sequence[LoadedLines]) -> FloatArray:
         """Return the line load on the grid, N/mm: each point's when it lies on a contact line.
@@ -227,16 +221,15 @@ def analyse(
     rows: int = ROWS,
     columns: int = COLUMNS,
     samples: int = SAMPLES,
-    thickness: float = MARKING,
     worm_speed: float = 1.0,
     load: Load | None = None,
 ) -> Analysis:
     """Analyse the contact of a worm with its wheel, on both flanks.
 
     Where the pair asks for a backlash, the thickness of the worm's threads is solved for. Maps have
-    ``rows`` and ``columns`` of points, a pitch ``samples`` places of the wheel; the marking
-    compound is so thick (mm). Velocities are at the worm's speed (rad/s), that of the load where
-    there is one; with a load there are load, pressure and film along the contact lines.
+    ``rows`` and ``columns`` of points, a pitch ``samples`` places of the wheel. Velocities are at
+    the worm's speed (rad/s), that of the load where there is one; with a load there are load,
+    pressure and film along the contact lines.
 
     Raises
     ------
@@ -250,9 +243,7 @@ def analyse(
         meshes = set_backlash(meshes, pair.backlash)
     free = play(meshes)
     speed = worm_speed if load is None else load.worm_speed
-    flanks = {
-        side: _flank(meshes[side], free, rows, columns, thickness, speed, load) for side in (1, -1)
-    }
+    flanks = {side: _flank(meshes[side], free, rows, columns, speed, load) for side in (1, -1)}
     thinned = meshes[1].search.pair
     worm, base = thinned.worm, thinned.worm.profile.base_radius
     return Analysis(
@@ -270,30 +261,36 @@ def _flank(
     free: Play,
     n_radial: int,
     n_face: int,
-    thickness: float,
     speed: float,
     load: Load | None,
 ) -> FlankAnalysis:
     flank, pair = mesh.search.flank, mesh.search.pair
     grid = flank.grid(n_radial, n_face)
     motion = kinematics(pair, grid, flank.side, speed, mesh.ahead)
-    loaded = []
-    if load is not None:
-        starts = pair.geometry.starts
-        for n in range(_ANGLES):
-            angle = 2.0 * math.pi / starts * n / _ANGLES
-            loaded.append(loaded_lines(mesh, contact_lines(motion, grid, starts, angle), load))
+    loaded = () if load is None else _over_a_pitch(mesh, motion, grid, load, _ANGLES)
     return FlankAnalysis(
         side=flank.side,
         transmission=mesh,
         grid=grid,
-        pattern=pattern(mesh, grid, thickness),
+        pattern=pattern(mesh, grid),
         ease_off=ease_off(flank, grid),
         motion=motion,
         share=vibration_share(pair, motion),
         play=free,
         undercut=bool(flank.undercut_at(grid.z[0]).any()),
         conjugacy_residual=float(np.abs(flank.conjugacy_residual(grid)).max()),
-        loaded=tuple(loaded),
+        loaded=loaded,
         load=load,
+    )
+
+
+def _over_a_pitch(
+    mesh: Transmission, motion: Kinematics, grid: FlankGrid, load: Load, count: int
+) -> tuple[LoadedLines, ...]:
+    """Contact lines under load at so many angles of the worm over a pitch."""
+    starts = mesh.search.pair.geometry.starts
+    pitch = 2.0 * math.pi / starts
+    return tuple(
+        loaded_lines(mesh, contact_lines(motion, grid, starts, pitch * n / count), load)
+        for n in range(count)
     )
