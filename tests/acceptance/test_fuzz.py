@@ -94,11 +94,6 @@ ROOMS = {
     "rig plan": ["plan", "limits", "twin", "drives", "rig"],
     "rig run": ["plan", "limits", "twin", "drives", "rig", "sonotrode", "channels", "steel_disc"],
 }
-AXES = [
-    ("friction.mu", "0.1,0.2"),
-    ("vibration.velocity_ratio", "1:3:1"),
-    ("friction.law", "split,vector"),
-]
 ODD = [
     "", " ", "0", "-0", "-1", "1e308", "1e-320", "1e400", "nan", "inf", "-inf", "9" * 4301,
     "0x" + "f" * 4000, "true", "auto", "split", "[]", "[1, 2]", "[[1], [2]]", "{ a = 1 }",

@@ -28,7 +28,6 @@ from asperity.mesh import box
 
 LIMIT = 7e-8
 FACE = contact_surface(box([4e-3, 3e-3, 1e-3], [4, 3, 1], 1), "bottom")
-NINE = contact_surface(box([4e-3, 3e-3, 1e-3], [2, 1, 1], 2), "bottom")
 STIFF = NormalLaw("linear", 4e14)
 
 LAWS = {

@@ -33,8 +33,6 @@ class Demand:
 
     Attributes
     ----------
-    mechanical_power : float
-        Mean power that it gives to the gearset, W; negative where the gearset drives it.
     own_loss : float
         Mean power lost in its own vibration, W.
     electrical_power : float
@@ -43,7 +41,6 @@ class Demand:
         That the amplifier must be made for, VA.
     """
 
-    mechanical_power: float
     own_loss: float
     electrical_power: float
     apparent_power: float
@@ -80,7 +77,7 @@ def demand(
     Parameters
     ----------
     mechanical_power : float
-        Mean power that the vibration gives to the gearset, W.
+        Mean power that the vibration gives to the gearset, W; negative where the gearset drives it.
     elastic_energy : float
         Peak elastic energy of the actuator, J.
     frequency : float
@@ -124,7 +121,6 @@ def demand(
         loss = taken / swung
         apparent = swung * math.hypot(loss, capacity * (loss**2 + off**2) - off)
     return Demand(
-        mechanical_power=mechanical_power,
         own_loss=own,
         electrical_power=max(taken, 0.0) / efficiency,
         apparent_power=apparent,

@@ -192,7 +192,7 @@ def scaled(motor: Motor, ratio: float) -> Scaled:
 
 @dataclasses.dataclass(frozen=True)
 class Exchange:
-    """A motor without vibration and the one with it, and what the vibration takes.
+    """A motor without vibration and the one with it, and what the actuator weighs.
 
     Attributes
     ----------
@@ -200,15 +200,11 @@ class Exchange:
         Without and with vibration.
     actuator_mass : float
         Of transducer and generator, kg.
-    actuator_power, actuator_apparent_power : float
-        While it shakes, W and VA.
     """
 
     before: Motor
     after: Motor
     actuator_mass: float
-    actuator_power: float
-    actuator_apparent_power: float
 
     @property
     def saved_mass(self) -> float:
@@ -244,6 +240,4 @@ def exchange(
         lightest(before, known),
         lightest(after, known),
         TRANSDUCER_MASS * actuator_power + GENERATOR_MASS * actuator_apparent_power,
-        actuator_power,
-        actuator_apparent_power,
     )

@@ -222,9 +222,6 @@ def _condense(
     residual = max(residual, body.residual(forces, answer), apart)
 
     shapes, frequency = shapes_with_inertia(body, surface, count)
-    # A free body's modes do not move its centre of mass, and rigid accelerations do not strain it.
-    inertia = np.zeros((len(frequency), 6)) if body.free else shapes.T @ body.inertia
-    strained = np.zeros((len(rows), 6)) if body.free else body.response(body.inertia)[rows]
     return CondensedBody(
         nodes=surface.nodes,
         positions=surface.positions,
@@ -235,8 +232,6 @@ def _condense(
         modes=shapes[rows],
         natural_modes=count,
         mode_frequency=frequency,
-        mode_inertia=inertia,
-        inertia_response=strained,
         load_names=names,
         load_flexibility=load_flexibility,
         load_compliance=0.5 * (load_compliance + load_compliance.T),

@@ -42,11 +42,6 @@ class CondensedBody:
     modes: FloatArray
     mode_frequency: FloatArray  #: (k,): Their frequencies, Hz, ascending
     natural_modes: int  #: How many of them are natural modes: the first
-    #: (k, 6): :math:`\Phi^T M R`, what couples modes to rigid accelerations, sqrt(kg); zero if free
-    mode_inertia: FloatArray
-    #: (3n, 6): Static displacement under the nodal forces M R of a unit rigid acceleration; zero if
-    #: free
-    inertia_response: FloatArray
     #: L names, the first three ``gravity_x``, ``gravity_y``, ``gravity_z`` (unit: 1 m/s^2)
     load_names: tuple[str, ...]
     #: (3n, L): Static displacement of the contact nodes under each unit load; its transpose gives

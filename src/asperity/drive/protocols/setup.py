@@ -1,8 +1,6 @@
 """A protocol's freedoms and imposed motions, and the state that a march begins in."""
 
 import math
-from collections.abc import Mapping
-from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +19,6 @@ _STIFFER = 3.0  # that the normal contact may be than without vibration
 _LANDING = 1.0 / 20.0  # of the approach without vibration, in a step
 # Of what teeth and a shaft that bends do to each other at the start, and m that they agree by.
 _ROUNDS, _CLOSE = 20, 1e-8
-_NOTHING: Mapping[str, float] = MappingProxyType({})
 
 
 def shakes(problem: DriveProblem, model: ReducedModel) -> dict[str, float]:

@@ -182,12 +182,6 @@ class StaticResult(Drawn):
             if not isinstance(value, bool)
         }
 
-    @property
-    def tooth_share(self) -> FloatArray:
-        """Share of each tooth in the normal force at each phase, (p, K)."""
-        whole: FloatArray = self.tooth_force / self.tooth_force.sum(axis=1, keepdims=True)
-        return whole
-
     def to_json(self) -> dict[str, Any]:
         """Return the scalars, and the stiffness by what gives way."""
         parts = zip(self.part.tolist(), self.part_stiffness.tolist(), strict=True)

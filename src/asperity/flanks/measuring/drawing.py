@@ -11,11 +11,6 @@ from typing import NamedTuple
 from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.worm.setting import Pair
 from asperity.results.quantity import plain, text_of
-from asperity.sources import Source
-
-SOURCE = Source("DIN 3966-3, names of ISO 1122-2 and DIN 3974-1", "from memory")
-"""Where the choice of data and their names come from."""
-
 
 _Line = tuple[str, str, object, str]
 

@@ -56,8 +56,6 @@ class Levels:
         Change over the file, as a share.
     noise, coloured, memory : float
         Standard deviation of a block; share of it that lasts; for how long, s.
-    shaken_size : float
-        Noise under vibration over that without.
     gradients : ndarray, shape (noise parameters, windows, windows)
         Of the covariance by the parameters of the noise.
     spread : ndarray, shape (noise parameters, noise parameters)
@@ -81,7 +79,6 @@ class Levels:
     noise: float
     coloured: float
     memory: float
-    shaken_size: float
     gradients: FloatArray
     spread: FloatArray
     weights: FloatArray
@@ -242,7 +239,7 @@ def estimate_levels(
     return Levels(
         size * fit.levels, np.asarray(size**2 * spread[:count, :count], dtype=np.float64),
         (math.hypot(c[0], c[1]), math.hypot(c[2], c[3])), float(c[4]),
-        size * deviation, share, memory, ratio, size**2 * gradients, doubt,
+        size * deviation, share, memory, size**2 * gradients, doubt,
         size * (spread[:count] @ rows.T) / deviation,
         (target - rows @ estimate[:-1]) / deviation,
         size * _beyond_doubt(fit.shape[0], spread[count, count]) if fit.linear else 0.0,
