@@ -4,8 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, draw, legend, panels
-from asperity.slider.plots_normal import shade_flight
+from asperity.results.figures import BLACK, BLUE, GREEN, SKY, VERMILION, draw, legend, panels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -75,6 +74,16 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
         axes.set_title(f"Normal force, {100.0 * share:.3g} % of the time in flight", loc="left")
         axes.margins(x=0.0)
     return figure
+
+
+def shade_flight(axes: "Axes", at: np.ndarray, load: np.ndarray, label: str | None) -> None:
+    """Shade where there is no load."""
+    flight = load <= 0.0
+    if np.any(flight):
+        axes.fill_between(
+            at, 0.0, 1.0, where=flight, color=SKY, alpha=0.3, linewidth=0.0,
+            transform=axes.get_xaxis_transform(), label=label,
+        )  # fmt: skip
 
 
 def _band(axes: "Axes", time: np.ndarray, dataset: "xr.Dataset", name: str, colour: str) -> None:

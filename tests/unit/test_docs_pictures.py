@@ -1,9 +1,15 @@
-"""Pictures of vibration out of the plane: what is drawn is what was given."""
+"""Pictures of the documentation, of vibration out of the plane: what is drawn is what was given."""
+
+import importlib.util
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from asperity.slider import plots_normal
+FILE = Path(__file__).parents[2] / "docs" / "make_pictures.py"
+SPEC = importlib.util.spec_from_file_location("make_pictures", FILE)
+pictures = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(pictures)
 
 
 def labels(axes):
@@ -15,7 +21,7 @@ def test_all_swings_fall_on_one_curve():
     reduction = (1.0 - velocity) ** 2
     curves = {a: 1.0 - a * reduction for a in (0.1, 0.9)}
     points = {a: (velocity, ratio) for a, ratio in curves.items()}
-    figure = plots_normal.plot_master_curve(velocity, curves, reduction, reduction, points)
+    figure = pictures.plot_master_curve(velocity, curves, reduction, reduction, points)
     left, right = figure.axes
     assert labels(left) == ["a = 0.1", "a = 0.9"]
     assert labels(right) == ["h(V)", "Popov", "a = 0.1", "a = 0.9"]
@@ -27,7 +33,7 @@ def test_all_swings_fall_on_one_curve():
 def test_more_swings_than_there_are_dashes_are_drawn():
     velocity = np.linspace(0.0, 1.0, 3)
     curves = {0.1 * count: 1.0 - 0.1 * count * velocity for count in range(1, 10)}
-    figure = plots_normal.plot_master_curve(velocity, curves, velocity, velocity, {})
+    figure = pictures.plot_master_curve(velocity, curves, velocity, velocity, {})
     assert len(figure.axes[0].lines) == 9
 
 
@@ -35,7 +41,7 @@ def test_a_thrust_has_a_colour_of_its_own():
     elevation, azimuth = np.radians([0.0, 45.0, 90.0]), np.radians([0.0, 90.0, 180.0])
     braking = 0.5 * np.ones((3, 3)) + 0.1 * azimuth
     for ratio, lowest in ((braking, 0.0), (braking - 0.6, -np.abs(braking - 0.6).max())):
-        figure = plots_normal.plot_directions(elevation, azimuth, ratio)
+        figure = pictures.plot_directions(elevation, azimuth, ratio)
         field = figure.axes[0].collections[0]
         assert field.get_clim()[0] == pytest.approx(lowest)
         figure.draw_without_rendering()
@@ -45,7 +51,7 @@ def test_flight_is_shaded_where_the_normal_force_is_zero():
     time = np.linspace(0.0, 0.5e-3, 501)
     load = np.maximum(55.0 * (1.0 + 1.5 * np.cos(4e3 * 2.0 * np.pi * time)), 0.0)
     for normal, flights in ((load, 2), (load + 1.0, 0)):
-        figure = plots_normal.plot_two_cycles(time, normal, 0.05 * normal, 0.1, 55.0)
+        figure = pictures.plot_two_cycles(time, normal, 0.05 * normal, 0.1, 55.0)
         upper, lower = figure.axes
         paths = sum(len(shade.get_paths()) for shade in upper.collections)
         assert paths == flights
