@@ -143,6 +143,14 @@ def test_a_file_without_a_comment_has_no_description(case_file):
     assert describe(case_file) == ""
 
 
+def test_a_table_that_may_be_missing_is_got_as_it_is_or_as_what_is_meant_then(case_file):
+    case, other = read_case(case_file, TABLES), read_case(case_file, TABLES)["shaking"]
+    assert case.get(Shaking) is case.get(Shaking, other) is case["shaking"]
+    del case.tables["shaking"]
+    assert case.get(Shaking) is None
+    assert case.get(Shaking, other) is other
+
+
 def test_a_missing_table_is_named_with_its_file(case_file):
     case_file.write_text("")
     case = read_case(case_file, TABLES)

@@ -111,8 +111,9 @@ class BlockProblem:
     @classmethod
     def from_case(cls, case: Case) -> Self:
         """Gather the tables of a case; [contact] may be missing."""
-        contact = case.require(Contact) if Contact.table in case else Contact()
-        elevation = case.require(Vibration).elevation if Vibration.table in case else 0.0
+        contact = case.get(Contact, Contact())
+        vibration = case.get(Vibration)
+        elevation = vibration.elevation if vibration else 0.0
         if elevation != 0.0:
             raise InputError(
                 f"vibration.elevation is {math.degrees(elevation):g} deg; a block is shaken in the "

@@ -74,6 +74,14 @@ class Case:
             raise InputError(f"{self.source}: the table [{name}] is missing; add it")
         return self.tables[name]
 
+    @overload
+    def get(self, table: type[T], default: T) -> T: ...
+    @overload
+    def get(self, table: type[T], default: None = None) -> T | None: ...
+    def get(self, table: type[T], default: T | None = None) -> T | None:
+        """Return a table by its class, or the default if the case does not have it."""
+        return self.require(table) if table.table in self.tables else default
+
     def origin(self, key: str) -> str:
         """Return what gave the value of a ``table.key``: a setting, or else the file."""
         setting = self.settings.get(key)
@@ -132,7 +140,8 @@ class Case:
     def canonical(self) -> str:
         """Return all values in SI, and the content of the files they name, as one fixed text.
 
-        Cases that calculate the same have the same text, however they are written.
+        Cases that calculate the same have the same text, however they are written. Of a file that
+        is named deeper in a table than by one of its keys the name alone counts.
         """
         counting = {name: table for name, table in self.tables.items() if table.counts}
         dumped = {name: table.model_dump(mode="json") for name, table in counting.items()}

@@ -62,8 +62,9 @@ def new(
         show.print_json({"file": str(path), "tables": list(case.tables)})
     else:
         show.print_text(_told(path, kind))
-        if Operation.table in case and (wear := case.require(Operation).wear_assumed):
-            show.print_text(f"\n{wear}")
+        operation = case.get(Operation)
+        if operation and operation.wear_assumed:
+            show.print_text(f"\n{operation.wear_assumed}")
 
 
 def size(

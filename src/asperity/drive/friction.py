@@ -50,7 +50,7 @@ def rating_inputs(case: Case) -> Inputs:
         does not depend on the speed.
     """
     with told(case):
-        options = case.require(RatingOptions) if RatingOptions.table in case else RatingOptions()
+        options = case.get(RatingOptions, RatingOptions())
         given = inputs(case.require(Gearset), case.require(Operation), options)
         for key in ("friction", "base_friction"):
             value = getattr(options, key)

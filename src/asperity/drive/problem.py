@@ -4,9 +4,9 @@ import dataclasses
 import functools
 import math
 from pathlib import Path
-from typing import Self, TypeVar
+from typing import Self
 
-from asperity.casefile import Case, Table, told
+from asperity.casefile import Case, told
 from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
@@ -39,8 +39,6 @@ _FREE_WORM = {
     "back-drive": "the motor is off",
 }
 _WORM_FREED = (*_FREE_WORM, "on-demand")
-
-T = TypeVar("T", bound=Table)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -102,10 +100,6 @@ class DriveProblem:
         InputError
             They do not make a gearset's drive.
         """
-
-        def table(model: type[T]) -> T | None:
-            return case.require(model) if model.table in case else None
-
         _check_tables(case)
         operation = case.require(Operation)
         with told(case):
@@ -114,21 +108,21 @@ class DriveProblem:
                 vibration = case.require(Vibration).of_gearset(PLACES)
                 turns = operation.worm_speed / (2.0 * math.pi)
                 shape = vibration.shape(case.folder, turns=turns)
-            gearset, drive = case.require(Gearset), table(Drive) or Drive()
+            gearset, drive = case.require(Gearset), case.get(Drive, Drive())
             return cls(
                 gearset=gearset,
                 operation=operation,
                 friction=mesh_friction(case, gearset, operation, drive),
                 drive=drive,
-                shaft=table(Shaft) or Shaft(),
-                solve=table(Solve) or Solve(),
+                shaft=case.get(Shaft, Shaft()),
+                solve=case.get(Solve, Solve()),
                 vibration=vibration,
                 shape=shape,
-                actuator=table(Actuator),
-                hob=table(Hob),
-                mount=table(Mount),
-                modification=table(Modification),
-                disc=table(Disc),
+                actuator=case.get(Actuator),
+                hob=case.get(Hob),
+                mount=case.get(Mount),
+                modification=case.get(Modification),
+                disc=case.get(Disc),
                 case=case,
             )
 

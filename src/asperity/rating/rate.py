@@ -305,7 +305,7 @@ def rate(
 
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     """Rate the worm gearset of a case file; as `rate`."""
-    options = case.require(RatingOptions) if RatingOptions.table in case else None
+    options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), case.require(Operation)
     with told(case):
         return rate(gearset, operation, options, standards, folder=case.folder)
@@ -320,7 +320,7 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
             f"{suggestion(standard, allowed)}"
         )
     gearset, operation = case.require(Gearset), case.require(Operation)
-    options = case.require(RatingOptions) if RatingOptions.table in case else RatingOptions()
+    options = case.get(RatingOptions, RatingOptions())
     wanted = STANDARDS if standard == ALL else (standard,)
     _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
     return case, wanted

@@ -134,7 +134,7 @@ class Heading:
     @classmethod
     def of(cls, case: Case, version: str = "") -> "Heading":
         """Return the heading of what a version of this package makes of a case."""
-        project = case.require(Project) if Project.table in case else Project()
+        project = case.get(Project, Project())
         given = {
             f"{table}.{key}": value if isinstance(value, str) else _written(value)
             for table, entries in case.raw.items()

@@ -92,13 +92,12 @@ class Model:
     @classmethod
     def from_case(cls, case: Case) -> Self:
         """Gather the tables of a case; [vibration] and [solve] may be missing."""
-        vibration = case.require(Vibration).of_body() if Vibration.table in case else None
+        given = case.get(Vibration)
+        vibration = given.of_body() if given else None
         shape = vibration.shape(case.folder) if vibration is not None else None
-        solve = case.require(Solve) if Solve.table in case else Solve()
-        normal = case.require(Normal) if Normal.table in case else None
-        wear = case.require(Wear) if Wear.table in case else None
+        solve = case.get(Solve, Solve())
         tables = case.require(Slider), case.require(Friction), vibration, solve, shape
-        return cls(*tables, normal, wear)
+        return cls(*tables, case.get(Normal), case.get(Wear))
 
     @property
     def full_friction(self) -> float:

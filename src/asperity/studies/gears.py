@@ -30,5 +30,5 @@ class Gears:
     @classmethod
     def of(cls, case: Case) -> Self:
         """Return the tables of a case; raises InputError where one is missing."""
-        options = case.require(RatingOptions) if RatingOptions.table in case else None
+        options = case.get(RatingOptions)
         return cls(case.require(Gearset), case.require(Operation), options, case.folder)

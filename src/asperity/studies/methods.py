@@ -105,14 +105,15 @@ def compare_case(case: Case, methods: Sequence[Method] | None = None) -> Compari
     Its tables ``[vibration]`` and ``[friction]``, and the normal force of ``[slider]``, describe
     the vibration where they are there.
     """
+    slider = case.get(Slider)
     return compare(
         case.require(Gearset),
         case.require(Operation),
-        case.require(RatingOptions) if RatingOptions.table in case else None,
+        case.get(RatingOptions),
         methods=methods,
-        vibration=case.require(Vibration) if Vibration.table in case else None,
-        friction=case.require(Friction) if Friction.table in case else None,
-        normal_force=case.require(Slider).normal_force if Slider.table in case else None,
+        vibration=case.get(Vibration),
+        friction=case.get(Friction),
+        normal_force=slider.normal_force if slider else None,
         folder=case.folder,
     )
 

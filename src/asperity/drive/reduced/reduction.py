@@ -73,7 +73,7 @@ def kept_under(problem: DriveProblem) -> str:
     """Return what the teeth of a problem are kept under, whatever shakes them."""
     drive = problem.drive.model_dump(mode="json", include=set(_BEARS))
     case = problem.case
-    rating = case.require(RatingOptions) if case and RatingOptions.table in case else None
+    rating = case.get(RatingOptions) if case else None
     tables = (
         problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc,
         # Where friction is one number, neither its law nor the speed bears on the teeth.

@@ -2,9 +2,8 @@
 
 import dataclasses
 import time
-from typing import TypeVar
 
-from asperity.casefile import Case, Table
+from asperity.casefile import Case
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
@@ -35,8 +34,6 @@ _CUSTOMARY = {
     "hob.tip_radius": f"{parameters.HOB_TIP_RADIUS:g} modules, or what there is room for",
 }
 _OUTSIDE = Source("common practice", "from memory", "d_a2 + m")
-
-T = TypeVar("T", bound=Table)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,18 +103,14 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     MissingExtraError
         STEP is asked for and the ``cad`` extra is not installed.
     """
-
-    def table(model: type[T]) -> T | None:
-        return case.require(model) if model.table in case else None
-
     if step:
         require_cad()
     size = read_density(density) if isinstance(density, str) else density
     gearset = case.require(Gearset).require_consistent()
     made = prepare_gearset(
-        gearset, table(Hob), table(Mount), table(Modification), table(Disc), size
+        gearset, case.get(Hob), case.get(Mount), case.get(Modification), case.get(Disc), size
     )
-    blanks = table(Blanks)
+    blanks = case.get(Blanks)
     pair = made.wheel.pair
     wheel_sizes(pair.geometry, blanks)
     shaft_sizes(pair, blanks)
@@ -128,7 +121,7 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
         notes=tuple(notes),
         step=step,
         blanks=blanks,
-        measuring=table(MeasuringOptions),
+        measuring=case.get(MeasuringOptions),
     )
 
 
@@ -223,9 +216,9 @@ def _notes(found: Analysis, wheel: Wheel) -> list[str]:
 
 def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
     """The load of a case that says how the gearset is run, and what is to be said of it."""
-    if Operation.table not in case:
+    operation = case.get(Operation)
+    if operation is None:
         return None, []
-    operation = case.require(Operation)
     if operation.oil_temperature is not None:
         return Load.of(gearset, operation, operation.oil_temperature), []
     try:

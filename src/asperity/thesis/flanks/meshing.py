@@ -3,12 +3,10 @@
 import dataclasses
 import functools
 import math
-from typing import TypeVar
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.casefile import Table
 from asperity.flanks.meshing.contact_lines import contact_lines
 from asperity.flanks.meshing.kinematics import Kinematics, kinematics
 from asperity.flanks.meshing.lubrication import Load, LoadedLines, loaded_lines
@@ -22,8 +20,6 @@ from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.thesis.cases import Shipped
-
-T = TypeVar("T", bound=Table)
 
 _ROWS, _COLUMNS = 41, 61
 _SIDE = 1
@@ -45,11 +41,12 @@ def pair_of(gear: Gear) -> Pair:
     """Return worm and wheel of a gearset as its tables say."""
     case = gear.read()
 
-    def table(model: type[T]) -> T | None:
-        return case.require(model) if model.table in case else None
-
     return Pair.of(
-        case.require(Gearset), table(Hob), table(Mount), table(Modification), table(Disc)
+        case.require(Gearset),
+        case.get(Hob),
+        case.get(Mount),
+        case.get(Modification),
+        case.get(Disc),
     )
 
 

@@ -45,7 +45,7 @@ class PlanProblem:
 
 def prepare(case: Case) -> PlanProblem:
     """Lay out a plan; refuses one beyond its limits."""
-    limits = case.require(Limits) if Limits.table in case else Limits()
+    limits = case.get(Limits, Limits())
     plan = case.require(Plan)
     plant = Plant.from_case(case) if Twin.table in case else None
     return PlanProblem(plan, planned_files(plan, limits), plant, tuple(warnings(case)))
@@ -53,10 +53,10 @@ def prepare(case: Case) -> PlanProblem:
 
 def warnings(case: Case) -> list[str]:
     """Return what will go wrong with a plan that may be run, to be said before it is."""
-    given = case.require(Reduction) if Reduction.table in case else Reduction()
+    given = case.get(Reduction, Reduction())
     found = _too_brief(case.require(Plan), given)
     if Twin.table in case:
-        limits = case.require(Limits) if Limits.table in case else Limits()
+        limits = case.get(Limits, Limits())
         starting = Plant.from_case(case).starting_torque
         if limits.torque < starting:
             found.append(

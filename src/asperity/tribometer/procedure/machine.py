@@ -76,9 +76,7 @@ class Machine:
         self._plan = case.require(Plan)
         self._pair = Pair.from_case(case)
         self._sonotrode = case.require(Sonotrode)
-        self._settling = (
-            case.require(Reduction) if Reduction.table in case else Reduction()
-        ).settling
+        self._settling = (case.get(Reduction, Reduction())).settling
         self._interlock = self._made_interlock()
         self._interval = 1.0 / self._plan.sample_rate
         self._logger: Logger | None = None
@@ -90,7 +88,7 @@ class Machine:
     def _made_interlock(self) -> Interlock:
         case, inputs = self._case, self._bench.scope.inputs
         lines = lines_of(case.require(Channels), inputs)
-        limits = case.require(Limits) if Limits.table in case else Limits()
+        limits = case.get(Limits, Limits())
         swing = self._sonotrode.highest_voltage - self._sonotrode.lowest_voltage
         return Interlock(
             limits,

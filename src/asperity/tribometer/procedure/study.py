@@ -74,7 +74,7 @@ def prepare(
     acknowledge: str = "",
 ) -> RunProblem:
     """Lay out a run; refuses a plan beyond its limits, and instruments that cannot be had."""
-    limits = case.require(Limits) if Limits.table in case else Limits()
+    limits = case.get(Limits, Limits())
     plan = case.require(Plan)
     files = planned_files(plan, limits)
     sonotrode = case.require(Sonotrode)

@@ -165,7 +165,7 @@ def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> J
 
 def _common(recording: Recording, case: Case, segment: Segment) -> dict[str, Any]:
     """What is told of a segment whether it is refused or not."""
-    oil = case.require(Lubricant) if Lubricant.table in case else Lubricant()
+    oil = case.get(Lubricant, Lubricant())
     pair = Pair.from_case(case)
     told = [
         event.text for event in recording.events
@@ -214,9 +214,9 @@ def _numbers(
         if found is not None:
             values |= {name: found.value, f"{name}_ci95": found.ends}
     values["sliding_velocity_deviation"] = sliding[1].deviation
-    if Lubricant.table in case:
+    if (oil := case.get(Lubricant)) is not None:
         rolling = float(discs.rolling_velocity(*following.rims(levels, 0)))
-        values["film_parameter"] = pair.film(case.require(Lubricant), rolling)
+        values["film_parameter"] = pair.film(oil, rolling)
     flags = list(segment.flags)
     peak, doubt, odd = _velocity(recording, case, blocks, segment, sonotrode)
     if following.hurried:

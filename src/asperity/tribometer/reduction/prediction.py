@@ -36,7 +36,7 @@ def model_ratios(case: Case, load: float, asked: Sequence[Asked | None]) -> list
     drive, at the sliding velocity with vibration; without it, rigid friction's closed form.
     """
     found: list[float | None] = [None] * len(asked)
-    friction = case.require(Friction) if Friction.table in case else None
+    friction = case.get(Friction)
     models: dict[int, Model] = {}
     for place, one in enumerate(asked):
         if one is None or not one[2] > 0.0:

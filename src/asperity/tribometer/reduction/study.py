@@ -37,17 +37,17 @@ class Reducible:
     @property
     def reduction(self) -> Reduction:
         """How it is reduced."""
-        return self.case.require(Reduction) if Reduction.table in self.case else Reduction()
+        return self.case.get(Reduction, Reduction())
 
     @property
     def plan(self) -> Plan:
         """Which frequencies there are."""
-        return self.case.require(Plan) if Plan.table in self.case else Plan()
+        return self.case.get(Plan, Plan())
 
     @property
     def sonotrode(self) -> Sonotrode | None:
         """How fast the disc is shaken."""
-        return self.case.require(Sonotrode) if Sonotrode.table in self.case else None
+        return self.case.get(Sonotrode)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -88,8 +88,8 @@ def _cells(case: Case) -> int:
     from asperity.tribometer.parameters import Limits
     from asperity.tribometer.plan.matrix import planned_files
 
-    plan = case.require(Plan) if Plan.table in case else Plan()
-    limits = case.require(Limits) if Limits.table in case else Limits()
+    plan = case.get(Plan, Plan())
+    limits = case.get(Limits, Limits())
     if not plan.frequencies or not plan.steel_supplies:
         return 0
     return sum(len(one.cells) for one in planned_files(plan, limits))
