@@ -12,6 +12,7 @@ import typer
 
 from asperity.cli import interrupt
 from asperity.errors import AsperityError, ConvergenceError, plain
+from asperity.store import reason
 
 BROKEN_PIPE = 141
 
@@ -102,7 +103,7 @@ def _stand_in(number: int, mode: int) -> io.TextIOWrapper:
 
 def unwritten(error: OSError) -> str:
     """Return what is to be said of a standard output that cannot be written to."""
-    why = "it is closed" if error.errno == errno.EBADF else (error.strerror or str(error)).lower()
+    why = "it is closed" if error.errno == errno.EBADF else reason(error)
     return f"standard output cannot be written: {why}"
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import StorageError, plain
+from asperity.store import reason
 from asperity.tribometer.journal_lines import NAME, Line, lines_of
 
 _SPARE = ".journal.spare"
@@ -139,5 +140,4 @@ def _told(path: Path) -> Iterator[None]:
     except StorageError:
         raise
     except OSError as error:
-        why = (error.strerror or str(error)).lower()
-        raise StorageError(f"{path} cannot be written: {why}") from error
+        raise StorageError(f"{path} cannot be written: {reason(error)}") from error
