@@ -56,7 +56,7 @@ def test_a_continuous_torque_takes_the_smallest_rated_one_above_it():
 
 def test_a_short_torque_is_carried_by_the_breakdown_torque_of_a_smaller_motor():
     service = Service(((30.0, 1.0), (2.0, 99.0)))
-    assert service.mean_square_torque == pytest.approx(math.sqrt(9.0 + 4.0 * 0.99))
+    assert service.effective_torque == pytest.approx(math.sqrt(9.0 + 4.0 * 0.99))
     small = lightest(service)
     assert small.torque < 30.0 <= small.greatest_torque()
     assert small.mass < lightest(Service(((30.0, 1.0),))).mass

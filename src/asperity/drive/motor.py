@@ -100,7 +100,7 @@ class Service:
         return sum(time for _, time in self.parts)
 
     @property
-    def mean_square_torque(self) -> float:
+    def effective_torque(self) -> float:
         """Root mean square of the torque over a cycle, N m."""
         return math.sqrt(sum(torque**2 * time for torque, time in self.parts) / self.time)
 
@@ -118,7 +118,7 @@ def all_motors() -> tuple[Motor, ...]:
 def does(motor: Motor, service: Service, voltage: float = LOWEST_VOLTAGE) -> bool:
     """Whether a motor neither overheats nor stalls in a service."""
     return (
-        motor.torque >= service.mean_square_torque
+        motor.torque >= service.effective_torque
         and motor.greatest_torque(voltage) >= service.greatest_torque
     )
 
@@ -146,7 +146,7 @@ def lightest(
     doing = [motor for motor in known if does(motor, service, voltage)]
     if not doing:
         raise InputError(
-            f"no motor known does {service.mean_square_torque:.4g} N m all the time and "
+            f"no motor known does {service.effective_torque:.4g} N m all the time and "
             f"{service.greatest_torque:.4g} N m at most; add a larger one in a file named in "
             "ASPERITY_MATERIALS"
         )

@@ -23,10 +23,10 @@ def estimate(model: Model) -> float:
     if model.solve.method == "march":
         return _step(model) * Timetable(model).steps
     points = _TABLE if model.solve.method == "homogenised" and model.vibrates else 1
-    return cycles(model, points * _CYCLES)
+    return time_of_cycles(model, points * _CYCLES)
 
 
-def cycles(model: Model, count: int) -> float:
+def time_of_cycles(model: Model, count: int) -> float:
     """Return roughly how long a number of cycles takes, s."""
     return _step(model) * count * cycle_steps(model)
 

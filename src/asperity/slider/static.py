@@ -11,7 +11,7 @@ from asperity.results import Quantities, Result, labelled, part, quantity
 from asperity.runs import Run
 from asperity.slider.closed_forms import load_swing, plane_static_ratio
 from asperity.slider.closed_forms.profiles import Profile
-from asperity.slider.cost import cycles
+from asperity.slider.cost import time_of_cycles
 from asperity.slider.held import Creep, HeldBody
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
@@ -129,7 +129,7 @@ def answer(model: Model, run: Run) -> StaticResult:
     """
     began = time.perf_counter()
     body = HeldBody(model)
-    run.forecast(cycles(model, _PULLS * body.cycles), f"{_PULLS} pulls")
+    run.forecast(time_of_cycles(model, _PULLS * body.cycles), f"{_PULLS} pulls")
     ratio, notes = _limit(body, run)
     creep = body.creep(ratio + _ABOVE, settled=True)
     closed, which = closed_form(body)

@@ -15,7 +15,7 @@ from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider.continuation import Walk
-from asperity.slider.cost import cycles
+from asperity.slider.cost import time_of_cycles
 from asperity.slider.march import march_key
 from asperity.slider.model import Model
 from asperity.slider.periodic import cycle_steps
@@ -199,7 +199,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         notes += kept["notes"]
         walk.restore(bodies[len(rows) - 1], kept["walk"])
     with run.going_on():
-        run.forecast(sum(cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
+        run.forecast(sum(time_of_cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
         for body in bodies[len(rows) :]:
             state = walk.to(body)
             rows.append(np.array([_of(state, name) for name in names]))
