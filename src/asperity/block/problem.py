@@ -145,7 +145,7 @@ class BlockProblem:
 
     @property
     def mass(self) -> float:
-        """Kg."""
+        """Of the block, kg; 0 where none is given."""
         return self.model.slider.mass or 0.0
 
     @property

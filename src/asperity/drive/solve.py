@@ -16,6 +16,8 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
 
     Parameters
     ----------
+    case : Case
+        What is asked.
     static : bool
         Whether its vibration is left out.
     """

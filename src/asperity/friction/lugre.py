@@ -72,6 +72,8 @@ def lugre_loaded(
 
     Parameters
     ----------
+    deflection, slip_1, slip_2, step, static_ratio, stribeck_speed, rate_damping, slip_damping, law
+        As of `lugre_update`.
     limit : float
         At the reference load.
     load_0, load_1 : float

@@ -74,6 +74,10 @@ def plane(
 
     Parameters
     ----------
+    panel : Axes
+        Where to.
+    values : ndarray, shape (rows, columns)
+        From below and from the left.
     ratios : ndarray or None
         What has the same colours, which part at 1; None for values that are no ratios.
     colours : str

@@ -86,7 +86,7 @@ class SweepResult(Result):
 
     @property
     def failed(self) -> int:
-        """Number of points that did not converge."""
+        """Number of points without an answer: not converged, refused, or not rated."""
         return int(np.count_nonzero(self.status != SOLVED))
 
     @property

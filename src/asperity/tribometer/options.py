@@ -92,7 +92,7 @@ class Twin(Table):
     stribeck_velocity : float or str
         v_S, m/s.
     bronze_velocity : float or str
-        v_pa, which the worm holds, m/s.
+        v_pa, m/s; noted only: the simulated worm turns as its supply and its load let it.
     torque_noise, coloured_noise : float or str
         Standard deviations of what is white from sample to sample, and of what is not, N m.
     noise_time : float or str

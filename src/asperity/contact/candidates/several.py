@@ -53,6 +53,10 @@ def give_way(bodies, k, number, blocks, shapes, candidates, answer, work):
         Place of each in their row.
     blocks : ndarray, shape (b, 3n, 3n)
         Displacement of the body 1, 2 .. b places further under forces on a body, m/N.
+    shapes : ndarray
+        Shares of the nodes of a face at its points.
+    candidates, answer, work : Candidates, Answer, Work
+        As in `solve_all`; of the answer the displacement without contact is written.
     """
     own = candidates_of(candidates, k)
     free = answer.free[k]

@@ -189,6 +189,8 @@ def modified_newton(
         Relative residual to be reached, and forces that are those of touching alone, N.
     most : int
         Iterations that are made at most.
+    u, force, points : ndarray
+        Displacement, m, shape (3n,), and what `tractions` writes of it.
 
     Returns
     -------

@@ -57,6 +57,10 @@ def system(
 
     Parameters
     ----------
+    problem : DriveProblem
+        What is asked.
+    model : ReducedModel
+        Its mesh.
     shaken : bool
         Whether it vibrates.
     motor : bool

@@ -90,6 +90,8 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
 
     Parameters
     ----------
+    case : Case
+        With its gearset.
     density : str or float
         Of the mesh: ``coarse``, ``intermediate``, ``fine``, or the element size on the flank, as
         text with its unit or in mm.

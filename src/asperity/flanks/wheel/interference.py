@@ -32,10 +32,14 @@ class Interference:
 
 
 def interference(wheel: Wheel, side: int = 1, n_radial: int = 12, n_face: int = 13) -> Interference:
-    """Return the gaps of a side of the tooth, 1 or -1, to the worm as it is mounted.
+    """Return the gaps of a side of the tooth to the worm as it is mounted.
 
     Parameters
     ----------
+    wheel : Wheel
+        Whose tooth it is.
+    side : int
+        1 or -1.
     n_radial, n_face : int
         Rows of each part and columns.
     """

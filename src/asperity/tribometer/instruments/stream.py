@@ -31,6 +31,8 @@ class Stream:
         Of samples, s, as asked for.
     block : float
         How late samples may be, s.
+    now : float
+        Time at which it begins, s.
 
     Attributes
     ----------

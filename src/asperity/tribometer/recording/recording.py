@@ -117,7 +117,7 @@ class Recording:
 
     @property
     def duration(self) -> float:
-        """S."""
+        """How long it lasts, s."""
         return self.samples * self.sample_interval
 
     def case(self, known: Mapping[str, Any]) -> Case:

@@ -73,6 +73,8 @@ def cycle_mean(surface, rotor, velocity, shaken, along, across, period, least, m
 
     Parameters
     ----------
+    surface, rotor : Surface, Rotor
+        The contact, and the disc on its shaft.
     velocity : float
         Mean sliding velocity, m/s.
     shaken : ndarray

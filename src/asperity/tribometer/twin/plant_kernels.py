@@ -139,8 +139,16 @@ def turned(motor, speed, volts, load, slope, step):
 
     Parameters
     ----------
+    motor : Motor
+        Which turns.
+    speed : float
+        Before the step, rad/s.
+    volts : float
+        Of its supply, V; below 0 it is switched off.
     load, slope : float
         Torque at the motor from the disc, N m, and its derivative by the motor's speed.
+    step : float
+        s.
     """
     current = 0.0
     back = 0.0
@@ -226,8 +234,22 @@ def sample(
 
     Parameters
     ----------
+    steel, bronze : Motor
+        Of the discs.
+    sensing : Sensing
+        What the signals hold beside what is measured.
+    drive : Drive
+        What motors and vibration are given.
+    speeds, forces : ndarray
+        Sliding velocities, m/s, and friction at them, N.
+    state : record of `STATE`
+        Of the rig; changed.
+    step : float
+        Of the march, s.
     stride : int
         Samples a step.
+    interval : float
+        Of the samples, s.
     channels : ndarray of int
         Which signal each column holds.
     gains, offsets : ndarray
