@@ -42,6 +42,29 @@ def test_a_grid_that_is_solved_is_what_the_command_line_finds(seen, server):
     expect(page.get_by_text("6 of 6 points")).to_be_visible()
 
 
+def test_points_that_no_grid_has_are_refused_also_from_an_address(seen):
+    for points in ("1000000000", "abc", "0", "2.5", ""):
+        page = seen.open(
+            "sweep", case="body-shaken-along", x=f"vibration.velocity_ratio~2~8~{points}~log",
+            y="none",
+        )  # fmt: skip
+        fault = page.get_by_role("alert").filter(has_text="whole number from 1 to 500")
+        expect(fault).to_contain_text(f'points of velocity ratio: "{points}"')
+        box = page.get_by_label("points", exact=True)
+        expect(box).to_have_value(points)
+        expect(box).to_have_attribute("aria-invalid", "true")
+        expect(page.get_by_role("button", name="solve the grid")).to_be_disabled()
+        box.fill("3")
+        box.press("Enter")
+        expect(page.get_by_text("3 points")).to_be_visible()
+        expect(page.locator(".fault")).to_have_count(0)
+    for typed in ("abc", "0", "1e9"):
+        box.fill(typed)
+        box.press("Enter")
+        expect(fault).to_contain_text(f'"{typed}"')
+        expect(box).to_have_value(typed)
+
+
 def test_a_grid_is_stopped_from_the_list_of_jobs_and_gone_on_with(seen):
     page = seen.open(
         "sweep", case="body-shaken-along", x="vibration.velocity_ratio~1~20~40~even",

@@ -28,9 +28,9 @@ const NOTHING = { job: null, data: null, error: null, asking: false };
 /**
  * A job of a command; which one stands in the address, with a name for what was asked of it.
  *
- * @typedef {{id: string, job: any, data: any, error: Error | null, asking: boolean, stale: boolean,
- *   start: () => Promise<void>, stop: () => void}} Job `asking`: begun, and not heard of yet;
- *   `stale`: something was set since
+ * @typedef {{id: string, job: any, data: any, error: Error | null, asking: boolean, can: boolean,
+ *   stale: boolean, start: () => Promise<void>, stop: () => void}} Job `asking`: begun, and not heard of yet;
+ *   `can`: there is something to ask; `stale`: something was set since
  *
  * @param {string} command
  * @param {object | null} body what a new one would be asked: case, settings, options
@@ -73,7 +73,8 @@ export function useJob(command, body, slot = "") {
       put({ error, asking: false });
     }
   };
-  return { id, ...state, stale: Boolean(id) && of !== name, start, stop: () => post(`/api/jobs/${id}/stop`, {}) };
+  const stop = () => post(`/api/jobs/${id}/stop`, {});
+  return { id, ...state, can: Boolean(asked), stale: Boolean(id) && of !== name, start, stop };
 }
 
 /**
@@ -112,13 +113,13 @@ export function left({ state, done, total, seconds, answered }) {
 
 /** Begin, how far it is, stop. @param {{work: Job, label: string}} props */
 export function Work({ work, label }) {
-  const { job, asking, stale, start, stop } = work;
+  const { job, asking, can, stale, start, stop } = work;
   const running = job && !ENDED.includes(job.state);
   const said = asking ? "begun" : running ? left(job)
     : stale && job ? "something was set since; this is the answer to what was asked before"
     : job ? left(job) : "";
   return html`<div class="work">
-    <button type="button" class=${job?.state === "done" && !stale ? "" : "main"} disabled=${running || asking}
+    <button type="button" class=${job?.state === "done" && !stale ? "" : "main"} disabled=${running || asking || !can}
       onClick=${start}>${job?.state === "stopped" && !stale ? `go on: ${label}` : label}</button>
     ${running || asking ? html`<progress aria-label=${label} max=${job?.total || 1}
       value=${job?.total ? job.done : undefined}></progress>` : null}

@@ -20,14 +20,18 @@ const LOOK = 1000;
 const SLOW = 504;
 /** The least that a point of many takes, s. */
 const LEAST = 5e-4;
+/** The most points of an axis. */
+const MOST = 500;
 
-/** An axis as it stands in the address. */
+/** An axis as it stands in the address; its count is NaN where what stands there is refused. */
 function axisOf(text) {
-  const [path, from, to, count, spacing] = text.split("~");
-  return path.includes(".") ? { path, from, to, count: Number(count) || 2, spacing } : null;
+  const [path, from, to, points = "2", spacing] = text.split("~");
+  const typed = points.trim() ? Number(points) : NaN;
+  const count = Number.isInteger(typed) && typed >= 1 && typed <= MOST ? typed : NaN;
+  return path.includes(".") ? { path, from, to, points, count, spacing } : null;
 }
 
-const textOf = ({ path, from, to, count, spacing }) => [path, from, to, count, spacing].join("~");
+const textOf = ({ path, from, to, points, spacing }) => [path, from, to, points, spacing].join("~");
 
 /** The values of an axis as `--over` takes them. */
 function over({ path, from, to, count, spacing }) {
@@ -54,7 +58,10 @@ export function view() {
   const texts = ["x", "y"].map((key, place) => params[key] ?? kind.axes[place]);
   const axes = texts.map(axisOf).filter(Boolean);
   const points = axes.reduce((product, { count }) => product * count, 1);
-  const body = name && axes.length ? { case: name, settings, options: { over: axes.map(over) } } : null;
+  const wrong = axes.find(({ count }) => !count);
+  const refused = wrong && { message: `points of ${words(wrong.path.split(".")[1])}: ${JSON.stringify(wrong.points)}; `
+    + `it must be a whole number from 1 to ${MOST}` };
+  const body = name && axes.length && !wrong ? { case: name, settings, options: { over: axes.map(over) } } : null;
   const work = useJob("sweep", body);
   // One point is solved at once: it refuses what cannot be, and tells how long the others take.
   const one = useLive(kind.verb, name ? { case: name, settings } : null, 300);
@@ -66,12 +73,12 @@ export function view() {
   return html`<${Screen} title="Sweep" kinds=${["slide", "gear"]} first="body-shaken-along" start=${SLIDE.start}
     lead="A case at every point of a grid. What is solved is kept: stop when you like, and go on later."
     answer=${{ ...one.data, notes: running ? work.job.notes : [], command: body && commandLine("sweep", body) }}
-    error=${work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}>
+    error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}>
     <div class="columns">
       <section class="controls" aria-label="the grid">
         ${["x", "y"].map((key, place) => html`<${AxisForm} key=${key} name=${key} tables=${kind.tables}
           label=${place ? "second axis" : "first axis"} axis=${axisOf(texts[place])} file=${file} />`)}
-        <p role="status"><b>${points}</b> ${points === 1 ? "point" : "points"}, ${time}</p>
+        <p role="status">${wrong ? "–" : html`<b>${points}</b> ${points === 1 ? "point" : "points"}, ${time}`}</p>
         <${Work} work=${work} label="solve the grid" />
         <${AllKeys} tables=${[...kind.tables, ...kind.rest]} brief />
       </section>
@@ -99,12 +106,11 @@ function AxisForm({ name, label, axis, tables, file }) {
     const has = unit || field.unit ? ` ${unit || field.unit}` : "";
     const ends = path === "vibration.direction" ? [0, 90] : [value / 2, value * 2];
     const [from, to] = ends.map((end) => `${digits(end)}${has}`);
-    setParam(name, textOf({ path, from, to, count: 11, spacing: field.log ? "log" : "even" }));
+    setParam(name, textOf({ path, from, to, points: "11", spacing: field.log ? "log" : "even" }));
   };
   const numeric = ({ kind }) => ["quantity", "number", "integer"].includes(kind);
-  const count = (typed) => Math.max(1, Math.round(Number(typed)) || 1);
   const boxes = axis ? [["from", axis.from, (from) => change({ from })], ["to", axis.to, (to) => change({ to })],
-    ["points", String(axis.count), (typed) => change({ count: count(typed) })]] : [];
+    ["points", axis.points, (points) => change({ points }), !axis.count]] : [];
   return html`<fieldset><legend>${label}</legend>
     <div class="field"><label for=${`${name}-path`}>key</label>
       <select id=${`${name}-path`} value=${axis?.path ?? ""} onChange=${(event) => choose(event.target.value)}>
@@ -114,9 +120,10 @@ function AxisForm({ name, label, axis, tables, file }) {
             html`<option value=${`${table}.${key}`}>${words(key)}</option>`)}
         </optgroup>`)}
       </select></div>
-    ${boxes.map(([what, text, put]) => html`<div class="field" key=${what}>
+    ${boxes.map(([what, text, put, invalid]) => html`<div class="field" key=${what}>
       <label for=${`${name}-${what}`}>${what}</label>
-      <${Box} id=${`${name}-${what}`} text=${text} onSet=${put} /></div>`)}
+      <${Box} id=${`${name}-${what}`} text=${text} onSet=${put} invalid=${invalid} />
+      ${what === "points" ? html`<p class="says">a whole number from 1 to ${MOST}</p>` : null}</div>`)}
     ${axis ? html`<div class="field"><label for=${`${name}-spacing`}>spacing</label>
       <select id=${`${name}-spacing`} value=${axis.spacing}
         onChange=${(event) => change({ spacing: event.target.value })}>
