@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?(?![0-9.])")
+_COMMA = re.compile(r"\s*[+-]?[0-9]*,[0-9]+(?![0-9.,])")
 _UNIT = re.compile(r"[A-Za-z\u00b5\u03bc\u00b0%\u00b7\u00b2\u00b3*/^() 0-9-]{0,60}")
 _A_MINUTE = frozenset(("1/min", "/min", "min^-1", "min**-1"))
 _PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
@@ -314,7 +315,9 @@ class Quantity:
         try:
             result = to_si(value, self.unit, bare=bare)
         except InputError:
-            raise InputError(self.expected()) from None
+            comma = isinstance(value, str) and _COMMA.match(value)
+            point = ", with a point in place of the comma" if comma else ""
+            raise InputError(self.expected() + point) from None
         if (
             (self.gt is not None and not result > self.gt)
             or (self.ge is not None and not result >= self.ge)

@@ -183,6 +183,13 @@ def test_a_field_takes_text_with_a_unit_or_si():
         ("speed", "-1 m/s", "it must be positive"),
         ("angle", "90", "it must be an angle such as '45 deg'"),
         ("share", "x", "it must be a share such as 0.71"),
+        (
+            "speed",
+            "2,5 mm/s",
+            "it must be a velocity such as '0.5 mm/s', with a point in place of the comma",
+        ),
+        ("share", "0,5", "it must be a share such as 0.71, with a point in place of the comma"),
+        ("share", "0,5,7", "it must be a share such as 0.71"),
         ("share", 1.5, "it must be at least 0 and at most 1"),
     ],
 )
