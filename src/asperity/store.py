@@ -247,6 +247,8 @@ def portable(name: str) -> bool:
 
 def require_portable(name: str) -> None:
     """Refuse a name that a file cannot have on every system."""
+    if _RESERVED.match(name):
+        raise InputError(f"{shown(name)} is a name that Windows keeps to itself; take another")
     if not portable(name):
         raise InputError(
             f"{shown(name)} is not a name of a file here; take letters, digits, '-', '_', '.'"

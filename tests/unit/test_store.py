@@ -14,6 +14,7 @@ from asperity.store import (
     output_folder,
     read_dataset,
     read_text,
+    require_portable,
     write_atomically,
     write_dataset,
     write_text,
@@ -236,3 +237,9 @@ def test_a_file_that_cannot_be_written_is_told_by_its_own_name(tmp_path):
 
     path = tmp_path / "run.nc"
     assert refusal(write_atomically, path, fail) == f"{path} cannot be written: disk full"
+
+
+@pytest.mark.parametrize(("name", "why"), [("CON.toml", "Windows"), ("a/b", "take letters")])
+def test_a_name_that_no_file_can_have_is_refused_for_what_it_is(name, why):
+    with pytest.raises(InputError, match=why):
+        require_portable(name)
