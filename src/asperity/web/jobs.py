@@ -76,7 +76,7 @@ class Jobs:
         write_text(job.home / REQUEST, json.dumps(asked))
         self._held[identity] = job
         job.stopping = job.begun = False
-        job.error, job.exit_code, job.reached = "", 0, None
+        job.error, job.exit_code, job.reached, job.notes = "", 0, None, []
         job.set("queued")
         self._waiting.append(job)
         self._next()
