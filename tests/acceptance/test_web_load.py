@@ -1,6 +1,8 @@
 """What the page costs: bytes and memory of a slider that is dragged."""
 
 import os
+import socket
+import time
 
 import pytest
 from apparatus.page import Served, memory, processor_time
@@ -60,3 +62,18 @@ def test_who_has_gone_is_passed_over(page):
     assert page.do("check", "table-4.3").status == 200
     # At most the one that was begun was solved.
     assert processor_time(worker) - began < 3.0 * one + 0.5
+
+
+@pytest.mark.slow
+def test_what_nobody_waits_for_any_more_is_given_up(page):
+    asked = b'{"case": "body-shaken-along", "settings": {"slider.normal_force": "1e9 N"}}'
+    head = ("POST /api/do/slide HTTP/1.1", *page.own, "Content-Type: application/json",
+            f"Content-Length: {len(asked)}", "", "")  # fmt: skip
+    page.do("slide", "table-4.3", PERIODIC)
+    with socket.create_connection(("127.0.0.1", page.port)) as connection:
+        connection.sendall("\r\n".join(head).encode() + asked)
+        time.sleep(0.5)
+        worker = page.child("worker")
+    assert page.do("slide", "table-4.3", PERIODIC).status == 200
+    # It would have taken its ten seconds.
+    assert page.child("worker") != worker

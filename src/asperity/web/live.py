@@ -1,7 +1,8 @@
 """A warm worker: a process that answers while a slider is dragged, and is replaced if it hangs.
 
 It is asked one thing after the other. Whoever has gone by the time it is his turn is passed over,
-so that a slider that was dragged fast leaves no queue behind.
+so that a slider that was dragged fast leaves no queue behind; whoever goes while it works at an
+answer for long has it begun anew, so that what was asked last is answered soon.
 """
 
 import asyncio
@@ -16,8 +17,14 @@ from asperity.web.verbs import VERBS, told
 _TRIES = 3
 _SLOWEST_START = 600.0  # of the first of all, in which every kernel is compiled
 
+_PATIENCE = 1.0  # with an answer for which nobody waits: to begin anew takes longer
+
 Answer = tuple[int, bytes]
 Gone = Callable[[], Awaitable[bool]]
+
+
+class _Left(Exception):  # noqa: N818 - no error
+    """Nobody waits for an answer any more."""
 
 
 class Live:
@@ -82,26 +89,33 @@ class Live:
         asked = VERBS[verb]
         for _ in range(_TRIES):
             # What it takes to begin, on a busy machine or for the first time, is not its answer's.
+            begun = self.ready if asked.kernels else self.up
             if processes.lives(self._process):
                 with contextlib.suppress(TimeoutError):
-                    begun = self.ready if asked.kernels else self.up
                     await asyncio.wait_for(begun.wait(), _SLOWEST_START)
             async with self._turn:
+                if processes.lives(self._process):  # begun anew, it may be, while others had their turn
+                    with contextlib.suppress(TimeoutError):
+                        await asyncio.wait_for(begun.wait(), _SLOWEST_START)
                 if await gone():
-                    return _line(499, "nobody waits for the answer", 1)
+                    return _GONE
                 if processes.lives(self._process):
-                    return await self._answer(verb, body, asked.seconds)
+                    return await self._answer(verb, body, asked.seconds, gone)
                 await self.start()
         return _line(500, f"the process that answers {verb} does not begin", 1)
 
-    async def _answer(self, verb: str, body: bytes, seconds: float) -> Answer:
+    async def _answer(self, verb: str, body: bytes, seconds: float, gone: Gone) -> Answer:
         process = self._process
         assert process is not None
         assert process.stdin is not None
         head = json.dumps({"verb": verb, "length": len(body)}).encode()
         try:
             process.stdin.write(head + b"\n" + body)
-            answer = await asyncio.wait_for(self._frames.get(), seconds)
+            async with asyncio.timeout(seconds):
+                answer = await self._framed(gone)
+        except _Left:
+            await self._again()
+            return _GONE
         except TimeoutError:
             await self._again()
             line = f"{verb} took more than {seconds:g} s, longer than a page waits; ask for less"
@@ -114,6 +128,17 @@ class Live:
             await self._again()
             return _line(500, f"the process that solves ended at {verb}; it is started anew", 1)
         return answer
+
+    async def _framed(self, gone: Gone) -> Answer | None:
+        """Return the next answer; raises _Left if nobody waits for it and it takes long."""
+        frame = asyncio.ensure_future(self._frames.get())
+        try:
+            while not (await asyncio.wait({frame}, timeout=_PATIENCE))[0]:
+                if await gone():
+                    raise _Left
+            return frame.result()
+        finally:
+            frame.cancel()
 
     async def _again(self) -> None:
         await self.stop()
@@ -141,3 +166,6 @@ class Live:
 
 def _line(status: int, line: str, exit_code: int) -> Answer:
     return status, json.dumps(told(line, exit_code)).encode()
+
+
+_GONE = _line(499, "nobody waits for the answer", 1)
