@@ -70,6 +70,31 @@ def test_a_window_follows_the_pointer_at_once_and_no_late_answer_moves_it_back(s
     assert grip.bounding_box()["x"] == pytest.approx(further, abs=0.5)
 
 
+def test_an_edge_stops_short_of_the_other_end_of_its_window(seen):
+    page = dropped(seen)
+    grip = page.locator(".grip").first
+    box, window = grip.bounding_box(), page.locator(".window.fill1").first.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 2 * window["width"], y)
+    page.mouse.up()
+    settled(page)
+    expect(page.locator(".fault")).to_have_count(0)
+    there, end = grip.bounding_box()["x"], window["x"] + window["width"]
+    assert x < there < end
+    expect(page.locator(".segment.refused")).to_have_count(0)
+    # One that was set beyond the end can be dragged back.
+    page = seen.open("rig", rec="rig.nc", **{"set.reduction.settling": "40 s"})
+    expect(page.locator(".signals")).to_be_visible()
+    svg, far = page.locator(".signals").bounding_box(), grip.bounding_box()
+    assert far["x"] < svg["x"] + svg["width"]
+    grip.focus()
+    page.keyboard.press("ArrowLeft")
+    settled(page)
+    assert grip.bounding_box()["x"] < far["x"]
+
+
 def test_an_interval_is_a_bar_and_point_and_model_have_marks_of_their_own(seen):
     page = dropped(seen)
     page.get_by_role("button", name="reduce").click()

@@ -2,7 +2,7 @@
 import { html, useRef, useState } from "../../vendor/preact.js";
 import { about, get, job as submit, loadAbout, upload, useLive } from "../api.js";
 import { Figure } from "../figure.js";
-import { Field, words } from "../form.js";
+import { Field, useValue, words } from "../form.js";
 import { path, Plot, ticks } from "../plot.js";
 import { Screen, tell } from "../shell.js";
 import { go, route, setParam, useCase } from "../state.js";
@@ -35,7 +35,7 @@ export function view() {
   const seen = useLive("signals", asked && { ...asked, case: name }, 60);
   const reduced = useJob("rig reduce", asked);
   const found = reduced.data?.answer;
-  return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy}
+  return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy} now=${!rec || seen.now}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
       answer=${seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }}
       error=${rec ? (seen.error ?? reduced.error) : null}>
@@ -124,6 +124,7 @@ function Bring({ name, rec }) {
 /** Signals over time with the windows of each segment; an edge that is dragged moves the settling. */
 function Signals({ time, signals, segments, settling_s: answered, duration_s: duration }) {
   const { settings, set } = useCase();
+  const least = inUnit(useValue(`${OWN}least_window`).text, "s") || 0;
   const box = useRef(null);
   const grip = useRef(null);
   const [held, setHeld] = useState(null);
@@ -133,10 +134,12 @@ function Signals({ time, signals, segments, settling_s: answered, duration_s: du
   const rows = SHOWN.map((name) => signals.find((each) => each.name === name)).filter(Boolean);
   const height = rows.length * ROW + 24;
   const along = (seconds) => LEFT + ((WIDTH - LEFT - RIGHT) * seconds) / duration;
-  const settle = (seconds) => Math.max(0, Math.round(seconds * 20) / 20);
-  const put = (seconds) => set(`${OWN}settling`, `${digits(settle(seconds), 4)} s`);
-  const grab = (event, start) => {
-    grip.current = start;
+  // Of the segment whose edge is moved, the least window stays.
+  const settle = (seconds, { with: [from, to] }) =>
+    Math.max(0, Math.round(Math.min(seconds, to - from + answered - least) * 20) / 20);
+  const put = (seconds) => set(`${OWN}settling`, `${digits(seconds, 4)} s`);
+  const grab = (event, one) => {
+    grip.current = one;
     event.preventDefault();
     event.currentTarget.focus();
     event.currentTarget.setPointerCapture(event.pointerId);
@@ -145,23 +148,23 @@ function Signals({ time, signals, segments, settling_s: answered, duration_s: du
     if (grip.current === null) return;
     const { left, width } = box.current.getBoundingClientRect();
     const place = ((event.clientX - left) / width) * WIDTH - LEFT;
-    setHeld(settle((place / (WIDTH - LEFT - RIGHT)) * duration - grip.current));
+    setHeld(settle((place / (WIDTH - LEFT - RIGHT)) * duration - grip.current.start, grip.current));
   };
   const drop = () => {
     grip.current = null;
     if (held !== null) put(held);
     setHeld(null);
   };
-  const keyed = (event) => {
+  const keyed = (event, one) => {
     const step = { ArrowLeft: -0.1, ArrowRight: 0.1 }[event.key];
     if (!step) return;
     event.preventDefault();
-    put(settling + step);
+    put(settle(settling + step, one));
   };
   const columns = () => [{ label: "time", unit: "s", values: time },
     ...signals.map(({ name, unit, values }) => ({ label: words(name), unit, values }))];
   // The left edges move with the settling, the right ones are where something changes.
-  const ends = ([from, to]) => [Math.min(from + settling - answered, to), to];
+  const ends = ([from, to]) => [Math.min(from + settling - answered, to), to].map((at) => Math.min(at, duration));
   const window = (kind, colour) => {
     const [from, to] = ends(kind).map(along);
     return html`<rect class=${`window fill${colour}`} x=${from} width=${to - from} y="4"
@@ -182,8 +185,8 @@ function Signals({ time, signals, segments, settling_s: answered, duration_s: du
       ${segments.map((one, at) => html`<rect key=${at} class="grip" x=${along(ends(one.with)[0]) - 4} width="8" y="4"
         height=${rows.length * ROW - 8} role="slider" tabindex="0" aria-label=${`settling, at segment ${at + 1}`}
         aria-valuemin="0" aria-valuemax=${duration} aria-valuenow=${settling}
-        aria-valuetext=${`${digits(settling, 3)} s`} onKeyDown=${keyed}
-        onPointerDown=${(event) => grab(event, one.start)} />`)}
+        aria-valuetext=${`${digits(settling, 3)} s`} onKeyDown=${(event) => keyed(event, one)}
+        onPointerDown=${(event) => grab(event, one)} />`)}
     </svg></div>
     <p class="says">Time in s. Green: sliding before; blue: with vibration. Drag the left edge of a blue window,
       or press ← →: what is left out behind every change is ${digits(settling, 3)} s.</p>
