@@ -98,6 +98,23 @@ def test_no_token_is_told_and_nothing_is_shown(browser, server):
     context.close()
 
 
+def test_a_tab_without_token_asks_little_and_comes_back_by_the_printed_address(browser, server):
+    context = browser.new_context()
+    page = context.new_page()
+    asked = []
+    page.on("request", lambda request: "/api/" in request.url and asked.append(request.url))
+    page.goto(f"http://127.0.0.1:{server.port}/#/slide?case=body-shaken-along")
+    expect(page.get_by_role("alert").first).to_contain_text("token")
+    page.wait_for_timeout(1500)
+    assert len(asked) <= 6, asked
+    page.goto(f"http://127.0.0.1:{server.port}/#/slide?token={server.token}")
+    expect(page.locator("[data-key=ratio]").first).to_be_visible()
+    expect(page.locator(".fault")).to_have_count(0)
+    assert page.locator("#case option").count() > 3
+    assert "token" not in page.url
+    context.close()
+
+
 def test_a_markup_in_a_name_is_text(seen, server):
     (server.folder / "odd.toml").write_text(
         '# <img src=x onerror=alert(1)>\n[slider]\ndrive_velocity = "1 mm/s"\n'

@@ -157,3 +157,78 @@ def test_a_case_is_replaced_only_when_that_is_said(slide):
     slide.get_by_role("button", name="replace it").click()
     expect(slide.get_by_role("dialog")).to_have_count(0)
     expect(slide.get_by_label("direction, typed")).to_have_value("5 deg")
+
+
+def typed(page, label, text):
+    box = page.get_by_label(label, exact=True)
+    box.fill(text)
+    box.press("Enter")
+    return box
+
+
+def test_nothing_is_handed_out_of_other_settings_while_a_field_is_refused(slide):
+    typed(slide, "velocity ratio k, typed", "3,5")
+    expect(slide.locator(".fault")).to_contain_text("with a point in place of the comma")
+    for button in ("copy command", "save case"):
+        slide.get_by_role("button", name=button).click()
+        expect(slide.locator(".toast")).to_contain_text("not yet: vibration.velocity_ratio")
+        expect(slide.get_by_role("dialog")).to_have_count(0)
+    typed(slide, "velocity ratio k, typed", "3.5")
+    settled(slide)
+    slide.get_by_role("button", name="copy command").click()
+    expect(slide.locator(".toast")).to_contain_text("vibration.velocity_ratio=3.5")
+
+
+def test_what_takes_long_is_dimmed_and_makes_room_for_what_is_set_next(slide):
+    expect(slide.locator(".stale")).to_have_count(0)
+    typed(slide, "normal force, typed", "1e9 N")
+    expect(slide.locator(".stale")).to_be_visible(timeout=2000)
+    typed(slide, "normal force, typed", "55 N")
+    box = typed(slide, "velocity ratio k, typed", "3")
+    number = slide.locator("[data-key=velocity_ratio]").first
+    expect(number).to_have_attribute(
+        "data-value", re.compile(r"^(3|2\.9999|3\.0000)"), timeout=15_000
+    )
+    expect(slide.locator(".stale")).to_have_count(0)
+    expect(slide.locator(".fault")).to_have_count(0)
+    expect(box).to_have_value("3")
+
+
+def test_a_drag_is_one_step_to_go_back_from(slide):
+    settled(slide)
+    before = slide.evaluate("history.length")
+    handle = slide.get_by_role("slider", name="velocity ratio k", exact=True)
+    was = slide.get_by_label("velocity ratio k, typed").input_value()
+    box = handle.bounding_box()
+    y = box["y"] + box["height"] / 2
+    slide.mouse.move(box["x"] + box["width"] / 2, y)
+    slide.mouse.down()
+    for part in (0.3, 0.7, 0.4, 0.8):
+        slide.mouse.move(box["x"] + part * box["width"], y)
+        slide.wait_for_timeout(500)
+    assert slide.evaluate("history.length") == before
+    slide.mouse.up()
+    settled(slide)
+    assert slide.evaluate("history.length") == before + 1
+    slide.go_back()
+    expect(slide.get_by_label("velocity ratio k, typed")).to_have_value(was)
+
+
+def test_a_refused_text_leaves_no_unit_and_goes_when_it_is_emptied(slide):
+    was = slide.get_by_label("frequency, typed").input_value()
+    box = typed(slide, "frequency, typed", "3 furlong")
+    expect(slide.locator(".fault")).to_be_visible()
+    typed(slide, "frequency, typed", "4")
+    expect(box).to_have_value("4 kHz")
+    typed(slide, "frequency, typed", "-3")
+    expect(slide.locator(".fault")).to_be_visible()
+    typed(slide, "frequency, typed", "")
+    expect(box).to_have_value(was)
+    expect(slide.locator(".fault")).to_have_count(0)
+
+
+def test_a_direction_that_is_none_is_drawn_nowhere(slide):
+    expect(slide.get_by_text("Force left over direction")).to_be_visible()
+    typed(slide, "direction, typed", "x")
+    expect(slide.locator(".fault")).to_be_visible()
+    expect(slide.locator("circle.here")).to_have_count(0)

@@ -18,7 +18,11 @@ export class Refused extends Error {
 /** Of a file that is there already and holds something else. */
 export const THERE = 409;
 
+/** Tokens that were refused, and how: with one of them nothing more is asked. */
+const barred = new Map();
+
 async function ask(path, options = {}) {
+  if (barred.has(token())) throw barred.get(token());
   const headers = { "X-Asperity-Token": token(), ...options.headers };
   let response;
   try {
@@ -29,7 +33,9 @@ async function ask(path, options = {}) {
   }
   if (response.ok) return response;
   const told = await response.json().catch(() => ({}));
-  throw new Refused(told.error ?? `the server answered ${response.status}`, response.status, told);
+  const refused = new Refused(told.error ?? `the server answered ${response.status}`, response.status, told);
+  if (response.status === 403) barred.set(token(), refused);
+  throw refused;
 }
 
 /** @param {string} path such as "/api/about" */
@@ -115,17 +121,20 @@ export async function loadForms() {
   forms.value = tables;
 }
 
-/** Cases as they are written, by name. */
+/** Cases as they are written, by name, and those that are on their way. */
 const opened = signal({});
+const coming = new Set();
 
 /** The tables of a case as texts, null until they are there. */
 export function useCaseFile(name) {
   const known = opened.value[name];
   useEffect(() => {
-    if (!name || known) return;
+    if (!name || known || coming.has(name)) return;
+    coming.add(name);
     get(`/api/case/${encodeURIComponent(name)}`)
       .then((file) => (opened.value = { ...opened.peek(), [name]: file }))
-      .catch((error) => (opened.value = { ...opened.peek(), [name]: { tables: {}, error } }));
+      .catch((error) => (opened.value = { ...opened.peek(), [name]: { tables: {}, error } }))
+      .finally(() => coming.delete(name));
   }, [name, known]);
   return known ?? null;
 }
@@ -170,19 +179,39 @@ export function forgetCase(name) {
   opened.value = rest;
 }
 
+/** How long what is shown may be of something set before, and a question go on that is of no use, ms. */
+const [LATE, LONGEST] = [500, 1500];
+
 /**
  * The answer to what is set now. One question is under way at a time; of those that come
  * meanwhile the last one is asked next, so that a slider that is dragged never waits in a queue.
+ * `now` tells whether `data` are of what is set, `late` that they have not been for a while.
  *
  * @param {string} verb
  * @param {object | null} body null: nothing to ask yet
  * @param {number} delay how long nothing must change before it is asked, ms
  */
 export function useLive(verb, body, delay = 0) {
-  const [state, setState] = useState({ data: null, error: null, busy: false });
-  const queue = useRef({ running: false, next: "", timer: 0, gone: false });
+  const [state, setState] = useState({ data: null, error: null, busy: false, of: "" });
+  const [late, setLate] = useState(false);
+  const queue = useRef({ running: false, next: "", timer: 0, gone: false, asked: "", since: 0, leave: null });
   const text = body ? JSON.stringify(body) : "";
-  useEffect(() => () => void (queue.current.gone = true), []);
+  useEffect(() => () => {
+    queue.current.gone = true;
+    queue.current.leave?.abort();
+  }, []);
+  const waits = Boolean(text) && text !== state.of;
+  useEffect(() => {
+    setLate(false);
+    const timer = waits ? setTimeout(() => setLate(true), LATE) : 0;
+    return () => clearTimeout(timer);
+  }, [waits, state.of]);
+  useEffect(() => {
+    // What was asked before makes room for what is set now once it has had its time.
+    const { running, asked, since, leave } = queue.current;
+    const timer = running && asked !== text ? setTimeout(() => leave.abort(), since + LONGEST - performance.now()) : 0;
+    return () => clearTimeout(timer);
+  }, [text, state.of]);
   useEffect(() => {
     if (!text) return;
     const mine = queue.current;
@@ -192,9 +221,10 @@ export function useLive(verb, body, delay = 0) {
       while (mine.next && !mine.gone) {
         const asked = mine.next;
         mine.next = "";
-        const answer = await call(verb, JSON.parse(asked)).then(
-          (data) => ({ data, error: null }),
-          (error) => ({ error }),
+        Object.assign(mine, { asked, since: performance.now(), leave: new AbortController() });
+        const answer = await call(verb, JSON.parse(asked), mine.leave).then(
+          (data) => ({ data, error: null, of: asked }),
+          (error) => (error.name === "AbortError" ? {} : { error, of: asked }),
         );
         if (!mine.gone) setState((old) => ({ ...old, ...answer, busy: Boolean(mine.next) }));
       }
@@ -207,5 +237,5 @@ export function useLive(verb, body, delay = 0) {
     }, delay);
     return () => clearTimeout(mine.timer);
   }, [verb, text, delay]);
-  return state;
+  return { ...state, error: late ? null : state.error, late, now: !waits && !state.error };
 }

@@ -15,15 +15,16 @@ export function fieldOf(path) {
 
 /**
  * What a key is now and where that comes from.
- * @returns {{text: string, from: "set" | "case" | "default" | "example" | ""}}
+ * @returns {{text: string, from: "set" | "case" | "default" | "example" | "", own?: string}} `own`: what
+ *   the case says of what is set
  */
 export function useValue(path) {
   const { name, settings } = useCase();
   const file = useCaseFile(name);
   const [table, key] = path.split(".");
-  if (path in settings) return { text: settings[path], from: "set" };
   const displaced = (instead.get(path) ?? []).some((other) => other in settings);
   const written = file?.tables[table]?.[key];
+  if (path in settings) return { text: settings[path], from: "set", own: written };
   if (written !== undefined && !displaced) return { text: written, from: "case" };
   const others = (instead.get(path) ?? []).length > 0;
   const fallback = others ? "" : (fieldOf(path)?.default ?? "");
@@ -87,7 +88,7 @@ function withUnit(typed, before, field) {
 /** One key of the case with its label. `label` is said instead of the key's own words. */
 export function Field({ path, label, brief }) {
   const { set, unset } = useCase();
-  const { text, from } = useValue(path);
+  const { text, from, own = "" } = useValue(path);
   const field = fieldOf(path);
   if (!field) return null;
   const id = `field-${path.replace(".", "-")}`;
@@ -95,7 +96,7 @@ export function Field({ path, label, brief }) {
   const wrong = fault.value.includes(`${path} `);
   const others = (field.follows ?? []).map(words).join(" or ");
   const put = (typed) =>
-    typed === "" ? unset(path) : set(path, withUnit(typed, text, field));
+    typed === "" ? unset(path) : set(path, withUnit(typed, wrong ? own : text, field));
   return html`<div class=${`field ${from}`}>
     <label for=${id}>${said}</label>
     ${field.kind === "choice" || field.kind === "flag"
@@ -164,10 +165,11 @@ const STEPS_A_DECADE = 100;
  *   log?: boolean, step?: number}} props bounds and step in `unit`, that of the forms if left out
  */
 export function Slider({ path, label, low, high, unit, log, step }) {
-  const { set } = useCase();
-  const { text } = useValue(path);
+  const { set, unset } = useCase();
+  const { text, own: before = "" } = useValue(path);
   const field = fieldOf(path);
   if (!field) return null;
+  const wrong = fault.value.includes(`${path} `);
   const own = unit ?? field.unit;
   const usual = split(field.example)[0] || 1;
   const byRatio = log ?? field.log;
@@ -187,11 +189,12 @@ export function Slider({ path, label, low, high, unit, log, step }) {
   };
   const id = `slide-${path.replace(".", "-")}`;
   const said = label ?? words(field.key);
-  const put = (typed) => typed && set(path, withUnit(typed, text || `0 ${own}`, field));
+  const put = (typed) =>
+    typed === "" ? unset(path) : set(path, withUnit(typed, (wrong ? before : text) || `0 ${own}`, field));
   return html`<div class="slider">
     <label for=${id} title=${meaningOf(field)}>${said}</label>
     <${Box} text=${text} onSet=${put} label=${`${said}, typed`} placeholder=${field.example}
-      invalid=${fault.value.includes(`${path} `)} />
+      invalid=${wrong} />
     <input type="range" id=${id} min=${byRatio ? 0 : least} max=${byRatio ? steps : most}
       step=${byRatio ? 1 : (step ?? (most - least) / 200)}
       value=${Number.isFinite(place) ? place : 0} aria-valuetext=${text || "not given"}

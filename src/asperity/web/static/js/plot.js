@@ -166,7 +166,7 @@ export function Plot(props) {
         <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} />
         ${lines.map((line) => html`<${Drawn} key=${line.label} line=${line} colour=${line.colour} across=${across}
           places=${line.x ?? x.values} up=${upOf(line)} />`)}
-        ${marks.map((mark) => (number(mark.y)
+        ${marks.filter((mark) => number(mark.x)).map((mark) => (number(mark.y)
           ? html`<circle class="here" cx=${across.at(mark.x)} cy=${ups[0].at(mark.y)} r="5" />`
           : html`<path class="here" stroke-dasharray="4 4" d=${`M${across.at(mark.x)} ${TOP}V${bottom}`} />`))}
         ${pointed === null ? null : html`<path class="passing" d=${`M${across.at(pointed)} ${TOP}V${bottom}`} />`}

@@ -85,7 +85,7 @@ function CasePicker({ kinds, first, start = {} }) {
 }
 
 /** Save the case with what is set as a file of the folder, and open it. */
-function Save({ toml }) {
+function Save({ toml, unless }) {
   const box = useRef(null);
   const [wrong, setWrong] = useState(null);
   const { name, reset } = useCase();
@@ -105,7 +105,7 @@ function Save({ toml }) {
     }
   };
   return html`
-    <button type="button" disabled=${!toml} onClick=${() => box.current.showModal()}>
+    <button type="button" disabled=${!toml} onClick=${unless(() => box.current.showModal())}>
       save case</button>
     <dialog ref=${box} aria-labelledby="save-title">
       <form method="dialog" onSubmit=${save}>
@@ -139,14 +139,17 @@ export async function copy(text) {
  * A screen: title, case, what to take along, what went wrong, what should be known.
  *
  * @param {{title: string, lead?: string, kinds?: string[], first?: string, start?: Record<string, string>,
- *   answer?: any, error?: Error | null, busy?: boolean, actions?: any, children: any}} props
+ *   answer?: any, error?: Error | null, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
+ *   children: any}} props
  *   `kinds` of the cases it opens, the `first` one of them, and the settings that each starts with;
- *   `answer` as the server gives it, with command, toml and notes
+ *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`
  */
-export function Screen({ title, lead, kinds, first, start, answer, error, busy, actions, children }) {
+export function Screen({ title, lead, kinds, first, start, answer, error, busy, late, now = true, actions, children }) {
   useEffect(() => {
     fault.value = error?.message ?? "";
   }, [error]);
+  // Of what is refused, or not answered yet, nothing is handed out: it would be of something else.
+  const unless = (act) => () => (now ? act() : tell(`not yet: ${error?.message ?? "what is set is not answered"}`));
   const reached = Object.entries(error?.reached ?? {});
   return html`
     <header>
@@ -154,9 +157,9 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       ${lead ? html`<p class="lead">${lead}</p>` : null}
       ${kinds ? html`<${CasePicker} kinds=${kinds} first=${first} start=${start} />` : null}
       <div class="actions">
-        ${kinds ? html`<${Save} toml=${answer?.toml} />` : null}
+        ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
         ${answer?.command ? html`<button type="button" title=${answer.command}
-          onClick=${() => copy(answer.command)}>copy command</button>` : null}
+          onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
         ${actions}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>
@@ -167,5 +170,5 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
         reached: ${reached.map(([key, value]) => `${key} ${value}`).join(", ")}</p>` : null}
     </div>
     ${error ? null : html`<${Notes} notes=${answer?.notes} />`}
-    <div class=${error ? "body stale" : "body"}>${children}</div>`;
+    <div class=${error || late ? "body stale" : "body"}>${children}</div>`;
 }

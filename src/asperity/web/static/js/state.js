@@ -56,10 +56,15 @@ export const instead = new Map();
 export const fault = signal("");
 
 let timer = 0;
+/** Whether a slider is held: what it passes is no step to go back to. */
+let held = false;
+addEventListener("pointerdown", ({ target }) => (held = target.type === "range"), true);
+for (const name of ["pointerup", "pointercancel"]) addEventListener(name, () => (held = false), true);
 
 function write() {
   clearTimeout(timer);
-  timer = 0;
+  timer = held ? setTimeout(write, REST) : 0;
+  if (held) return;
   const wanted = address(route.peek());
   if (location.hash !== wanted) history.pushState(null, "", wanted);
 }
@@ -72,9 +77,12 @@ function change(params) {
 
 addEventListener("popstate", () => {
   clearTimeout(timer);
+  const before = token();
   route.value = read();
+  // With another token all that was refused is asked anew.
+  if (token() !== before) location.reload();
 });
-addEventListener("pagehide", () => timer && write());
+addEventListener("pagehide", () => timer && ((held = false), write()));
 
 /**
  * Open a screen.

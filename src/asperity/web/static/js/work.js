@@ -84,7 +84,7 @@ export function useJob(command, body, slot = "") {
  */
 export function useTaken(work, command, body) {
   const checked = useLive("check", body && { case: body.case, settings: body.settings }, 300);
-  const now = { toml: checked.data?.toml, command: body && commandLine(command, body) };
+  const now = { toml: checked.now ? checked.data.toml : null, command: body && commandLine(command, body) };
   return work.stale ? now : { ...now, ...work.data };
 }
 

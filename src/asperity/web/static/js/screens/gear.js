@@ -162,7 +162,7 @@ function Efficiency({ sway, geometry, setAll }) {
 export function view() {
   const { name, settings, setAll } = useCase();
   const body = name ? { case: name, settings } : null;
-  const { data, error, busy } = useLive("rate", body, 60);
+  const { data, error, busy, late, now } = useLive("rate", body, 60);
   const sway = useLive("sensitivity", body, 400).data?.answer;
   const answer = data?.answer;
   const entries = byKey(data?.entries);
@@ -170,7 +170,7 @@ export function view() {
     ...each, name: `${STANDARDS[each.standard]}: ${each.name}`, entry: entries[`${each.standard}.${each.key}`],
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${data} error=${error} busy=${busy}
+      answer=${data} error=${error} busy=${busy} late=${late} now=${now}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns">

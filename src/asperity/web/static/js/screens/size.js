@@ -149,7 +149,7 @@ export function view() {
   const { toml } = useTaken(work, "optimise", body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy}
+      answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     <section class="panel" aria-label="what is asked"><div class="row">
       ${ASKED.map(([key, said]) => html`<label class="asked">${said}

@@ -50,7 +50,7 @@ export function view() {
   return html`<${Screen} title="Sliding body"
     lead="Shake what a body slides on, and less force pulls it. Drag a slider; every number opens where it comes from."
     kinds=${["slide"]} first="body-shaken-along" start=${START}
-    answer=${point.data} error=${point.error} busy=${point.busy}>
+    answer=${point.data} error=${point.error} busy=${point.busy} late=${point.late} now=${point.now}>
     <div class="columns headed">
       <section class="controls" aria-label="what is set">
         <${Strength} k=${answer.velocity_ratio} />

@@ -73,7 +73,8 @@ export function view() {
   return html`<${Screen} title="Sweep" kinds=${["slide", "gear"]} first="body-shaken-along" start=${SLIDE.start}
     lead="A case at every point of a grid. What is solved is kept: stop when you like, and go on later."
     answer=${{ ...one.data, notes: running ? work.job.notes : [], command: body && commandLine("sweep", body) }}
-    error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}>
+    error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}
+    now=${one.now && !refused}>
     <div class="columns">
       <section class="controls" aria-label="the grid">
         ${["x", "y"].map((key, place) => html`<${AxisForm} key=${key} name=${key} tables=${kind.tables}
