@@ -11,9 +11,9 @@ from playwright.sync_api import expect
 RECORDING = Path(__file__).parents[1] / "answers" / "rig.nc"
 
 
-def dropped(seen):
+def dropped(seen, **params):
     """Open the rig and drop a recording; returns the page."""
-    page = seen.open("rig")
+    page = seen.open("rig", **params)
     page.get_by_label("or drop a file here").set_input_files(RECORDING)
     expect(page.locator(".signals")).to_be_visible()
     return page
@@ -40,7 +40,7 @@ def test_a_recording_that_is_dropped_shows_its_segments_and_is_reduced(seen, ser
 
 
 def test_a_window_follows_the_pointer_at_once_and_no_late_answer_moves_it_back(seen):
-    page = dropped(seen)
+    page = dropped(seen, **{"set.reduction.least_window": "0.5 s"})
     asked, answers = [], []
     page.route("**/api/do/signals", lambda route: (asked.append(route), answers.append(route)))
     grip = page.locator(".grip").first

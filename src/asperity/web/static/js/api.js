@@ -237,5 +237,5 @@ export function useLive(verb, body, delay = 0) {
     }, delay);
     return () => clearTimeout(mine.timer);
   }, [verb, text, delay]);
-  return { ...state, error: late ? null : state.error, late, now: !waits && !state.error };
+  return { ...state, error: late ? null : state.error, late, now: !waits && Boolean(state.data) && !state.error };
 }
