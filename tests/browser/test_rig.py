@@ -40,7 +40,7 @@ def test_a_recording_that_is_dropped_shows_its_segments_and_is_reduced(seen, ser
 
 
 def test_a_window_follows_the_pointer_at_once_and_no_late_answer_moves_it_back(seen):
-    page = dropped(seen, **{"set.reduction.least_window": "0.5 s"})
+    page = dropped(seen, case="disc-on-disc", **{"set.reduction.least_window": "0.5 s"})
     asked, answers = [], []
     page.route("**/api/do/signals", lambda route: (asked.append(route), answers.append(route)))
     grip = page.locator(".grip").first
