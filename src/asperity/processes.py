@@ -5,11 +5,15 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
 from pathlib import Path
+from typing import TypeVar
 
 from asperity.errors import InputError, StorageError, plain
 from asperity.store import reason
+
+Gone = Callable[[], Awaitable[bool]]
+T = TypeVar("T")
 
 
 @contextlib.contextmanager
@@ -96,6 +100,32 @@ async def heard(process: asyncio.subprocess.Process, hear: Callable[[bytes], Non
             line = await process.stdout.readline()
             if line:
                 hear(line)
+
+
+class Unwanted(Exception):  # noqa: N818 - no error
+    """Nobody waits for an answer any more."""
+
+
+async def wanted(awaited: Awaitable[T], gone: Gone, patience: float) -> T:
+    """Return what is awaited; raises `Unwanted` once nobody waits for it and it has taken long.
+
+    Parameters
+    ----------
+    awaited : awaitable
+        It is cancelled where it is not wanted.
+    gone : callable
+        Whether nobody waits any more.
+    patience : float
+        So long it is let go on all the same, s.
+    """
+    future = asyncio.ensure_future(awaited)
+    try:
+        while not (await asyncio.wait({future}, timeout=patience))[0]:
+            if await gone():
+                raise Unwanted
+        return future.result()
+    finally:
+        future.cancel()
 
 
 def end(process: asyncio.subprocess.Process | None) -> None:

@@ -1,9 +1,7 @@
 """What is answered at which address."""
 
-import contextlib
 import filecmp
 import json
-import os
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
@@ -124,21 +122,20 @@ class Page:
         path = self.folder.file(request.path_params["name"])
         path = path.with_suffix(path.suffix.lower())
         query = request.query_params
-        part = str(temporary_beside(path))
+        part = temporary_beside(path)
         try:
-            with open(part, "xb") as file:
+            with part.open("xb") as file:
                 async for each in parts_of(request, MOST_FILE):
                     file.write(each)
-            asked = {"part": part, "name": path.name, "recorded": "recorded" in query}
+            asked = {"part": str(part), "name": path.name, "recorded": "recorded" in query}
             looked = await self._ask("received", request, json.dumps(asked).encode())
             if looked.status_code != 200:
                 return looked
             if "replace" not in query and path.exists() and not filecmp.cmp(part, path, False):
                 raise Refused(409, f"{path.name} is there already and holds something else")
-            write_atomically(path, lambda target: os.replace(part, target))
+            write_atomically(path, part.replace)
         finally:
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(part)
+            part.unlink(missing_ok=True)
         return JSONResponse({"name": path.name, "bytes": path.stat().st_size})
 
     async def _submit(self, request: Request) -> Response:

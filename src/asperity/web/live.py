@@ -8,7 +8,6 @@ answer for long has it begun anew, so that what was asked last is answered soon.
 import asyncio
 import contextlib
 import json
-from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 from asperity import processes
@@ -16,15 +15,10 @@ from asperity.web.verbs import VERBS, told
 
 _TRIES = 3
 _SLOWEST_START = 600.0  # of the first of all, in which every kernel is compiled
-
 _PATIENCE = 1.0  # with an answer for which nobody waits: to begin anew takes longer
 
 Answer = tuple[int, bytes]
-Gone = Callable[[], Awaitable[bool]]
-
-
-class _Left(Exception):  # noqa: N818 - no error
-    """Nobody waits for an answer any more."""
+Gone = processes.Gone
 
 
 class Live:
@@ -77,26 +71,17 @@ class Live:
     async def ask(self, verb: str, body: bytes, gone: Gone) -> Answer:
         """Return status and body of an answer.
 
-        Parameters
-        ----------
-        verb : str
-            One of `asperity.web.verbs.VERBS`.
-        body : bytes
-            What is asked, as JSON.
-        gone : callable
-            Whether nobody waits for the answer any more.
+        The verb is one of `asperity.web.verbs.VERBS`, the body what is asked as JSON; ``gone``
+        tells whether nobody waits for the answer any more.
         """
         asked = VERBS[verb]
         for _ in range(_TRIES):
             # What it takes to begin, on a busy machine or for the first time, is not its answer's.
-            begun = self.ready if asked.kernels else self.up
-            if processes.lives(self._process):
-                with contextlib.suppress(TimeoutError):
-                    await asyncio.wait_for(begun.wait(), _SLOWEST_START)
+            await self._warm(asked.kernels)
             async with self._turn:
-                if processes.lives(self._process):  # begun anew, it may be, while others had their turn
-                    with contextlib.suppress(TimeoutError):
-                        await asyncio.wait_for(begun.wait(), _SLOWEST_START)
+                await self._warm(
+                    asked.kernels
+                )  # begun anew, it may be, while others had their turn
                 if await gone():
                     return _GONE
                 if processes.lives(self._process):
@@ -104,41 +89,34 @@ class Live:
                 await self.start()
         return _line(500, f"the process that answers {verb} does not begin", 1)
 
+    async def _warm(self, kernels: bool) -> None:
+        if processes.lives(self._process):
+            with contextlib.suppress(TimeoutError):
+                begun = self.ready if kernels else self.up
+                await asyncio.wait_for(begun.wait(), _SLOWEST_START)
+
     async def _answer(self, verb: str, body: bytes, seconds: float, gone: Gone) -> Answer:
         process = self._process
         assert process is not None
         assert process.stdin is not None
         head = json.dumps({"verb": verb, "length": len(body)}).encode()
+        failed = _line(500, f"the process that solves ended at {verb}; it is started anew", 1)
         try:
             process.stdin.write(head + b"\n" + body)
             async with asyncio.timeout(seconds):
-                answer = await self._framed(gone)
-        except _Left:
-            await self._again()
-            return _GONE
+                if answer := await processes.wanted(self._frames.get(), gone, _PATIENCE):
+                    return answer
+        except processes.Unwanted:
+            failed = _GONE
         except TimeoutError:
-            await self._again()
             line = f"{verb} took more than {seconds:g} s, longer than a page waits; ask for less"
-            return _line(504, line, 3)
+            failed = _line(504, line, 3)
         except asyncio.CancelledError:
             # Its answer would be taken for that of whoever asks next.
             await self._again()
             raise
-        if answer is None:
-            await self._again()
-            return _line(500, f"the process that solves ended at {verb}; it is started anew", 1)
-        return answer
-
-    async def _framed(self, gone: Gone) -> Answer | None:
-        """Return the next answer; raises _Left if nobody waits for it and it takes long."""
-        frame = asyncio.ensure_future(self._frames.get())
-        try:
-            while not (await asyncio.wait({frame}, timeout=_PATIENCE))[0]:
-                if await gone():
-                    raise _Left
-            return frame.result()
-        finally:
-            frame.cancel()
+        await self._again()
+        return failed
 
     async def _again(self) -> None:
         await self.stop()
