@@ -3,6 +3,8 @@
 import dataclasses
 import json
 import math
+import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -326,3 +328,28 @@ def test_of_several_tops_the_nearest_to_the_first_start_is_taken():
     top = climb(merit, [np.array([0.1, 0.3]), *spread(2, 8)])
     assert top.point == pytest.approx([0.5, 0.3], abs=1e-6)
     assert top.agreed == 9
+
+
+def test_climbs_that_are_interrupted_as_they_set_out_wait_for_nobody(monkeypatch):
+    real, begun = ThreadPoolExecutor.submit, []
+
+    def submit(pool, *what):
+        begun.append(what)
+        if len(begun) == 3:
+            raise KeyboardInterrupt
+        return real(pool, *what)
+
+    def merit(points):
+        return np.stack([-((points[:, 0] - 0.5) ** 2), points[:, 0]], axis=-1)
+
+    def climbed():
+        with pytest.raises(KeyboardInterrupt):
+            climb(merit, [*spread(2, 8)])
+        ended.append(True)
+
+    monkeypatch.setattr(ThreadPoolExecutor, "submit", submit)
+    ended = []
+    thread = threading.Thread(target=climbed, daemon=True)
+    thread.start()
+    thread.join(30.0)
+    assert ended

@@ -104,7 +104,12 @@ def climb_together(worth: Rows, hills: Sequence[Hill]) -> list[Top | None]:
     climbers = [(merit, start) for merit, starts in hills for start in starts]
     rope = _Rope(worth, len(climbers))
     with ThreadPoolExecutor(len(climbers)) as pool:
-        ends = iter([*pool.map(rope.climb, range(len(climbers)), *zip(*climbers, strict=True))])
+        try:
+            ends = iter([*pool.map(rope.climb, range(len(climbers)), *zip(*climbers, strict=True))])
+        except BaseException as failure:
+            # Interrupted here, some may not have set out, for whom the others would wait for ever.
+            rope.cut(failure)
+            raise
     return [_highest([next(ends) for _ in starts], starts[0]) for _, starts in hills]
 
 
@@ -144,6 +149,12 @@ class _Rope:
                 self._climbing -= 1
                 self._answer_together()
 
+    def cut(self, failure: BaseException) -> None:
+        """Let every climber end with a failure."""
+        with self._all_asked:
+            self._failure = failure
+            self._all_asked.notify_all()
+
     def _ask(self, climber: int, points: FloatArray) -> FloatArray:
         with self._all_asked:
             self._asked[climber] = points
@@ -154,7 +165,7 @@ class _Rope:
             return self._answers.pop(climber)
 
     def _answer_together(self) -> None:
-        if not self._asked or len(self._asked) < self._climbing:
+        if not self._asked or len(self._asked) < self._climbing or self._failure is not None:
             return
         # In the order of the starts, whoever came first, so that an answer can be repeated.
         asked = dict(sorted(self._asked.items()))
