@@ -18,6 +18,7 @@ from asperity.drive.protocols.setup import begin, switched_off, system
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
+from asperity.drive.result import inputs
 from asperity.drive.solve import answer, prepare
 from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
@@ -434,3 +435,10 @@ def test_a_load_beyond_the_table_of_deflections_is_told():
         given = solved(f"operation.output_torque={load} N m", "drive.protocol=window")
         said = [note for note in given.notes if "it is carried on beyond its end" in note]
         assert len(said) == beyond
+
+
+def test_what_was_asked_holds_every_table_of_the_case():
+    asked = inputs(problem(name="drive-thesis"))
+    assert asked["hob.oversize"] == pytest.approx(1.12)
+    assert {key.partition(".")[0] for key in asked} >= {"gearset", "hob", "solve", "vibration"}
+    assert all(isinstance(value, str | float) for value in asked.values())

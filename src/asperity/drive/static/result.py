@@ -9,11 +9,11 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.problem import DriveProblem
+from asperity.drive.result import inputs
 from asperity.drive.teeth.sector import Sector
 from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import labelled, quantity
-from asperity.slider.result import table_inputs
 
 _PLOTS = "asperity.drive.static.plots"
 _PHASE, _PART = ("phase",), ("part",)
@@ -174,13 +174,7 @@ class StaticResult(Drawn):
     @property
     def inputs(self) -> Mapping[str, Any]:
         """The values of the problem's tables in SI, by ``table.key``."""
-        p = self.problem
-        found = table_inputs(p.gearset, p.operation, p.friction, p.drive, p.shaft, p.mount)
-        return {
-            key: value if isinstance(value, str | int | float) else str(value)
-            for key, value in found.items()
-            if not isinstance(value, bool)
-        }
+        return inputs(self.problem)
 
     def to_json(self) -> dict[str, Any]:
         """Return the scalars, and the stiffness by what gives way."""
