@@ -23,6 +23,7 @@ from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
+from asperity.slider.shooting import ACCEPTED
 
 _POINTS_BELOW = 64
 _POINTS_ABOVE = 56
@@ -173,7 +174,7 @@ class HomogenisedLaw:
             return Standing(False, "no periodic state was found at the drive velocity")
         if velocity in self.unsettled:
             return Standing(False, "the periodic state at the drive velocity does not stay")
-        return Standing(True, f"the law's states repeat themselves to {self.residual:.2g}")
+        return Standing(True, f"the law's states repeat themselves to {ACCEPTED:g}")
 
     @property
     def notes(self) -> tuple[str, ...]:

@@ -214,7 +214,7 @@ def answer_of(
 def standing_of(cycle: Cycle, growth: float) -> Standing:
     """Return whether a state that was found is one that a body stays in."""
     cycles = "every cycle" if cycle.period == 1 else f"every {cycle.period} cycles"
-    repeats = f"the state repeats itself {cycles} to {cycle.residual:.2g}"
+    repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
     if growth > UNSTABLE:
         return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
     return Standing(True, repeats)

@@ -77,10 +77,10 @@ def march_standing(model: Model, table: Timetable, residual: float, *, broke: bo
         missing.append("the asperities are still being taken up")
     if _still_grows(model, table):
         missing.append("the vibration grows into the window of the means")
-    halves = f"the halves of the window differ by {residual:.2g} of mu F_N"
     if not residual <= _UNSTEADY:
-        missing.append(halves)
-    return Standing.of(missing, halves)
+        missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
+    shown = f"the halves of the window agree to {_UNSTEADY:g} of mu F_N"
+    return Standing.of(missing, shown)
 
 
 def _bending(model: Model) -> float:
@@ -117,8 +117,8 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
         )
     if _still_grows(model, table):
         notes.append(
-            f"the vibration grows until {model.start + model.ramp:.3g} s, into the window of the means: give a longer "
-            "solve.duration"
+            f"the vibration grows until {model.start + model.ramp:.3g} s, into the window of the "
+            "means: give a longer solve.duration"
         )
     if residual > _UNSTEADY:
         notes.append(

@@ -182,8 +182,9 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
 
 def _standing(reading: Reading, ratio: float) -> Standing:
     windows = f"{_WINDOWS} windows of {reading.cycles // _WINDOWS} cycles"
-    apart = f"the ratio in {windows} is apart by {reading.apart:.2g}"
-    return Standing(reading.apart <= STEADY * abs(ratio), apart)
+    if reading.apart <= STEADY * abs(ratio):
+        return Standing(True, f"{windows} agree to {STEADY:g} of the ratio")
+    return Standing(False, f"{windows} are apart by {reading.apart:.2g}")
 
 
 def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, ...]:
