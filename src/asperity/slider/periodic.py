@@ -16,6 +16,7 @@ from asperity.slider.parameters import in_proportion
 from asperity.slider.pressed import march_pressed
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import ACCEPTED, SETTLING, differentiated, shoot
+from asperity.slider.steady import growth_rate, sticks_and_slips
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.unknowns import most_unknowns
 
@@ -179,6 +180,8 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
     cycle = Cycle(model, steps, step)
     found, growth, notes = settle(cycle)
+    if not model.vibrates and (rate := growth_rate(model)) > 0.0:
+        found, notes = False, (sticks_and_slips(rate),)
     if not found:
         raise AperiodicError.of(cycle, notes)
     return answer_of(model, step, cycle, growth, notes, began, history=history)
