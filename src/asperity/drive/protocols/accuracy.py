@@ -94,7 +94,8 @@ def _apart(
     one: Records, other: Records | None, measure: str, scale: float, power: float
 ) -> StepError:
     """What the same cycles differ by."""
-    if other is None:
+    if other is None or not mean(other, "wheel_torque") > 0.0 < mean(one, "wheel_torque"):
+        # It left the finite numbers, or its flanks each other.
         return StepError(math.inf, math.inf)
     if measure == "rolled":
         ratio = (mean(other, measure) - mean(one, measure)) / scale

@@ -66,10 +66,9 @@ def solve_shaken(
     power = rest.torque * problem.worm_speed
     with run.going_on():
         shown: Records | None = None
-        measure, scale = _measured(problem, rest, model)
         if problem.drive.protocol == "window":
-            judged = _first_cycles(march, window, rest.torque, power)
-            off = step_error(march, measure, scale, power)
+            # Of what is no state that lasts, no step makes the error.
+            judged, off = _first_cycles(march, window, rest.torque, power), None
         else:
             judged, off, rest = _settled(problem, model, march, rest, stop)
         creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
@@ -104,10 +103,9 @@ def _settled(
             pitch=model.pitch if march.system.speed else None,
             ratio=model.point.ratio if driven else None,
         )  # fmt: skip
-        off = step_error(march, measure, scale, power)
+        off = step_error(march, measure, scale, power) if judged.settled else None
         # Of elastic teeth steps are dear: of them the error is told alone.
-        chosen = problem.solve.step is None and model.pitch is None and judged.settled
-        if off is None or not chosen:
+        if off is None or problem.solve.step is not None or model.pitch is not None:
             return judged, off, rest
         finer = off.finer(march.finer, march.off)
         if finer is None or sensitive(march, measure, scale, power):
