@@ -97,7 +97,8 @@ def _apart(
         # It left the finite numbers, or its flanks each other.
         return StepError(math.inf, math.inf)
     if measure == "rolled":
-        ratio = (mean(other, measure) - mean(one, measure)) / scale
+        before = mean(one, measure)
+        ratio = (mean(other, measure) - before) / max(scale, abs(before))
     else:
         ratio = _told(other, measure) / _told(one, measure) - 1.0
     most = max(*(abs(float(one[name].sum())) for name in _POWERS), power * one["time"].sum())
