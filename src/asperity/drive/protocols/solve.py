@@ -16,7 +16,7 @@ from asperity.drive.protocols.accuracy import StepError, sensitive, step_error
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
-from asperity.drive.protocols.rest import Rest, at_rest
+from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
 from asperity.drive.protocols.setup import switched_off, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
@@ -79,6 +79,7 @@ def solve_shaken(
         began = float(march.states[0]["time"])
         if run.detailed:
             shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
+    rest = over_the_same(problem, model, march, judged.cycles, rest)
     answer = _summarise(problem, model, march, judged, rest, off)
     return dataclasses.replace(
         answer,

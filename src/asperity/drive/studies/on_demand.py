@@ -201,7 +201,7 @@ def _least(shaken: DriveResult, electrical: float) -> tuple[str, ...]:
 
 
 def _taken(problem: DriveProblem, shaken: DriveResult) -> tuple[float, float]:
-    """Real power from the mains and apparent power of the actuator; the least where it is not known.
+    """Real power from the mains and apparent power of the actuator, or the least of both.
 
     What swings in it follows from the mass that it moves; what it gives to the gearset does not.
     """
