@@ -14,6 +14,7 @@ from asperity.rating.alternatives import Alternative, alternatives
 from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.demands import Demand
+from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
@@ -120,6 +121,11 @@ class Rated(Result):
         return holding(self.given, self.self_locking)
 
     @property
+    def duty_cycle(self) -> tuple[DutyPart, ...]:
+        """What each part of a duty cycle has in wear and heat, by ISO/TR 14521."""
+        return () if self.iso14521 is None else duty_parts(self.given, self.iso14521)
+
+    @property
     def found(self) -> dict[str, Rating]:
         """The ratings that there are, by standard."""
         ratings = {name: getattr(self, name) for name in STANDARDS}
@@ -136,6 +142,7 @@ class Rated(Result):
             name: dict.fromkeys(PROMISED[name]) | rating.to_json()
             for name, rating in self.found.items()
         }
+        parts = [part.to_json() for part in self.duty_cycle]
         return {
             "name": self.gearset.name,
             "geometry": self.geometry.to_json(),
@@ -146,6 +153,7 @@ class Rated(Result):
             "verdict": self.verdict.to_json(),
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
             "holding": [one.to_json() for one in self.holding],
+            **({"duty_cycle": parts} if parts else {}),
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -183,6 +191,8 @@ class Rated(Result):
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
         tables = [rating.table(sources=sources) for rating in self.ratings]
+        if self.duty_cycle:
+            tables.append(duty_table(self.duty_cycle))
         rows = self.self_locking.to_rows()
         if rows:
             degrees = self.self_locking.to_json()["lead_angle_deg"]
