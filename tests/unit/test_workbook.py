@@ -129,9 +129,14 @@ CASES = {
     },
     "small, with a fan": {
         "settings": [
-            "gearset.starts=1", "gearset.wheel_teeth=30", "gearset.centre_distance=26.6 mm",
-            "gearset.axial_module=1.33 mm", "gearset.diameter_factor=10", "operation.fan=true",
-            "operation.output_torque=2 N m", "operation.through_travel_torque=2 N m",
+            "gearset.starts=1",
+            "gearset.wheel_teeth=30",
+            "gearset.centre_distance=26.6 mm",
+            "gearset.axial_module=1.33 mm",
+            "gearset.diameter_factor=10",
+            "operation.fan=true",
+            "operation.output_torque=2 N m",
+            "operation.through_travel_torque=2 N m",
         ]
     },
     "polyglycol, fan": {

@@ -82,6 +82,8 @@ class Rated(Result):
         What the formulas started from.
     tables_bs721 : Tables
         Those of BS 721.
+    unanswered : mapping of str to str
+        Why a standard that was asked for could not be applied.
     contact : Section or None
         What its report shows of how the flanks touch, where that was asked for.
     """
@@ -101,13 +103,18 @@ class Rated(Result):
     alternatives: tuple[Alternative, ...] = ()
     given: Inputs
     tables_bs721: Tables
+    unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
 
     @property
     def verdict(self) -> Verdict:
         """Whether it holds by each standard, and what fails first."""
         return Verdict.of(
-            self.found, self.levers, self.alternatives, self.given.operation.wear_assumed
+            self.found,
+            self.levers,
+            self.alternatives,
+            self.given.operation.wear_assumed,
+            self.unanswered,
         )
 
     @property
@@ -285,6 +292,7 @@ def rate(
     _require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
+    unanswered: dict[str, str] = {}
     steel = gearset.worm_material.taken_for
     notes = (
         []
@@ -298,9 +306,11 @@ def rate(
             if len(wanted) == 1:
                 raise
             notes.append(f"{name}: {error}")
+            unanswered[name] = str(error)
     return Rated(
         levers=(),
         alternatives=(),
+        unanswered=unanswered,
         contact=None,
         given=given,
         tables_bs721=tables,

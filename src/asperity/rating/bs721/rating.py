@@ -43,6 +43,7 @@ def rate(given: Inputs, tables: Tables) -> Rating:
         entries(given, "bs721", values, _sources(given, tables), _equations(given, values)),
         _violations(given, values),
         (*notes, *_notes(given, values)),
+        notes,
     )
 
 

@@ -35,6 +35,7 @@ def rate(given: Inputs) -> Rating:
         entries(given, "iso14521", values, _sources(given), _equations(given)),
         _violations(given, values),
         (*unanswered.legend.values(), *_notes(given, values)),
+        tuple(unanswered.legend.values()),
     )
 
 
