@@ -1,7 +1,8 @@
 """The tests nearest to a line: those that call the function it stands in, and little else.
 
 ``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
-calls (``reach.py``) and writes ``near.json.gz``. A function that is not in it, since it has come
+calls (``reach.py``) and writes ``near.json.gz``; with files of tests it runs those, and keeps what
+it noted of others in ``out/mutants``. A function that is not in it, since it has come
 later, has the tests of its module's others; a module that is not, the files of tests that name it
 or its room.
 """
@@ -33,10 +34,13 @@ _LEFT_OUT = re.compile(
     r"units|thesis_run|thesis_figures|fric_subroutine|calculix|python_units|sweep_axes|mutants)"
 )
 _OF_A_FUNCTION = 2  # tests that differ in their parameters alone
-_OF_A_FILE = 5
-_NEAREST = 16
+_OF_A_FILE = 4
+_NEAREST = 20
+# A test of what is refused goes through little and looks at less: it comes last.
+_REFUSED = re.compile(r"refuse|cannot|asked_for|is_needed|nonsense|interrupted|hears")
 _RECORDED = 4
 _DEAREST = 20.0  # s, of one test
+_MOST, _LONGEST = 150, 40.0  # tests, and s of all
 _FALLBACK_FILES = 4
 
 
@@ -46,12 +50,12 @@ def nearest(mutant) -> list[str]:
     counts = Counter()
     for function in _readers(mutant):
         tests = kept["near"].get(f"{mutant.module}:{function}", ())
-        counts.update({test: _NEAREST + _RECORDED - n for n, test in enumerate(tests)})
+        counts.update({test: _MOST - n for n, test in enumerate(tests)})
     if not counts:
         for name, tests in kept["near"].items():
             if name.startswith(f"{mutant.module}:"):
-                counts.update({test: _NEAREST + _RECORDED - n for n, test in enumerate(tests)})
-    chosen = [kept["tests"][n] for n, _ in counts.most_common(_NEAREST + _RECORDED)]
+                counts.update({test: _MOST - n for n, test in enumerate(tests)})
+    chosen = [kept["tests"][n] for n, _ in counts.most_common(_MOST)]
     return chosen or _naming(mutant.module)
 
 
@@ -138,38 +142,52 @@ def _plain(name):
 
 
 def _nearest(tests, size, lines):
+    def close(test):
+        return bool(_REFUSED.search(test)), size[test], lines[test]["seconds"], test
+
+    def cheap(test):
+        return lines[test]["seconds"], test
+
+    tests = {test for test in tests if lines[test]["seconds"] <= _DEAREST}
+    recorded = {test for test in tests if test.startswith(ANSWERS)}
+    ordered = sorted(tests - recorded, key=close)
+    # First a few of each file, then recorded answers, which see whatever moves, then the others.
+    first = _few_of_each(ordered, _OF_A_FILE, _NEAREST)
+    cheapest = _few_of_each(sorted(recorded, key=cheap), _RECORDED, _RECORDED)
+    chosen, spent = [], 0.0
+    for test in dict.fromkeys(first + cheapest + ordered):
+        spent += lines[test]["seconds"]
+        if len(chosen) < _MOST and (spent <= _LONGEST or test in (*first, *cheapest)):
+            chosen.append(test)
+    return chosen
+
+
+def _few_of_each(tests, of_a_file, most):
+    """Of each file a few, and of those that differ in their parameters alone fewer."""
     chosen, functions, files = [], Counter(), Counter()
-    for test in sorted(tests, key=lambda test: (size[test], lines[test]["seconds"], test)):
+    for test in tests:
         file, function = test.partition("::")[0], test.partition("[")[0]
-        if lines[test]["seconds"] > _DEAREST or len(chosen) == _NEAREST or file == ANSWERS:
-            continue
-        if functions[function] < _OF_A_FUNCTION and files[file] < _OF_A_FILE:
+        if file == ANSWERS:
+            function = test.partition("[")[2].split(" ")[0]
+        if functions[function] < _OF_A_FUNCTION and files[file] < of_a_file:
             chosen.append(test)
             functions[function] += 1
             files[file] += 1
-    # Of the recorded answers, which see whatever moves, the cheapest, of different commands.
-    commands = Counter()
-    recorded = []
-    for test in sorted(tests, key=lambda test: (lines[test]["seconds"], test)):
-        if test.startswith(ANSWERS) and len(recorded) < _RECORDED:
-            command = test.partition("[")[2].split(" ")[0]
-            if commands[command] < _OF_A_FUNCTION and lines[test]["seconds"] <= _DEAREST:
-                recorded.append(test)
-                commands[command] += 1
-    return chosen + recorded
+    return chosen[:most]
 
 
-def measure(out: Path) -> Path:
-    """Run the ordinary tests, with a cache of their own, and return what they reached."""
-    out.mkdir(parents=True, exist_ok=True)
-    reached = out / "reached.jsonl"
-    reached.unlink(missing_ok=True)
-    files = [
-        path.relative_to(ROOT).as_posix()
-        for folder in ("unit", "literature", "property")
-        for path in sorted((TESTS / folder).glob("test_*.py"))
-        if not _LEFT_OUT.match(path.name)
-    ]
+def measure(reached: Path, names=()) -> None:
+    """Run the ordinary tests, or files of them, and note what they reach."""
+    reached.parent.mkdir(parents=True, exist_ok=True)
+    if not names:
+        reached.unlink(missing_ok=True)
+        names = [
+            path.relative_to(ROOT).as_posix()
+            for folder in ("unit", "literature", "property")
+            for path in sorted((TESTS / folder).glob("test_*.py"))
+            if not _LEFT_OUT.match(path.name)
+        ]
+        names.append(ANSWERS)
     environment = os.environ | {
         "PYTHONPATH": os.pathsep.join((str(SOURCE), str(TESTS))),
         "OPENBLAS_NUM_THREADS": "1",
@@ -177,10 +195,9 @@ def measure(out: Path) -> Path:
     }
     subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "mutants.reach", "-p", "no:cacheprovider",
-         *files, ANSWERS],
+         *names],
         cwd=ROOT, env=environment, check=False,
     )  # fmt: skip
-    return reached
 
 
 def write(reached: Path) -> None:
@@ -191,7 +208,6 @@ def write(reached: Path) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        write(Path(sys.argv[1]))  # what an earlier run has noted
-    else:
-        write(measure(ROOT / "out" / "mutants"))
+    noted = ROOT / "out" / "mutants" / "reached.jsonl"
+    measure(noted, sys.argv[1:])
+    write(noted)
