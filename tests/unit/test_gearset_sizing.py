@@ -27,3 +27,8 @@ def test_a_wheel_at_100_mm_has_31_teeth_and_none_at_a_negative_distance():
     assert least_teeth(100.0) == pytest.approx(31.0)
     with pytest.raises(InputError, match="centre_distance is -1; it must be positive"):
         least_teeth(-1.0)
+
+
+def test_no_worm_of_more_than_six_starts_is_proposed():
+    # Seven would give 35 teeth, of at least 24 and at most 60.
+    assert possible_starts(50.0, 5.0) == (5, 6)
