@@ -49,7 +49,7 @@ def nearest(mutant) -> list[str]:
     kept = _kept()
     counts = Counter()
     for function in _readers(mutant):
-        tests = kept["near"].get(f"{mutant.module}:{function}", ())
+        tests = kept["near"].get(function, ())
         counts.update({test: _MOST - n for n, test in enumerate(tests)})
     if not counts:
         for name, tests in kept["near"].items():
@@ -72,9 +72,10 @@ def _readers(mutant):
     tree = ast.parse((package / mutant.module).read_text("utf-8"))
     functions = dict(_functions(tree))
     if mutant.function in functions:
-        return [mutant.function]
+        return [f"{mutant.module}:{mutant.function}"]
     if mutant.function:
-        return [name for name in functions if name.startswith(f"{mutant.function}.")]
+        inside = f"{mutant.function}."
+        return [f"{mutant.module}:{name}" for name in functions if name.startswith(inside)]
     names = {
         target.id
         for statement in tree.body
@@ -82,8 +83,18 @@ def _readers(mutant):
         for target in ast.walk(statement)
         if isinstance(target, ast.Name) and isinstance(target.ctx, ast.Store)
     }
+    found = _naming_any(mutant.module, functions, names)
+    dotted = ".".join(("asperity", *mutant.module.removesuffix(".py").split("/")))
+    for module in computing_modules():
+        text = (package / module).read_text("utf-8")
+        if f"from {dotted} import" in text:
+            found += _naming_any(module, dict(_functions(ast.parse(text))), names)
+    return found
+
+
+def _naming_any(module, functions, names):
     return [
-        name
+        f"{module}:{name}"
         for name, node in functions.items()
         if names & {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
     ]
