@@ -162,7 +162,9 @@ def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None):
             vibration["elevation"] = one(elevation, math.pi - elevation)
             if often(0.3):
                 vibration["normal_phase"] = rng.uniform(0.0, 2.0 * math.pi)
-        if model in ("dahl", "lugre", "coulomb") and often(0.2):
+        if model == "springs" and normal["law"] == "rough":
+            friction["springs"] = 64  # sixteen are right to 1.3e-3 of the load only
+        if model != "springs" and often(0.2):
             friction["load_exponent"] = one(2 / 3, 1.3)
         tables["normal"] = _with_units(normal)
     tables["slider"], tables["friction"] = _with_units(slider), _with_units(friction)

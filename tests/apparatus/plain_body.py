@@ -7,7 +7,7 @@ that calculates. In absolute coordinates, with the contact's slip :math:`v = v_1
   :math:`\dot s = v - (a/s_{max}) s` in the form each law has, the deflection brought back to its
   limit where the load lets that fall below it;
 - Coulomb: tiny implicit steps, the friction found by halving an interval;
-- springs: many of them, equally strong, moved and cut off at their limits in tiny steps.
+- springs: many of them, moved and cut off at their limits in tiny steps.
 
 Steps end on the corners of the waveform. Everything is done twice, in half the steps, until it no
 longer matters: `solved` tells by how much it does.
@@ -413,8 +413,8 @@ def depth_of(p, force):
 
 
 @kernel
-def follow_feet(p, step, way, rise_speed, rise, before, pause, cycles, window, heights, weight):
-    """Follow a body on rigid friction or on springs, as `follow`; springs are equally strong."""
+def follow_feet(p, step, way, rise_speed, rise, before, pause, cycles, window, heights, weights):
+    """Follow a body on rigid friction or on springs, as `follow`."""
     rest = 0.0
     if p.normal == HERTZ:
         rest = 1.5 * p.length
@@ -508,10 +508,8 @@ def follow_feet(p, step, way, rise_speed, rise, before, pause, cycles, window, h
                         ay *= most / size
                     feet_x[n] = ax
                     feet_y[n] = ay
-                    fx += ax
-                    fy += ay
-                fx *= weight
-                fy *= weight
+                    fx += weights[n] * ax
+                    fy += weights[n] * ay
                 fd = fx
                 if not p.rigid:
                     half = 0.5 * h / p.mass
@@ -529,22 +527,23 @@ def follow_feet(p, step, way, rise_speed, rise, before, pause, cycles, window, h
 
 
 def feet(p, deepest):
-    """Heights at which equally strong springs begin to touch, and what each adds to k_t, N/m.
+    """Heights at which springs begin to touch, and what each adds to k_t, N/m.
 
     Each stands at the mean of the heights it stands for, so that together they bear the load.
     """
-    ends = np.arange(FEET + 1) / FEET
+    # Parts of the stiffness, finer where the load is small.
+    ends = (np.arange(FEET + 1) / FEET) ** 3
     a, b = ends[:-1], ends[1:]
     stiffness = p.full / p.limit
     if p.normal == LINEAR:
-        return np.zeros(1), stiffness
+        return np.zeros(1), np.full(1, stiffness)
     if p.normal == HERTZ:
-        # N'' ~ d^(-1/2): the stiffness grows as the root of the depth.
+        # The stiffness grows as the root of the depth.
         heights = deepest * (a * a + a * b + b * b) / 3.0
-        return heights, stiffness * math.sqrt(deepest / (1.5 * p.length)) / FEET
+        return heights, stiffness * math.sqrt(deepest / (1.5 * p.length)) * (b - a)
     grown = math.exp(deepest / p.length)
     whole = ends * (np.log(ends, where=ends > 0.0, out=np.zeros(FEET + 1)) - 1.0)
-    return deepest + p.length * FEET * np.diff(whole), stiffness * grown / FEET
+    return deepest + p.length * np.diff(whole) / (b - a), stiffness * grown * (b - a)
 
 
 def body_of(model):
@@ -654,12 +653,12 @@ def once(model, p, wave, steps, cycles, window):
             p, cycle.step, cycle.speed, cycle.rise_speed, cycle.rise, before, pause, cycles, window
         )
     else:
-        heights, weight = np.zeros(0), 0.0
+        heights = weights = np.zeros(0)
         if p.model == SPRINGS:
-            heights, weight = feet(p, model.deepest * p.length)
+            heights, weights = feet(p, model.deepest * p.length)
         found = follow_feet(
             p, cycle.step, cycle.way, cycle.rise_speed, cycle.rise, before, pause, cycles, window,
-            heights, weight,
+            heights, weights,
         )  # fmt: skip
     return found[0] / p.full, found[1] / p.load
 
