@@ -45,6 +45,9 @@ COULOMB_BOUND = 0.1
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
 _MOST_SUBSTEPS = 1000
+# Parts of a cycle by which steps may miss a corner of the wave. Coulomb's force jumps there, others
+# bend: they may miss it by so much of a step.
+_MISSED, _MISSED_OF_A_STEP = 5e-6, 0.02
 _FAR_MORE = 1e12
 
 
@@ -130,8 +133,15 @@ class Model:
 
     @property
     def start(self) -> float:
-        """Start of the vibration, s."""
-        return self.vibration.start if self.vibration is not None else 0.0
+        """Start of the vibration, s; of a wave with corners, on which steps end, a whole step."""
+        given = self.vibration.start if self.vibration is not None else 0.0
+        return round(given / self.step) * self.step if self.meets_corners else given
+
+    @property
+    def meets_corners(self) -> bool:
+        """Whether there are corners in the wave, and steps end on them."""
+        cornered = self.shape is not None and self.shape.cornered
+        return cornered and self.vibrates and self.solve.scheme != "two-phase"
 
     @property
     def ramp(self) -> float:
@@ -199,19 +209,36 @@ class Model:
     @functools.cached_property
     @in_proportion()
     def step(self) -> float:
-        """Time step as asked for, s; refused if it is too coarse for the waveform."""
+        """Time step as asked for, s; refused if it is too coarse for the waveform.
+
+        Where the waveform has corners, the next smaller one that ends on them, in whole steps of a
+        cycle.
+        """
         given = self.solve.step
         if self.shape is None or not self.vibrates:
             return given if given is not None else 1e-6
         most = 1.0 / (self.shape.least_steps * self.frequency)
         if given is None:
-            return min(1.0 / (_STEPS_A_CYCLE * self.frequency), most)
-        if given > most * (1.0 + 1e-9):
+            asked = min(1.0 / (_STEPS_A_CYCLE * self.frequency), most)
+        elif given > most * (1.0 + 1e-9):
             raise InputError(
                 f"solve.step is {given:g} s, too coarse for the vibration of {self.frequency:g} Hz;"
                 f" it must be at most {most:.3g} s"
             )
-        return given
+        else:
+            asked = given
+        if not self.meets_corners:
+            return asked
+        return 1.0 / (self.steps_to_corners(1.0 / (asked * self.frequency)) * self.frequency)
+
+    def steps_to_corners(self, least: float) -> int:
+        """Equal steps of a cycle that end on the corners of its waves, in the plane and up."""
+        if self.shape is None:
+            raise InputError("nothing vibrates")
+        along, across, up = self.unit_direction
+        leads = [0.0] * (along != 0.0 or across != 0.0) + [self.normal_lead] * (up != 0.0)
+        missed = _MISSED if self.friction.model == "coulomb" else _MISSED_OF_A_STEP / least
+        return self.shape.steps_to_corners(least, missed, leads)
 
     @functools.cached_property
     @in_proportion()

@@ -27,7 +27,7 @@ _PUSH = 1e-3
 
 @in_proportion()
 def cycle_steps(model: Model) -> int:
-    """Steps a cycle is divided into: at least 256, a multiple of 4 to meet the waveform's kinks."""
+    """Steps a cycle is divided into: at least 256, a multiple of 4, or those that meet corners."""
     if not model.vibrates:
         return _REST_STEPS
     asked = model.substeps / (model.frequency * model.step)
@@ -36,6 +36,9 @@ def cycle_steps(model: Model) -> int:
             f"solve.step is {model.step:g} s, {asked:.3g} steps a vibration cycle; a periodic "
             f"state is found with at most {_MOST_STEPS:g}: give a larger step"
         )
+    if model.meets_corners:
+        whole = round(asked)
+        return whole * math.ceil(_LEAST_STEPS / whole)
     return 4 * math.ceil(max(asked * (1.0 - 1e-9), _LEAST_STEPS) / 4)
 
 
