@@ -28,7 +28,7 @@ from asperity.slider.scaled import (
     Pressing,
 )
 from asperity.slider.summary import energies, pressed_energies, summarise
-from asperity.slider.timetable import Timetable, march_notes
+from asperity.slider.timetable import Timetable, march_notes, march_standing
 from asperity.waveform import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
@@ -254,10 +254,11 @@ def _answer(
     half = table.middle - table.window_start
     second = (sums["drive_force"] - first_half) / (table.window - half)
     residual = abs(float(second - first_half / half))
-    broke = column[row.WAITING] == 0.0 and not model.slider.rigid
+    broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
     try:
         return summarise(
             model, p, table.step, sums, start, _energies(column, body),
+            standing=march_standing(model, table, residual, broke=broke),
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,

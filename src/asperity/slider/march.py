@@ -16,7 +16,7 @@ from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.timetable import Timetable, march_notes
+from asperity.slider.timetable import Timetable, march_notes, march_standing
 from asperity.waveform import AT_REST
 
 _RECORDS = 4000
@@ -170,14 +170,16 @@ class March:
         means = [half["drive_force"] / half["steps"] for half in halves]
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
+        broke = breakaway is not None
         return summarise(
             model, self.p, table.step, sums, start, self.energies(),
+            standing=march_standing(model, table, residual, broke=broke),
             residual=residual,
             breakaway_time=breakaway,
             steps=table.steps,
             cycles=table.cycles,
             history=self.history() if self._record else None,
-            notes=march_notes(model, table, residual, broke=breakaway is not None),
+            notes=march_notes(model, table, residual, broke=broke),
             substeps=model.substeps,
             seconds=self.seconds,
         )  # fmt: skip

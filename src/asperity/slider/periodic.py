@@ -7,6 +7,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
+from asperity.results.settled import Standing
 from asperity.slider import kernels as k
 from asperity.slider.history import History
 from asperity.slider.integrators import Pressed, integrator
@@ -200,6 +201,7 @@ def answer_of(
     end = cycle.body.energies()
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
+        standing=standing_of(cycle, growth),
         residual=float(cycle.residual),
         steps=cycle.run * (len(cycle.increments) - 1) // cycle.period,
         cycles=cycle.run,
@@ -210,6 +212,15 @@ def answer_of(
         period=cycle.period,
         multiplier=growth,
     )  # fmt: skip
+
+
+def standing_of(cycle: Cycle, growth: float) -> Standing:
+    """Return whether a state that was found is one that a body stays in."""
+    cycles = "every cycle" if cycle.period == 1 else f"every {cycle.period} cycles"
+    repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
+    if growth > UNSTABLE:
+        return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
+    return Standing(True, repeats)
 
 
 def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:

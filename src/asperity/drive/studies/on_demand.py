@@ -21,7 +21,6 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import DriveResult
 from asperity.errors import InputError
 from asperity.rating.demands import DEMANDS
-from asperity.rating.parameters import THROUGH_TRAVEL
 from asperity.rating.verdict import Safety
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -106,7 +105,7 @@ def in_a_stroke(problem: DriveProblem, model: ReducedModel, shaken: DriveResult)
     ----------
     problem : DriveProblem
         ``operation.output_torque`` is the seat's, ``operation.through_travel_torque`` that between
-        (a third if left out).
+        (if left out, as ``operation.service`` has it).
     model : ReducedModel
         Its mesh.
     shaken : DriveResult
@@ -137,7 +136,7 @@ def _told(
 ) -> OnDemand:
     drive, operation = problem.drive, problem.operation
     seat = operation.output_torque
-    between = operation.through_travel_torque or THROUGH_TRAVEL * seat
+    between = operation.travel_torque
     turns = np.array([drive.stroke_seat, drive.stroke - 2.0 * drive.stroke_seat, drive.stroke_seat])
     free = model.point.worm_torque(between, model.friction)
     unshaken = np.array([shaken.torque_static, free, shaken.torque_static])
