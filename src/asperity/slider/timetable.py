@@ -4,15 +4,9 @@ import math
 
 from asperity.errors import InputError
 from asperity.results.settled import Standing
-from asperity.slider.model import (
-    CHANGE_BOUND,
-    COULOMB_BOUND,
-    RING_BOUND,
-    SLIP_BOUND,
-    WINDOW_SHARE,
-    Model,
-)
+from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
+from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
