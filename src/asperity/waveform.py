@@ -178,6 +178,12 @@ class Shape:
         met = np.flatnonzero(apart <= missed)
         return int(counts[met[0] if met.size else np.argmin(apart)])
 
+    def on_corners(self, steps: int) -> "Shape":
+        """Return the wave of the same amplitude whose corners end equal steps of a cycle."""
+        if self.code != SQUARE:
+            return self
+        return dataclasses.replace(self, rise=2.0 * max(1, round(0.5 * self.rise * steps)) / steps)
+
     def wave(self, *, lead: float = 0.0, ramped: bool = True) -> Wave:
         """Return the wave for kernels, ``lead`` cycles ahead; in full from the start if asked."""
         return Wave(self.code, self.rise, self.table, self.ramp if ramped else 0.0, lead)
@@ -190,7 +196,12 @@ class Shape:
 
     def cycle(self, steps: int, lead: float = 0.0) -> FloatArray:
         """Increments of the unit displacement over a cycle's steps and the first of the next."""
-        out = np.empty(steps + 1)
-        # One cycle late, so that the wave's rest before its start is not met.
-        fill_increments(self.wave(lead=lead, ramped=False), 1.0, 1.0 / steps, out)
-        return out
+        return cycle_of_wave(self.wave(lead=lead), steps)
+
+
+def cycle_of_wave(wave: Wave, steps: int) -> FloatArray:
+    """Increments of a wave over a cycle's steps and the first of the next, in full from the start."""
+    out = np.empty(steps + 1)
+    # One cycle late, so that the wave's rest before its start is not met.
+    fill_increments(wave._replace(ramp=0.0), 1.0, 1.0 / steps, out)
+    return out

@@ -26,7 +26,7 @@ from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.slider.steps import parts_of
 from asperity.slider.wear import Wear
 from asperity.vibration import Vibration
-from asperity.waveform import SAMPLED, SINE, Shape
+from asperity.waveform import AT_REST, SAMPLED, SINE, Shape, Wave
 
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4
@@ -223,6 +223,19 @@ class Model:
         if not self.meets_corners:
             return asked
         return 1.0 / (self.steps_to_corners(1.0 / (asked * self.frequency)) * self.frequency)
+
+    def wave(self, step: float, *, lead: float = 0.0) -> Wave:
+        """Return the wave as a march with steps in s meets it.
+
+        Coulomb's force jumps at the corners of a wave. They lie on the steps to 5e-6 of a cycle,
+        and are put there.
+        """
+        if self.shape is None:
+            return AT_REST
+        shape = self.shape
+        if self.meets_corners and self.friction.model == "coulomb":
+            shape = shape.on_corners(round(1.0 / (self.frequency * step)))
+        return shape.wave(lead=lead)
 
     def steps_to_corners(self, least: float) -> int:
         """Equal steps of a cycle that end on the corners of its waves, in the plane and up."""

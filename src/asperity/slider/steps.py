@@ -4,7 +4,6 @@ import math
 from typing import TYPE_CHECKING
 
 from asperity.errors import InputError
-from asperity.friction.dahl import VECTOR
 from asperity.normal import elastic_slope
 from asperity.slider.parameters import FAR_APART
 from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN
