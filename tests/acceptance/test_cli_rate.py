@@ -72,12 +72,12 @@ def test_gearset_3_through_the_command_line(asperity):
 
 
 def test_the_torque_that_wear_is_judged_by_stands_by_the_bars_where_it_is_assumed(asperity, own):
-    shown = " ".join(asperity("rate", own)[1].split())
-    said = "wear is judged at T_2 = 100 N m, assumed a third of the 300 N m given: of a constant "
-    assert f"{said}load give operation.through_travel_torque" in shown
-    constant = ("--set", "operation.through_travel_torque=300 N m")
-    assert "wear is judged" not in asperity("rate", own, *constant)[1]
-    assert "wear is judged" not in asperity("rate", own, "--standard", "agma6034")[1]
+    valve = ("--set", "operation.service=valve")
+    shown = " ".join(asperity("rate", own, *valve)[1].split())
+    said = "wear is judged at T_2 = 100 N m, of a valve assumed a third of the 300 N m given: else "
+    assert f"{said}give operation.through_travel_torque" in shown
+    assert "wear is judged" not in asperity("rate", own)[1]
+    assert "wear is judged" not in asperity("rate", own, *valve, "--standard", "agma6034")[1]
 
 
 def test_file_with_no_more_than_what_is_required_is_rated_and_tells_the_rest(asperity, own):

@@ -118,6 +118,27 @@ CASES = {
     "concave": {"settings": ["gearset.flank=ZC", "gearset.tooth_proportions=iso"]},
     "widths given": {"settings": ["gearset.wheel_face_width=12 mm", "gearset.rim_thickness=3 mm"]},
     "friction given": {"settings": ["rating.friction=0.05", "operation.oil_temperature=60 degC"]},
+    "duty cycle": {
+        "values": {
+            "operation.wheel_revolutions": None,
+            "operation.duty_cycle": [
+                {"duration": 3.6e4, "output_torque": 366.0},
+                {"duration": 1.8e5, "output_torque": 122.0, "worm_speed": 75.0},
+            ],
+        }
+    },
+    "small, with a fan": {
+        "settings": [
+            "gearset.starts=1",
+            "gearset.wheel_teeth=30",
+            "gearset.centre_distance=26.6 mm",
+            "gearset.axial_module=1.33 mm",
+            "gearset.diameter_factor=10",
+            "operation.fan=true",
+            "operation.output_torque=2 N m",
+            "operation.through_travel_torque=2 N m",
+        ]
+    },
     "polyglycol, fan": {
         "settings": ["operation.lubricant=ISO VG 460 polyglycol", "operation.fan=true"]
     },

@@ -142,7 +142,7 @@ def check(name: str, value: Real, symbol: Symbol) -> Real:
         sentence = f"{name} is {first:.6g}{unit}; {symbol.allowed}"
         if mask is None:
             raise symbol.error(sentence)
-        if not (math.isnan(value) and mask.legend):
+        if not (math.isnan(first) and mask.legend):
             mask.refuse(True, sentence)
         return np.float64(np.nan)
     mask.refuse(outside, f"{name} is not allowed; {symbol.allowed}")

@@ -6,11 +6,12 @@ arrays of one shape where variants of a gearset are rated.
 
 import dataclasses
 import math
+from typing import NamedTuple
 
 from asperity.arrays import Real, smaller
 from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
-from asperity.rating.parameters import DEFAULT_LIFE, THROUGH_TRAVEL, Operation, RatingOptions
+from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
 
 Values = dict[str, Real]
 """What a standard's calculation found, by the keys of a rating; NaN where there is no answer."""
@@ -52,12 +53,21 @@ def scaled(value: float, factor: float) -> float:
     return float(f"{value * factor:.15g}")
 
 
+class Part(NamedTuple):
+    """A part of a duty cycle: its running time in h, torque of the wheel in N m, worm in rpm."""
+
+    hours: Real
+    torque: Real
+    speed: Real
+
+
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Inputs:
     """A gearset and how it is run, in the units of the standards.
 
     Lengths are in mm (roughness in um), angles in rad, speeds in rpm, torques in N m; names are
-    those of `asperity.gearset.Geometry` and of the tables of a case file.
+    those of `asperity.gearset.Geometry` and of the tables of a case file. ``hours`` is the running
+    time of a part of a duty cycle, see `parted`.
     """
 
     gearset: Gearset
@@ -92,6 +102,34 @@ class Inputs:
     base_friction: Real | None
     friction: Real | None
     friction_factor: Real
+    hours: Real | None = None
+
+    @property
+    def duty(self) -> tuple[Part, ...]:
+        """The parts of the duty cycle; none without one, or where this is one of them."""
+        if self.hours is not None:
+            return ()
+        return tuple(
+            Part(
+                scaled(step.duration, 1.0 / _HOUR),
+                step.output_torque,
+                self.worm_speed if step.worm_speed is None else scaled(step.worm_speed, RPM),
+            )
+            for step in self.operation.duty_cycle or ()
+        )
+
+    def parted(self) -> "tuple[Inputs, ...]":
+        """Return what the formulas start from in each part of the duty cycle, a load of its own."""
+        return tuple(
+            dataclasses.replace(
+                self,
+                hours=part.hours,
+                worm_speed=part.speed,
+                output_torque=part.torque,
+                through_travel_torque=part.torque,
+            )
+            for part in self.duty
+        )
 
     @property
     def wheel_speed(self) -> Real:
@@ -129,7 +167,9 @@ class Inputs:
     @property
     def life(self) -> Real:
         """Required running time in hours at the worm's speed; of a duty cycle, by its turns."""
-        if self.operation.duty_cycle is not None:
+        if self.hours is not None:
+            return self.hours
+        if self.duty:
             return self._equivalent_hours(0, 1.0)
         if self.operation.wheel_revolutions is not None:
             return self.operation.wheel_revolutions / (60.0 * self.wheel_speed)
@@ -138,23 +178,21 @@ class Inputs:
     @property
     def wear_hours(self) -> Real:
         """Running time in hours for which BS 721 judges wear, at the through-travel torque."""
-        if self.operation.duty_cycle is not None:
-            return self._equivalent_hours(3, self.through_travel_torque)
-        return self.life
+        return self._equivalent_hours(3, self.through_travel_torque) if self.duty else self.life
 
     @property
     def strength_hours(self) -> Real:
         """Running time in hours for which BS 721 judges strength, at the rated torque."""
-        if self.operation.duty_cycle is not None:
+        if self.duty:
             return self._equivalent_hours(7, self.output_torque)
-        return _STRENGTH_SHARE * self.life
+        return self.life * _STRENGTH_SHARE if self.operation.service == "valve" else self.life
 
     def _equivalent_hours(self, exponent: int, torque: Real) -> Real:
         # asperity.rating.bs721.equivalent_hours, for arrays of speeds and torques.
         total: Real = 0.0
-        for step in self.operation.duty_cycle or ():
-            speed = 1.0 if step.worm_speed is None else step.worm_speed * RPM / self.worm_speed
-            total += step.duration / _HOUR * speed * (step.output_torque / torque) ** exponent
+        for part in self.duty:
+            turns = part.hours * (part.speed / self.worm_speed)
+            total += turns * (part.torque / torque) ** exponent
         return total
 
 
@@ -171,8 +209,6 @@ def face_width_that_carries(
 def inputs(gearset: Gearset, operation: Operation, options: RatingOptions) -> Inputs:
     """Return what the formulas need for one gearset, as floats."""
     g = gearset.geometry
-    torque = operation.output_torque
-    through = operation.through_travel_torque
     return Inputs(
         gearset=gearset,
         operation=operation,
@@ -183,8 +219,8 @@ def inputs(gearset: Gearset, operation: Operation, options: RatingOptions) -> In
         ),
         worm_roughness=scaled(gearset.worm_roughness, 1e6),
         worm_speed=scaled(operation.worm_speed, RPM),
-        output_torque=torque,
-        through_travel_torque=THROUGH_TRAVEL * torque if through is None else through,
+        output_torque=operation.output_torque,
+        through_travel_torque=operation.travel_torque,
         base_friction=options.base_friction,
         friction=options.friction,
         friction_factor=options.friction_factor,

@@ -114,11 +114,17 @@ def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
     )
     rough = gearset.worm_roughness
     yield "worm roughness", ("gearset.worm_roughness",), gears(worm_roughness=rough * more)
-    torques = {"output_torque": operation.output_torque * more}
+    torques: dict[str, Any] = {"output_torque": operation.output_torque * more}
     keys = ["operation.output_torque"]
     if operation.through_travel_torque is not None:
         torques["through_travel_torque"] = operation.through_travel_torque * more
         keys.append("operation.through_travel_torque")
+    if operation.duty_cycle is not None:
+        torques["duty_cycle"] = tuple(
+            step.model_copy(update={"output_torque": step.output_torque * more}, units="SI")
+            for step in operation.duty_cycle
+        )
+        keys.append("operation.duty_cycle")
     yield "torque", tuple(keys), run(**torques)
     oil = operation.lubricant
     thicker = {key: getattr(oil, key) * _GRADE for key in ("viscosity_40", "viscosity_100")}

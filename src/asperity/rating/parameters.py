@@ -19,10 +19,10 @@ DEFAULT_LIFE = 25000.0 * 3600.0
 """Life in seconds where none is required: that of AGMA 6034 and of ISO/TR 14521's own tests."""
 
 THROUGH_TRAVEL = 1.0 / 3.0
-"""Torque through the travel over the rated one, where it is left out (thesis 3.2.1)."""
+"""Torque of a valve through its travel over the rated one, where it is left out (thesis 3.2.1)."""
 
 _ASSUMED = {
-    "through_travel_torque": "a third of output_torque",
+    "through_travel_torque": "output_torque, all the time",
     "life": "25000 h",
     "lubrication": "bath",
     "oil_temperature": "from the heat balance of ISO/TR 14521",
@@ -35,6 +35,8 @@ _ASSUMED = {
     "application_factor": "1",
     "starts_per_hour": "0",
 }
+
+_ROUNDING = 1.0 + 1e-12
 
 Torque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", gt=0)]
 Temperature = Annotated[
@@ -53,7 +55,7 @@ class LoadStep(Table):
     duration : float or str
         s ("10 h" in a file), of the whole life.
     output_torque : float or str
-        Wheel torque, N m.
+        Wheel torque, N m, at most the rated one.
     worm_speed : float or str, optional
         rad/s; that of the operation if left out.
     """
@@ -88,14 +90,19 @@ class Operation(Table):
     output_torque : float or str
         Rated wheel torque :math:`T_R`, N m: strength is judged by it.
     through_travel_torque : float or str, optional
-        Wheel torque through the travel :math:`T_2`, N m: wear is judged by it. Left out: a third
-        of ``output_torque``, as the thesis has it (3.2.1).
+        Wheel torque through the travel :math:`T_2`, N m: wear is judged by it. Left out:
+        ``output_torque``, or as ``service`` has it. A duty cycle takes its place.
+    service : {'continuous', 'valve'}
+        Whether the rated torque stands all the time, or seats a valve as in the thesis: then
+        :math:`T_2` is a third of it where it is left out (3.2.1), and the rated torque counts for a
+        tenth of the running time (3.3.1).
     wheel_revolutions : float, optional
         Required life in turns of the wheel. Give this or ``life``; left out: ``life``.
     life : float or str, optional
         Required life, s. Left out: 25000 h.
     duty_cycle : list of table, optional
-        Parts of the required life, each a `LoadStep`, in place of ``life``.
+        Parts of the required life, each a `LoadStep`, in place of ``life``; none above
+        ``output_torque``.
     lubricant : str or table
         A name that ``asperity lubricants`` lists, or a table with its keys.
     lubrication : {'bath', 'spray'}
@@ -129,6 +136,7 @@ class Operation(Table):
     worm_speed: Speed
     output_torque: Torque
     through_travel_torque: Torque | None = None
+    service: Literal["continuous", "valve"] = "continuous"
     wheel_revolutions: (
         Annotated[float, Quantity("", what="a number of turns", example="500000", gt=0)] | None
     ) = None
@@ -175,7 +183,28 @@ class Operation(Table):
                 f"operation.through_travel_torque is {self.through_travel_torque:g} N m; it must "
                 f"not exceed operation.output_torque, {self.output_torque:g} N m"
             )
+        most = max((step.output_torque for step in self.duty_cycle or ()), default=0.0)
+        if most > self.output_torque * _ROUNDING:
+            raise InputError(
+                f"operation.duty_cycle has a part with {most:g} N m; none may exceed "
+                f"operation.output_torque, {self.output_torque:g} N m: raise that, by which strength "
+                "is judged"
+            )
         return self
+
+    @property
+    def travel_torque(self) -> float:
+        """Torque of the wheel that wear is judged by, N m: T_2; of a duty cycle, the greatest."""
+        if self.duty_cycle is not None:
+            return max(step.output_torque for step in self.duty_cycle)
+        if self.through_travel_torque is not None:
+            return self.through_travel_torque
+        return self.travel_share * self.output_torque
+
+    @property
+    def travel_share(self) -> float:
+        """T_2 over T_R where neither T_2 nor a duty cycle is given."""
+        return THROUGH_TRAVEL if self.service == "valve" else 1.0
 
     @property
     def wear_assumed(self) -> str:
@@ -184,18 +213,19 @@ class Operation(Table):
 
     def wear_told(self, within: str = "") -> Sentence | str:
         """As `wear_assumed`, its numbers by where they stand ``within`` an answer's JSON."""
-        if self.through_travel_torque is not None:
+        given = self.through_travel_torque is not None or self.duty_cycle is not None
+        if given or self.service != "valve":
             return ""
         of_wear, rated = (
             Number.of(value, ".4g", within and f"{within}.{name}_torque_Nm")
             for name, value in (
-                ("through_travel", THROUGH_TRAVEL * self.output_torque),
+                ("through_travel", self.travel_torque),
                 ("output", self.output_torque),
             )
         )
         return Sentence(
-            "wear is judged at T_2 = ", of_wear, " N m, assumed a third of the ", rated,
-            " N m given: of a constant load give operation.through_travel_torque",
+            "wear is judged at T_2 = ", of_wear, " N m, of a valve assumed a third of the ", rated,
+            " N m given: else give operation.through_travel_torque",
         )  # fmt: skip
 
     @property
@@ -208,6 +238,10 @@ class Operation(Table):
         }
         if self.wheel_revolutions is not None or self.duty_cycle is not None:
             left_out.pop("life", None)
+        if self.duty_cycle is not None:
+            left_out.pop("through_travel_torque", None)
+        elif self.service == "valve" and "through_travel_torque" in left_out:
+            left_out["through_travel_torque"] = "a third of output_torque, as of a valve"
         return MappingProxyType({**left_out, **self.lubricant.assumed})
 
 

@@ -14,6 +14,7 @@ from asperity.rating.alternatives import Alternative, alternatives
 from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.demands import Demand
+from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
@@ -81,6 +82,8 @@ class Rated(Result):
         What the formulas started from.
     tables_bs721 : Tables
         Those of BS 721.
+    unanswered : mapping of str to str
+        Why a standard that was asked for could not be applied.
     contact : Section or None
         What its report shows of how the flanks touch, where that was asked for.
     """
@@ -100,13 +103,18 @@ class Rated(Result):
     alternatives: tuple[Alternative, ...] = ()
     given: Inputs
     tables_bs721: Tables
+    unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
 
     @property
     def verdict(self) -> Verdict:
         """Whether it holds by each standard, and what fails first."""
         return Verdict.of(
-            self.found, self.levers, self.alternatives, self.given.operation.wear_assumed
+            self.found,
+            self.levers,
+            self.alternatives,
+            self.given.operation.wear_assumed,
+            self.unanswered,
         )
 
     @property
@@ -118,6 +126,11 @@ class Rated(Result):
     def holding(self) -> tuple[Holding, ...]:
         """What a brake on the worm must bring to hold the load when the motor stops."""
         return holding(self.given, self.self_locking)
+
+    @property
+    def duty_cycle(self) -> tuple[DutyPart, ...]:
+        """What each part of a duty cycle has in wear and heat, by ISO/TR 14521."""
+        return () if self.iso14521 is None else duty_parts(self.given, self.iso14521)
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -136,6 +149,7 @@ class Rated(Result):
             name: dict.fromkeys(PROMISED[name]) | rating.to_json()
             for name, rating in self.found.items()
         }
+        parts = [part.to_json() for part in self.duty_cycle]
         return {
             "name": self.gearset.name,
             "geometry": self.geometry.to_json(),
@@ -146,6 +160,7 @@ class Rated(Result):
             "verdict": self.verdict.to_json(),
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
             "holding": [one.to_json() for one in self.holding],
+            **({"duty_cycle": parts} if parts else {}),
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -183,6 +198,8 @@ class Rated(Result):
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
         tables = [rating.table(sources=sources) for rating in self.ratings]
+        if self.duty_cycle:
+            tables.append(duty_table(self.duty_cycle))
         rows = self.self_locking.to_rows()
         if rows:
             degrees = self.self_locking.to_json()["lead_angle_deg"]
@@ -275,6 +292,7 @@ def rate(
     _require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
+    unanswered: dict[str, str] = {}
     steel = gearset.worm_material.taken_for
     notes = (
         []
@@ -288,9 +306,11 @@ def rate(
             if len(wanted) == 1:
                 raise
             notes.append(f"{name}: {error}")
+            unanswered[name] = str(error)
     return Rated(
         levers=(),
         alternatives=(),
+        unanswered=unanswered,
         contact=None,
         given=given,
         tables_bs721=tables,

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from asperity.gearset.drawn import drawn
+from asperity.rating.duty import duty_table
 from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
@@ -43,6 +44,8 @@ def sections(rated: Reported) -> Iterator[Section]:
         flow = Picture("", svg=power_flow(rated.iso14521),
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
         yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
+        if rated.duty_cycle:
+            yield Section("Duty cycle", tables=(duty_table(rated.duty_cycle),))
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
         yield Section("Forces on shafts and bearings", (said,), tables=(_forces(rated),))
     yield rated.contact or Section("Contact pattern and lines", (_NO_CONTACT,))

@@ -119,6 +119,8 @@ class Rating:
         Limits of validity that do not hold, a sentence each.
     notes : tuple of str
         What else a reader of the numbers should know.
+    gaps : tuple of str
+        Those of the notes that say why something of the gearset has no answer.
 
     Examples
     --------
@@ -132,6 +134,7 @@ class Rating:
     entries: tuple[Entry, ...]
     violations: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    gaps: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         keys = [entry.key for entry in self.entries]

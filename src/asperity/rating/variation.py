@@ -36,8 +36,9 @@ from asperity.rating.inputs import (
     face_width_that_carries,
     inputs,
 )
-from asperity.rating.parameters import THROUGH_TRAVEL, Operation, RatingOptions
+from asperity.rating.parameters import Operation, RatingOptions
 
+_ROUNDING = 1e-12
 _FROM_SI = {"mm": 1e3, "um": 1e6, "rpm": RPM}
 
 BLOCK = 32768
@@ -108,8 +109,12 @@ def varied(
     )
     numbers |= follows
     numbers |= {name: value for name, value in given.items() if name not in numbers}
-    if "output_torque" in given and operation.through_travel_torque is None:
-        numbers["through_travel_torque"] = THROUGH_TRAVEL * given["output_torque"]
+    if "output_torque" in given and operation.duty_cycle is not None:
+        greatest = base.through_travel_torque
+        low = np.asarray(given["output_torque"]) < greatest * (1.0 - _ROUNDING)
+        mask.refuse(low, f"the duty cycle has a part with {greatest:g} N m, which is more")
+    elif "output_torque" in given and operation.through_travel_torque is None:
+        numbers["through_travel_torque"] = operation.travel_share * given["output_torque"]
     if "friction" in given:
         numbers["base_friction"] = None
     elif "base_friction" in given:

@@ -11,12 +11,9 @@ from asperity.rating.levers import Lever
 from asperity.rating.regime import Film
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
+from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
 from asperity.results.quantity import Number, Sentence
 
-NAMES = {"iso14521": "ISO/TR 14521", "bs721": "BS 721", "agma6034": "AGMA 6034"}
-"""What people call the standards."""
-
-_WIDTH = 79
 _LONGEST = 3.0
 _BAR = 27
 _MOST_LEVERS = 3
@@ -52,7 +49,7 @@ class Safety(NamedTuple):
     def said(self) -> str:
         """What there is of what is asked, and that it fails where it does."""
         d = self.demand
-        return f"{d.symbol} {self.value:.3g} of {d.asked:g}{'' if self.holds else '  FAILS'}"
+        return f"{d.symbol} {_short(self.value)} of {d.asked:g}{'' if self.holds else '  FAILS'}"
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""
@@ -69,7 +66,9 @@ class Verdict(NamedTuple):
     safeties : tuple of Safety
         Of every standard that it was rated by, in their order.
     unrated : tuple of str
-        Safeties that have no answer, as ``standard.key``.
+        Safeties that have no answer, as ``standard.key``, of standards that have others.
+    standing : tuple of Standing
+        What each standard comes to, those without any answer too.
     levers : tuple of Lever
         What moves the least of them, the strongest first.
     alternatives : tuple of Alternative
@@ -82,6 +81,7 @@ class Verdict(NamedTuple):
 
     safeties: tuple[Safety, ...]
     unrated: tuple[str, ...]
+    standing: tuple[Standing, ...] = ()
     levers: tuple[Lever, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
     film: Film | None = None
@@ -94,13 +94,15 @@ class Verdict(NamedTuple):
         levers: tuple[Lever, ...] = (),
         alternatives: tuple[Alternative, ...] = (),
         wear_assumed: str = "",
+        unanswered: Mapping[str, str] | None = None,
     ) -> "Verdict":
-        """Return the verdict of ratings by standard."""
+        """Return the verdict of ratings by standard; why others have no answer, likewise."""
         asked = [demand for demand in DEMANDS if demand.standard in found]
         rated = {d: found[d.standard][d.key] for d in asked if d.key in found[d.standard]}
         return cls(
             tuple(Safety(demand, float(value)) for demand, value in rated.items()),
             tuple(demand.path for demand in asked if demand not in rated),
+            tuple(Standing.of(found, unanswered or {})),
             levers,
             alternatives,
             Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
@@ -108,7 +110,7 @@ class Verdict(NamedTuple):
         )
 
     def __repr__(self) -> str:
-        said = [line for sentence in self.sentences() for line in _wrapped(sentence)]
+        said = [line for sentence in self.sentences() for line in wrapped(sentence)]
         return "\n".join((*said, *self.bars()))
 
     @property
@@ -117,19 +119,9 @@ class Verdict(NamedTuple):
         return min(self.safeties, key=lambda safety: safety.margin, default=None)
 
     @property
-    def holds(self) -> dict[str, bool]:
-        """Whether it holds, by standard."""
-        standards = dict.fromkeys(
-            (
-                *(s.demand.standard for s in self.safeties),
-                *(p.partition(".")[0] for p in self.unrated),
-            )
-        )
-        return {
-            name: all(s.holds for s in self.safeties if s.demand.standard == name)
-            and not any(path.startswith(f"{name}.") for path in self.unrated)
-            for name in standards
-        }
+    def holds(self) -> dict[str, bool | None]:
+        """Whether it holds, by standard; None where one cannot tell."""
+        return {one.standard: one.holds for one in self.standing}
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key."""
@@ -139,6 +131,7 @@ class Verdict(NamedTuple):
             "first": None if first is None else first.demand.path,
             "safeties": [safety.to_json() for safety in self.safeties],
             "unrated": list(self.unrated),
+            "standing": {one.standard: one.to_json() for one in self.standing},
             "moved_by": [
                 {"name": lever.name, "keys": list(lever.keys), "exponent": lever.exponent}
                 for lever in self.levers
@@ -147,13 +140,18 @@ class Verdict(NamedTuple):
             "film": None if self.film is None else self.film.to_json(),
         }
 
+    def stands(self) -> Iterator[str]:
+        """Yield by which standards it holds, which have no answer, and which rate outside."""
+        yield from Standing.sentences(self.standing)
+
     def sentences(self) -> Iterator[str]:
         """Yield whether it holds, and what fails first."""
-        holds = [NAMES[name] for name, holds in self.holds.items() if holds]
-        fails = [NAMES[name] for name, holds in self.holds.items() if not holds]
-        parts = [f"does not hold by {_and(fails)}"] if fails else []
-        parts += [f"holds by {_and(holds)}"] if holds else []
-        yield "; ".join(parts)
+        yield from self.stands()
+        yield from self.nearest()
+        yield from self.best()
+
+    def nearest(self) -> Iterator[Sentence]:
+        """Yield what fails first or is nearest to it, and what moves that most."""
         first = self.first
         if first is None:
             return
@@ -173,9 +171,13 @@ class Verdict(NamedTuple):
             )
             said += ["; a percent of it brings most: ", Sentence.joined(strongest)]
         yield Sentence(*said)
-        if self.alternatives:
+
+    def best(self) -> Iterator[Sentence]:
+        """Yield which other oil and material with a name would bring most of it."""
+        first = self.first
+        if self.alternatives and first is not None:
             better = (
-                other.told(d.asked, f"verdict.alternatives.{place}")
+                other.told(first.demand.asked, f"verdict.alternatives.{place}")
                 for place, other in enumerate(self.alternatives)
             )
             yield Sentence("best listed: ", Sentence.joined(better))
@@ -189,12 +191,20 @@ class Verdict(NamedTuple):
             return
         unit = _BAR // int(_LONGEST)
         scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
-        yield f"{'':26}{scale}  times what is asked"
+        yield f"{'':25}{scale}  times what is asked"
         for safety in self.safeties:
             d = safety.demand
             name = f"{NAMES[d.standard]} {d.name}"
-            yield f"{name:25} {bar(safety.margin)} {safety.said}"
-        yield from _wrapped(self.wear_assumed)
+            yield f"{name:24} {bar(safety.margin)} {safety.said}"
+        yield from wrapped(self.wear_assumed)
+
+
+def _short(value: float) -> str:
+    """Return a safety in three digits, in fewer where it is small: a line of bars has 79 signs."""
+    text = f"{value:.3g}"
+    if value >= 1.0 or len(text) <= 5:
+        return text
+    return f"{value:.2g}" if value >= 0.01 else "<0.01"
 
 
 def bar(margin: float) -> str:
@@ -227,9 +237,11 @@ def power_lines(iso: Rating) -> Iterator[str]:
         Sentence(f"{name} ", number(key, ".0f" if float(iso[key]) >= 100.0 else ".3g"))
         for name, key in keys.items()
     )
+    outside = efficiency_outside(iso)
     yield Sentence(
         "efficiency ", number("eta_ges", ".1f", 100.0), " % of the gearbox, ",
         number("eta_z1_2", ".1f", 100.0), " % of the teeth (ISO/TR 14521)",
+        f", OUTSIDE ITS RANGE: {listed(outside)}" if outside else "",
     )  # fmt: skip
     yield Sentence(
         "losses ", number("loss_total_W", ".4g"), " W of ", number("input_power_W", ".4g"), " W: ",
@@ -244,7 +256,7 @@ def locking_line(locking: SelfLocking) -> str:
         own = [verdict for verdict in locking if verdict.state == state]
         locks = [NAMES.get(v.standard, "the given friction") for v in own if v.locks]
         if locks:
-            alone = "" if len(locks) == len(own) else f" by {_and(locks)} alone"
+            alone = "" if len(locks) == len(own) else f" by {listed(locks)} alone"
             said.append(f"{words}{alone}")
     locked = f"locks itself {', '.join(said)}" if said else "does not lock itself"
     angles = [math.degrees(math.atan(v.friction)) for v in locking]
@@ -260,36 +272,40 @@ def screen(
     assumed: int,
     notes: Iterable[str],
 ) -> str:
-    """Return what is shown first: the verdict, at most 23 lines of 79 characters."""
-    lines: list[str] = []
-    for sentence in verdict.sentences():
-        lines += _wrapped(sentence)
-    lines += ["", *verdict.bars(), ""]
-    if "iso14521" in found:
-        for line in power_lines(found["iso14521"]):
-            lines += _wrapped(line)
-    if verdict.film is not None:
-        lines += _wrapped(verdict.film.sentence())
-    lines += _wrapped(locking_line(locking))
-    remarks = [
-        *notes,
-        *(text for rating in found.values() for text in rating.violations),
-    ]
-    shown = remarks[: max(1, min(_MOST_REMARKS, _MOST_LINES - 1 - len(lines)))]
-    for remark in shown:
-        lines.append(textwrap.shorten(f"- {remark}", _WIDTH, placeholder=" ..."))
+    """Return what is shown first: the verdict, in lines of at most 79 characters.
+
+    At most 23 lines, unless the verdict itself takes more; what has no room is left to ``--full``.
+    """
+    iso = found.get("iso14521")
+    first, best = verdict.nearest(), verdict.best()
+    power = power_lines(iso) if iso is not None else ()
+    film = () if verdict.film is None else (verdict.film.sentence(),)
+    # What is nearer to the verdict stays where there is no room for all.
+    said = {f"{one.standard}: {reason}" for one in verdict.standing for reason in one.reasons}
+    remarks = *(note for note in notes if note not in said), *_outside(found)
+    kept = {"best": tuple(best), "film": film, "remarks": remarks}
+    blocks = {"stands": verdict.stands(), "first": first, "power": power,
+              "locking": (locking_line(locking),)}  # fmt: skip
+    lines = {name: [line for one in of for line in wrapped(one)] for name, of in blocks.items()}
+    lines |= {"bars": ["", *verdict.bars(), ""], "best": [], "film": [], "remarks": []}
+    shown = 0
+    for name, texts in kept.items():
+        for text in texts[:_MOST_REMARKS]:
+            said = [textwrap.shorten(f"- {text}", WIDTH, placeholder=" ...")]
+            said = said if name == "remarks" else wrapped(text)
+            room = _MOST_LINES - 1 - sum(map(len, lines.values()))
+            if len(said) <= room:
+                lines[name] += said
+                shown += name == "remarks"
     memory = len({entry.key for rating in found.values() for entry in rating if entry.from_memory})
-    more = len(remarks) - len(shown)
-    lines.append(
+    more = len(kept["remarks"]) - shown
+    lines["end"] = [
         f"assumed {assumed} keys, {memory} numbers rest on sources from memory"
-        f"{f', {more} more remarks' if more > 0 else ''}: --full"
-    )
-    return "\n".join(lines)
+        f"{f', {more} remarks' if more > 0 else ''}: --full"
+    ]
+    order = "stands", "first", "best", "bars", "power", "film", "locking", "remarks", "end"
+    return "\n".join(line for name in order for line in lines[name])
 
 
-def _wrapped(text: str) -> list[str]:
-    return textwrap.wrap(text, _WIDTH, subsequent_indent="  ", break_on_hyphens=False)
-
-
-def _and(words: list[str]) -> str:
-    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+def _outside(found: Mapping[str, Rating]) -> tuple[str, ...]:
+    return tuple(text for rating in found.values() for text in (*rating.violations, *rating.gaps))

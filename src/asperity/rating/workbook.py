@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
+from asperity.formulas import masking
 from asperity.formulas.traced import Traced
 from asperity.gearset import relations
 from asperity.rating.agma6034.rating import rated as rated_agma6034
@@ -21,9 +22,8 @@ from asperity.rating.bs721.rating import rated as rated_bs721
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import Fact, facts
-from asperity.rating.inputs import Inputs, Values
+from asperity.rating.inputs import Inputs, Part, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
-from asperity.rating.parameters import THROUGH_TRAVEL
 from asperity.rating.result import Rating
 from asperity.rating.variation import derived
 from asperity.results.xlsx import Formula, Input, Sheet, place, write_workbook
@@ -72,6 +72,12 @@ def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], pat
             geometry.add(value, *_about_geometry(name))
     pages = [geometry]
     for standard, rating in found.items():
+        parts = _Page(f"{standard} parts", cells)
+        for key, value in values[standard].items():
+            if key.startswith("part_"):
+                parts.add(value, *_about_part(standard, key))
+        if len(parts.rows) > 1:
+            pages.append(parts)
         page = _Page(standard, cells)
         asked = {demand.key: demand.asked for demand in DEMANDS if demand.standard == standard}
         for entry in rating.entries:
@@ -92,8 +98,9 @@ def _traced(given: Inputs, cells: "_Cells") -> Inputs:
         name: None if getattr(given, name) is None else cells.input(name, getattr(given, name))
         for name in _FREE
     }
-    if given.operation.through_travel_torque is None:
-        free["through_travel_torque"] = THROUGH_TRAVEL * free["output_torque"]
+    operation = given.operation
+    if operation.through_travel_torque is None and operation.duty_cycle is None:
+        free["through_travel_torque"] = operation.travel_share * free["output_torque"]
     z1, z2, m, q, x = (free[name] for name in _FREE[:5])
     numbers = {
         **free,
@@ -102,8 +109,8 @@ def _traced(given: Inputs, cells: "_Cells") -> Inputs:
     }
     follows, _ = derived(gearset, given.options, numbers)
     own = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
-    operation: Any = _Part(given.operation, "operation", cells)
-    own |= {"gearset": gearset, "operation": operation, **numbers, **follows}
+    run: Any = _Part(given.operation, "operation", cells)
+    own |= {"gearset": gearset, "operation": run, **numbers, **follows}
     return _TracedInputs(**own, cells=cells, plain=given)
 
 
@@ -117,9 +124,22 @@ def _about_geometry(name: str) -> tuple[str, str, str, str]:
     return fact.symbol, unit, fact.meaning, fact.derived or fact.equation
 
 
+def _about_part(standard: str, path: str) -> tuple[str, str, str, str]:
+    """Symbol, unit, meaning and equation of a number of a part of a duty cycle."""
+    part, _, key = path.partition(".")
+    fact = next((fact for fact in facts(standard) if fact.key == key), None)
+    said = part.replace("_", " ")
+    if fact is None:
+        return "", "", f"{said}, {key.replace('_', ' ')}", ""
+    return fact.symbol, fact.unit, f"{said}, {fact.meaning}", fact.equation
+
+
 def _rated(standard: str, given: Inputs, tables: Tables) -> Values:
     if standard == "iso14521":
-        return rated_capacity(given, rated_efficiency(given))
+        values = rated_efficiency(given)
+        # As the rating itself: a stress whose formula does not reach so far has no cell.
+        with masking():
+            return rated_capacity(given, values)
     return rated_bs721(given, tables)[0] if standard == "bs721" else rated_agma6034(given)
 
 
@@ -262,17 +282,30 @@ class _TracedInputs(Inputs):
     sump_limit = property(lambda self: self._cell("sump_limit", "degC"))
 
     @property
+    def duty(self) -> tuple[Part, ...]:
+        """The parts of the duty cycle, their numbers cells."""
+        if self.hours is not None:
+            return ()
+        found = []
+        steps = zip(self.plain.duty, self.plain.operation.duty_cycle or (), strict=True)
+        for place, (part, step) in enumerate(steps, 1):
+            name = f"duty_cycle_{place}"
+            speed = self.worm_speed
+            if step.worm_speed is not None:
+                speed = self.cells.input(f"{name}_worm_speed", part.speed, "rpm")
+            hours = self.cells.input(f"{name}_hours", part.hours, "h")
+            torque = self.cells.input(f"{name}_output_torque", part.torque, "N m")
+            found.append(Part(hours, torque, speed))
+        return tuple(found)
+
+    @property
     def life(self) -> Any:
         operation = self.plain.operation
-        if operation.duty_cycle is None and operation.wheel_revolutions is not None:
-            return super().life
-        return self._cell("life")
+        given = operation.duty_cycle is None and operation.wheel_revolutions is None
+        return self._cell("life") if given else super().life
 
     @property
     def bearing_span(self) -> Any:
         if self.plain.operation.bearing_span is None:
             return super().bearing_span
         return self._cell("bearing_span")
-
-    def _equivalent_hours(self, exponent: int, torque: Any) -> Any:
-        return self._cell("wear_hours" if exponent == 3 else "strength_hours", "h")

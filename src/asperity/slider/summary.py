@@ -87,6 +87,7 @@ def summarise(
     substeps: int = 1,
     period: int | None = None,
     multiplier: float | None = None,
+    step_error: float | None = None,
 ) -> SlideResult:
     """Turn the sums over a window, and the energies at its ends, into a result in SI.
 
@@ -130,6 +131,7 @@ def summarise(
         wear=wear,
         settled=standing.settled,
         settled_by=standing.settled_by,
+        step_error=step_error,
         residual=residual,
         steps=steps,
         cycles=cycles,

@@ -223,4 +223,4 @@ _OF_A_RATING = {
 
 def _verdict(result: Result) -> list[str]:
     verdict = getattr(result, "verdict", None)
-    return [] if verdict is None else [next(verdict.sentences())]
+    return [] if verdict is None else list(verdict.stands())

@@ -4,7 +4,10 @@ Loads go by the rated torque times the application factor, powers and temperatur
 torque itself.
 """
 
+import functools
 import math
+
+import numpy as np
 
 from asperity.errors import InputError
 from asperity.gearset import oil
@@ -29,6 +32,8 @@ def rate(given: Inputs) -> Rating:
     """
     values = rated(given)
     equations = {} if given.friction is None else {"mu": f"k_mu {given.friction:g}"}
+    if given.duty:
+        equations["safety_torque"] = "min(T_Gall/(K_A T_i)) over the duty cycle"
     return Rating(
         "ANSI/AGMA 6034-B92",
         entries(given, "agma6034", values, _sources(given), equations),
@@ -38,7 +43,22 @@ def rate(given: Inputs) -> Rating:
 
 
 def rated(given: Inputs) -> Values:
-    """Return friction, efficiency, loads and heat by the keys of a rating."""
+    """Return friction, efficiency, loads and heat by the keys of a rating.
+
+    Of a duty cycle the safety is the least and the sump's temperature the highest of its parts;
+    everything else is that under the rated torque.
+    """
+    v = _rated(given)
+    parts = [_rated(part) for part in given.parted()]
+    if parts:
+        for place, own in enumerate(parts, 1):
+            v |= {f"part_{place}.{key}": value for key, value in own.items()}
+        for key, of in (("safety_torque", np.minimum), ("t_s_degC", np.maximum)):
+            v[key] = functools.reduce(of, [own[key] for own in parts])
+    return v
+
+
+def _rated(given: Inputs) -> Values:
     casting = given.gearset.wheel_material.agma6034
     if casting is None:
         raise InputError(
@@ -110,9 +130,10 @@ def _sources(given: Inputs) -> dict[str, Source]:
 
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
+    fastest = max(part.worm_speed for part in given.parted() or (given,))
     at = {
-        "sliding_velocity": values["sliding_velocity_m_s"],
-        "worm_speed": given.worm_speed,
+        "sliding_velocity": values["sliding_velocity_m_s"] * (fastest / given.worm_speed),
+        "worm_speed": fastest,
         "gear_ratio": given.gear_ratio,
         "pressure_angle": math.degrees(given.pressure_angle),
     }
@@ -128,6 +149,11 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
 
 def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
     notes = ["the friction force W_f is taken as Shigley has it, so that losses and e_W agree"]
+    if given.duty:
+        notes.append(
+            "the duty cycle: the standard has no rule for one; its safety and its sump are those of "
+            "the part that is nearest to its limit"
+        )
     if not given.gearset.worm_material.hardened:
         notes.append(
             f"the worm of {given.gearset.worm_material.name} is not known to be hardened to 58 HRC "

@@ -1,7 +1,9 @@
 """A gearset by BS 721: the formulas in the order of the calculation.
 
-Wear is judged by the torque through the travel and the whole running time, strength by the rated
-torque and a tenth of the time (thesis 3.3.1), both torques times the application factor.
+Wear is judged by the torque through the travel and strength by the rated torque, both times the
+application factor, for the whole running time; of a valve strength for a tenth of it (thesis
+3.3.1), of a duty cycle for equivalent times at the greatest torque of its parts and at the rated
+one.
 """
 
 from collections.abc import Callable
@@ -41,6 +43,7 @@ def rate(given: Inputs, tables: Tables) -> Rating:
         entries(given, "bs721", values, _sources(given, tables), _equations(given, values)),
         _violations(given, values),
         (*notes, *_notes(given, values)),
+        notes,
     )
 
 
@@ -112,9 +115,9 @@ def _equations(given: Inputs, values: Values) -> dict[str, str]:
         "M_w_Nm": f"{wear} k_w",
         "M_s_Nm": f"{bending} k_s",
         "U_w_h": "L_h",
-        "U_s_h": "L_h/10",
+        "U_s_h": "L_h/10" if given.operation.service == "valve" else "L_h",
     }
-    if given.operation.duty_cycle is not None:
+    if given.duty:
         for key, exponent, torque in (("U_w_h", 3, "T_2"), ("U_s_h", 7, "T_R")):
             by_case[key] = f"sum of U_i n_i/n_1 (T_i/{torque})^{exponent} over the duty cycle"
     if given.friction is not None:
@@ -133,7 +136,7 @@ def _sources(given: Inputs, tables: Tables) -> dict[str, Source]:
         "M_c_worm_Nm": tables.worm_surface_stress_factor.source,
     }
     sources["mu"] = tables.friction.source if given.friction is None else GIVEN
-    if given.operation.duty_cycle is not None:
+    if given.duty:
         sources |= {"U_w_h": FROM_MEMORY, "U_s_h": FROM_MEMORY}
     return sources
 

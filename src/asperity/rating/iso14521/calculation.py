@@ -3,9 +3,18 @@
 Efficiency, forces, contact stress, pitting, deflection, tooth root and temperature go by the rated
 torque, wear by the torque through the travel; both times the application factor, but for powers
 and temperatures.
+
+Of a duty cycle, wear, pitting and temperature go by its parts, each at its own torque, speed and
+temperature, see `_over_the_parts`; deflection and root by the rated torque, which none of them
+exceeds, the root with the wear of all.
 """
 
+import functools
 import math
+import operator
+from typing import Any
+
+import numpy as np
 
 from asperity.arrays import Real, smaller
 from asperity.gearset import oil
@@ -26,6 +35,13 @@ from asperity.rating.iso14521 import (
 
 ROOT_LIFE_FACTOR = 1.0
 """Y_NL, from memory."""
+
+_OF_WEAR = (
+    "theta_S_degC", "theta_S_lim_degC", "alpha_L_W_m2K", "A_R_m2", "theta_M_degC", "nu_M_mm2_s",
+    "rho_M_kg_m3", "eta_0M_Pas", "sigma_Hm_wear_MPa", "h_min_um", "W_S", "W_H", "K_W_um", "J_0T",
+    "W_NS", "W_ML", "J_W", "s_star", "N_L", "s_Wm_mm", "delta_Wlim_mm",
+)  # fmt: skip
+"""What leads to the wear of a part of a duty cycle, by the keys of a rating."""
 
 _MPA = 1e-6
 _MM2 = 1e6
@@ -138,13 +154,67 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
         hertz.contact_modulus(*elastic),
     )
     _forces(given, v, rated)
-    _temperatures(given, v)
-    _wear(given, v)
+    parts = parts_of(given, v)
+    if parts:
+        _over_the_parts(parts, v)
+    else:
+        _temperatures(given, v)
+        _wear(given, v)
     _pitting(given, v)
     _deflection(given, v)
     _root(given, v)
-    v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], v["theta_S_degC"])
+    hottest = v.get("theta_S_max_degC", v["theta_S_degC"])
+    v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], hottest)
     return v
+
+
+def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
+    """Return losses, temperatures and wear of each part of a duty cycle; none without one.
+
+    Parameters
+    ----------
+    given : Inputs
+        The gearset and its duty cycle.
+    v : Values
+        ``p_m_star`` and ``E_red_MPa``, which are those of all parts.
+    """
+    found = []
+    for part in given.parted():
+        own = rated_efficiency(part)
+        own |= {key: v[key] for key in ("p_m_star", "E_red_MPa")}
+        own["part_hours"] = part.life
+        _temperatures(part, own)
+        _wear(part, own)
+        found.append(own)
+    return tuple(found)
+
+
+def _over_the_parts(parts: tuple[Values, ...], v: Values) -> None:
+    """Add up the wear of a duty cycle and find its hottest part.
+
+    Depths worn off add up, each by torque, speed and temperature of its part; what leads to them is
+    told of the part that wears most. Each part lasts long enough for the sump to settle.
+    """
+    for place, own in enumerate(parts, 1):
+        v |= {f"part_{place}.{key}": value for key, value in own.items()}
+    most = _place_of_most([own["delta_Wn_mm"] for own in parts])
+    for key in _OF_WEAR:
+        v[key] = _chosen(most, [own[key] for own in parts])
+    v["delta_Wn_mm"] = functools.reduce(operator.add, [own["delta_Wn_mm"] for own in parts])
+    v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
+    v["theta_S_max_degC"] = functools.reduce(np.maximum, [own["theta_S_degC"] for own in parts])
+    hours = functools.reduce(operator.add, [own["part_hours"] for own in parts])
+    heat = (own["part_hours"] * own["loss_total_W"] for own in parts)
+    v["loss_mean_W"] = functools.reduce(operator.add, heat) / hours
+
+
+def _place_of_most(depths: list[Real]) -> Any:
+    plain = [getattr(depth, "value", depth) for depth in depths]
+    return np.argmax(np.stack(np.broadcast_arrays(*plain)), axis=0)
+
+
+def _chosen(place: Any, values: list[Real]) -> Real:
+    return np.choose(place, np.broadcast_arrays(*values)) if np.ndim(place) else values[int(place)]
 
 
 def _forces(given: Inputs, v: Values, torque: Real) -> None:
@@ -236,8 +306,8 @@ def _wear(given: Inputs, v: Values) -> None:
 
 def _pitting(given: Inputs, v: Values) -> None:
     edition = given.options.iso14521_edition
-    v["Z_h"] = pitting.pitting_life_factor(given.life)
     v["Z_v"] = pitting.pitting_velocity_factor(v["sliding_velocity_m_s"])
+    _pitting_life(given, v)
     v["Z_S"] = pitting.pitting_size_factor(given.centre_distance)
     v["Z_u"] = pitting.pitting_ratio_factor(given.gear_ratio, edition=edition)
     v["Z_oil"] = given.operation.lubricant.base.pitting_factor
@@ -251,6 +321,29 @@ def _pitting(given: Inputs, v: Values) -> None:
         v["Z_oil"],
     )
     v["safety_pitting"] = strength.safety(v["sigma_HG_MPa"], v["sigma_Hm_MPa"])
+
+
+def _pitting_life(given: Inputs, v: Values) -> None:
+    """Find the life factor; of a duty cycle by the damage of its parts, which is our own rule."""
+    duty = given.duty
+    if not duty:
+        v["Z_h"] = pitting.pitting_life_factor(given.life)
+        return
+    # Stress goes with the root of the torque, what is borne with the velocity factor alone.
+    reliefs = [
+        np.sqrt(given.output_torque / part.torque)
+        * (
+            pitting.pitting_velocity_factor(
+                friction.sliding_velocity(given.worm_pitch_diameter, part.speed, given.lead_angle)
+            )
+            / v["Z_v"]
+        )
+        for part in duty
+    ]
+    damage = (part.hours / relief**6 for part, relief in zip(duty, reliefs, strict=True))
+    v["L_He_h"] = functools.reduce(operator.add, damage)
+    v["relief"] = functools.reduce(np.minimum, reliefs)
+    v["Z_h"] = pitting.pitting_life_factor_of_parts(v["L_He_h"], v["relief"])
 
 
 def _deflection(given: Inputs, v: Values) -> None:

@@ -49,6 +49,7 @@ def implausible(values: Mapping[str, float]) -> tuple[str, ...]:
     """Return a sentence for each result of a rating that lies outside `PLAUSIBLE`."""
     idle = (values["loss_idle_W"] + values["loss_seal_W"]) / values["output_power_W"]
     found = {**values, "idle_share": idle}
+    found["theta_S_degC"] = values.get("theta_S_max_degC", values["theta_S_degC"])
     sentences = (
         span.violation(found[key]) for key, span in PLAUSIBLE.items() if not math.isnan(found[key])
     )

@@ -6,6 +6,7 @@ from asperity.arrays import Real
 from asperity.formulas import formula
 from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.tables import Edition
+from asperity.sources import Source
 
 
 @formula(symbol="Z_h", equation="min((25000/L_h)^(1/6), 1.6)", source=s.ONE_SOURCE)
@@ -18,6 +19,27 @@ def pitting_life_factor(life: s.L_h) -> Real:
     (1.0, 1.6)
     """
     return np.minimum((25000.0 / life) ** (1.0 / 6.0), 1.6)
+
+
+@formula(
+    symbol="Z_h",
+    equation="min((25000/L_He)^(1/6), 1.6 k_r)",
+    source=Source("definition", "verified", "of damage that adds up; the standard knows one load"),
+)
+def pitting_life_factor_of_parts(equivalent_life: s.L_h, relief: s.k_r) -> Real:
+    """Life factor of pitting of a duty cycle, on the stress under the rated torque.
+
+    The damage of parts adds up, L_i (sigma_i/sigma_Gi)^6 of 25000 h, by the exponent of the
+    standard's own life factor. The equivalent life is that at the rated torque and speed with the
+    same damage; no part gets more than 1.6 times what it bears in 25000 h, ``relief`` being the
+    least of sigma_Gi/sigma_i over that under the rated torque.
+
+    Examples
+    --------
+    >>> pitting_life_factor_of_parts(25000.0, 1.0), pitting_life_factor_of_parts(100.0, 1.0)
+    (1.0, 1.6)
+    """
+    return np.minimum((25000.0 / equivalent_life) ** (1.0 / 6.0), 1.6 * relief)
 
 
 @formula(symbol="Z_v", equation="sqrt(5/(4 + v_gm))", source=s.ONE_SOURCE)

@@ -35,6 +35,7 @@ def rate(given: Inputs) -> Rating:
         entries(given, "iso14521", values, _sources(given), _equations(given)),
         _violations(given, values),
         (*unanswered.legend.values(), *_notes(given, values)),
+        tuple(unanswered.legend.values()),
     )
 
 
@@ -42,14 +43,18 @@ _HOTTEST_GIVEN = 100.0
 
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
-    own = violations(
-        centre_distance=given.centre_distance,
-        profile_shift=given.profile_shift,
-        worm_speed=given.worm_speed,
-        ratio=given.gear_ratio,
-        geometry_factor=values["Y_G"] if given.friction is None else None,
-        sump_by_formula=given.oil_temperature is None,
-    )
+    found: dict[str, None] = {}
+    for part in given.parted() or (given,):
+        sentences = violations(
+            centre_distance=given.centre_distance,
+            profile_shift=given.profile_shift,
+            worm_speed=part.worm_speed,
+            ratio=given.gear_ratio,
+            geometry_factor=values["Y_G"] if given.friction is None else None,
+            sump_by_formula=given.oil_temperature is None,
+        )
+        found |= dict.fromkeys(sentences)
+    own = tuple(found)
     own = (*own, *implausible(values))
     hot = values["theta_M_degC"]
     if math.isnan(values["nu_M_mm2_s"]):
@@ -84,7 +89,19 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             f"the wheel's bulk temperature is {values['theta_M_degC']:.0f} degC: the oil's "
             "viscosity is extrapolated beyond the 100 degC it is given at"
         )
-    if given.oil_temperature is None and given.through_travel_torque < given.output_torque:
+    if given.duty:
+        notes.append(
+            "the duty cycle: wear adds up over its parts, each with the sump at rest at its own "
+            "temperature, and film and wear factors are those of the part that wears most; pitting "
+            "goes by its parts' damage, with the exponent of Z_h (our own rule); deflection and root "
+            "go by the rated torque"
+        )
+        if given.operation.through_travel_torque is not None:
+            notes.append(
+                "operation.through_travel_torque does not count beside operation.duty_cycle, whose "
+                "parts tell what is carried"
+            )
+    elif given.oil_temperature is None and given.through_travel_torque < given.output_torque:
         notes.append(
             "the oil is as hot as under the rated torque all the time; wear goes by the "
             "through-travel torque at that temperature: give operation.oil_temperature if it is "
@@ -139,6 +156,12 @@ def _equations(given: Inputs) -> dict[str, str]:
     }
     if old:
         by_case["Z_u"] = "1"
+    if given.duty:
+        by_case |= {
+            "delta_Wn_mm": "sum of J_W s_Wm over the duty cycle",
+            "Z_h": "min((25000/L_He)^(1/6), 1.6 k_r)",
+            "safety_temperature": "theta_Slim/theta_Smax",
+        }
     if options.friction is not None:
         by_case["mu_zm"] = f"k_mu {options.friction:g}"
     return by_case

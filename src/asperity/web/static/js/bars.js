@@ -9,9 +9,10 @@ export const STANDARDS = { iso14521: "ISO/TR 14521", bs721: "BS 721", agma6034: 
 /** Times what is asked at which a bar ends. */
 const MOST = 3;
 
-/** A sign and a word, with the colour besides. */
-export const Verdict = ({ ok, yes = "holds", no = "fails" }) =>
-  html`<span class=${ok ? "verdict good" : "verdict bad"}>${ok ? `✓ ${yes}` : `✗ ${no}`}</span>`;
+/** A sign and a word, with the colour besides; neither good nor bad, in the word of `other`, where nothing tells. */
+export const Verdict = ({ ok, yes = "holds", no = "fails", other = "" }) =>
+  ok === null ? html`<span class="verdict">? ${other}</span>`
+    : html`<span class=${ok ? "verdict good" : "verdict bad"}>${ok ? `✓ ${yes}` : `✗ ${no}`}</span>`;
 
 export function Bar({ from, to, kind, mark }) {
   return html`<svg class="bar" viewBox="0 0 300 12" preserveAspectRatio="none" aria-hidden="true">

@@ -95,8 +95,15 @@ function more(keys, { tables }, settings) {
     : Object.fromEntries(texts.map(([path, [number, unit]]) => [path, text(1.01 * number, unit)]));
 }
 
+/** Which answers are missing and why, and what lies outside a standard's range, as the screen of rate says it. */
+const standings = (standing) => Object.entries(standing).flatMap(([name, { word, unrated, outside, reasons }]) => [
+  ...(unrated.length ? [`${STANDARDS[name]} has no answer for ${unrated.join(", ")}: ${reasons[0] ?? ""}`] : []),
+  ...(word === "no answer" ? [`${STANDARDS[name]}: ${reasons[0] ?? ""}`] : []),
+  ...(outside.length ? [`outside its range: ${STANDARDS[name]} (${outside.join(", ")})`] : []),
+]);
+
 function First({ verdict }) {
-  const { first, safeties, moved_by: levers, alternatives, unrated } = verdict;
+  const { first, safeties, moved_by: levers, alternatives } = verdict;
   const { name: opened, settings, setAll } = useCase();
   const file = useCaseFile(opened);
   const safety = safeties.find((each) => `${each.standard}.${each.key}` === first);
@@ -109,7 +116,6 @@ function First({ verdict }) {
     <h2>${safety.holds ? "Nearest to its limit" : "First to fail"}</h2>
     <p class="big"><${Verdict} ok=${safety.holds} /> ${safety.name}, ${STANDARDS[safety.standard]}</p>
     <p>${safety.symbol} is ${digits(safety.value, 3)} of ${digits(safety.asked, 3)} asked.</p>
-    ${unrated.length ? html`<p class="says">no answer: ${unrated.join(", ")}</p>` : null}
     <h3>What moves it most</h3>
     <${Tornado} label="what moves it most" rows=${rows} unit="%" />
     ${alternatives.length ? html`<h3>Best listed instead</h3>
@@ -121,10 +127,10 @@ function First({ verdict }) {
 
 function Columns({ entries, answer }) {
   const names = Object.keys(STANDARDS);
-  const { holds } = answer.verdict;
+  const { holds, standing } = answer.verdict;
   const cell = (name, at) => ([what, ...keys]) => {
     const entry = entries[`${name}.${keys[at]}`];
-    return what === "verdict" ? html`<${Verdict} ok=${holds[name]} />`
+    return what === "verdict" ? html`<${Verdict} ok=${holds[name]} other=${standing[name].word} />`
       : entry ? html`<${Num} entry=${entry} count=${4} />` : "–";
   };
   const columns = names.map((name, at) => [STANDARDS[name], cell(name, at), "right"])
@@ -178,7 +184,9 @@ export function view() {
       ${answer ? html`<div class="pair">
         <section class="panel wide" aria-label="verdict"><h2>Does it hold?</h2>
           <p class="big">${Object.entries(answer.verdict.holds).map(([standard, ok]) => html`
-            <span class="said" key=${standard}>${STANDARDS[standard]} <${Verdict} ok=${ok} /></span>`)}</p>
+            <span class="said" key=${standard}>${STANDARDS[standard]} <${Verdict} ok=${ok}
+              other=${answer.verdict.standing[standard].word} /></span>`)}</p>
+          ${standings(answer.verdict.standing).map((text) => html`<p class="says" key=${text}>${text}</p>`)}
           <${Margins} rows=${safeties} /></section>
         <${First} verdict=${answer.verdict} />
         <${Drawing} svg=${data.svg.gearset} geometry=${answer.geometry} />

@@ -48,10 +48,12 @@ function useRest() {
     Object.entries(file.tables[table] ?? {}).map(([key, text]) => [`${table}.${key}`, text]));
   const all = { ...Object.fromEntries(written), ...settings };
   const kept = Object.entries(all).filter(([path]) => !OWN.includes(path));
-  return { rest: Object.fromEntries(kept), through: all[THROUGH] };
+  // Of a valve a third of the rated torque stands through the travel, else all of it.
+  const parts = /valve/.test(all["operation.service"] ?? "") ? 3 : 1;
+  return { rest: Object.fromEntries(kept), through: all[THROUGH], parts };
 }
 
-function Proposals({ found, options, through }) {
+function Proposals({ found, options, through, parts }) {
   const [by, way] = (route.value.params.sort ?? "").split(" ");
   const sorted = by ? found.toSorted((a, b) => (way === "down" ? b[by] - a[by] : a[by] - b[by])) : found;
   const sort = (key) => {
@@ -64,7 +66,7 @@ function Proposals({ found, options, through }) {
     ...Object.fromEntries(one.settings.map((text) => text.split(/=(.*)/).slice(0, 2))),
     "operation.output_torque": options.output_torque, "operation.worm_speed": options.worm_speed,
     // That of the case goes with another torque.
-    ...(through && { [THROUGH]: `${Number((torque / 3).toPrecision(12))} ${unit}` }),
+    ...(through && { [THROUGH]: `${Number((torque / parts).toPrecision(12))} ${unit}` }),
   });
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${one.centre_distance_mm} mm, ${one.wheel_teeth}:${one.starts}, m = ${one.axial_module_mm} mm`}>take</button>`;
@@ -142,7 +144,7 @@ export function view() {
   const { params } = route.value;
   const options = Object.fromEntries(ASKED.map(([key, , usual]) => [key, params[key] ?? usual]));
   const rank = params.rank ?? "size";
-  const { rest, through } = useRest();
+  const { rest, through, parts } = useRest();
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   const body = name ? { case: name, settings } : null;
   const work = useJob("optimise", body);
@@ -161,8 +163,8 @@ export function view() {
       ${answer ? html`<p class="says">${answer.rated} gearsets rated, ${answer.holding} hold by every standard;
           shown are those that no other beats in size, efficiency and margin together. Oil, materials, roughness and
           life are the case's${through ? html`; its torque through the travel, ${through}, is not, since it goes with
-          another torque: a third of the torque above is taken, as where none is given` : null}.</p>
-        <${Proposals} found=${answer.proposals} options=${options} through=${through} />`
+          another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
+        <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}
     </section>
     <${WorkPanel} title=${`What a higher torque costs ${name}`} name="trade-off" work=${work}

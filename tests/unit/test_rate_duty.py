@@ -1,0 +1,133 @@
+"""Duty cycles: the parts of a load count as the standards' own formulas have them."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from asperity.errors import InputError
+from asperity.gearset import Gearset
+from asperity.rating import Operation, rate, variants
+
+A100 = Gearset(
+    starts=1,
+    wheel_teeth=50,
+    centre_distance="100 mm",
+    axial_module="3.15 mm",
+    diameter_factor=12.5,
+    worm_material="case-hardened steel",
+    wheel_material="CuSn12Ni2-C-GZ",
+)
+RUN = {
+    "lubricant": "ISO VG 220 polyglycol", "output_torque": "250 N m", "worm_speed": "1400 rpm",
+}  # fmt: skip
+BINS = ((250, 1400, 500), (150, 1400, 1500), (60, 700, 3000))
+
+
+def steps(*bins):
+    return [
+        {"duration": f"{hours:g} h", "output_torque": f"{torque:g} N m", "worm_speed": f"{n:g} rpm"}
+        for torque, n, hours in bins
+    ]
+
+
+def rated(gearset=A100, run=RUN, **more):
+    return rate(gearset, Operation(**{**run, **more}))
+
+
+def safeties(found):
+    return {safety.demand.path: safety.value for safety in found.verdict.safeties}
+
+
+def test_one_part_with_the_same_load_is_a_life_in_every_safety():
+    life, cycle = rated(life="5000 h"), rated(duty_cycle=steps((250, 1400, 5000)))
+    assert len(safeties(life)) == 8
+    assert safeties(cycle) == safeties(life)
+
+
+def test_equal_parts_are_one_part():
+    one = rated(duty_cycle=steps((250, 1400, 5000)))
+    three = rated(duty_cycle=steps(*((250, 1400, hours) for hours in (1000, 1500, 2500))))
+    assert safeties(three) == pytest.approx(safeties(one), rel=1e-13)
+
+
+def test_order_of_the_parts_does_not_count():
+    first = safeties(rated(duty_cycle=steps(*BINS)))
+    for order in itertools.permutations(BINS):
+        assert safeties(rated(duty_cycle=steps(*order))) == pytest.approx(first, rel=1e-13)
+
+
+def test_three_parts_count_as_they_were_calculated_by_another_way():
+    # Found by a script of its own from the printed formulas: depths, damage, equivalent hours.
+    found = rated(duty_cycle=steps(*BINS))
+    assert found.iso14521["delta_Wn_mm"] == pytest.approx(30.2081e-3, rel=2e-6)
+    assert found.iso14521["S_W"] == pytest.approx(31.183, rel=2e-5)
+    assert found.iso14521["S_H"] == pytest.approx(2.7997, rel=1e-5)
+    assert found.iso14521["tau_F_MPa"] == pytest.approx(24.040, rel=3e-5)
+    assert found.iso14521["loss_mean_W"] == pytest.approx(205.82, rel=3e-5)
+    assert found.bs721["U_w_h"] == pytest.approx(844.736, rel=1e-6)
+    assert found.bs721["U_s_h"] == pytest.approx(542.059, rel=1e-6)
+    assert found.bs721["S_w"] == pytest.approx(3.3263, rel=1e-5)
+    assert found.bs721["S_s"] == pytest.approx(4.9875, rel=1e-5)
+    wear = [part.wear for part in found.duty_cycle]
+    assert wear == pytest.approx([6.8613, 12.5712, 10.7756], rel=1e-5)
+    assert [part.sump for part in found.duty_cycle] == pytest.approx(
+        [62.944, 58.493, 42.009], rel=1e-5
+    )
+    assert [part.loss for part in found.duty_cycle] == pytest.approx(
+        [419.10, 327.67, 109.35], rel=2e-5
+    )
+    # With ten times the hours damage governs, not what a part bears at once.
+    longer = rated(duty_cycle=steps(*((torque, n, 10 * hours) for torque, n, hours in BINS)))
+    assert longer.iso14521["S_H"] == pytest.approx(2.0968, rel=2e-5)
+
+
+def test_temperature_is_that_of_the_hottest_part_and_agma_that_of_the_nearest_to_its_limit():
+    parts = ((60, 2800, 100), (250, 700, 100))
+    cycle = rated(duty_cycle=steps(*parts))
+    alone = [rated(output_torque=f"{t} N m", worm_speed=f"{n} rpm") for t, n, _ in parts]
+    least = {path: min(safeties(one)[path] for one in alone) for path in safeties(cycle)}
+    for path in ("iso14521.safety_temperature", "agma6034.safety_torque"):
+        assert safeties(cycle)[path] == least[path]
+
+
+def test_arrays_of_variants_have_what_each_has_alone():
+    operation = Operation(**RUN, duty_cycle=steps(*BINS))
+    factors = np.array([12.0, 12.5, 13.5])
+    found = variants(A100, operation, diameter_factor=factors)
+    for place, factor in enumerate(factors):
+        alone = rate(A100.model_copy(update={"diameter_factor": factor}), operation)
+        for path, value in safeties(alone).items():
+            assert found[path][place] == pytest.approx(value, rel=1e-12), path
+
+
+def test_a_rated_torque_below_a_part_is_no_variant():
+    operation = Operation(**RUN, duty_cycle=steps(*BINS))
+    found = variants(A100, operation, output_torque=[200.0, 250.0])
+    assert np.isnan(found["iso14521.safety_wear"]).tolist() == [True, False]
+    assert "a part with 250 N m" in found.legend("iso14521")[1]
+
+
+def test_a_part_above_the_rated_torque_is_refused():
+    with pytest.raises(InputError, match=r"duty_cycle has a part with 260 N m; none may exceed"):
+        Operation(**RUN, duty_cycle=steps((260, 1400, 10)))
+
+
+def test_a_torque_through_the_travel_beside_a_duty_cycle_is_said_not_to_count():
+    both = rated(duty_cycle=steps(*BINS), through_travel_torque="50 N m")
+    assert safeties(both) == safeties(rated(duty_cycle=steps(*BINS)))
+    assert any("does not count beside operation.duty_cycle" in n for n in both.iso14521.notes)
+
+
+def test_the_rated_torque_of_a_valve_counts_for_a_third_and_a_tenth():
+    plain, valve = rated(life="5000 h"), rated(life="5000 h", service="valve")
+    given = rated(life="5000 h", service="valve", through_travel_torque=f"{250 / 3} N m")
+    assert plain.iso14521["T_2"] == 250.0
+    assert valve.iso14521["T_2"] == pytest.approx(250.0 / 3.0, rel=1e-15)
+    assert safeties(valve) == pytest.approx(safeties(given), rel=1e-13)
+    assert (plain.bs721["U_s_h"], valve.bs721["U_s_h"]) == (5000.0, 500.0)
+    assert (
+        "of a valve assumed a third"
+        in plain.given.operation.model_copy(update={"service": "valve"}).wear_assumed
+    )
+    assert plain.given.operation.wear_assumed == ""
