@@ -50,7 +50,9 @@ class NormalMotion(Quantities):
         :math:`\langle N|v - \dot s|\rangle`, load over the slip of the asperities' feet, W.
     """
 
-    ratio_mean_load: float | None = quantity("F_dv/mu N", "", "mean drive force over mu times mean load")
+    ratio_mean_load: float | None = quantity(
+        "F_dv/mu N", "", "mean drive force over mu times mean load"
+    )
     normal_mean: float = quantity("N", "N", "mean normal force")
     normal_min: float = quantity("N_min", "N", "least normal force")
     normal_max: float = quantity("N_max", "N", "greatest normal force")
