@@ -74,7 +74,7 @@ def run_cycle(state, springs, p, q, increments, rises, sums):
 
 
 @kernel
-def _run(state, springs, p, q, increments, rises, sums):
+def run(state, springs, p, q, increments, rises, sums):
     """Forces that belong to a state, then one cycle from it."""
     _forces(state, springs, p, q, rises)
     run_cycle(state, springs, p, q, increments, rises, sums)
@@ -90,7 +90,7 @@ def _defect(
     read_unknowns(start[0], springs, p, q, before)
     end[0] = start[0]
     end_springs[:] = springs
-    _run(end[0], end_springs, p, q, increments, rises, sums)
+    run(end[0], end_springs, p, q, increments, rises, sums)
     read_unknowns(end[0], end_springs, p, q, after)
     worst = 0.0
     for i in range(count):
@@ -249,7 +249,7 @@ def _first_guess(
     # Friction under the drive's mean motion alone tells the mean force to start from.
     state.stretch = 0.0
     for _ in range(3):
-        _run(state, springs, carried(p), q, increments, rises, sums)
+        run(state, springs, carried(p), q, increments, rises, sums)
     if not p.rigid:
         state.stretch = sums.friction_x / steps / p.stiffness
     return worst, 4
@@ -301,7 +301,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         )
     else:
         for _ in range(settle):
-            _run(start[0], springs, damped(p), q, increments, rises, sums)
+            run(start[0], springs, damped(p), q, increments, rises, sums)
         used = settle
     if worst > 1e-12:
         worst, cycles = _newton(
