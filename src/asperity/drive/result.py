@@ -112,6 +112,10 @@ class DriveResult(Drawn):
         "T_m/T_R - 1", "", "what the mesh gives the wheel beyond its load, over it"
     )
     settled: bool = quantity("", "", "periodic and balanced")
+    settled_by: str = quantity("", "", "settled by", shown=False, default="")
+    step_error: float | None = quantity(
+        "", "", "error of the ratio from the step, about", default=None
+    )
     spread: float | None = quantity("", "", "spread of what is to stay, over the last three blocks")
     torque_ratio_window: float | None = quantity(
         "T_Bw/T_Bs", "", "the same over the first cycles, whatever the balance"

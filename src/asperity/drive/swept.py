@@ -22,7 +22,7 @@ from asperity.friction import Friction
 from asperity.gearset import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.results import Result
-from asperity.results.quantity import Entry, Label
+from asperity.results.quantity import Entry
 from asperity.runs import Run
 from asperity.slider.parameters import Solve
 from asperity.sweep.subject import Subject
@@ -38,6 +38,7 @@ class Drives(Subject):
     what = "a drive"
     title = "Worm gearset under vibration over a grid"
     heading = "mean torque over that without vibration"
+    verb = "drive"
     shown = "torque_ratio"
     beside: ClassVar[Mapping[str, str]] = {
         "torque_ratio_closed_form": "closed form",
@@ -53,10 +54,7 @@ class Drives(Subject):
             for table in (Gearset, Operation, RatingOptions, Friction, Vibration, Solve)
         },
     }
-    variables: ClassVar[tuple[Entry, ...]] = (
-        *DriveResult.scalars(),
-        Entry("settled", Label("", "", "1 where the state is periodic and balanced")),
-    )
+    variables: ClassVar[tuple[Entry, ...]] = DriveResult.scalars()
 
     def prepare(self, case: Case) -> DriveProblem:
         """Return the problem of a point."""
@@ -80,11 +78,6 @@ class Drives(Subject):
             except AsperityError as error:
                 found.append(error)
         return found
-
-    def scalars(self, answer: Result) -> dict[str, Any]:
-        """Return the scalars, whether it settled as a number."""
-        found = super().scalars(answer)
-        return found | {"settled": float(found["settled"])}
 
     def seconds(self, problem: DriveProblem) -> float:
         """Return what a march takes at most, s, measured on its first steps.

@@ -212,7 +212,7 @@ class Quantities:
 
     @classmethod
     def scalars(cls) -> tuple[Entry, ...]:
-        """Return the scalars a sweep keeps: those declared as float."""
+        """Return the scalars a sweep keeps: those declared as float, and truths as 0 or 1."""
         return tuple(entry for entry in _floats(cls, "") if entry.label.swept)
 
     def to_json(self) -> dict[str, Any]:
@@ -259,7 +259,7 @@ def _floats(cls: type[Quantities], prefix: str) -> Iterator[Entry]:
     for name, label in cls._labels.items():
         if isinstance(label, Part):
             yield from _floats(label.of, prefix + label.prefix)
-        elif label.only != "file" and not label.dims and _is_float(_annotation(cls, name)):
+        elif label.only != "file" and not label.dims and _is_number(_annotation(cls, name)):
             yield Entry(prefix + name, label)
 
 
@@ -273,13 +273,13 @@ def _annotation(cls: type, name: str) -> Any:
     return None
 
 
-def _is_float(annotation: Any) -> bool:
+def _is_number(annotation: Any) -> bool:
     # An annotation may be text, where it names what is imported for types alone.
     if isinstance(annotation, str):
-        return annotation.replace(" ", "") in ("float", "float|None")
+        return annotation.replace(" ", "") in ("float", "float|None", "bool")
     if isinstance(annotation, types.UnionType):
         return set(typing.get_args(annotation)) == {float, types.NoneType}
-    return annotation is float
+    return annotation in (float, bool)
 
 
 def unit_suffix(unit: str) -> str:

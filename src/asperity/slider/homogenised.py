@@ -16,6 +16,7 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
 from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
+from asperity.results.settled import Standing
 from asperity.slider import homogenised_law as hl
 from asperity.slider.history import History
 from asperity.slider.homogenised_law import (
@@ -28,7 +29,7 @@ from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.march import March
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.slider.timetable import march_notes
+from asperity.slider.timetable import march_notes, march_standing
 from asperity.slider.wear import wear_and_heat
 
 __all__ = ["HomogenisedLaw", "homogenise", "interpolate", "solve_homogenised"]
@@ -187,10 +188,17 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
     )
     unsteady = abs(float(second - first))
-    notes = march_notes(model, table, unsteady, broke=breakaway is not None)
-    return dataclasses.replace(
-        answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes)
+    broke = breakaway is not None
+    marched = march_standing(model, table, unsteady, broke=broke)
+    standing = Standing(
+        answer.settled and marched.settled,
+        f"{marched.settled_by}; {answer.settled_by}",
     )
+    notes = march_notes(model, table, unsteady, broke=broke)
+    return dataclasses.replace(
+        answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes),
+        **standing._asdict(),
+    )  # fmt: skip
 
 
 def _division(model: Model, law: HomogenisedLaw, span: float) -> tuple[float, int, int]:
@@ -308,6 +316,7 @@ def _result(
             wear = wear_and_heat(model.wear, integral, (ledger.friction, slip), model.frequency)
     answer = SlideResult(
         model=model,
+        **law.standing(model.slider.drive_velocity)._asdict(),
         ratio=drive_force / force,
         drive_force=drive_force,
         friction_mean=(mean(rows[:, 3]) * force, column(hl.FORCE_Y) * force),

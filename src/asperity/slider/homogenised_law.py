@@ -17,11 +17,13 @@ from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.lugre import stribeck_share
+from asperity.results.settled import Standing
 from asperity.slider.homogenised_normal import remarks_of, told_by
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.result import SlideResult
+from asperity.slider.shooting import ACCEPTED
 
 _POINTS_BELOW = 64
 _POINTS_ABOVE = 56
@@ -105,6 +107,8 @@ class HomogenisedLaw:
     missing : tuple of float
         Mean velocities without a periodic state, m/s, over which is interpolated; those next to
         the drive velocity first.
+    unsettled : tuple of float
+        Mean velocities whose states do not stay, m/s, in the same order: a disturbance grows.
     pressed : tuple of str
         What the table has of a body that is pressed: fields of
         `asperity.slider.space.NormalMotion` and the powers of
@@ -119,6 +123,7 @@ class HomogenisedLaw:
     residual: float
     viscous: float = 0.0
     missing: tuple[float, ...] = ()
+    unsettled: tuple[float, ...] = ()
     pressed: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
 
@@ -163,6 +168,14 @@ class HomogenisedLaw:
         found = cubic(np.clip(velocity, self.velocity[0], self.velocity[-1]))
         return dict(zip(self.pressed, found.T, strict=True))
 
+    def standing(self, velocity: float) -> Standing:
+        """Return whether the law at a tabulated mean velocity is that of a state that stays."""
+        if velocity in self.missing:
+            return Standing(False, "no periodic state was found at the drive velocity")
+        if velocity in self.unsettled:
+            return Standing(False, "the periodic state at the drive velocity does not stay")
+        return Standing(True, f"the law's states repeat themselves to {ACCEPTED:g}")
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the law's numbers should know."""
@@ -205,9 +218,11 @@ def homogenise(model: Model) -> HomogenisedLaw:
     rows = {v: _row(model, answer) for v, answer in answers.items()}
     front = {v: row for v, row in rows.items() if v > 0.0}
     back = {v: _backwards(row) for v, row in rows.items() if v < 0.0}
+    loose = [v for v, answer in answers.items() if not answer.settled]
     if symmetric:
         back = {-v: _backwards(row) for v, row in front.items()}
         missing += [-v for v in missing]
+        loose += [-v for v in loose]
     drive = model.slider.drive_velocity
     if not front or not back or not drive <= max(front):
         raise ConvergenceError(
@@ -225,6 +240,7 @@ def homogenise(model: Model) -> HomogenisedLaw:
         residual=max(answer.residual for answer in answers.values()),
         viscous=model.friction.viscous_damping / model.full_friction,
         missing=tuple(sorted(missing, key=lambda v: abs(v - drive))),
+        unsettled=tuple(sorted(loose, key=lambda v: abs(v - drive))),
         pressed=tuple(told_by(answers[max(front)])),
         remarks=remarks_of(answers[drive]) if drive in answers else (),
     )

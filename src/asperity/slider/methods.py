@@ -61,7 +61,11 @@ def solve(
                 "no stable state was found that repeats itself after 1, 2 or 4 cycles, the motion "
                 "is aperiodic as far as that tells: this is a march"
             )
-        return dataclasses.replace(answer, notes=(note, *none.notes, *answer.notes))
+        return dataclasses.replace(
+            answer,
+            settled_by=f"no state repeats itself; marched, {answer.settled_by}",
+            notes=(note, *none.notes, *answer.notes),
+        )
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)
     return march(model, history=history, stop=stop, run=run)

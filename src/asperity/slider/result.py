@@ -8,6 +8,7 @@ from asperity.casefile import Table
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
 from asperity.results.ledger import PowerLedger, PressedLedger
+from asperity.results.settled import by_what, error_of_step, told, whether_settled
 from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.space import NormalMotion
@@ -38,6 +39,12 @@ class SlideResult(Result):
         None without the table [wear].
     ledger : PowerLedger
         Of a body that is pressed, a `PressedLedger`.
+    settled : bool
+        Whether the mean stays as it is; what has not settled is no prediction.
+    settled_by : str
+        What shows it, or what is missing.
+    step_error : float or None
+        Estimated error of the ratio that the time step makes; None where it is not estimated.
     residual : float
         How far from an answer it may be. ``march``: change of the mean drive force from the first
         to the second half of the window over :math:`\mu F_N` (steadiness); ``periodic``: change of
@@ -145,6 +152,9 @@ class SlideResult(Result):
         """
         return None if self.ledger is None else self.ledger.residual
 
+    settled: bool = whether_settled()
+    settled_by: str = by_what()
+    step_error: float | None = error_of_step()
     residual: float = quantity("", "", "residual of the method")
 
     @property
@@ -191,6 +201,10 @@ class SlideResult(Result):
         from asperity.slider.cycle import cycle_of
 
         return {} if self.history is None else cycle_of(self.model, self.history, points)
+
+    def headline(self) -> tuple[str, ...]:
+        """Return that it has not settled, where it has not."""
+        return told(self)
 
     def heading(self) -> str:
         """Return how it was solved."""

@@ -30,6 +30,7 @@ from asperity.slider.unknowns import (
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
+CLOSE = 1e-7  # of the defect that `close` leaves, where a ratio is asked for to a few digits
 _NEWTON_STEPS = 25
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
@@ -328,3 +329,39 @@ def differentiated(start, springs, p, q, increments, rises, sums, count):
         jacobian,
     )  # fmt: skip
     return jacobian
+
+
+@kernel
+def close(start, springs, p, q, increments, rises, sums, jacobian, most):
+    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of its last cycle.
+
+    Returns the defect that is left and the cycles run, at most ``most``.
+    """
+    scales = np.empty(most_unknowns(springs))
+    count = unknown_scales(start, springs, p, q, scales)
+    end = np.empty_like(start)
+    end_springs = np.empty_like(springs)
+    here = np.empty(count)
+    defect = np.empty(count)
+    step = np.empty(count)
+    worst = _defect(
+        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+    )
+    cycles = 1
+    while cycles < most and worst > CLOSE:
+        matrix = jacobian.copy()
+        for i in range(count):
+            step[i] = -defect[i]
+        if not eliminate(matrix, step, count, 1e-14):
+            break
+        read_unknowns(start[0], springs, p, q, here)
+        for i in range(count):
+            here[i] += step[i] * scales[i]
+        write_unknowns(here, p, q, start[0], springs)
+        worst = _defect(
+            start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+        )
+        cycles += 1
+        if not worst <= 1e300:
+            break
+    return worst, cycles

@@ -9,6 +9,7 @@ from asperity.friction.loaded import STIFFNESS
 from asperity.friction.springs import stored_in_springs
 from asperity.normal import elastic_energy
 from asperity.results.ledger import PowerLedger, PressedLedger, guard
+from asperity.results.settled import Standing
 from asperity.slider.history import History, PressedHistory
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
@@ -74,6 +75,7 @@ def summarise(
     start: tuple[float, float],
     end: tuple[float, float],
     *,
+    standing: Standing,
     residual: float,
     steps: int,
     cycles: int,
@@ -84,6 +86,7 @@ def summarise(
     substeps: int = 1,
     period: int | None = None,
     multiplier: float | None = None,
+    step_error: float | None = None,
 ) -> SlideResult:
     """Turn the sums over a window, and the energies at its ends, into a result in SI.
 
@@ -120,6 +123,9 @@ def summarise(
         ledger=ledger,
         normal=normal,
         wear=wear,
+        settled=standing.settled,
+        settled_by=standing.settled_by,
+        step_error=step_error,
         residual=residual,
         steps=steps,
         cycles=cycles,

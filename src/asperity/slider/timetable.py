@@ -3,15 +3,10 @@
 import math
 
 from asperity.errors import InputError
-from asperity.slider.model import (
-    CHANGE_BOUND,
-    COULOMB_BOUND,
-    RING_BOUND,
-    SLIP_BOUND,
-    WINDOW_SHARE,
-    Model,
-)
+from asperity.results.settled import Standing
+from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
+from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
@@ -67,6 +62,36 @@ class Timetable:
         self.tail = tail * parts
 
 
+def march_standing(model: Model, table: Timetable, residual: float, *, broke: bool) -> Standing:
+    """Return whether a march has settled: by the halves of its window, if nothing is missing."""
+    missing = []
+    if not (broke or model.vibrates or model.slider.rigid):
+        missing.append("the body has not broken away")
+    if _bending(model) > 0.0:
+        missing.append("the asperities are still being taken up")
+    if _still_grows(model, table):
+        missing.append("the vibration grows into the window of the means")
+    if not residual <= _UNSTEADY:
+        missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
+    shown = f"the halves of the window agree to {_UNSTEADY:g} of mu F_N"
+    return Standing.of(missing, shown)
+
+
+def _bending(model: Model) -> float:
+    """Deflection limit of asperities that are still being taken up at the end, m; 0 of none."""
+    way = model.slider.drive_velocity * model.duration
+    bent = 0.0
+    if model.friction.model != "coulomb":
+        bent = model.friction.deflection_limit(model.slider.normal_force)
+    return bent if way < _WAYS * bent else 0.0
+
+
+def _still_grows(model: Model, table: Timetable) -> bool:
+    """Whether the vibration grows into the window."""
+    grown = model.start + model.ramp
+    return model.vibrates and grown > (table.steps - table.window) * table.step * (1.0 + 1e-9)
+
+
 def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
     notes = []
@@ -78,37 +103,38 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
         )
     if not (broke or model.vibrates or model.slider.rigid):
         notes.append("the body has not broken away; give a longer solve.duration")
-    way = model.slider.drive_velocity * model.duration
-    bent = 0.0
-    if model.friction.model != "coulomb":
-        bent = model.friction.deflection_limit(model.slider.normal_force)
-    if way < _WAYS * bent:
+    if (bent := _bending(model)) > 0.0:
+        way = model.slider.drive_velocity * model.duration
         notes.append(
             f"the drive goes {way:.2g} m, not {_WAYS:g} times the {bent:.2g} m that asperities "
             "bend: the body is still being taken up; give a longer solve.duration"
         )
-    grown = model.start + model.ramp
-    if model.vibrates and grown > (table.steps - table.window) * table.step * (1.0 + 1e-9):
+    if _still_grows(model, table):
         notes.append(
-            f"the vibration grows until {grown:.3g} s, into the window of the means: give a longer "
-            "solve.duration"
+            f"the vibration grows until {model.start + model.ramp:.3g} s, into the window of the "
+            "means: give a longer solve.duration"
         )
     if residual > _UNSTEADY:
         notes.append(
             "not steady: from the first to the second half of the window the mean drive force "
             f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"
         )
-    if model.substeps > 1 and model.friction.model == "coulomb":
+    bound = model.substeps // model.finer
+    if bound > 1 and model.friction.model == "coulomb":
         notes.append(
-            f"each step of {model.step:g} s was divided by {model.substeps}: the vibration's "
+            f"each step of {model.step:g} s was divided by {bound}: the vibration's "
             f"velocity must not change by more than {COULOMB_BOUND:g} of the drive velocity in a "
             f"step, nor the step exceed {RING_BOUND:g} over the body's angular frequency"
         )
-    elif model.substeps > 1:
+    elif bound > 1:
         notes.append(
-            f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
+            f"each step of {model.step:g} s was divided by {bound}: the slip in a step "
             f"must not exceed {SLIP_BOUND:g} max_deflection, nor change by more than "
             f"{CHANGE_BOUND:g} of it from step to step, nor the step exceed {RING_BOUND:g} "
             "over the body's angular frequency on its asperities"
+        )
+    if model.finer > 1:
+        notes.append(
+            f"each step was divided by {model.finer} more, for the error that it makes in the ratio"
         )
     return tuple(notes)

@@ -63,8 +63,10 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
             legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
         _many_lines(panel, along, curves, across)
-    if drives:
+    if "settled" in dataset:
         _mark_unsettled(panel, along, dataset, ratio)
+    if drives:
+        panel.set_title(balances(dataset).replace("; ", ";\n"), loc="left", fontsize=10.0)
         if across is None and _is_numeric(along):
             _closed_form(panel, along, dataset)
     panel.set(xlabel=_label(along), ylabel=_LABELS[shown])
@@ -107,14 +109,24 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
 def _mark_unsettled(
     panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset", ratio: "xr.DataArray"
 ) -> None:
-    """Cross out what is no periodic state, and say how well the wheels of the rest balance."""
+    """Cross out what has not settled, and say so."""
     order = (along.name, ...)
     loose = ~(dataset["settled"].transpose(*order).values.reshape(along.size, -1) > 0.0)
     values = ratio.transpose(*order).values.reshape(along.size, -1)
+    loose &= np.isfinite(values)
+    if not loose.any():
+        return
     places = along.values if _is_numeric(along) else np.arange(along.size)
-    for column, out in zip(values.T, loose.T, strict=True):
-        panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)
-    panel.set_title(balances(dataset).replace("; ", ";\n"), loc="left", fontsize=10.0)
+    crosses = [
+        panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)[0]
+        for column, out in zip(values.T, loose.T, strict=True)
+    ]
+    # A legend beside the panel may say what the lines are.
+    beside = panel.get_legend()
+    crosses[0].set_label("not settled")
+    legend(panel, handles=crosses[:1])
+    if beside is not None:
+        panel.add_artist(beside)
 
 
 def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:

@@ -12,6 +12,8 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.results import Result, quantity
+from asperity.results.quantity import Sentence, text_of
+from asperity.results.settled import MARK
 from asperity.results.table import Table
 from asperity.slider.periodic import UNSTABLE
 from asperity.sweep.axes import Axis, spanned
@@ -26,6 +28,7 @@ _MOST_REASONS = 100
 MOST_AXES = 2
 _MOST_ROWS = 60
 _MOST_COLUMNS = 9
+_SETTLED, _STEP_ERROR = "settled", "step_error"
 
 
 class SweepResult(Result):
@@ -114,6 +117,15 @@ class SweepResult(Result):
         return tuple(name for name in self._of.beside if name in self.arrays)
 
     @property
+    def loose(self) -> npt.NDArray[np.bool_]:
+        """Which points were solved and have not settled: their numbers are no predictions."""
+        if _SETTLED not in self.arrays:
+            return np.zeros(self.status.shape, dtype=bool)
+        settled = self.arrays[_SETTLED] > 0.0
+        found: npt.NDArray[np.bool_] = ~settled & (self.status == SOLVED)
+        return found
+
+    @property
     def aperiodic(self) -> int:
         """Number of points that were solved and are in no stable periodic state that is known."""
         if "period" not in self.arrays:
@@ -181,7 +193,8 @@ class SweepResult(Result):
 
     def to_json(self) -> dict[str, Any]:
         """The ratio over the grid, None where there is none, and what was done for it."""
-        told = self.arrays if self._of.whole else (self._of.shown, *self.beside)
+        always = [name for name in (_SETTLED, _STEP_ERROR) if name in self.arrays]
+        told = self.arrays if self._of.whole else (self._of.shown, *self.beside, *always)
         return {
             "dims": list(dict.fromkeys(axis.along or axis.path for axis in self.axes)),
             "coords": {axis.path: list(axis.shown) for axis in self.axes},
@@ -208,9 +221,17 @@ class SweepResult(Result):
                 f"{self.aperiodic} points are marches, or states that are unstable: `slide` says "
                 "of each what is known",
             )
+        loose = self.loose
+        if loose.any():
+            count = int(np.count_nonzero(loose))
+            told = "1 point has" if count == 1 else f"{count} points have"
+            remarks += (
+                f"{MARK} {told} not settled: no prediction; `{self._of.verb}` says of each what is "
+                "missing",
+            )
         beside = {self._of.beside[name]: self.arrays[name] for name in self.beside}
         columns = {self._of.column: self.arrays[self._of.shown], **beside}
-        return (_table(self.axes, columns, remarks),)
+        return (_table(self.axes, columns, remarks, loose),)
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
@@ -257,30 +278,43 @@ def _listed(values: FloatArray) -> list[Any]:
 
 
 def _table(
-    axes: Sequence[Axis], variables: Mapping[str, FloatArray], remarks: tuple[str, ...]
+    axes: Sequence[Axis],
+    variables: Mapping[str, FloatArray],
+    remarks: tuple[str, ...],
+    loose: npt.NDArray[np.bool_],
 ) -> Table:
-    """Return variables by heading over a grid, of at most some rows."""
+    """Return variables by heading over a grid, of at most some rows; the first ones marked."""
     values = next(iter(variables.values()))
     shape, runs = spanned(axes)
     plain = len(variables) == 1 and len(shape) == len(axes) == 2
     matrix = plain and len(axes[1].shown) <= _MOST_COLUMNS
     if matrix:
         headings = [" \\ ".join(map(_heading, axes)), *map(_text, axes[1].shown)]
-        rows = [[shown, *row] for shown, row in zip(axes[0].shown, values.tolist(), strict=True)]
+        marked = [_marked(*row) for row in zip(values.tolist(), loose.tolist(), strict=True)]
+        rows = [[shown, *row] for shown, row in zip(axes[0].shown, marked, strict=True)]
     else:
         headings = [*map(_heading, axes), *variables]
         places = (
             [axis.shown[at[run]] for axis, run in zip(axes, runs, strict=True)]
             for at in np.ndindex(*shape)
         )
-        columns = np.stack([each.ravel() for each in variables.values()], axis=1)
-        pairs = zip(places, columns.tolist(), strict=True)
+        first, *others = (each.ravel().tolist() for each in variables.values())
+        columns = zip(_marked(first, loose.ravel().tolist()), *others, strict=True)
+        pairs = zip(places, columns, strict=True)
         rows = [[*place, *numbers] for place, numbers in itertools.islice(pairs, _MOST_ROWS + 1)]
     more = len(axes[0].shown) if matrix else values.size
     if more > _MOST_ROWS:
         left = f"... and {more - _MOST_ROWS} more rows; the files of --out, and --json, hold all"
         remarks = (left, *remarks)
     return Table.of(headings, rows[:_MOST_ROWS], remarks=remarks)
+
+
+def _marked(values: Sequence[float], loose: Sequence[bool]) -> list[object]:
+    """Return numbers as a table has them, behind some of them a mark."""
+    return [
+        Sentence(text_of(value), f" {MARK}") if out else value
+        for value, out in zip(values, loose, strict=True)
+    ]
 
 
 def _heading(axis: Axis) -> str:

@@ -32,6 +32,8 @@ class Subject:
         One of its kind, as a message has it.
     title, heading : str
         Of a sweep's answer, and of the number that is shown.
+    verb : str
+        The command that tells everything of one of its kind.
     shown : str
         The variable that is shown.
     column : str
@@ -56,6 +58,7 @@ class Subject:
     what: ClassVar[str]
     title: ClassVar[str]
     heading: ClassVar[str]
+    verb: ClassVar[str] = "slide"
     shown: ClassVar[str]
     column: ClassVar[str] = "ratio"
     beside: ClassVar[Mapping[str, str]]
@@ -92,7 +95,10 @@ class Subject:
     def scalars(self, answer: Result) -> dict[str, Any]:
         """Return what an answer has of the variables, by name; None where there is none."""
         found = answer.to_json()
-        return {entry.name: found[entry.key] for entry in self.variables if entry.key in found}
+        kept = {entry.name: found[entry.key] for entry in self.variables if entry.key in found}
+        return {
+            name: float(value) if isinstance(value, bool) else value for name, value in kept.items()
+        }
 
     def seconds(self, problem: Any) -> float:
         """Return what a problem may take on one core, s."""

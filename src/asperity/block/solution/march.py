@@ -29,7 +29,7 @@ from asperity.runs.tree import Tree, from_tree, to_tree
 from asperity.slider.history import History
 from asperity.slider.kernels import condense
 from asperity.slider.summary import of_stretches
-from asperity.slider.timetable import Timetable
+from asperity.slider.timetable import Timetable, march_standing
 
 _RECORDS = 4000
 _FRAMES = 48
@@ -266,6 +266,7 @@ class BlockMarch:
         residual = abs(halves[1] - halves[0]) / force
         mean = sums.drive_force / span
         powers = power_ledger(sums, start, end)
+        broke = stepper.breakaway is not None
         # Its residual has every power in it.
         if not all(map(math.isfinite, (mean, residual, powers.residual))):
             raise ConvergenceError(_NOT_FINITE)
@@ -279,6 +280,7 @@ class BlockMarch:
             friction_min=(sums.friction_x_min, sums.friction_y_min),
             breakaway_time=stepper.breakaway,
             ledger=powers,
+            **march_standing(model, table, residual, broke=broke)._asdict(),
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,
@@ -290,7 +292,7 @@ class BlockMarch:
                 powers,
                 residual,
                 self.flutter,
-                broke=stepper.breakaway is not None,
+                broke=broke,
             ),
             normal_force=sums.normal_force / span,
             iterations_mean=sums.iterations / sums.increments,

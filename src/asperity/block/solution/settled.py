@@ -28,6 +28,7 @@ from asperity.contact.motion.steps import Stepper
 from asperity.contact.motion.system import Shaking, System, SystemState
 from asperity.results import Result, labelled, quantity
 from asperity.results.dataset import Labels
+from asperity.results.settled import Standing, by_what, error_of_step, told, whether_settled
 from asperity.runs import Run
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic
@@ -65,6 +66,9 @@ class SettledBlock(Result):
     ratio: float = quantity("F_dv/F_ds", "", "mean drive force over mu F_N")
     #: Of four successive windows as long as one another.
     unsteadiness: float = quantity("", "", "how far windows of the ratio are apart, half of it")
+    settled: bool = whether_settled()
+    settled_by: str = by_what()
+    step_error: float | None = error_of_step()
     slider_ratio: float = quantity("", "", "mean drive force over mu F_N, sliding body")
     cycles: int = quantity("", "", "whole cycles of the vibration that were read")
     late: float = quantity("", "", "how much slower than the drive the block was, corrected for")
@@ -79,6 +83,10 @@ class SettledBlock(Result):
     slider_friction: FloatArray = quantity(
         "F", "N", "friction force on the sliding body", dims=_OVER_CYCLE
     )
+
+    def headline(self) -> tuple[str, ...]:
+        """Return that it has not settled, where it has not."""
+        return told(self)
 
     @property
     @labelled("F_dv", "N", "mean drive force", variable="mean_drive_force")
@@ -159,6 +167,7 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
         problem=problem,
         ratio=float(ratios.mean()),
         unsteadiness=0.5 * float(np.ptp(ratios)),
+        **_standing(reading, slider.ratio)._asdict(),
         slider_ratio=slider.ratio,
         cycles=reading.cycles,
         late=reading.late[0],
@@ -169,6 +178,13 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
         slider_friction=_over_a_cycle(slider),
         notes=_notes(problem, reading, slider.ratio),
     )
+
+
+def _standing(reading: Reading, ratio: float) -> Standing:
+    windows = f"{_WINDOWS} windows of {reading.cycles // _WINDOWS} cycles"
+    if reading.apart <= STEADY * abs(ratio):
+        return Standing(True, f"{windows} agree to {STEADY:g} of the ratio")
+    return Standing(False, f"{windows} are apart by {reading.apart:.2g}")
 
 
 def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, ...]:

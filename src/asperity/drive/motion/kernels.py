@@ -16,15 +16,35 @@ from asperity.waveform import displacement_at
 
 _GROWTH = 2.0  # of a step over the last
 _WHOLE = 1.5  # rest of a stretch, in steps, that is left for a last one or two
+_AT_CORNER = 1e-6  # of a step, by which a corner may be missed
+
+
+@uncounted
+@kernel
+def _corner_after(system, time):
+    """Next time after one at which the velocity of what is imposed jumps."""
+    whole = math.floor(time * system.frequency)
+    for i in range(system.corners.size):
+        at = (whole + system.corners[i]) / system.frequency
+        if at > time:
+            return at
+    return (whole + 1.0 + system.corners[0]) / system.frequency
 
 
 @uncounted
 @kernel(inline="always")
 def next_step(system, state, end):
-    """Length of the next step: bounded, not far past a landing, and on the end of the stretch."""
+    """Length of the next step: bounded, not far past a landing.
+
+    It ends on the end of the stretch and on the waveform's corners.
+    """
     dt = min(system.longest, _GROWTH * state.step)
     if state.approach * dt > system.landing:
         dt = system.landing / state.approach
+    if state.corner - state.time <= _AT_CORNER * dt:
+        state.corner = _corner_after(system, state.time + _AT_CORNER * dt)
+        state.turned_corner = 1.0
+    end = min(end, state.corner)
     left = end - state.time
     if left < dt * (1.0 + 1e-9):
         return left
@@ -46,8 +66,10 @@ def move(system, state, dt, q, v):
     time = state.time + dt
     wave = displacement_at(system.wave, time * system.frequency)
     mean = (wave - state.wave) / dt
-    # At the end of the step, from the means of this one and the last.
-    rate = mean + (mean - state.wave_rate) * dt / (dt + state.step)
+    # At the end of the step, from the means of this one and the last, if no corner lies between.
+    rate = mean
+    if state.turned_corner == 0.0:
+        rate += (mean - state.wave_rate) * dt / (dt + state.step)
     state.wave_ahead = wave
     state.rate_ahead = rate
     if system.turns:
@@ -228,6 +250,7 @@ def arrive(system, state, dt, q, v, out, sums):
         sums.advantage_max = max(sums.advantage_max, advantage)
     state.time = time
     state.step = dt
+    state.turned_corner = 0.0
     state.wave = wave
     state.wave_rate = way / dt
     state.torque = torque

@@ -40,6 +40,8 @@ class System(NamedTuple):
         Its waveform.
     frequency : float
         Hz.
+    corners : ndarray
+        Phases at which its velocity jumps, in cycles, rising; none of a smooth one.
     longest : float
         Of the steps, s.
     landing : float
@@ -70,6 +72,7 @@ class System(NamedTuple):
     shake_motor: float
     wave: Wave
     frequency: float
+    corners: FloatArray
     longest: float
     landing: float
 
@@ -79,6 +82,7 @@ STATE = np.dtype(
         (name, np.float64)
         for name in (
             "time", "step", "wave", "wave_rate", "wave_ahead", "rate_ahead",
+            "corner", "turned_corner",
             "turn", "turn_rate", "turn_push",
             "shift", "shift_rate", "shift_push",
             "roll", "roll_rate", "roll_push",
@@ -94,7 +98,8 @@ STATE = np.dtype(
 )  # fmt: skip
 """Motion and forces at the end of a step; pushes are accelerations, losses forces of dampers.
 
-What is ahead or going is that of the step that is being taken.
+What is ahead or going is that of the step that is being taken; the corner is when the waveform's
+velocity jumps next, turned where it did as the step began.
 """
 
 SUMS = np.dtype(

@@ -4,32 +4,29 @@ import dataclasses
 import math
 import time
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.drive.headline import BALANCED
 from asperity.drive.interface import SOLVED
 from asperity.drive.motion.system import SUMS, System
+from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
 from asperity.runs.tree import Tree
 
 Records = npt.NDArray[np.void]
 
-# Means of three blocks within this of each other, a balanced wheel and no more than so much of the
-# power that goes into store make a state periodic; a march ends early only where they agree ten
-# times better.
-PERIODIC, STORED = 5e-3, 5e-3
 _POWERS = ("drive", "actuator", "load", "friction")
-_EARLY = 0.1
 _BLOCKS = 3
 _BLOCK_SECONDS = 2e-3
 # Whole periods of motions that repeat after 1, 2, 3, 4, 6 or 12 cycles.
 _BLOCK_CYCLES = 12
 _LONGEST_SECONDS, _FEWEST_CYCLES = 60e-3, 60
+# Times that a march without a duration goes on, as long as what is missing has become so much less.
+_GOES_ON, _NEARER = 4, 0.7
 # Of one call of the kernel, between which Ctrl-C is heard.
 _CALL_SECONDS = 0.06
 
@@ -53,33 +50,12 @@ class Marchable(Protocol):
         """March so many stretches as there are rows."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Judgement:
-    """Whether the end of a march is a periodic state.
+class Marked(NamedTuple):
+    """Where a march stood once: its row, motion and forces, what the mesh remembered."""
 
-    Attributes
-    ----------
-    settled : bool
-        Three blocks agree, the wheel is balanced, and next to nothing is stored.
-    surely : bool
-        They agree so well that nothing is gained by going on.
-    spread : float
-        Of the blocks' mean torques, over the torque without vibration.
-    balance : float
-        What the mesh gives the wheel beyond the load, over the load, in all three.
-    stored : float
-        Mean power that goes into store, or out of it where negative, over the largest of the
-        powers, in all three.
-    cycles : int
-        In the blocks together.
-    """
-
-    settled: bool
-    surely: bool
-    spread: float
-    balance: float
-    stored: float
-    cycles: int
+    row: int
+    states: Records
+    committed: FloatArray
 
 
 class March:
@@ -118,6 +94,10 @@ class March:
         self.rows = np.zeros(0, SUMS)
         self.seconds = 0.0
         self.stored = float(states[0]["stored"])
+        self.finer = 1.0
+        self.off = math.inf
+        self.since = 0
+        self.marked = Marked(0, states.copy(), committed.copy())
         self._run = run
         self.stop = np.zeros(1, np.int64) if stop is None else stop
         self._kept = kept or self.tree
@@ -162,6 +142,34 @@ class March:
                     whole[name] += part[name]
         return whole
 
+    def mark(self) -> None:
+        """Keep where it stands, so that it can be marched from there once more."""
+        self.marked = Marked(self.rows.size, self.states.copy(), self.committed.copy())
+
+    def again(self, coarser: float, count: int, nudge: float = 0.0) -> Records | None:
+        """March so many cycles once more from where it was marked; None where that fails.
+
+        In steps so many times as long, the wheel's speed nudged by a share of it; this march stays.
+        """
+        states = self.marked.states.copy()
+        states[0]["roll_rate"] *= 1.0 + nudge
+        other = March(
+            self.mesh, refined(self.system, coarser), states, self.marked.committed.copy(),
+            self._run, self.stop, self._kept,
+        )  # fmt: skip
+        try:
+            other.go(count)
+        except ConvergenceError:
+            return None
+        return other.rows
+
+    def refine(self, finer: float, off: float) -> None:
+        """Go on in shorter steps, for what was off; what was marched counts no longer."""
+        self.finer *= finer
+        self.off = off
+        self.since = self.rows.size
+        self.system = refined(self.system, finer)
+
     def stretches(self, count: int, length: float) -> Records:
         """March so many stretches of a length in s, and return their sums.
 
@@ -193,7 +201,7 @@ class March:
 
     def settle(
         self, *, window: int, scale: float, power: float, duration: float | None,
-        measure: str = "torque", pitch: float | None = None,
+        measure: str = "torque", pitch: float | None = None, ratio: float | None = None,
     ) -> Judgement:  # fmt: skip
         """March until the state is periodic, or for as long as that is waited for.
 
@@ -208,49 +216,85 @@ class March:
         measure : str
             What is to stay, by the name of its sum.
         duration : float, optional
-            How long is waited, s.
+            How long is waited, s; left out, for as long as it comes nearer.
         pitch : float, optional
             Time in which the mesh takes on the next tooth, s; before, nothing repeats.
+        ratio : float, optional
+            Of the gears, where the wheel is to turn with the worm.
         """
         block = block_of(window, self.system.frequency)
         if pitch is not None:
             block = block_of_pitches(block, self.system.frequency, pitch, duration)
         # Its ramp is no part of a periodic state.
-        ramp = math.ceil(self.system.wave.ramp)
-        most = ramp + longest_march(block, self.system.frequency, duration)
+        ramp = max(math.ceil(self.system.wave.ramp), self.since)
+        longest = longest_march(block, self.system.frequency, duration)
+        most = ramp + longest
         steps = (most - self.rows.size) * self.cycle / self.system.longest
         self._run.forecast(self.mesh.step_seconds * steps, f"{steps:.3g} steps")
         if self.rows.size < ramp:
             self.go(ramp - self.rows.size, of=most)
-        # Gone on with anywhere, it is judged at the same ends of blocks.
+        asked = (block, measure, scale, power, ratio)
+        # Gone on with anywhere, it is judged at the same ends of blocks, and goes on as it did.
         while True:
             marched = self.rows.size - ramp
             if marched >= _BLOCKS * block and marched % block == 0:
-                found = self.judged(block, measure, scale, power)
-                if found.surely or self.rows.size >= most:
+                found = self.judged(*asked)
+                if found.surely:
                     return found
+                while self.rows.size >= most:
+                    there = self._looked_back(asked, most, ramp)
+                    goes_on = duration is None and not there.settled
+                    if not goes_on or most >= ramp + _GOES_ON * longest or there.nearer == math.inf:
+                        return there
+                    most += longest
+            if marched % block == 0:
+                self.mark()
             self.go(block - marched % block, of=most)
 
-    def judged(self, block: int, measure: str, scale: float, power: float) -> Judgement:
-        """Judge the last three blocks of so many cycles; parameters as in `settle`."""
-        last = self.rows[-_BLOCKS * block :]
-        per_block = last.reshape(_BLOCKS, block)
-        means = per_block[measure].sum(axis=1) / per_block["time"].sum(axis=1) / scale
-        spread = float(np.ptp(means))
-        balance = self.balance(last)
-        stored = self.into_store(last.size, power)
-        off = max(spread / PERIODIC, abs(balance) / BALANCED, abs(stored) / STORED)
-        return Judgement(off <= 1.0, off <= _EARLY, spread, balance, stored, last.size)
+    def _looked_back(
+        self, asked: tuple[int, str, float, float, float | None], end: int, ramp: int
+    ) -> Judgement:
+        """Judge the blocks before an end, and how they came nearer to a periodic state."""
+        block = asked[0]
+        found = self.judged(*asked, end=end)
+        apart = block * max(1, (end - ramp) // (2 * block))
+        if found.settled or end - apart - _BLOCKS * block < ramp:
+            return dataclasses.replace(found, nearer=0.0 if found.settled else math.inf)
+        before = self.judged(*asked, end=end - apart)
+        nearer = math.inf
+        if found.off < _NEARER * before.off:
+            nearer = apart * self.cycle * math.log(found.off) / math.log(before.off / found.off)
+        return dataclasses.replace(found, nearer=nearer)
 
-    def into_store(self, cycles: int, power: float) -> float:
+    def judged(
+        self, block: int, measure: str, scale: float, power: float, ratio: float | None,
+        *, end: int | None = None,
+    ) -> Judgement:  # fmt: skip
+        """Judge three blocks of so many cycles, the last or those before an end; see `settle`."""
+        rows = self.rows[:end]
+        last = rows[-_BLOCKS * block :]
+        blocks = last.reshape(_BLOCKS, block)
+        if measure == "rolled":
+            means = [steady_speed(one[measure], one["time"]) for one in blocks]
+            scale = max(scale, abs(steady_speed(last[measure], last["time"])))
+        else:
+            means = [mean(one, measure) for one in blocks]
+        spread = float(np.ptp(means)) / scale
+        balance = self.balance(last)
+        stored = self.into_store(last.size, power, end=rows.size)
+        turned = 0.0 if ratio is None else ratio * mean(last, "rolled") / mean(last, "turned") - 1.0
+        return Judgement.of(spread, balance, stored, turned, last.size)
+
+    def into_store(self, cycles: int, power: float, *, end: int | None = None) -> float:
         """Return what the last cycles have stored, over the largest of their powers.
 
         A heavy worm is slowed and speeded up, or a soft shaft wound up, long after torque and wheel
         agree from block to block. Where next to nothing moves, the motor's power without vibration
         says what is little.
         """
-        last = self.rows[-cycles:]
-        before = self.stored if cycles == self.rows.size else self.rows[-cycles - 1]["stored"]
+        rows = self.rows[:end]
+        last = rows[-cycles:]
+        before = self.stored if cycles == rows.size else rows[-cycles - 1]["stored"]
         most = max(*(abs(last[name].sum()) for name in _POWERS), power * last["time"].sum())
         return float((last["stored"][-1] - before) / most)
 
@@ -270,12 +314,27 @@ class March:
             "states": self.states,
             "committed": self.committed,
             "seconds": self.seconds,
+            "finer": self.finer,
+            "off": self.off,
+            "since": self.since,
+            "marked": self.marked.row,
+            "marked_states": self.marked.states,
+            "marked_committed": self.marked.committed,
         }
 
     def restore(self, tree: Tree) -> None:
         """Go back to where a march of the same drive stood when it gave its tree."""
         self.rows, self.states = tree["rows"], tree["states"]
         self.committed, self.seconds = tree["committed"], tree["seconds"]
+        self.system = refined(self.system, float(tree["finer"]) / self.finer)
+        self.finer, self.off = float(tree["finer"]), float(tree["off"])
+        self.since = int(tree["since"])
+        self.marked = Marked(int(tree["marked"]), tree["marked_states"], tree["marked_committed"])
+
+
+def refined(system: System, finer: float) -> System:
+    """Return a system whose steps are so many times as long."""
+    return system._replace(longest=finer * system.longest, landing=finer * system.landing)
 
 
 def block_of(window: int, frequency: float) -> int:

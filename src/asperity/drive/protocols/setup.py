@@ -12,7 +12,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.shafts import Bending, MeshAction, bending_of, bends
 from asperity.errors import InputError
-from asperity.waveform import AT_REST, SAMPLED, Wave, displacement_at
+from asperity.waveform import AT_REST, SAMPLED, SQUARE, TRIANGLE, Shape, Wave, displacement_at
 
 _STABLE = 0.25  # of a step, times the highest natural frequency
 _STIFFER = 3.0  # that the normal contact may be than without vibration
@@ -48,6 +48,19 @@ def shakes(problem: DriveProblem, model: ReducedModel) -> dict[str, float]:
         return {"shake_motor" if motor else "shake_worm_turn": turn}
     shift = "shake_seat" if seat else "shake_worm_shift"
     return {"shake_worm_turn": turn, shift: -point.lead * turn}
+
+
+_SMOOTH = np.zeros(0)
+
+
+def corners_of(shape: Shape) -> FloatArray:
+    """Return the phases at which a waveform's velocity jumps, in cycles; none of a smooth one."""
+    if shape.code == TRIANGLE:
+        return np.array([0.25, 0.75])
+    if shape.code == SQUARE:
+        half = 0.5 * shape.rise
+        return np.unique([half, 0.5 - half, 0.5 + half, 1.0 - half])
+    return _SMOOTH
 
 
 def system(
@@ -106,6 +119,7 @@ def system(
         **(dict.fromkeys(_SHAKES, 0.0) | (shakes(problem, model) if shaken else {})),
         wave=shape.wave() if shaken else AT_REST,
         frequency=shape.frequency,
+        corners=corners_of(shape) if shaken else _SMOOTH,
         longest=problem.step,
         landing=_LANDING * model.approach,
     )
@@ -160,9 +174,11 @@ def _longest(problem: DriveProblem, model: ReducedModel, found: System) -> float
 
 
 def begin(
-    problem: DriveProblem, model: ReducedModel, moving: System
+    problem: DriveProblem, model: ReducedModel, moving: System, early: float = 0.0
 ) -> tuple[npt.NDArray[np.void], FloatArray]:
     """Return the state without vibration: loaded, sliding steadily where a motor turns the worm.
+
+    It is that of a time ``early`` before the vibration begins, s.
 
     Returns
     -------
@@ -186,13 +202,15 @@ def begin(
     thrust = -problem.load / point.arm
     states = np.zeros(1, STATE)
     state = states[0]
+    state["time"] = -early
     state["step"] = moving.longest
+    state["corner"] = moving.corners[0] / moving.frequency if moving.corners.size else math.inf
     state["turn_rate"] = moving.speed
     state["roll_rate"] = moving.speed / point.ratio
     # A waveform need not begin at nothing: the wheel follows to where the worm is put.
     wave = displacement_at(moving.wave, 0.0)
     state["wave"] = wave
-    state["turn"] = moving.shake_motor * wave
+    state["turn"] = moving.shake_motor * wave - moving.speed * early
     twist = torque / moving.torsion if moving.torsion else 0.0
     state["turn"] -= twist
     state["shift"] = moving.shake_seat * wave
@@ -287,4 +305,5 @@ def switched_off(
         state["shift_push"] = (held + state["worm_force"]) / still.worm_mass
     for name in ("torque", "shaft_loss", "wave_rate"):
         state[name] = 0.0
+    state["corner"] = math.inf
     return still, left

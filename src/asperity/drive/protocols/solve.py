@@ -12,8 +12,12 @@ from asperity.drive.closed_form import screw_ratio
 from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
-from asperity.drive.protocols.march import Judgement, March, Records, bands_of, mean
-from asperity.drive.protocols.setup import begin, switched_off, system
+from asperity.drive.protocols.accuracy import StepError, sensitive, step_error
+from asperity.drive.protocols.judgement import Judgement, steady_speed
+from asperity.drive.protocols.march import March, Records, bands_of, mean
+from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
+from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
+from asperity.drive.protocols.setup import switched_off, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
 from asperity.errors import ConvergenceError
@@ -23,13 +27,11 @@ from asperity.runs.key import code_key, key
 
 _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
 _AFTER_SECONDS = 40e-3
-# Of a tooth's lowest mode: below, its inertia adds an eighth to what it gives at most.
-_QUASI_STATIC = 1.0 / 3.0
+# Of the vibration's own speed, the least by which a creep that has to stay is measured.
+_CREEP = 0.1
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
-_OF_BLOCKS = {"back-drive": "wheel's speed", "held-wheel": "wheel's torque"}
 _ADVICE = "give a smaller solve.step"
-_WORM_ALONE = ("held-wheel", "back-drive")  # protocols that have no sliding of their own
 
 
 def solve_shaken(
@@ -56,34 +58,64 @@ def solve_shaken(
     """
     locked = problem.drive.protocol == "back-drive"
     moving = system(problem, model, motor=not locked)
-    march = March(model, moving, *begin(problem, model, moving), run, stop)
+    rest = at_rest(problem, model, moving, stop)
+    march = March(model, moving, rest.states.copy(), rest.committed.copy(), run, stop)
     if kept := run.resume(key(code_key(__name__, type(model).__module__), asked(problem))):
         march.restore(kept)
+        if march.finer != 1.0:
+            rest = at_rest(problem, model, march.system, stop)
     window = problem.drive.window
-    power = model.worm_torque * problem.worm_speed
+    power = rest.torque * problem.worm_speed
     with run.going_on():
         shown: Records | None = None
         if problem.drive.protocol == "window":
-            judged = _first_cycles(march, window, model.worm_torque, power)
+            # Of what is no state that lasts, no step makes the error.
+            judged, off = _first_cycles(march, window, rest.torque, power), None
         else:
-            measure, scale = _measured(problem, model)
-            judged = march.settle(
-                window=window, measure=measure, scale=scale, power=power,
-                duration=problem.solve.duration,
-                pitch=model.pitch if moving.speed else None,
-            )  # fmt: skip
-        creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
+            judged, off, rest = _settled(problem, model, march, rest, stop)
+        last = march.rows[-judged.cycles :]
+        creep = steady_speed(last["rolled"], last["time"]) if locked else None
         held = _held_after(problem, model, march, run)
         began = float(march.states[0]["time"])
         if run.detailed:
             shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
-    answer = _summarise(problem, model, march, judged)
+    rest = over_the_same(problem, model, march, judged.cycles, rest)
+    answer = _summarise(problem, model, march, judged, rest, off)
     return dataclasses.replace(
         answer,
         creep=creep,
         held_after=held,
         bands=None if shown is None else Bands(**bands_of(shown, began)),
     )
+
+
+def _settled(
+    problem: DriveProblem,
+    model: ReducedModel,
+    march: March,
+    rest: Rest,
+    stop: npt.NDArray[np.int64] | None,
+) -> tuple[Judgement, StepError | None, Rest]:
+    """March until the state is periodic, in steps as short as that takes where none was given."""
+    while True:
+        measure, scale = _measured(problem, rest, model)
+        power = rest.torque * problem.worm_speed
+        driven = bool(march.system.speed) and march.system.rolls
+        judged = march.settle(
+            window=problem.drive.window, measure=measure, scale=scale, power=power,
+            duration=problem.solve.duration,
+            pitch=model.pitch if march.system.speed else None,
+            ratio=model.point.ratio if driven else None,
+        )  # fmt: skip
+        off = step_error(march, measure, scale, power) if judged.settled else None
+        # Of elastic teeth steps are dear: of them the error is told alone.
+        if off is None or problem.solve.step is not None or model.pitch is not None:
+            return judged, off, rest
+        finer = off.finer(march.finer, march.off)
+        if finer is None or sensitive(march, measure, scale, power):
+            return judged, off, rest
+        march.refine(finer, off.off)
+        rest = at_rest(problem, model, march.system, stop)
 
 
 def asked(problem: DriveProblem) -> str:
@@ -98,14 +130,14 @@ def kind_of(problem: DriveProblem) -> type[DriveResult]:
     return HeldWheel if problem.drive.protocol == "held-wheel" else DriveResult
 
 
-def _measured(problem: DriveProblem, model: ReducedModel) -> tuple[str, float]:
+def _measured(problem: DriveProblem, rest: Rest, model: ReducedModel) -> tuple[str, float]:
     """Return what of a protocol's motion has to stay, and what it is measured by."""
     if problem.drive.protocol == "back-drive":
         speed = problem.velocity / model.point.length or problem.worm_speed
-        return "rolled", speed / model.point.ratio
+        return "rolled", _CREEP * speed / model.point.ratio
     if problem.drive.protocol == "held-wheel":
         return "wheel_torque", problem.load
-    return "torque", model.worm_torque
+    return "torque", rest.torque
 
 
 def _first_cycles(march: March, window: int, torque: float, power: float) -> Judgement:
@@ -114,7 +146,7 @@ def _first_cycles(march: March, window: int, torque: float, power: float) -> Jud
     rows = march.rows
     spread = float(np.ptp(rows["torque"] / rows["time"])) / torque
     stored = march.into_store(window, power)
-    return Judgement(False, False, spread, march.balance(rows), stored, window)
+    return Judgement(False, False, spread, march.balance(rows), stored, 0.0, window)
 
 
 def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: Run) -> bool | None:
@@ -139,8 +171,9 @@ def _drift(rows: Records) -> float:
 
 
 def _summarise(
-    problem: DriveProblem, model: ReducedModel, march: March, judged: Judgement
-) -> DriveResult:
+    problem: DriveProblem, model: ReducedModel, march: March, judged: Judgement, rest: Rest,
+    off: StepError | None,
+) -> DriveResult:  # fmt: skip
     rows, moving = march.rows, march.system
     residual = float(rows["residual"].max())
     last = rows[-judged.cycles :]
@@ -156,7 +189,7 @@ def _summarise(
         stored=float(last["stored"][-1] - before) / time,
     )
     guarded = guard(ledger, _ADVICE, reached={"torque_balance": judged.balance})
-    torque = model.worm_torque
+    torque = rest.torque
     driven, kind = bool(moving.speed), kind_of(problem)
     first = rows[: problem.drive.window]
     power = torque * problem.worm_speed
@@ -168,7 +201,7 @@ def _summarise(
     ratio = None if measured is None else measured / torque
     if kind is HeldWheel:
         # The motor pushes as it does without vibration, and the wheel's torque is what changes.
-        measured, ratio = torque, problem.load / mean(last, "wheel_torque")
+        measured, ratio = torque, rest.wheel_torque / mean(last, "wheel_torque")
     saved = power - ledger.drive
     efficiency = None
     if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
@@ -181,7 +214,9 @@ def _summarise(
         torque_ratio=ratio,
         torque_ratio_closed_form=_closed_form(problem, model),
         torque_balance=judged.balance,
-        settled=judged.settled,
+        settled=judged.settled and rest.settled,
+        settled_by=settled_by(problem, judged, rest),
+        step_error=None if off is None or not math.isfinite(off.ratio) else off.ratio,
         spread=judged.spread if math.isfinite(judged.spread) else None,
         torque_ratio_window=mean(first, "torque") / torque if driven else None,
         window_balance=march.balance(first),
@@ -189,7 +224,7 @@ def _summarise(
         open_share=mean(last, "open"),
         second_flank_share=mean(last, "second"),
         force_max=float(max(last["driving_max"].max(), last["back_max"].max())),
-        force_static=model.normal_force,
+        force_static=rest.normal,
         advantage_min=float(rows["advantage_min"].min()) / unit if touched else None,
         advantage_max=float(rows["advantage_max"].max()) / unit if touched else None,
         ledger=ledger,
@@ -206,7 +241,7 @@ def _summarise(
             cycle_torque=rows["torque"] / rows["time"],
             cycle_wheel=rows["wheel_torque"] / rows["time"],
         ),
-        notes=(*_notes(problem, model, judged), *guarded),
+        notes=(*notes_of(problem, model, judged, rest, off), *guarded),
         residual=residual,
         steps=march.steps,
         seconds=march.seconds,
@@ -241,7 +276,7 @@ def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Deman
 
 def _closed_form(problem: DriveProblem, model: ReducedModel) -> float | None:
     """Ratio of a screw far above the resonances; None where there is no such form."""
-    slides = problem.mode == "screw" and problem.drive.protocol not in _WORM_ALONE
+    slides = problem.mode == "screw" and problem.drive.protocol not in WORM_ALONE
     sine = problem.vibrated[0].waveform == "sine"
     constant = problem.drive.friction == "constant" and not of_speed(problem.friction)
     if not (slides and sine and constant):
@@ -259,48 +294,6 @@ def _resonances(model: ReducedModel, moving: System) -> dict[str, Any]:
         else None,
         "resonance_wheel": turn * math.sqrt(wheel / moving.wheel_inertia) if moving.rolls else None,
     }
-
-
-def _notes(problem: DriveProblem, model: ReducedModel, judged: Judgement) -> tuple[str, ...]:
-    notes = list(model.reduction.notes)
-    if problem.drive.protocol == "window":
-        notes.append(
-            f"means over the first {judged.cycles} cycles, whose wheel is out of balance by "
-            f"{100.0 * judged.balance:.2g} %: no state that lasts"
-        )
-    elif not judged.settled:
-        what = _OF_BLOCKS.get(problem.drive.protocol, "torque ratio")
-        notes.append(
-            f"aperiodic: the {what} of three blocks of cycles spreads by {judged.spread:.2g}, the "
-            f"wheel is out of balance by {100 * judged.balance:.2g} %, and "
-            f"{100 * judged.stored:.2g} % of the power goes into store"
-        )
-    mode, frequency = model.tooth_mode, problem.vibrated[1].frequency
-    if mode is not None and frequency > _QUASI_STATIC * mode:
-        notes.append(
-            f"the teeth are quasi-static, but the vibration's {1e-3 * frequency:.3g} kHz are more "
-            f"than a third of their lowest mode, {1e-3 * mode:.3g} kHz at least: their inertia "
-            "counts"
-        )
-    if model.pitch is not None and problem.drive.protocol not in _WORM_ALONE:
-        cycles = model.pitch * problem.vibrated[1].frequency
-        if judged.cycles < 2.5 * cycles:
-            notes.append(
-                f"means over {judged.cycles / cycles:.2g} of a pitch of the teeth: before one is "
-                "over elastic teeth do not repeat; a longer solve.duration takes them all in"
-            )
-    if problem.actuator is not None and problem.mode == "wheel-axial":
-        notes.append("what the actuator takes is not told: the mass of the wheel is not known")
-    hidden = []
-    if problem.shaft.torsion is None:
-        hidden.append("torsion (a soft shaft lets the worm give way as it turns)")
-    if problem.shaft.axial is None:
-        hidden.append("axial bearing and seat (a soft seat takes an axial vibration over)")
-    if problem.shaft.diameter is None or problem.shaft.span is None:
-        hidden.append("bending of the worm's shaft (often more than the teeth give)")
-    if hidden:
-        notes.append(f"rigid: {'; '.join(hidden)}")
-    return tuple(notes)
 
 
 def check(problem: DriveProblem, model: ReducedModel) -> None:

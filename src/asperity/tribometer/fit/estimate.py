@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity.arrays import FloatArray
+from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import ConvergenceError
 
 Forward = Callable[[FloatArray], FloatArray]
@@ -24,11 +24,17 @@ RISE = 3.841458820694124
 WIDEST = math.log(1000.0)
 _DIFFERENCE = 2e-3
 _STILL = 1e-4  # change of a logarithm, and of chi-square, that is none
-_ROUNDS = 30
+_ROUNDS = 60
 _INNER = 6
-_NEAR = 0.02  # of the root of the rise, at which an end is found
-_TRIES = 7
+_FALL = 1e-4  # of chi-square, that is none where an end is looked for
+_NEAR = 0.05  # of the root of the rise, from where slopes tell the rest to an end
+_NARROW = 0.01  # of the way to an end
+_SMALL = 0.1  # of the way to an end, that slopes may tell
+_WIDER = 3.0  # times as far at most, where an end lies further
+_TRIES = 20
+_REFITS = 25
 _NO_SLOPE = 1e-9
+_LOST = 0.1  # of residuals over their deviations, for a factor of e
 _LEAST = 1e-10  # singular value, of the largest
 
 
@@ -54,6 +60,10 @@ class Estimate:
     def chi2(self) -> float:
         """Sum of the squares."""
         return float(self.residuals @ self.residuals)
+
+    def scaled(self, factor: float) -> "Estimate":
+        """Return it for deviations that are a factor larger."""
+        return Estimate(self.point, self.residuals / factor, self.slopes / factor)
 
     @property
     def covariance(self) -> FloatArray:
@@ -90,17 +100,32 @@ class Fit:
     ----------
     evaluations : int
         How often `forward` has been asked.
+    rise : float
+        Of chi-square, to the ends of intervals.
+    lowest : Estimate or None
+        The least chi-square that was met on the way to ends.
+    walls : dict
+        How far the model answers, and why no further, by parameter and side: of ends that are open
+        for that.
     """
 
     def __init__(self, forward: Forward, lower: FloatArray, upper: FloatArray) -> None:
         self._forward = forward
         self._lower, self._upper = lower, upper
+        self._start = 0.5 * (lower + upper)
         self.evaluations = 0
+        self.rise = RISE
+        self.lowest: Estimate | None = None
+        self.walls: dict[tuple[int, int], tuple[float, str]] = {}
 
     def residuals(self, point: FloatArray) -> FloatArray:
         """Return the residuals at a point."""
         self.evaluations += 1
         return self._forward(point)
+
+    def of(self, weighed: Forward) -> "Fit":
+        """Return the fit of something that follows from these residuals, row by row."""
+        return Fit(lambda point: weighed(self.residuals(point)), self._lower, self._upper)
 
     def slopes(self, point: FloatArray, here: FloatArray) -> FloatArray:
         """Return the residuals' slopes, by differences away from a bound."""
@@ -127,6 +152,19 @@ class Fit:
         ConvergenceError
             It still falls after many rounds.
         """
+        self._start = start
+        best = self._least(start)
+        for _ in range(_INNER):
+            lost = _lost(best, start)
+            if not lost.any():
+                break
+            again = self._least(np.where(lost, start, best.point))
+            if again.chi2 >= best.chi2 - _STILL:
+                break
+            best = again
+        return best
+
+    def _least(self, start: FloatArray) -> Estimate:
         point = np.clip(start, self._lower, self._upper)
         here = self.residuals(point)
         damping = 1e-3
@@ -166,9 +204,7 @@ class Fit:
         for _ in range(_INNER + 2):
             if not free.any():
                 break
-            step = np.linalg.solve(normal + damping * np.diag(scale), downhill[free])
-            # More than a factor of e at a time is no longer what slopes tell of.
-            step *= min(1.0, 1.0 / max(float(np.abs(step).max()), 1e-300))
+            step = _limited(normal + damping * np.diag(scale), downhill[free])
             moved = point.copy()
             moved[free] += step
             moved = np.clip(moved, self._lower, self._upper)
@@ -187,13 +223,12 @@ class Fit:
     def along(self, best: Estimate, place: int, value: float, near: Estimate) -> Estimate:
         """Fit all parameters but one, which has a value, from a point nearby.
 
-        The slopes of the best fit go on being used, kept true by what each step finds.
+        The slopes of the nearby point go on being used, kept true by what each step finds.
         """
         covariance = best.covariance
-        point = near.point + covariance[place] / covariance[place, place] * (
-            value - near.point[place]
-        )
-        point = np.clip(point, self._lower, self._upper)
+        move = covariance[place] / covariance[place, place] * (value - near.point[place])
+        # What the data say nothing of may go anywhere; not at once.
+        point = np.clip(near.point + np.clip(move, -1.0, 1.0), self._lower, self._upper)
         point[place] = value
         slopes, last, seen = near.slopes.copy(), near.point, near.residuals
         here = self.residuals(point)
@@ -206,48 +241,134 @@ class Fit:
             point, here, damping = self._step(point, here, slopes, damping, place)
             if float(seen @ seen - here @ here) < 0.01 * max(1.0, 0.1 * best.chi2):
                 break
+        return self._seen(Estimate(point, here, slopes))
+
+    def settled(self, best: Estimate, place: int, near: Estimate) -> Estimate:
+        """Fit all parameters but one, which stays, by slopes of their own, until nothing falls."""
+        found = self._settled(best, place, near.point)
+        for _ in range(_INNER):
+            lost = _lost(found, self._start)
+            lost[place] = False
+            if not lost.any():
+                break
+            again = self._settled(best, place, np.where(lost, self._start, found.point))
+            if again.chi2 >= found.chi2 - _STILL:
+                break
+            found = again
+        return self._seen(found)
+
+    def _settled(self, best: Estimate, place: int, start: FloatArray) -> Estimate:
+        point, here, damping = start, self.residuals(start), 1e-6
+        for _ in range(_REFITS):
+            slopes = self.slopes(point, here)
+            moved, found, damping = self._step(point, here, slopes, damping, place)
+            fall = float(here @ here - found @ found)
+            point, here = moved, found
+            if fall < _FALL * max(1.0, 0.1 * best.chi2):
+                break
         return Estimate(point, here, slopes)
+
+    def _seen(self, found: Estimate) -> Estimate:
+        if self.lowest is None or found.chi2 < self.lowest.chi2:
+            self.lowest = found
+        return found
 
     def end(self, best: Estimate, place: int, side: int) -> float | None:
         """Return an end of a parameter's interval, None where it is open; side is 1 or -1."""
         bound = (self._upper if side > 0 else self._lower)[place]
         furthest = best.point[place] + side * WIDEST
-        last = min(bound, furthest) if side > 0 else max(bound, furthest)
+        last = abs((min(bound, furthest) if side > 0 else max(bound, furthest)) - best.point[place])
         if float(np.abs(best.slopes[:, place]).max()) <= _NO_SLOPE:
             return None
-        wanted = math.sqrt(RISE)
+        wanted = math.sqrt(self.rise)
         step = min(wanted * math.sqrt(best.covariance[place, place]), 1.0)
         inside, outside = (0.0, 0.0), None
+        wall = ""
         near = best
-        for _ in range(_TRIES):
-            step = min(step, abs(last - best.point[place]))
+        for turn in range(_TRIES):
+            step = min(step, last)
             if step <= 0.0:
                 return None
+            value = best.point[place] + side * step
             try:
-                found = self.along(best, place, best.point[place] + side * step, near)
-            except ConvergenceError:
+                found = self.along(best, place, value, near)
+                root = _root(found, best)
+                if root > (1.0 - _NEAR) * wanted or step >= last:
+                    # What was carried along may not be the least there: look again by slopes.
+                    found = self.settled(best, place, found)
+                    root = _root(found, best)
+            except ConvergenceError as error:
                 # No end can be told beyond where the model answers.
-                last = best.point[place] + side * step
+                last, wall = step, str(error)
+                if last - inside[0] < _NARROW * last:
+                    break
                 step = 0.5 * (inside[0] + step)
                 continue
-            root = math.sqrt(max(found.chi2 - best.chi2, 0.0))
             if abs(root - wanted) < _NEAR * wanted:
-                return float(found.point[place])
+                left = _left(found, place, root, wanted)
+                if abs(left) < _SMALL * step:
+                    return float(value + left)
             if root < wanted:
-                if step >= abs(last - best.point[place]):
+                if step >= last:
                     return None
                 inside, near = (step, root), found
             else:
                 outside = (step, root)
-            step = _between(inside, outside, wanted)
-        return None if outside is None else float(best.point[place] + side * step)
+            if wall and outside is None and last - inside[0] < _NARROW * last:
+                break
+            step = _between(inside, outside, wanted, turn)
+        if outside is not None and outside[0] - inside[0] < _NARROW * outside[0]:
+            return float(best.point[place] + side * _between(inside, outside, wanted))
+        reached = best.point[place] + side * inside[0]
+        self.walls[place, side] = float(reached), wall or "no end is found of the profile"
+        return None
 
 
-def _between(inside: Any, outside: Any, wanted: float) -> float:
+def _limited(normal: FloatArray, downhill: FloatArray) -> FloatArray:
+    """Return a step of a factor of e at most: of more, slopes do not tell any longer.
+
+    What would go further stops there, and the others follow, so that none waits for one that the
+    data say nothing of.
+    """
+    step = np.zeros(downhill.size)
+    moving = np.ones(downhill.size, dtype=bool)
+    while moving.any():
+        rest = downhill[moving] - normal[np.ix_(moving, ~moving)] @ step[~moving]
+        step[moving] = np.linalg.solve(normal[np.ix_(moving, moving)], rest)
+        far = moving & (np.abs(step) > 1.0)
+        if not far.any():
+            break
+        step[far] = np.sign(step[far])
+        moving &= ~far
+    return step
+
+
+def _lost(found: Estimate, start: FloatArray) -> BoolArray:
+    """Return which logarithms ran to where they say nothing, from where none finds its way back."""
+    silent = np.linalg.norm(found.slopes, axis=0) < _LOST
+    lost: BoolArray = silent & (np.abs(found.point - start) > 1.0)
+    return lost
+
+
+def _root(found: Estimate, best: Estimate) -> float:
+    return math.sqrt(max(found.chi2 - best.chi2, 0.0))
+
+
+def _left(found: Estimate, place: int, root: float, wanted: float) -> float:
+    """Return what is left to an end that is near, by the slope of a least chi-square."""
+    # The others are at their best, so that chi-square changes by this one's own slope alone.
+    slope = 2.0 * float(found.slopes[:, place] @ found.residuals)
+    return (wanted * wanted - root * root) / slope if slope else math.inf
+
+
+def _between(inside: Any, outside: Any, wanted: float, turn: int = 0) -> float:
     """Return where a root that rises with its step reaches a value."""
     if outside is None:
         step, root = inside
-        factor = 3.0 if root <= 0.0 else min(1.02 * wanted / root, 3.0)
-        return float(step * factor)
+        # The longer it takes the further, since a root may stop rising for a while.
+        factor = max(1.02 * wanted / root, 1.2 + 0.2 * turn) if root > 0.0 else _WIDER
+        return float(step * min(factor, _WIDER))
     share = (wanted - inside[1]) / (outside[1] - inside[1])
+    if turn % 3 == 2:
+        share = 0.5
     return float(inside[0] + share * (outside[0] - inside[0]))

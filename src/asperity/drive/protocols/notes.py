@@ -1,0 +1,98 @@
+"""What is said beside a shaken drive's numbers: by what it settled, and what to know of them."""
+
+import math
+
+from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.accuracy import WANTED, StepError
+from asperity.drive.protocols.judgement import Judgement
+from asperity.drive.protocols.rest import Rest
+from asperity.drive.reduced.model import ReducedModel
+
+# Of a tooth's lowest mode: below, its inertia adds an eighth to what it gives at most.
+_QUASI_STATIC = 1.0 / 3.0
+_OF_BLOCKS = {"back-drive": "wheel's speed", "held-wheel": "wheel's torque"}
+WORM_ALONE = ("held-wheel", "back-drive")
+"""Protocols that have no sliding of their own."""
+
+
+def settled_by(problem: DriveProblem, judged: Judgement, rest: Rest) -> str:
+    """Return what shows that a drive has settled, or what is missing."""
+    if problem.drive.protocol == "window":
+        return f"means over the first {judged.cycles} cycles alone, which no state is told by"
+    said = judged.said(_what(problem))
+    if rest.settled:
+        return said
+    without = f"without vibration the torque itself spreads by {100.0 * rest.spread:.2g} %"
+    return without if judged.settled else f"{said}; {without}"
+
+
+def _what(problem: DriveProblem) -> str:
+    """Return what of a protocol has to stay, in words."""
+    return _OF_BLOCKS.get(problem.drive.protocol, "torque ratio")
+
+
+def notes_of(
+    problem: DriveProblem, model: ReducedModel, judged: Judgement, rest: Rest,
+    off: StepError | None,
+) -> tuple[str, ...]:  # fmt: skip
+    """Return what a reader of a drive's answer should know."""
+    notes = list(model.reduction.notes)
+    if problem.drive.protocol == "window":
+        notes.append(
+            f"means over the first {judged.cycles} cycles, whose wheel is out of balance by "
+            f"{100.0 * judged.balance:.2g} %: no state that lasts"
+        )
+    elif not judged.settled:
+        notes.append(f"aperiodic: {judged.said(_what(problem))}")
+    if rest.marched and problem.drive.protocol == "held-wheel":
+        notes.append(
+            f"the ratio refers to the held wheel without vibration, {rest.wheel_torque:.4g} N m: "
+            "friction of the worm that stands is not that of the worm that slid"
+        )
+    elif rest.marched:
+        notes.append(
+            "without vibration the drive shakes by itself, since friction falls with the speed: "
+            f"ratios refer to the mean of that, {rest.torque:.4g} N m, where steady sliding would "
+            f"take {model.worm_torque:.4g} N m"
+        )
+    if off is not None and off.ratio > WANTED and judged.settled:
+        notes.append(_of_step(problem, off))
+    mode, frequency = model.tooth_mode, problem.vibrated[1].frequency
+    if mode is not None and frequency > _QUASI_STATIC * mode:
+        notes.append(
+            f"the teeth are quasi-static, but the vibration's {1e-3 * frequency:.3g} kHz are more "
+            f"than a third of their lowest mode, {1e-3 * mode:.3g} kHz at least: their inertia "
+            "counts"
+        )
+    if model.pitch is not None and problem.drive.protocol not in WORM_ALONE:
+        cycles = model.pitch * problem.vibrated[1].frequency
+        if judged.cycles < 2.5 * cycles:
+            notes.append(
+                f"means over {judged.cycles / cycles:.2g} of a pitch of the teeth: before one is "
+                "over elastic teeth do not repeat; a longer solve.duration takes them all in"
+            )
+    if problem.actuator is not None and problem.mode == "wheel-axial":
+        notes.append("what the actuator takes is not told: the mass of the wheel is not known")
+    hidden = []
+    if problem.shaft.torsion is None:
+        hidden.append("torsion (a soft shaft lets the worm give way as it turns)")
+    if problem.shaft.axial is None:
+        hidden.append("axial bearing and seat (a soft seat takes an axial vibration over)")
+    if problem.shaft.diameter is None or problem.shaft.span is None:
+        hidden.append("bending of the worm's shaft (often more than the teeth give)")
+    if hidden:
+        notes.append(f"rigid: {'; '.join(hidden)}")
+    return tuple(notes)
+
+
+def _of_step(problem: DriveProblem, off: StepError) -> str:
+    """Return the line about a step that is too long, or a motion that is like no other."""
+    found = f"the step makes an error of about {100.0 * off.ratio:.2g} % of the ratio"
+    if not math.isfinite(off.ratio):
+        found = "steps twice as long leave the finite numbers"
+    if problem.solve.step is not None:
+        return f"{found}: give a smaller solve.step, or none to have it chosen"
+    return (
+        f"{found}, or the motion parts from its like by itself within a block of cycles; its mean "
+        "over three of them is what stays"
+    )

@@ -1,0 +1,59 @@
+"""Whether an answer has settled, by what that shows, and the error its step makes: said once.
+
+What has not settled is no prediction: whoever shows it marks it, and whoever chooses among answers
+leaves it out.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from asperity.results.quantity import quantity
+
+MARK = "*"
+"""Behind a number that has not settled, in a table."""
+
+
+class Standing(NamedTuple):
+    """Whether something has settled.
+
+    Attributes
+    ----------
+    settled : bool
+        Whether it stays as it is.
+    settled_by : str
+        What shows it, or what is missing.
+    """
+
+    settled: bool
+    settled_by: str
+
+    @classmethod
+    def of(cls, missing: Sequence[str], shown: str) -> "Standing":
+        """Return that of what lacks some things; of what lacks none, with what shows that."""
+        return cls(not missing, "; ".join(missing) or shown)
+
+
+def whether_settled() -> Any:
+    """Declare the field that says whether an answer has settled."""
+    return quantity("", "", "whether it has settled")
+
+
+def by_what() -> Any:
+    """Declare the field that says what shows it, or what is missing."""
+    return quantity("", "", "settled by", shown=False)
+
+
+def error_of_step() -> Any:
+    """Declare the field of the error that the step makes, of what the answer is asked for."""
+    return quantity("", "", "error of the ratio from the step", default=None)
+
+
+def unsettled(answer: object) -> str:
+    """Return what an answer lacks for a prediction; empty where it has settled or cannot."""
+    return "" if getattr(answer, "settled", True) else str(getattr(answer, "settled_by", ""))
+
+
+def told(answer: object) -> tuple[str, ...]:
+    """Return what stands above the numbers of an answer that has not settled."""
+    missing = unsettled(answer)
+    return (f"Not settled, no prediction: {missing}.",) if missing else ()

@@ -1,0 +1,81 @@
+"""Whether an answer has settled is a field of it, which all who show or use it heed."""
+
+import pytest
+from observe import new_cache
+
+from asperity.casefile import read_case
+from asperity.results import read
+from asperity.slider import TABLES, Model, solve, solve_many
+from asperity.sweep import run
+
+EARLY = "solve.duration=0.3 s", "vibration.start=10 ms"
+SHORT = *EARLY, "vibration.velocity_ratio=0.5"
+
+
+def body(*settings, name="table-4.3"):
+    return Model.from_case(read_case(name, TABLES, settings))
+
+
+@pytest.mark.parametrize("method", ["march", "periodic", "homogenised"])
+def test_a_body_in_a_lasting_state_has_settled(method):
+    answer = solve(body(f"solve.method={method}", "solve.duration=1 s"), history=False)
+    assert answer.settled, answer.settled_by
+    assert answer.settled_by
+    assert not answer.headline()
+
+
+def test_a_march_that_is_too_short_has_not_settled_and_says_so_above_its_numbers():
+    answer = solve(body(*SHORT), history=False)
+    assert not answer.settled
+    assert "the halves of the window differ" in answer.settled_by
+    assert answer.settled_by in answer.headline()[0]
+
+
+def test_a_vibration_that_still_grows_has_not_settled():
+    answer = solve(body("vibration.ramp=0.1 s", "vibration.start=0 s", "solve.duration=0.12 s"))
+    assert not answer.settled
+    assert "grows into the window" in answer.settled_by
+
+
+def test_many_bodies_settle_as_each_by_itself():
+    bodies = [body(*SHORT), body(*EARLY), body(*SHORT)]
+    for one, of_many in zip(bodies, solve_many(bodies), strict=True):
+        alone = solve(one, history=False)
+        assert (of_many.settled, of_many.settled_by) == (alone.settled, alone.settled_by)
+
+
+def test_files_and_json_say_whether_and_by_what(tmp_path):
+    answer = solve(body(*SHORT), history=False)
+    told = answer.to_json()
+    assert told["settled"] is False
+    assert told["settled_by"] == answer.settled_by
+    assert "step_error" in told
+    attributes = read(answer.save(tmp_path / "slide.nc")).to_dataset().attrs
+    assert attributes["settled"] == 0
+    assert attributes["settled_by"] == answer.settled_by
+
+
+class TestASweep:
+    @pytest.fixture(scope="class", autouse=True)
+    @staticmethod
+    def swept(tmp_path_factory):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("ASPERITY_CACHE", str(new_cache(tmp_path_factory.mktemp("user"))))
+            yield run(read_case("table-4.3", TABLES, EARLY), ["vibration.velocity_ratio=0.5,6"])
+
+    def test_has_a_variable_of_what_has_settled(self, swept):
+        assert swept.arrays["settled"].tolist() == [0.0, 1.0]
+        assert swept.to_dataset()["settled"].values.tolist() == [0.0, 1.0]
+        assert swept.to_json()["settled"] == [0.0, 1.0]
+
+    def test_marks_the_points_that_have_not_in_its_table(self, swept):
+        (table,) = swept.tables()
+        shown = [row[-1].endswith("*") for row in table.rows]
+        assert shown == [True, False]
+        assert any(remark.startswith("* 1 point has not settled") for remark in table.remarks)
+
+    def test_and_in_its_picture(self, swept):
+        (panel,) = swept.figure().axes
+        assert [text.get_text() for text in panel.get_legend().get_texts()] == ["not settled"]
+        crosses = [line for line in panel.lines if line.get_marker() == "x"]
+        assert [line.get_xdata().tolist() for line in crosses] == [[0.5]]
