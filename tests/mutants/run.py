@@ -33,6 +33,8 @@ _NOT_FOUND = re.compile(r"^ERROR: (?:file or directory )?not found: .*?(tests/.*
 # Exit codes of pytest.
 _NO_SUCH_TEST, _NONE_CHOSEN = 4, 5
 
+_MEMORY = 8 * 2**30
+
 
 class Copy:
     """A copy of the package in which a line at a time is broken, with a cache of its own."""
@@ -99,7 +101,7 @@ class Copy:
         process = subprocess.Popen(
             command, cwd=near.ROOT, env=self._environment, text=True, start_new_session=True,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (round(longest),) * 2),
+            preexec_fn=lambda: _bounded(round(longest)),
         )  # fmt: skip
         try:
             output, _ = process.communicate(timeout=_AT_ALL * longest)
@@ -122,6 +124,12 @@ class Copy:
             for folder in kept.iterdir():
                 if folder.is_dir():
                     (kernels / folder.name).symlink_to(folder)
+
+
+def _bounded(seconds):
+    """Let what a broken line makes endless end, and what it makes boundless."""
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
 
 
 def tried(copy: Copy, mutant, longest: float = LONGEST) -> dict:
