@@ -8,6 +8,8 @@ from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
+BLOCK = 1024
+"""Steps that a march takes at a time."""
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
@@ -67,9 +69,10 @@ class Timetable:
 
     @property
     def quarters(self) -> tuple[int, int, int]:
-        """Steps at which the first three quarters of the window end."""
-        first = (self.window_start + self.middle) // 2
-        return first, self.middle, (self.middle + self.steps) // 2
+        """Steps at which the first three quarters of the window end, in whole blocks."""
+        first = (self.middle - self.window_start) // 2 // BLOCK * BLOCK
+        third = (self.steps - self.middle) // 2 // BLOCK * BLOCK
+        return self.window_start + first, self.middle, self.middle + third
 
 
 def march_standing(model: Model, table: Timetable, residual: float, *, broke: bool) -> Standing:
