@@ -195,7 +195,9 @@ def test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies(tmp_path, metho
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="part", tried_by="test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies")
+@pytest.mark.campaign(
+    over="part", tried_by="test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies"
+)
 @pytest.mark.parametrize("part", range(8))
 @pytest.mark.parametrize("method", ["march", "periodic", "homogenised"])
 def test_a_vibration_of_nothing_changes_nothing(tmp_path, method, part):
