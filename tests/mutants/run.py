@@ -219,7 +219,7 @@ def _try(mutants, longest):
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     # Started in the background, programs are told to ignore it, and tests of Ctrl+C then fail.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    passed, failing = set(), set()
+    passed, failing = {line["by"] for line in results().values()}, set()
     with tempfile.TemporaryDirectory() as folder:
         copy = Copy(Path(folder))
         for mutant in mutants:
