@@ -64,6 +64,10 @@ class Locking(Result):
         "", "rad/s", "mean speed of the wheel under the case's vibration", key="creep_rad_s"
     )
     settled: bool = quantity("", "", "whether that speed stays")
+    settled_by: str = quantity("", "", "settled by", shown=False, default="")
+    step_error: float | None = quantity(
+        "", "", "error of that speed from the step, about", default=None
+    )
     creep_closed_form: float | None = quantity(
         "v_a sin(pi phi/2)", "rad/s", "the same far beyond the threshold",
         key="creep_closed_form_rad_s",
@@ -116,12 +120,10 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     search = _Search(problem, reduced, turn * along * frequency, run)
     amplitudes = _CHART * slip / along
     creeps = search.creeps([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
-    settled = search.settled
+    own = search.last
     notes = list(reduced.notes)
-    if not settled:
-        notes.append(
-            "the creep under the case's vibration has not settled; give a longer solve.duration"
-        )
+    if not own.settled:
+        notes.append(f"the creep under the case's vibration has not settled: {own.settled_by}")
     threshold = None
     if locked:
         threshold = search.threshold(amplitudes, creeps[:-1])
@@ -144,7 +146,9 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         threshold=threshold,
         threshold_closed_form=closed,
         creep=float(creeps[-1]),
-        settled=settled,
+        settled=own.settled,
+        settled_by=own.settled_by,
+        step_error=own.step_error,
         creep_closed_form=limit * problem.amplitude if locked else None,
         amplitude=chart,
         creep_over=creeps[:-1] if locked else creeps,
@@ -178,12 +182,12 @@ class _Search:
         self._unit = unit
         self._run = run
         self._known = run.resume(key(code_key(__name__), asked(problem))) or {}
-        self.settled = False
+        self.last: DriveResult
 
     def creeps(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
         """Return the wheel's mean speed in the load's direction at each amplitude, rad/s.
 
-        Whether the last of them settled is kept.
+        The answer to the last of them is kept.
         """
         shaken = [
             (self._problem.shaken(self._problem.mode, float(amplitude)), self._reduced)
@@ -193,7 +197,7 @@ class _Search:
         for each in found:
             if isinstance(each, AsperityError):
                 raise each
-        self.settled = all(each.settled for each in found[-1:] if isinstance(each, DriveResult))
+        *_, self.last = (each for each in found if isinstance(each, DriveResult))
         speeds = [each.creep for each in found if isinstance(each, DriveResult)]
         if None in speeds:
             raise ConvergenceError("a march without a motor told no creep", reached={})

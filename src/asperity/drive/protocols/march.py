@@ -12,7 +12,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.interface import SOLVED
 from asperity.drive.motion.system import SUMS, System
-from asperity.drive.protocols.judgement import Judgement
+from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
 from asperity.runs.tree import Tree
@@ -273,9 +273,13 @@ class March:
         """Judge three blocks of so many cycles, the last or those before an end; see `settle`."""
         rows = self.rows[:end]
         last = rows[-_BLOCKS * block :]
-        per_block = last.reshape(_BLOCKS, block)
-        means = per_block[measure].sum(axis=1) / per_block["time"].sum(axis=1) / scale
-        spread = float(np.ptp(means))
+        blocks = last.reshape(_BLOCKS, block)
+        if measure == "rolled":
+            means = [steady_speed(one[measure], one["time"]) for one in blocks]
+            scale = max(scale, abs(steady_speed(last[measure], last["time"])))
+        else:
+            means = [mean(one, measure) for one in blocks]
+        spread = float(np.ptp(means)) / scale
         balance = self.balance(last)
         stored = self.into_store(last.size, power, end=rows.size)
         turned = 0.0 if ratio is None else ratio * mean(last, "rolled") / mean(last, "turned") - 1.0

@@ -13,10 +13,10 @@ from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import StepError, sensitive, step_error
-from asperity.drive.protocols.judgement import Judgement
+from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
-from asperity.drive.protocols.rest import Rest, at_rest
+from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
 from asperity.drive.protocols.setup import switched_off, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
@@ -27,6 +27,8 @@ from asperity.runs.key import code_key, key
 
 _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
 _AFTER_SECONDS = 40e-3
+# Of the vibration's own speed, the least by which a creep that has to stay is measured.
+_CREEP = 0.1
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
@@ -71,11 +73,13 @@ def solve_shaken(
             judged, off = _first_cycles(march, window, rest.torque, power), None
         else:
             judged, off, rest = _settled(problem, model, march, rest, stop)
-        creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
+        last = march.rows[-judged.cycles :]
+        creep = steady_speed(last["rolled"], last["time"]) if locked else None
         held = _held_after(problem, model, march, run)
         began = float(march.states[0]["time"])
         if run.detailed:
             shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
+    rest = over_the_same(problem, model, march, judged.cycles, rest)
     answer = _summarise(problem, model, march, judged, rest, off)
     return dataclasses.replace(
         answer,
@@ -130,7 +134,7 @@ def _measured(problem: DriveProblem, rest: Rest, model: ReducedModel) -> tuple[s
     """Return what of a protocol's motion has to stay, and what it is measured by."""
     if problem.drive.protocol == "back-drive":
         speed = problem.velocity / model.point.length or problem.worm_speed
-        return "rolled", speed / model.point.ratio
+        return "rolled", _CREEP * speed / model.point.ratio
     if problem.drive.protocol == "held-wheel":
         return "wheel_torque", problem.load
     return "torque", rest.torque
