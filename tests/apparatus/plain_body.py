@@ -627,8 +627,12 @@ def steps_for(p, frequency, wave):
             needed.append(math.sqrt(stiff / p.mass) / (0.1 * frequency))
     if p.normal != CONSTANT:
         swing = abs(p.base_z) / p.length
-        stiff = p.load / p.length * {LINEAR: 1.0, HERTZ: math.sqrt(1.0 + 2.0 * swing)}.get(
-            p.normal, math.exp(min(2.0 * swing, 6.0))
+        stiff = (
+            p.load
+            / p.length
+            * {LINEAR: 1.0, HERTZ: math.sqrt(1.0 + 2.0 * swing)}.get(
+                p.normal, math.exp(min(2.0 * swing, 6.0))
+            )
         )
         if p.dead:
             needed.append(math.sqrt(stiff / p.mass) / (0.1 * frequency))

@@ -49,7 +49,11 @@ def sensitive(lot, model, window, ratio):
 
 
 def march_against_plain_means(seed, count, folder, **options):
-    """Return the bodies whose march and plain way are apart, and of how many neither decides."""
+    """Return the bodies whose march and plain way are apart, and how many do not tell.
+
+    A march that says that it has not settled is no prediction, wherever it is; most such marches
+    are where the plain way is all the same.
+    """
     apart, undecided = [], 0
     for n, lot in enumerate(lots(seed, count, folder, **options)):
         answer = answered(lot, folder)
@@ -64,7 +68,7 @@ def march_against_plain_means(seed, count, folder, **options):
             abs(load - own.load) <= BAR * max(load, 1.0) + own.error
         ):
             continue
-        if sensitive(lot, answer.model, answer.cycles, own.ratio):
+        if not answer.settled or sensitive(lot, answer.model, answer.cycles, own.ratio):
             undecided += 1
             continue
         apart.append((n, answer.ratio, own.ratio, answer.step_error, load, own.load, lot.toml()))
@@ -185,7 +189,12 @@ def check_that_nothing_changes(seed, count, folder, method):
         if nothing is None or little is None or not (nothing.settled and little.settled):
             continue
         checked += 1
-        assert little.ratio == pytest.approx(nothing.ratio, abs=2e-5), lot.toml()
+        # What has settled in the mean only may be as far away as the halves of its window differ.
+        # Springs are laid out to where the body comes, and are right to 1e-4.
+        most = 2e-4 if nothing.model.friction.model == "springs" else 2e-5
+        most += 2.0 * (nothing.residual + little.residual)
+        ratios = nothing.ratio, little.ratio, nothing.notes, little.notes
+        assert abs(little.ratio - nothing.ratio) <= most, (ratios, lot.toml())
     return checked
 
 
@@ -195,7 +204,9 @@ def test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies(tmp_path, metho
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="part", tried_by="test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies")
+@pytest.mark.campaign(
+    over="part", tried_by="test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies"
+)
 @pytest.mark.parametrize("part", range(8))
 @pytest.mark.parametrize("method", ["march", "periodic", "homogenised"])
 def test_a_vibration_of_nothing_changes_nothing(tmp_path, method, part):
