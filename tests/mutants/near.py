@@ -41,7 +41,7 @@ _REFUSED = re.compile(r"refuse|cannot|asked_for|is_needed|nonsense|interrupted|h
 _RECORDED = 4
 _DEAREST = 20.0  # s, of one test
 _MOST, _LONGEST = 150, 40.0  # tests, and s of all
-_FALLBACK_FILES = 4
+_FEW, _FALLBACK_FILES = 5, 4
 
 
 def nearest(mutant) -> list[str]:
@@ -51,12 +51,15 @@ def nearest(mutant) -> list[str]:
     for function in _readers(mutant):
         tests = kept["near"].get(function, ())
         counts.update({test: _MOST - n for n, test in enumerate(tests)})
-    if not counts:
+    if len(counts) < _FEW:
+        # What is new has few: those of the module's other functions, and files that name it.
+        others = Counter()
         for name, tests in kept["near"].items():
             if name.startswith(f"{mutant.module}:"):
-                counts.update({test: _MOST - n for n, test in enumerate(tests)})
+                others.update({test: _MOST - n for n, test in enumerate(tests)})
+        counts.update(dict.fromkeys(others.keys() - counts.keys(), 0))
     chosen = [kept["tests"][n] for n, _ in counts.most_common(_MOST)]
-    return chosen or _naming(mutant.module)
+    return chosen if len(chosen) >= _FEW else chosen + _naming(mutant.module)
 
 
 @functools.cache

@@ -187,8 +187,8 @@ class Operation(Table):
         if most > self.output_torque * _ROUNDING:
             raise InputError(
                 f"operation.duty_cycle has a part with {most:g} N m; none may exceed "
-                f"operation.output_torque, {self.output_torque:g} N m: raise that, by which strength "
-                "is judged"
+                f"operation.output_torque, {self.output_torque:g} N m: raise that, by which "
+                "strength is judged"
             )
         return self
 

@@ -10,7 +10,8 @@ from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
-from asperity.rating.verdict import NAMES, bar, locking_line, power_lines
+from asperity.rating.standing import NAMES
+from asperity.rating.verdict import bar, locking_line, power_lines
 from asperity.results.quantity import text_of
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table

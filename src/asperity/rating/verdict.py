@@ -291,11 +291,11 @@ def screen(
     shown = 0
     for name, texts in kept.items():
         for text in texts[:_MOST_REMARKS]:
-            said = [textwrap.shorten(f"- {text}", WIDTH, placeholder=" ...")]
-            said = said if name == "remarks" else wrapped(text)
-            room = _MOST_LINES - 1 - sum(map(len, lines.values()))
-            if len(said) <= room:
-                lines[name] += said
+            own = wrapped(text)
+            if name == "remarks":
+                own = [textwrap.shorten(f"- {text}", WIDTH, placeholder=" ...")]
+            if len(own) <= _MOST_LINES - 1 - sum(map(len, lines.values())):
+                lines[name] += own
                 shown += name == "remarks"
     memory = len({entry.key for rating in found.values() for entry in rating if entry.from_memory})
     more = len(kept["remarks"]) - shown

@@ -1,6 +1,7 @@
 """The map of a body's state over a cycle of the vibration, whose fixed point repeats itself."""
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -9,12 +10,19 @@ from asperity.slider import kernels as k
 from asperity.slider.integrators import Pressed, integrator
 from asperity.slider.model import Model
 from asperity.slider.pressed import march_pressed
-from asperity.slider.shooting import ACCEPTED, differentiated, shoot
-from asperity.slider.unknowns import most_unknowns
+from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
+from asperity.slider.unknowns import (
+    most_unknowns,
+    read_unknowns,
+    unknown_scales,
+    write_unknowns,
+)
 from asperity.waveform import cycle_of_wave
 
 UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
+_WATCHED = 64  # cycles of a march that is pushed
+_GONE = 100.0  # times the push: it does not come back
 
 
 class Cycle:
@@ -73,13 +81,49 @@ class Cycle:
         return bool(self.residual <= ACCEPTED)
 
     def multiplier(self) -> float:
-        """Return how much the least stable disturbance grows over the cycle."""
+        """Return how much the least stable disturbance grows over the cycle.
+
+        By differences; but the map has corners, where a difference of one side is no derivative, so
+        that what seems to grow is marched, pushed to either side.
+        """
         if self.q is not None:
             self.jacobian = differentiated(
                 self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
                 self.rises, self.body.no_sums()[0], len(self.jacobian),
             )  # fmt: skip
-        return _growth(self.jacobian)
+        growth, self.mode = _growth(self.jacobian)
+        return self._marched(self.mode) if growth > UNSTABLE else growth
+
+    def _marched(self, mode: FloatArray) -> float:
+        """Return how much a push along a mode grows a cycle in a march, to the worse side."""
+        worst = 0.0
+        for push in (_PUSH, -_PUSH):
+            for n, (size, _) in enumerate(self.pushed(push * mode, _WATCHED)):
+                if not size <= _GONE * _PUSH:
+                    break
+            if not math.isfinite(size):
+                return math.inf
+            worst = max(worst, (size / _PUSH) ** (1.0 / (n + 1)))
+        return worst
+
+    def pushed(self, push: FloatArray, cycles: int) -> Iterator[tuple[float, float]]:
+        """March from the state, pushed in scaled unknowns.
+
+        Yields after each cycle how far it is off, and the mean drive force over mu F_N in it.
+        """
+        body, p, q = self.body, self.body.p, self.q
+        here, there, scales = (np.empty(most_unknowns(self.springs)) for _ in range(3))
+        state, springs, sums = body.kept["state"].copy(), self.springs.copy(), body.no_sums()
+        count = unknown_scales(state, springs, p, q, scales)
+        read_unknowns(state[0], springs, p, q, here)
+        there[:] = here
+        there[:count] += push * scales[:count]
+        write_unknowns(there, p, q, state[0], springs)
+        for _ in range(cycles):
+            run(state[0], springs, p, q, self.increments, self.rises, sums[0])
+            read_unknowns(state[0], springs, p, q, there)
+            off = np.abs(there[:count] - here[:count]) / scales[:count]
+            yield float(off.max(initial=0.0)), float(sums[0]["drive_force"] / sums[0]["steps"])
 
     def record(self) -> FloatArray:
         """March over the cycle; returns what `history_of` takes, a row a step."""
@@ -113,8 +157,16 @@ def _repeated(increments: FloatArray, times: int) -> FloatArray:
     return np.append(np.tile(increments[:-1], times), increments[0])
 
 
-def _growth(jacobian: FloatArray) -> float:
-    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken."""
+def _growth(jacobian: FloatArray) -> tuple[float, FloatArray]:
+    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken.
+
+    And the mode that it is of, its largest number 1.
+    """
     if not jacobian.any():
-        return 0.0
-    return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
+        return 0.0, np.zeros(len(jacobian))
+    growths, modes = np.linalg.eig(jacobian + np.eye(len(jacobian)))
+    place = int(np.argmax(np.abs(growths)))
+    mode = modes[:, place]
+    # Turned so that its real part is its most.
+    mode = (mode / mode[np.argmax(np.abs(mode))]).real
+    return float(np.abs(growths[place])), mode

@@ -13,6 +13,7 @@ from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import ACCEPTED, SETTLING
+from asperity.slider.steady import growth_rate, sticks_and_slips
 from asperity.slider.step_error import error_of_state, refined
 from asperity.slider.summary import history_of, summarise
 
@@ -97,6 +98,8 @@ def _found(model: Model, *, history: bool, judged: bool) -> SlideResult:
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
     cycle = Cycle(model, steps, step)
     found, growth, notes = settle(cycle)
+    if not model.vibrates and (rate := growth_rate(model)) > 0.0:
+        found, notes = False, (sticks_and_slips(rate),)
     if not found:
         raise AperiodicError.of(cycle, notes)
     return answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)

@@ -58,7 +58,11 @@ class Timetable:
         self.steps = whole * parts
         self.window = window * parts
         self.window_start = self.steps - self.window
-        self.middle = self.window_start + window // 2 * parts
+        half = window // 2
+        if self.cycles > 1 and self.cycles % 2:
+            # Half a cycle more or less would tell the halves apart.
+            half = round(self.cycles // 2 / (model.frequency * model.step))
+        self.middle = self.window_start + half * parts
         self.tail = tail * parts
 
 
