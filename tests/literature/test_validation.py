@@ -1,9 +1,9 @@
 """The comparisons that the documentation's page of validation is calculated from.
 
 Sources: closed forms of rigid friction; static friction on a base shaken in any direction, Journal
-of the Japan Society of Precision Engineering, 1967; S. Dong, M. J. Dapino 2015; Shigley's Mechanical Engineering Design, example 15-3; a
-public report of a commercial program for DIN 3996; published gearsets, each with its source in
-``docs/published_gearsets.toml``.
+of the Japan Society of Precision Engineering, 1967; S. Dong, M. J. Dapino 2015; Shigley's
+Mechanical Engineering Design, example 15-3; a public report of a commercial program for DIN 3996;
+published gearsets, each with its source in ``docs/published_gearsets.toml``.
 """
 
 import importlib.util
