@@ -1,9 +1,9 @@
 """Worm gearsets of others, and how far the numbers that rate them can be trusted.
 
-Sources: a catalogue of worm gearboxes of the NMRV kind (rated torques and efficiencies at 1400 rpm; its
-starts and teeth, and a worm of 0.43 centre distances, are from memory); R. Mott, Machine Elements in
-Mechanical Design, 4th edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal, Machine Design,
-example 28-2.
+Sources: a catalogue of worm gearboxes of the NMRV kind (rated torques and efficiencies at 1400
+rpm; its starts and teeth, and a worm of 0.43 centre distances, are from memory); R. Mott, Machine
+Elements in Mechanical Design, 4th edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal,
+Machine Design, example 28-2.
 """
 
 import importlib

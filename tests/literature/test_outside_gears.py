@@ -1,9 +1,10 @@
 """Worm gearsets of others against the three standards, and how far numbers can be trusted.
 
-Sources: a catalogue of worm gearboxes of the NMRV kind, at 1400 rpm (ratios 7.5 to 100; starts, teeth and
-the worm's size from memory); R. Mott, Machine Elements in Mechanical Design, 4th edition, examples 10-7
-and 10-8; U. C. Jindal, Machine Design, example 28-2 (tooth heights of BS 721); J. Carvill, Mechanical
-Engineer's Data Handbook, 2.10.6, RoyMech and JGMA 405-01 for efficiency by mu/cos(alpha_n).
+Sources: a catalogue of worm gearboxes of the NMRV kind, at 1400 rpm (ratios 7.5 to 100; starts,
+teeth and the worm's size from memory); R. Mott, Machine Elements in Mechanical Design, 4th
+edition, examples 10-7 and 10-8; U. C. Jindal, Machine Design, example 28-2 (tooth heights of BS
+721); J. Carvill, Mechanical Engineer's Data Handbook, 2.10.6, RoyMech and JGMA 405-01 for
+efficiency by mu/cos(alpha_n).
 """
 
 import importlib.util
