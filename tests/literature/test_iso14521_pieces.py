@@ -1,7 +1,8 @@
 """Every piece of two formulas of ISO/TR 14521 alone: what no sum of all of them would show.
 
-Sources: DIN 3996:1998 (parameter of the mean contact stress) and ISO/TR 14521:2010 (least film), as two
-open ports of one commercial program print them; the numbers here are worked out by hand from the print.
+Sources: DIN 3996:1998 (parameter of the mean contact stress) and ISO/TR 14521:2010 (least film), as
+two open ports of one commercial program print them; the numbers here are worked out by hand from
+the print.
 """
 
 import math
