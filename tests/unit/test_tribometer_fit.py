@@ -273,7 +273,13 @@ REFUSED = {
     "ratio and force": (
         "vibration.velocity_ratio,ratio,force [N],sd\n2,0.5,3,0.1\n", ["keep one of them"]
     ),
-    "no sd": ("vibration.velocity_ratio,ratio\n2,0.5\n", ["'sd'"]),
+    "no sd and nothing to tell it from": (
+        "vibration.velocity_ratio,ratio\n2,0.5\n3,0.4\n", ["no column sd", "free fewer"]
+    ),
+    "sd of a condition alone": (
+        "vibration.velocity_ratio,ratio,sd vibration.velocity_ratio\n2,0.5,0.1\n",
+        ["without 'sd'", "give both"],
+    ),
     "an unknown key": ("vibration.velocity_rato,ratio,sd\n2,0.5,0.01\n", ["velocity_ratio"]),
     "no unit": ("vibration.frequency,ratio,sd\n2,0.5,0.01\n", ["unit", "kHz"]),
     "a wrong unit": ("vibration.frequency [kg],ratio,sd\n2,0.5,0.01\n", ["row 2", "kg"]),

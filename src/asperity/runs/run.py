@@ -20,6 +20,7 @@ Watch = Callable[[Callable[[], Any]], None]
 # looked at for a while. The estimate wavers, so the line is drawn a little lower.
 _LONG_SECONDS = 50.0
 _LOOK_SECONDS = 2.0
+_SHORT_SECONDS = 5.0  # that are left, and not worth a line
 
 
 def duration(seconds: float) -> str:
@@ -120,7 +121,7 @@ class Run:
         if self._announced or now - began < _LOOK_SECONDS or not 1 < before < steps:
             return
         left = (now - since) / (steps - before) * (total - done)
-        if now - began + left > _LONG_SECONDS:
+        if left > _SHORT_SECONDS and now - began + left > _LONG_SECONDS:
             self._announced = True
             self.notify(f"this will take about {duration(left)}")
 

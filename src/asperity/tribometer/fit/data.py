@@ -20,6 +20,8 @@ _HEAD = re.compile(rf"\s*(?:(sd)\s+)?({KEY}|[A-Za-z_][\w-]*){UNIT}")
 
 Value = float | str
 
+_SHARE = 0.01  # of the largest value, for a deviation that is not known
+
 
 @dataclasses.dataclass(frozen=True)
 class Measurements:
@@ -32,7 +34,10 @@ class Measurements:
     forces : bool
         Whether forces were measured, in N, or ratios.
     values, deviations : ndarray
-        What was measured, and its standard deviation.
+        What was measured, and its standard deviation; of a table without deviations a
+        hundredth of the largest value, for each.
+    weighed : bool
+        Whether the table has deviations.
     conditions : tuple of dict
         Of each row: values in SI and words by ``table.key``.
     uncertain : mapping of str to ndarray
@@ -48,6 +53,7 @@ class Measurements:
     conditions: tuple[dict[str, Value], ...]
     uncertain: dict[str, FloatArray]
     rows: tuple[int, ...]
+    weighed: bool = True
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -102,11 +108,12 @@ def read_measurements(path: Path, case: Case) -> Measurements:
     measured = [one for one in columns if one.key in (RATIO, FORCE)]
     if len(measured) > 1:
         raise InputError(f"{name}: the columns hold 'ratio' and 'force'; keep one of them")
-    if len(measured) != 1 or (DEVIATION, False) not in seen:
+    if len(measured) != 1:
         raise InputError(
-            f"{name}: the columns must hold 'ratio' or 'force [N]', and 'sd', its standard "
-            "deviation"
+            f"{name}: the columns must hold 'ratio' or 'force [N]', and may hold 'sd', its "
+            "standard deviation"
         )
+    weighed = (DEVIATION, False) in seen
     columns = [_as(measured[0], one) if one.key == DEVIATION else one for one in columns]
     if measured[0].key == RATIO and any(one.key == DEVIATION and one.unit for one in columns):
         raise InputError(f"{name}: the column sd has a unit beside 'ratio'; leave it out")
@@ -125,10 +132,17 @@ def read_measurements(path: Path, case: Case) -> Measurements:
     for key in uncertain:
         if (key, False) not in seen:
             raise InputError(f"{name}: 'sd {key}' is there without a column {key}")
-    deviations = np.array([row[DEVIATION, False] for row in table], dtype=float)
+        if not weighed:
+            raise InputError(
+                f"{name}: 'sd {key}' is there without 'sd', the deviation of what is measured; "
+                "give both, or neither"
+            )
+    deviations = np.full(len(table), _SHARE * float(np.abs(values).max()) or _SHARE)
+    if weighed:
+        deviations = np.array([row[DEVIATION, False] for row in table], dtype=float)
     return Measurements(
         name, measured[0].key == FORCE, values, deviations, tuple(conditions), uncertain,
-        tuple(number for number, _ in lines[1:]),
+        tuple(number for number, _ in lines[1:]), weighed,
     )  # fmt: skip
 
 

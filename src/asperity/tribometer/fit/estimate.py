@@ -61,6 +61,10 @@ class Estimate:
         """Sum of the squares."""
         return float(self.residuals @ self.residuals)
 
+    def scaled(self, factor: float) -> "Estimate":
+        """Return it for deviations that are a factor larger."""
+        return Estimate(self.point, self.residuals / factor, self.slopes / factor)
+
     @property
     def covariance(self) -> FloatArray:
         """Of the logarithms, by the slopes; large where these say nothing."""
@@ -118,6 +122,10 @@ class Fit:
         """Return the residuals at a point."""
         self.evaluations += 1
         return self._forward(point)
+
+    def of(self, weighed: Forward) -> "Fit":
+        """Return the fit of something that follows from these residuals, row by row."""
+        return Fit(lambda point: weighed(self.residuals(point)), self._lower, self._upper)
 
     def slopes(self, point: FloatArray, here: FloatArray) -> FloatArray:
         """Return the residuals' slopes, by differences away from a bound."""

@@ -10,6 +10,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import AsperityError, ConvergenceError, InputError
+from asperity.results.settled import unsettled
 from asperity.runs import Run
 from asperity.slider.batch import solve_many
 from asperity.slider.model import Model
@@ -64,6 +65,10 @@ class Predictor:
         for place, answer in enumerate(answers):
             if isinstance(answer, AsperityError):
                 why[place] = str(answer)
+                continue
+            if missing := unsettled(answer):
+                # What has not settled is no prediction.
+                why[place] = f"the model has not settled there: {missing}"
                 continue
             self.marched += any(_MARCHED in note for note in answer.notes)
             values[place] = _force_of(answer) if self.forces else _ratio_of(answer)

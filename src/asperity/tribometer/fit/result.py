@@ -1,6 +1,7 @@
 """The answer of ``asperity fit``: parameters with their intervals, laws, what to measure next."""
 
 import dataclasses
+import itertools
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -88,6 +89,7 @@ class FitResult(Result):
     laws: tuple[Law, ...]
     proposed: tuple[Proposed, ...]
     failed: tuple[dict[str, Any], ...]
+    outliers: tuple[dict[str, Any], ...]
     law: str = quantity("", "", "friction law")
     points: int = quantity("", "", "measurements that were fitted")
     chi2: float = quantity("chi2", "", "sum of squared residuals over their deviations")
@@ -95,6 +97,9 @@ class FitResult(Result):
     solves: int = quantity("", "", "bodies solved")
     evaluations: int = quantity("", "", "evaluations of the data set")
     marched: int = quantity("", "", "bodies marched, for lack of a periodic state")
+    deviation_known: bool = quantity(
+        "", "", "whether standard deviations were given, or are what the residuals show"
+    )
     measured: FloatArray = quantity("", "", "measured", dims=("row",))
     deviation: FloatArray = quantity("", "", "standard deviation of it", dims=("row",))
     predicted: FloatArray = quantity("", "", "by the fitted law", dims=("row",))
@@ -115,6 +120,7 @@ class FitResult(Result):
                 for one in self.proposed
             ],
             "failed": list(self.failed),
+            "outliers": list(self.outliers),
         }  # fmt: skip
         told: dict[str, Any] = plain(own)
         return super().to_json() | told
@@ -145,8 +151,9 @@ class FitResult(Result):
             ("law", "chi2", "degrees of freedom", "more than the best"),
             [(one.law, one.chi2, str(one.dof), one.delta_chi2) for one in self.laws],
         )
+        shown = found, laws, *self._strong()
         if not self.proposed:
-            return found, laws
+            return shown
         keys = list(self.proposed[0].conditions)
         further = [
             (*(one.conditions[key] for key in keys),
@@ -159,9 +166,21 @@ class FitResult(Result):
         conditions = [one.conditions for one in self.proposed]
         again = any(one in conditions[:place] for place, one in enumerate(conditions))
         remarks = ("the same conditions again are one measurement, repeated",) if again else ()
-        return found, laws, Table.of(heads, further, title=title, left=0, remarks=remarks)
+        return *shown, Table.of(heads, further, title=title, left=0, remarks=remarks)
+
+    def _strong(self) -> tuple[Table, ...]:
+        """Return the table of parameters that go together, if any do."""
+        keys = [one.key for one in self.parameters]
+        rows = [
+            (keys[one], keys[other], f"{self.correlation[one, other]:+.3f}")
+            for one, other in itertools.combinations(range(len(keys)), 2)
+            if abs(self.correlation[one, other]) > _STRONG
+        ]
+        heads = "parameter", "goes with", "correlation"
+        return (Table.of(heads, rows, left=2),) if rows else ()
 
 
+_STRONG = 0.9  # correlation
 _WIDE = 3.0  # relative deviation that tells nothing
 
 

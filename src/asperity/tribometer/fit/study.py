@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -18,7 +19,9 @@ from asperity.tribometer.fit.design import proposals
 from asperity.tribometer.fit.estimate import Estimate, Fit
 from asperity.tribometer.fit.forward import BLOCK, DRIVE, SLIDE, Predictor, prepared
 from asperity.tribometer.fit.free import Free
-from asperity.tribometer.fit.result import FitResult, Law, Parameter, Proposed
+from asperity.tribometer.fit.outliers import Spoilt, spoilt
+from asperity.tribometer.fit.result import FitResult, Law, Proposed
+from asperity.tribometer.fit.words import improbable, notes, parameter_of, told_of
 from asperity.tribometer.parameters import Rig
 
 _LAW = "friction.law"
@@ -26,9 +29,13 @@ _LAW = "friction.law"
 _BODIES = {SLIDE: ("slider", Rig.table), BLOCK: ("block",), DRIVE: ("drive",)}
 _STEP = 1e-3  # of an uncertain condition, for its slope
 _MOST_NEXT = 100
-_CORRELATED, _AS_ONE = 0.95, 0.999
+_LEAST = 1e-4  # deviation that is estimated, of what is assumed
+_OUTSIDE = 0.05  # of what is, of intervals
+_AN_END = 30  # evaluations of the data set, for an end of an interval
+_DEEPER = 3  # times that intervals are begun anew
+_LOWER = 0.02  # of the rise to an end, by which another fit is better
+_STRIKING = 2.0  # deviations
 _ALIKE = 0.01  # of chi-square, by which laws do not differ
-_UNLIKELY = 0.05
 
 
 @dataclasses.dataclass(frozen=True)
@@ -76,6 +83,12 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
     if len({one.key for one in found}) < len(found):
         raise InputError(f"--free {free}: a key is there twice; name each once")
     points = len(measured.values)
+    if points == len(found) and not measured.weighed:
+        raise InputError(
+            f"{measured.name} has no column sd, and {points} measurements for {len(found)} free "
+            "parameters leave no residuals that would show their deviation; give sd, free fewer, "
+            "or measure more"
+        )
     if points < len(found):
         raise InputError(
             f"{measured.name} holds {points} measurements, fewer than the {len(found)} free "
@@ -129,6 +142,7 @@ class _Data:
         self.deviations = problem.data.deviations
         values, why = predict(problem.data.conditions, self.given(self.start))
         self.answered: BoolArray = np.isfinite(values)
+        self.left_out = tuple(why.items())
         self.failed = tuple(
             {"row": problem.data.rows[place], "law": law, "why": reason}
             for place, reason in why.items()
@@ -215,6 +229,7 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         No law's fit converges, or the model answers fewer measurements than there are parameters.
     """
     total, done = len(problem.laws) + 2 * len(problem.free), 0
+    first = time.monotonic()
 
     def looked() -> None:
         run.checkpoint(done, total, what="fits and ends of intervals")
@@ -233,16 +248,26 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         if not fitted:
             raise next(iter(failed.values()))
         law = _chosen(problem, fitted)
-        chosen = fitted[law]
-        ends = []
-        for place in range(len(problem.free)):
-            both = []
-            for side in (-1, 1):
-                both.append(chosen.fit.end(chosen.best, place, side))
-                done += 1
-            ends.append((both[0], both[1]))
+        if not problem.data.weighed:
+            fitted = _by_residuals(fitted, law)
+        began = sum(one.fit.evaluations for one in fitted.values())
+        each = (time.monotonic() - first) / max(began, 1)
+        ends_of = 2 * len(problem.free)
+        run.forecast(each * _AN_END * ends_of, f"{ends_of} ends of intervals")
+        for _ in range(_DEEPER):
+            ends = []
+            done = len(problem.laws)
+            for place in range(len(problem.free)):
+                both = []
+                for side in (-1, 1):
+                    both.append(fitted[law].fit.end(fitted[law].best, place, side))
+                    done += 1
+                ends.append((both[0], both[1]))
+            if not _deeper(fitted, law):
+                break
     evaluations = sum(one.fit.evaluations for one in fitted.values())
-    found = _result(problem, predict, fitted, law, ends, evaluations)
+    ruined = _ruined(problem, fitted[law])
+    found = _result(problem, predict, fitted, law, ends, evaluations, ruined)
     if not failed:
         return found
     return dataclasses.replace(
@@ -278,6 +303,48 @@ def _fit(problem: FitProblem, predict: Predictor, law: str, start: FloatArray | 
     return _Fitted(data, fit, best)
 
 
+def _by_residuals(fitted: Mapping[str, _Fitted], law: str) -> dict[str, _Fitted]:
+    """Take for the deviation of every measurement what the residuals under a law show."""
+    from scipy.stats import t
+
+    freedom = _freedom(fitted[law])
+    if freedom < 1:
+        raise ConvergenceError(
+            "as many measurements have an answer as there are free parameters, which leaves no "
+            "residuals that would show their deviation; give a column sd, or free fewer"
+        )
+    scale = max(math.sqrt(fitted[law].best.chi2 / freedom), _LEAST)
+    found = {}
+    for name, one in fitted.items():
+        one.data.deviations = one.data.deviations * scale
+        one.fit.rise = float(t.isf(0.5 * _OUTSIDE, freedom)) ** 2
+        best = one.fit.least(one.best.point) if name == law else one.best.scaled(scale)
+        found[name] = dataclasses.replace(one, best=best)
+    return found
+
+
+def _deeper(fitted: dict[str, _Fitted], law: str) -> bool:
+    """Fit again from where the way to an end has met a lower chi-square; whether it has."""
+    one = fitted[law]
+    lowest = one.fit.lowest
+    if lowest is None or lowest.chi2 > one.best.chi2 - _LOWER * one.fit.rise:
+        return False
+    fitted[law] = dataclasses.replace(one, best=one.fit.least(lowest.point))
+    one.fit.lowest = None
+    one.fit.walls.clear()
+    return True
+
+
+def _ruined(problem: FitProblem, one: _Fitted) -> Spoilt | None:
+    """Return which rows spoil a fit, where it is not as it should be."""
+    weighed = problem.data.weighed
+    if weighed and not improbable(one.best.chi2, _freedom(one)):
+        return None
+    if not weighed and float(np.abs(one.best.residuals).max()) < _STRIKING:
+        return None
+    return spoilt(one.fit, one.best, one.data.start, weighed)
+
+
 def _result(
     problem: FitProblem,
     predict: Predictor,
@@ -285,6 +352,7 @@ def _result(
     law: str,
     ends: Sequence[tuple[float | None, float | None]],
     evaluations: int,
+    ruined: Spoilt | None,
 ) -> FitResult:
     chosen = fitted[law]
     data, best = chosen.data, chosen.best
@@ -292,6 +360,8 @@ def _result(
     correlation = best.correlation
     values = problem.data.values[data.answered]
     deviations = data.deviations[data.answered]
+    answered = np.flatnonzero(data.answered).tolist()
+    outliers = ruined.outliers if ruined is not None else ()
     proposed: list[Proposed] = []
     if problem.further:
         proposed = proposals(
@@ -300,7 +370,8 @@ def _result(
         )  # fmt: skip
     return FitResult(
         parameters=tuple(
-            _parameter(problem, best, correlation, place, both) for place, both in enumerate(ends)
+            parameter_of(problem, best, correlation, ends, chosen.fit.walls, place)
+            for place in range(len(ends))
         ),
         correlation=correlation,
         laws=tuple(
@@ -312,69 +383,7 @@ def _result(
         law=law, points=len(values), chi2=best.chi2, dof=_freedom(chosen), solves=predict.solves,
         evaluations=evaluations, marched=predict.marched, measured=values, deviation=deviations,
         predicted=values - best.residuals * deviations, residuals=best.residuals,
-        notes=tuple(_notes(predict, chosen)),
+        outliers=tuple(told_of(problem, answered[one.place], one, deviations) for one in outliers),
+        deviation_known=problem.data.weighed,
+        notes=tuple(notes(problem, predict, best, answered, data.left_out, ruined, deviations)),
     )  # fmt: skip
-
-
-def _parameter(
-    problem: FitProblem,
-    best: Estimate,
-    correlation: FloatArray,
-    place: int,
-    ends: tuple[float | None, float | None],
-) -> Parameter:
-    one = problem.free[place]
-    low, high = (None if end is None else math.exp(end) for end in ends)
-    others = np.abs(correlation[place])
-    others[place] = 0.0
-    partner = int(np.argmax(others)) if len(others) > 1 else place
-    with_it = float(correlation[place, partner]) if partner != place else 0.0
-    why = ""
-    if float(np.abs(best.slopes[:, place]).max()) <= 1e-9:
-        why = "the data do not depend on it at all"
-        if one.key == "friction.mu" and not problem.data.forces:
-            why += ": a ratio of a rigid drive has no mu in it, forces have"
-    elif abs(with_it) > _AS_ONE:
-        why = f"only together with {problem.free[partner].key}: the data see one number of both"
-    elif low is None and high is None:
-        why = "chi-square does not rise by 3.84 on either side"
-    elif low is None or high is None:
-        side = "below" if low is None else "above"
-        why = f"the data do not bound it {side}"
-    elif abs(with_it) > _CORRELATED:
-        why = f"goes with {problem.free[partner].key}: correlation {with_it:+.2f}"
-    closed = low is not None and high is not None and abs(with_it) <= _AS_ONE
-    return Parameter(
-        one.key, math.exp(float(best.point[place])), one.quantity.unit, (low, high), closed, why,
-        one.written,
-    )  # fmt: skip
-
-
-def _chance(chi2: float, freedom: int) -> float:
-    from scipy.stats import chi2 as distribution
-
-    return float(distribution.sf(chi2, freedom))
-
-
-def _notes(predict: Predictor, chosen: _Fitted) -> list[str]:
-    notes = []
-    if predict.marched:
-        notes.append(
-            f"{predict.marched} of {predict.solves} bodies had no periodic state and were marched"
-        )
-    if predict.rigid:
-        notes.append(
-            f"{predict.rigid} of {predict.solves} bodies are as good as rigid: their ratios lie "
-            "between rigid friction's closed form and the stiffest contact for which it holds"
-        )
-    if chosen.data.failed:
-        notes.append(f"{len(chosen.data.failed)} measurements have no answer and are left out")
-    freedom = _freedom(chosen)
-    chance = _chance(chosen.best.chi2, freedom) if freedom > 0 else 1.0
-    if chance < _UNLIKELY:
-        notes.append(
-            f"chi-square is {chosen.best.chi2:.3g} with {freedom} degrees of freedom, or more in "
-            f"{chance:.1g} of cases if the law and the deviations are right: one of them may not "
-            "be, and the intervals too narrow"
-        )
-    return notes

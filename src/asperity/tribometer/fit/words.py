@@ -1,0 +1,215 @@
+"""What a fit says of itself: of each parameter, of its data, of its law."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.tribometer.fit.estimate import Estimate
+from asperity.tribometer.fit.forward import SLIDE
+from asperity.tribometer.fit.outliers import Outlier, Spoilt
+from asperity.tribometer.fit.result import Parameter
+
+if TYPE_CHECKING:
+    from asperity.tribometer.fit.forward import Predictor
+    from asperity.tribometer.fit.study import FitProblem
+
+_CORRELATED, _AS_ONE = 0.95, 0.999
+_UNLIKELY = 0.05
+_ABOVE = 3.0  # deviations by which a ratio lies above what a law can give
+_MANY = 5  # rows that are named one by one
+
+Ends = Sequence[tuple[float | None, float | None]]
+Walls = dict[tuple[int, int], tuple[float, str]]
+
+
+def parameter_of(
+    problem: "FitProblem", best: Estimate, correlation: FloatArray, ends: Ends, walls: Walls,
+    place: int,
+) -> Parameter:  # fmt: skip
+    """Return a parameter with its interval, and what the data do not tell of it."""
+    one = problem.free[place]
+    low, high = (None if end is None else math.exp(end) for end in ends[place])
+    others = np.abs(correlation[place])
+    others[place] = 0.0
+    partner = int(np.argmax(others)) if len(others) > 1 else place
+    with_it = float(correlation[place, partner]) if partner != place else 0.0
+    why = ""
+    if float(np.abs(best.slopes[:, place]).max()) <= 1e-9:
+        why = "the data do not depend on it at all"
+        if one.key == "friction.mu" and not problem.data.forces:
+            why += ": a ratio of a rigid drive has no mu in it, forces have"
+    elif abs(with_it) > _AS_ONE:
+        why = f"only together with {problem.free[partner].key}: the data see one number of both"
+    elif stopped := [walls[place, side] for side in (-1, 1) if (place, side) in walls]:
+        (reached, reason), *_ = stopped
+        value = one.quantity.text(float(f"{math.exp(reached):.4g}"))
+        why = f"the model answers no further than {value}: {reason}"
+    elif low is None and high is None:
+        why = "chi-square does not rise by 3.84 on either side"
+    elif low is None or high is None:
+        side = "below" if low is None else "above"
+        why = f"the data do not bound it {side}"
+    elif abs(with_it) > _CORRELATED:
+        why = f"goes with {problem.free[partner].key}: correlation {with_it:+.2f}"
+    closed = low is not None and high is not None and abs(with_it) <= _AS_ONE
+    return Parameter(
+        one.key, math.exp(float(best.point[place])), one.quantity.unit, (low, high), closed, why,
+        one.written,
+    )  # fmt: skip
+
+
+def row_of(problem: "FitProblem", place: int) -> str:
+    """Return what a measurement is called."""
+    count = place + 1
+    end = {1: "st", 2: "nd", 3: "rd"}.get(count % 10 if count % 100 not in (11, 12, 13) else 0)
+    return f"the {count}{end or 'th'} measurement (row {problem.data.rows[place]})"
+
+
+def notes(
+    problem: "FitProblem", predict: "Predictor", best: Estimate, answered: Sequence[int],
+    left_out: Sequence[tuple[int, str]], ruined: Spoilt | None, deviations: FloatArray,
+) -> list[str]:  # fmt: skip
+    """Return what a reader of a fit should know, the gravest first.
+
+    Parameters
+    ----------
+    problem : FitProblem
+        What was asked.
+    predict : Predictor
+        How often its model was solved, and how.
+    best : Estimate
+        Where the fit ended.
+    answered : sequence of int
+        Places of the measurements that are fitted.
+    left_out : sequence of (place, why)
+        Those that are not.
+    ruined : Spoilt, optional
+        Those that spoil it.
+    deviations : ndarray
+        Of those that are fitted.
+    """
+    data = problem.data
+    found = []
+    what, unit = ("force", " N") if data.forces else ("ratio", "")
+    for one in ruined.outliers if ruined is not None else ():
+        place = answered[one.place]
+        value = data.values[place]
+        by = value - one.by_others * deviations[one.place]
+        found.append(
+            f"{row_of(problem, place)} spoils the fit: by the others its {what} is {by:.4g}{unit}, "
+            f"measured {value:.4g}{unit}, {one.residual:+.3g} deviations off; look at it, or leave "
+            "it out"
+        )
+    if ruined is not None:
+        them = "them" if len(ruined.outliers) > 1 else "it"
+        values = ", ".join(
+            f"{one.key} {one.quantity.text(float(f'{math.exp(value):.4g}'))}"
+            for one, value in zip(problem.free, ruined.point, strict=True)
+        )
+        found.append(
+            f"without {them} chi-square is {ruined.chi2:.3g} with {ruined.freedom} degrees of "
+            f"freedom, and {values}"
+        )
+    found += _beyond(problem, answered, deviations)
+    found += _improbable(problem, best, ruined)
+    for place, why in left_out[:_MANY]:
+        found.append(f"{row_of(problem, place)} has no answer and is left out: {why}")
+    if len(left_out) > _MANY:
+        found.append(f"{len(left_out)} measurements have no answer and are left out")
+    if predict.marched:
+        found.append(
+            f"{predict.marched} of {predict.solves} bodies had no periodic state and were marched"
+        )
+    if predict.rigid:
+        found.append(
+            f"{predict.rigid} of {predict.solves} bodies are as good as rigid: their ratios lie "
+            "between rigid friction's closed form and the stiffest contact for which it holds"
+        )
+    return found
+
+
+def told_of(
+    problem: "FitProblem", place: int, one: Outlier, deviations: FloatArray
+) -> dict[str, float | int]:
+    """Return a row that spoils a fit, as JSON has it."""
+    value = float(problem.data.values[place])
+    return {
+        "row": problem.data.rows[place],
+        "measurement": place + 1,
+        "measured": value,
+        "by_the_others": value - one.by_others * float(deviations[one.place]),
+        "standardised_residual": one.residual,
+    }
+
+
+def chance(chi2: float, freedom: int) -> float:
+    """Return in how many cases chi-square is as large, if all is as it is taken to be."""
+    from scipy.stats import chi2 as distribution
+
+    return float(distribution.sf(chi2, freedom)) if freedom > 0 else 1.0
+
+
+def improbable(chi2: float, freedom: int) -> bool:
+    """Return whether chi-square says that something is not as it is taken to be."""
+    return chance(chi2, freedom) < _UNLIKELY
+
+
+def _improbable(problem: "FitProblem", best: Estimate, ruined: Spoilt | None) -> list[str]:
+    freedom = best.residuals.size - best.point.size
+    if not problem.data.weighed:
+        return [
+            "without sd all measurements weigh the same, and their deviation is what the "
+            f"residuals show with {freedom} degrees of freedom: chi-square says nothing of the law"
+        ]
+    if freedom == 0:
+        told = "as many parameters as measurements leave nothing that would show a wrong law"
+        if best.chi2 > 1.0:
+            told = (
+                f"chi-square is {best.chi2:.3g} with 0 degrees of freedom, where it should be 0: "
+                "no values of the parameters meet the data; the law is another one, or the rest "
+                "of the case"
+            )
+        return [told]
+    if not improbable(best.chi2, freedom):
+        return []
+    told = (
+        f"chi-square is {best.chi2:.3g} with {freedom} degrees of freedom, or more in "
+        f"{chance(best.chi2, freedom):.1g} of cases if the law and the deviations are right: one "
+        "of them may not be, and the intervals too narrow"
+    )
+    if ruined is None:
+        worst = int(np.argmax(np.abs(best.residuals)))
+        told += (
+            f"; no few rows account for it, the largest residual is {best.residuals[worst]:+.3g}"
+        )
+    return [told]
+
+
+def _beyond(problem: "FitProblem", answered: Sequence[int], deviations: FloatArray) -> list[str]:
+    """Tell of ratios that no law can give, however its parameters are chosen."""
+    data = problem.data
+    if problem.by != SLIDE or data.forces or "normal" in problem.case:
+        return []
+    friction = problem.case.raw.get("friction", {})
+    keys = {*data.keys, *(one.key for one in problem.free)}
+    if friction.get("static_mu") is not None or {"friction.static_mu", "friction.model"} & keys:
+        return []
+    if any(key.startswith("normal.") for key in keys):
+        return []
+    above = [
+        place for n, place in enumerate(answered)
+        if data.values[place] - 1.0 > _ABOVE * deviations[n]
+    ]  # fmt: skip
+    if not above:
+        return []
+    names = ", ".join(str(data.rows[place]) for place in above[:_MANY])
+    more = f" and {len(above) - _MANY} more" if len(above) > _MANY else ""
+    rows, lie = ("rows", "lie") if len(above) > 1 else ("row", "lies")
+    return [
+        f"the ratio of {rows} {names}{more} {lie} above 1 by more than {_ABOVE:g} deviations: no "
+        "law here gives that, under which vibration in the plane of the contact cannot raise "
+        "friction; look at what was measured, or at what the ratio refers to"
+    ]
