@@ -92,8 +92,9 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
         ratio = _closed(alike, fine, cycle, cycle.jacobian)
     other = _closed(alike, coarse, cycle, cycle.jacobian)
     if ratio is None or other is None:
-        return _cycles_again(model, cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
-    return abs(other - ratio) / _ORDER_TWO + _off_corners(model, steps)
+        return _cycles_again(cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
+    off = _off_corners(model, alike, steps, ratio - _ratio(cycle))
+    return abs(other - ratio) / _ORDER_TWO + off
 
 
 def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
@@ -134,26 +135,27 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         one = _closed(alike, fine, end, jacobian, phase)
         other = _closed(alike, coarse, end, jacobian, phase)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
-            return abs(other - one) / _ORDER_TWO + _off_corners(model, asked)
+            off = _off_corners(model, alike, asked, one - ratio)
+            return abs(other - one) / _ORDER_TWO + off
     again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
-    return _cycles_again(model, end, (alike, fine, coarse), phase, again)
+    return _cycles_again(end, (alike, fine, coarse), phase, again)
 
 
 def _cycles_again(
-    model: Model, start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
+    start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
 ) -> float | None:
     """Return the error of the mean friction of so many cycles from a start, on both grids."""
     alike, *counts = grids
     means = []
     for count in counts:
-        trial = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
+        trial = Cycle(alike, count, 1.0 / (count * alike.frequency), phase)
         take_over(trial, start)
         total = 0.0
         for _ in range(cycles):
             _run_once(trial)
             total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
         means.append(total / cycles)
-    error = abs(means[1] - means[0]) / _ORDER_TWO + _off_corners(model, counts[0])
+    error = abs(means[1] - means[0]) / _ORDER_TWO
     return error if math.isfinite(error) else None
 
 
@@ -180,18 +182,23 @@ def _marched_again(
 
 
 def _grids(model: Model, steps: int) -> tuple[Model, int, int]:
-    """Return a body like one whose corners end both of two grids, and the steps of a cycle in each."""
+    """Return a body like one, with corners on both of two grids, and these: steps of a cycle."""
     if not model.meets_corners or model.shape is None:
         return model, 2 * ((steps + 1) // 2), (steps + 1) // 2
     coarse = 4 * max(1, round(0.125 * steps))
     return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse, coarse
 
 
-def _off_corners(model: Model, steps: int) -> float:
-    """Return what corners that steps do not meet may do to a mean force, over mu F_N."""
-    if not model.meets_corners or model.shape is None:
+def _off_corners(model: Model, alike: Model, steps: int, change: float) -> float:
+    """Return the error that is made by putting corners on steps.
+
+    ``change`` is that of the ratio from the wave on these steps to one alike.
+    """
+    if alike is model or model.shape is None or alike.shape is None:
         return 0.0
-    return 2.0 * abs(model.shape.on_corners(steps).rise - model.shape.rise)
+    met = model.shape.on_corners(steps).rise
+    apart = abs(alike.shape.rise - met)
+    return abs(change) * abs(met - model.shape.rise) / apart if apart > 1e-12 else 0.0
 
 
 def _closed(
