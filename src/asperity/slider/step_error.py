@@ -2,8 +2,9 @@
 
 Of a state that repeats itself, the state on twice the step is found with the Jacobian of the first,
 in a few cycles. A march is at its end next to such a state, and both are found from there; where
-there is none, some of its last cycles are marched again on twice the step. All schemes but the
-thesis's are of order two, and a third of the difference is the error.
+there is none, some of its last cycles are marched again on twice the step. Of order two the error
+is a third of the difference, of order one all of it: with low exponents, and at the corners of a
+wave with LuGre friction or under a load that changes.
 """
 
 import dataclasses
@@ -32,7 +33,10 @@ _LEFT = 1e-4  # of the defect, above which a state is not found
 _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 _FINEST = 64  # times finer than by the bounds
-_ORDER_TWO = 3.0  # what the difference is of the error
+_LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
+# What the difference is of the error, by the order.
+_ORDER_ONE = 1.0
+_ORDER_TWO = 3.0
 
 
 def refined(
@@ -94,7 +98,7 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
     if ratio is None or other is None:
         return _cycles_again(cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
     off = _off_corners(model, alike, steps, ratio - _ratio(cycle))
-    return abs(other - ratio) / _ORDER_TWO + off
+    return abs(other - ratio) / _of_the_error(model) + off
 
 
 def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
@@ -136,7 +140,7 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         other = _closed(alike, coarse, end, jacobian, phase)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
             off = _off_corners(model, alike, asked, one - ratio)
-            return abs(other - one) / _ORDER_TWO + off
+            return abs(other - one) / _of_the_error(model) + off
     again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
     return _cycles_again(end, (alike, fine, coarse), phase, again)
 
@@ -155,8 +159,19 @@ def _cycles_again(
             _run_once(trial)
             total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
         means.append(total / cycles)
-    error = abs(means[1] - means[0]) / _ORDER_TWO
+    error = abs(means[1] - means[0]) / _of_the_error(alike)
     return error if math.isfinite(error) else None
+
+
+def _of_the_error(model: Model) -> float:
+    """Return what the difference to a solution on twice the step is of the error of the first."""
+    smooth = model.shape is None or not model.shape.cornered
+    friction = model.friction
+    stiff = friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT
+    if stiff and not (smooth and friction.law == "vector"):
+        return _ORDER_ONE
+    follows = friction.model == "lugre" or model.normal is not None
+    return _ORDER_ONE if follows and not smooth else _ORDER_TWO
 
 
 def _run_once(cycle: Cycle) -> None:
@@ -177,7 +192,7 @@ def _marched_again(
         put(cycle, step, state, springs)
         _run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
-    error = abs(means[1] - means[0]) / _ORDER_TWO
+    error = abs(means[1] - means[0]) / _of_the_error(model)
     return error if math.isfinite(error) else None
 
 
