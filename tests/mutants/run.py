@@ -116,15 +116,17 @@ class Copy:
         return None if out_of_time else process.returncode, output
 
     def _new_cache(self):
-        """Forget all but the kernels that are compiled of the package as it should be."""
+        """Forget all but kernels, which are kept under what they follow from."""
         from asperity.folders import cache_folder
 
-        shutil.rmtree(self._cache, ignore_errors=True)
         kernels = self._cache / "asperity" / "kernels"
-        kernels.mkdir(parents=True, mode=0o700)
-        if (kept := cache_folder("kernels")) is not None:
-            for folder in kept.iterdir():
-                if folder.is_dir():
+        kernels.mkdir(parents=True, mode=0o700, exist_ok=True)
+        for kept in kernels.parent.iterdir():
+            if kept != kernels:
+                shutil.rmtree(kept, ignore_errors=True)
+        if (compiled := cache_folder("kernels")) is not None:
+            for folder in compiled.iterdir():
+                if folder.is_dir() and not (kernels / folder.name).exists():
                     (kernels / folder.name).symlink_to(folder)
 
 
@@ -219,7 +221,7 @@ def _try(mutants, longest):
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     # Started in the background, programs are told to ignore it, and tests of Ctrl+C then fail.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    passed, failing = set(), set()
+    passed, failing = {line["by"] for line in results().values()}, set()
     with tempfile.TemporaryDirectory() as folder:
         copy = Copy(Path(folder))
         for mutant in mutants:

@@ -27,6 +27,7 @@ WANTED = 1e-3
 """Error of a ratio that a step is chosen by, over the ratio."""
 _LEAST_RATIO = 1e-3  # what a ratio is taken as at least, for its error to be small against it
 _CLOSING = 6  # cycles at most to a state on another step
+_MOST_AGAIN = 50  # cycles at most that are run again
 _LEFT = 1e-4  # of the defect, above which a state is not found
 _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
@@ -91,7 +92,7 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
         ratio = _closed(alike, fine, cycle, cycle.jacobian)
     other = _closed(alike, coarse, cycle, cycle.jacobian)
     if ratio is None or other is None:
-        return None
+        return _cycles_again(model, cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
     return abs(other - ratio) / _ORDER_TWO + _off_corners(model, steps)
 
 
@@ -134,18 +135,26 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         other = _closed(alike, coarse, end, jacobian, phase)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
             return abs(other - one) / _ORDER_TWO + _off_corners(model, asked)
-    again = max(1, int(_SHARE * cycles / 2.0))
+    again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
+    return _cycles_again(model, end, (alike, fine, coarse), phase, again)
+
+
+def _cycles_again(
+    model: Model, start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
+) -> float | None:
+    """Return the error of the mean friction of so many cycles from a start, on both grids."""
+    alike, *counts = grids
     means = []
-    for grid in (fine, coarse):
-        trial = Cycle(alike, grid, 1.0 / (grid * model.frequency), phase)
-        take_over(trial, end)
+    for count in counts:
+        trial = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
+        take_over(trial, start)
         total = 0.0
-        for _ in range(again):
+        for _ in range(cycles):
             _run_once(trial)
             total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
-        means.append(total / again)
-    error = abs(means[1] - means[0]) / _ORDER_TWO
-    return error + _off_corners(model, asked) if math.isfinite(error) else None
+        means.append(total / cycles)
+    error = abs(means[1] - means[0]) / _ORDER_TWO + _off_corners(model, counts[0])
+    return error if math.isfinite(error) else None
 
 
 def _run_once(cycle: Cycle) -> None:
@@ -171,16 +180,16 @@ def _marched_again(
 
 
 def _grids(model: Model, steps: int) -> tuple[Model, int, int]:
-    """Return a body like one, and steps of a cycle and half as many; its corners end all of them."""
+    """Return a body like one whose corners end both of two grids, and the steps of a cycle in each."""
     if not model.meets_corners or model.shape is None:
         return model, 2 * ((steps + 1) // 2), (steps + 1) // 2
-    coarse = 2 * max(1, round(0.25 * steps))
+    coarse = 4 * max(1, round(0.125 * steps))
     return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse, coarse
 
 
 def _off_corners(model: Model, steps: int) -> float:
     """Return what corners that steps do not meet may do to a mean force, over mu F_N."""
-    if not model.meets_corners or model.shape is None or model.friction.model != "coulomb":
+    if not model.meets_corners or model.shape is None:
         return 0.0
     return 2.0 * abs(model.shape.on_corners(steps).rise - model.shape.rise)
 
