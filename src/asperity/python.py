@@ -100,6 +100,7 @@ def size(
     rank: str = "size",
     settings: Sequence[str] = (),
     cut: bool = True,
+    locks: str = "",
 ) -> "Proposals":
     """Propose worm gearsets for a ratio, a torque and a speed.
 
@@ -112,9 +113,12 @@ def size(
     rank : {'size', 'efficiency', 'margin'}
         What the first one is best in.
     settings : sequence of str
-        Of materials, lubricant and life, as with ``--set``.
+        Of materials, lubricant and life, as with ``--set``; what they say of starts, teeth, centre
+        distance, module, diameter factor or profile shift is held.
     cut : bool
         Whether to leave out what no hob cuts.
+    locks : {'', 'rest', 'motion'}
+        Whether the worm must lock itself, at rest or in motion.
     """
     from asperity.casefile.case import apply, listed
     from asperity.rating.parameters import Operation
@@ -132,7 +136,7 @@ def size(
         values["operation"][key] = f"{number!r} {quantity.unit}"
     for setting in listed(settings):
         apply(values, setting, case_tables())
-    return proposals(values, ratio_of(ratio), rank, cut=cut)
+    return proposals(values, ratio_of(ratio), rank, cut=cut, locks=locks)
 
 
 def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":

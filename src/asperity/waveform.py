@@ -18,6 +18,7 @@ sampled    periodic cubic spline through     the spline's
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +32,8 @@ SQUARE = 2
 SAMPLED = 3
 STEPS_A_TURN = 16
 NO_TABLE = np.zeros(2)
+# A cycle is divided into up to so many times the steps asked for, for its corners to end steps.
+_MOST_FINER = 4
 
 
 class Wave(NamedTuple):
@@ -141,6 +144,46 @@ class Shape:
     table: FloatArray = dataclasses.field(default_factory=lambda: NO_TABLE)
     ramp: float = 0.0
 
+    @property
+    def cornered(self) -> bool:
+        """Whether the velocity jumps."""
+        return self.code in (TRIANGLE, SQUARE)
+
+    def corners(self) -> FloatArray:
+        """Phases in a quarter of the period at which the velocity jumps; all repeat after half."""
+        if not self.cornered:
+            return np.empty(0)
+        return np.array([0.25] if self.code == TRIANGLE else [0.5 * self.rise])
+
+    def steps_to_corners(self, least: float, missed: float, leads: Sequence[float] = (0.0,)) -> int:
+        """Equal steps of a cycle, an even number, of which some end on its corners.
+
+        Parameters
+        ----------
+        least : float
+            Steps to have at least.
+        missed : float
+            Part of a cycle by which a corner may be missed. The least number of steps is taken
+            that misses none by more, else the one of up to four times as many that misses least.
+        leads : sequence of float
+            Of the waves that are to end steps, in cycles ahead of one that starts at phase 0.
+        """
+        first = 2 * math.ceil(0.5 * least * (1.0 - 1e-9))
+        counts = np.arange(first, _MOST_FINER * first + 2, 2)
+        quarter = self.corners()
+        half = np.concatenate([quarter, 0.5 - quarter])
+        corners = np.concatenate([half - lead for lead in leads])
+        places = np.multiply.outer(counts, corners)
+        apart = np.abs(places - np.round(places)).max(axis=1) / counts
+        met = np.flatnonzero(apart <= missed)
+        return int(counts[met[0] if met.size else np.argmin(apart)])
+
+    def on_corners(self, steps: int) -> "Shape":
+        """Return the wave of the same amplitude whose corners end equal steps of a cycle."""
+        if self.code != SQUARE:
+            return self
+        return dataclasses.replace(self, rise=2.0 * max(1, round(0.5 * self.rise * steps)) / steps)
+
     def wave(self, *, lead: float = 0.0, ramped: bool = True) -> Wave:
         """Return the wave for kernels, ``lead`` cycles ahead; in full from the start if asked."""
         return Wave(self.code, self.rise, self.table, self.ramp if ramped else 0.0, lead)
@@ -153,7 +196,12 @@ class Shape:
 
     def cycle(self, steps: int, lead: float = 0.0) -> FloatArray:
         """Increments of the unit displacement over a cycle's steps and the first of the next."""
-        out = np.empty(steps + 1)
-        # One cycle late, so that the wave's rest before its start is not met.
-        fill_increments(self.wave(lead=lead, ramped=False), 1.0, 1.0 / steps, out)
-        return out
+        return cycle_of_wave(self.wave(lead=lead), steps)
+
+
+def cycle_of_wave(wave: Wave, steps: int) -> FloatArray:
+    """Increments of a wave, in full from the start, over a cycle's steps and one of the next."""
+    out = np.empty(steps + 1)
+    # One cycle late, so that the wave's rest before its start is not met.
+    fill_increments(wave._replace(ramp=0.0), 1.0, 1.0 / steps, out)
+    return out

@@ -47,6 +47,7 @@ CHANGES = (
         for line in ("drive", "flank")
         for place in ("json", f"{line}.json", "*answer*")
     ),
+    ("optimise *", "*json.locking", "whether a design locks itself is told"),
     ("rate *", "rate.html", "the report takes its place"),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
     ("*", "json*.assumed.rating.iso14521_face_width", "b_2H is offered both ways, one is assumed"),

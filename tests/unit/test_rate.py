@@ -31,7 +31,8 @@ FUNCTIONS = {"sqrt", "atan", "tan", "cos", "sin", "asin", "exp", "ln", "lg", "mi
 # Words of an equation that are neither functions nor symbols of numbers in the table: what a text
 # says around them, or the name of a table or of a step that is explained there.
 PLAIN = {
-    "A", "C", "I", "K", "K_R", "K_V", "L", "L_i", "N", "P", "P_Vi", "S_b1", "S_c1", "T", "T_i", "U_i", "W_n",
+    "A", "C", "I", "K", "K_R", "K_V", "L", "L_i", "N", "P", "P_Vi", "S_b1", "S_c1", "T", "T_i",
+    "U_i", "W_n",
     "X_b1", "X_c1", "Z_0", "a", "and", "at", "b_e", "by", "c", "c_0", "c_1", "c_2", "c_k",
     "casting", "cycle", "duty", "else", "fan", "flanks", "for", "form", "h_a1", "h_f1", "h_f2",
     "if", "in", "input", "linear", "n_i", "of", "or", "over", "polynomial", "required", "rho", "s",

@@ -13,6 +13,7 @@ from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction.following import Following
 from asperity.tribometer.reduction.joint import estimate_jointly
+from asperity.tribometer.reduction.levels import estimate_levels
 from asperity.tribometer.tables import TABLES
 
 BLOCK = 0.1  # s: means over it are what the levels are estimated from
@@ -265,3 +266,32 @@ def test_drift_is_not_taken_for_an_effect_of_vibration():
     for place, ratio in enumerate(RATIOS):
         change = following(found, place).torque_change()
         assert change.value == pytest.approx(100.0 * (ratio - 1), abs=0.4)
+
+
+def test_levels_of_which_nothing_else_is_known_have_their_own_intervals():
+    found = joint(NOISES["white"], 1)
+
+    def change(pairs):
+        before, shaken = pairs["torque_steel"]
+        return shaken / before
+
+    alone = found.interval(change, 0, 1, 0.95)
+    none = dict.fromkeys(SIGNALS, np.zeros((2, 2)))
+    assert alone == found.interval(change, 0, 1, 0.95, none)
+    more = found.interval(change, 0, 1, 0.95, {"torque_steel": np.diag([0.0, 1e-4])})
+    before = found.levels["torque_steel"].values[0]
+    assert more.deviation**2 == pytest.approx(alone.deviation**2 + 1e-4 / before**2, rel=1e-5)
+
+
+def test_white_noise_that_vibration_makes_greater_is_greater_in_shaken_windows():
+    rng = np.random.default_rng(7)
+    blocks, windows = 200, 12
+    window = np.repeat(np.arange(windows), blocks)
+    shaken = np.arange(windows) % 2 == 1
+    times = BLOCK * np.arange(window.size)
+    quiet, loud = 1e-3, 3e-3
+    noise = np.where(shaken[window], loud, quiet) * rng.standard_normal(window.size)
+    turned = 2.0 * np.pi * times / 7.0, 2.0 * np.pi * times / 11.0
+    found = estimate_levels(times, 1.0 + noise, turned, window, shaken)
+    expected = np.where(shaken, loud, quiet) ** 2 / blocks
+    assert found.sensed == pytest.approx(expected, rel=0.15)

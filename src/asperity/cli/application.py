@@ -196,6 +196,9 @@ def size(
     rank: Annotated[
         str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
     ] = "size",
+    locks: Annotated[
+        str, typer.Option("--locks", metavar="WHEN", help="rest or motion: it must lock itself.")
+    ] = "",
     uncut: Annotated[
         bool, typer.Option("--uncut", help="Do not look whether a hob cuts each wheel.")
     ] = False,
@@ -205,14 +208,16 @@ def size(
 ) -> None:
     """Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.
 
-    The wheels of those that are shown are cut; the first time of all that takes half a minute.
+    What --set says of starts, teeth, centre distance, module, diameter factor or profile shift is
+    held. The wheels of those that are shown are cut; the first time of all that takes half a
+    minute.
 
     With --out also size.json, size.nc and a case file for each proposal.
     """
     from asperity.cli.new import size as run
 
     asked = {"output_torque": output_torque, "worm_speed": worm_speed}
-    run(ratio, asked, settings or (), rank, cut=not uncut, as_json=as_json, out=out)
+    run(ratio, asked, settings or (), rank, locks, cut=not uncut, as_json=as_json, out=out)
 
 
 @app.command()

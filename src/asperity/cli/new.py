@@ -72,6 +72,7 @@ def size(
     asked: Mapping[str, str],
     settings: Sequence[str],
     rank: str,
+    locks: str,
     *,
     cut: bool,
     as_json: bool,
@@ -83,7 +84,7 @@ def size(
     """
     values = begun()
     _given(values, asked, settings)
-    found = proposals(values, ratio_of(ratio), rank, cut=cut)
+    found = proposals(values, ratio_of(ratio), rank, cut=cut, locks=locks)
     if as_json:
         show.print_json(found.to_json())
     else:
@@ -93,12 +94,17 @@ def size(
         show.note(written)
 
 
+_OTHER_FORMS = ("worm_pitch_diameter", "profile_shift")
+"""Of what a proposal says."""
+
+
 def _written(found: Proposals, values: Values, out: Path) -> str:
     """Write proposals to a folder, each also as a case; returns what is to be said of it."""
     folder = output_folder(out)
     kind, names = kind_of("gear"), found.write(folder, pictures="")
     for place, proposal in enumerate(found.found, 1):
-        mine = {**values, "gearset": {**values["gearset"], **proposal.keys}}
+        kept = {k: v for k, v in values["gearset"].items() if k not in _OTHER_FORMS}
+        mine = {**values, "gearset": {**kept, **proposal.keys}}
         text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
     return f"written to {folder}: {', '.join(names)}"
@@ -119,13 +125,15 @@ def _given(values: Values, asked: Mapping[str, str | None], settings: Sequence[s
 
 def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
     """Fill in the macro-geometry that is not given; returns what is to be said of it."""
-    if any(f"gearset.{key}" in given for key in MACRO):
+    macro = [key for key in MACRO if f"gearset.{key}" in given]
+    if len(macro) >= len(MACRO) - 1:
         return []
     found = proposals(values, ratio, exact=True)
     best = found.found[0]
     # Behind the name, before the materials.
     gearset = values["gearset"]
-    values["gearset"] = {"name": gearset.pop("name", ""), **best.keys, **gearset}
+    kept = {key: value for key, value in gearset.items() if key not in (*MACRO, *_OTHER_FORMS)}
+    values["gearset"] = {"name": kept.pop("name", ""), **best.keys, **kept}
     judged = (
         "the smallest that holds by every standard"
         if found.holding

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.drive.parameters import Drive, Shaft
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
@@ -25,11 +26,13 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult, inputs
 from asperity.drive.solve import prepare as prepare_drive
-from asperity.errors import AsperityError, ConvergenceError
+from asperity.errors import AsperityError, ConvergenceError, InputError
+from asperity.flanks.parameters import Mount
 from asperity.friction import Friction
 from asperity.results import Result, quantity
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
+from asperity.vibration import Vibration
 
 _AMPLITUDES = ("amplitude",)
 # Of the way from rest to full friction, what the chart shows.
@@ -64,6 +67,10 @@ class Locking(Result):
         "", "rad/s", "mean speed of the wheel under the case's vibration", key="creep_rad_s"
     )
     settled: bool = quantity("", "", "whether that speed stays")
+    settled_by: str = quantity("", "", "settled by", shown=False, default="")
+    step_error: float | None = quantity(
+        "", "", "error of that speed from the step, about", default=None
+    )
     creep_closed_form: float | None = quantity(
         "v_a sin(pi phi/2)", "rad/s", "the same far beyond the threshold",
         key="creep_closed_form_rad_s",
@@ -86,10 +93,33 @@ class Locking(Result):
 
 def prepare(case: Case) -> DriveProblem:
     """Return the problem of a case, its motor off; InputError where it cannot be solved."""
+    _require_all(case)
     problem = prepare_drive(case)
     _ = problem.vibrated
     plain = problem.drive.model_copy(update={"protocol": "back-drive"})
     return dataclasses.replace(problem, drive=plain)
+
+
+def _require_all(case: Case) -> None:
+    """Ask for everything that is missing at once; raises InputError."""
+    drive, shaft = case.get(Drive, Drive()), case.get(Shaft, Shaft())
+    missing = []
+    if Friction.table not in case and drive.friction == "constant":
+        missing.append("[friction] (model, 'coulomb' or 'dahl', and mu)")
+    if Vibration.table not in case:
+        missing.append("[vibration] (mode, frequency and an amplitude)")
+    missing += [
+        f"drive.{key} ('{example}')"
+        for key, example in (("load_inertia", "3.2e-3 kg m**2"), ("contact_damping", "0.01 s/m"))
+        if getattr(drive, key) is None
+    ]
+    if drive.worm_inertia is None and (shaft.diameter is None or shaft.span is None):
+        missing.append("shaft.diameter and shaft.span, or drive.worm_inertia")
+    mount = case.get(Mount)
+    if drive.flanks != "driving" and (mount is None or mount.backlash is None):
+        missing.append("mount.backlash ('20 um'), or drive.flanks = 'driving'")
+    if len(missing) > 1:
+        raise InputError(f"{case.source}: these are missing, add them: {'; '.join(missing)}")
 
 
 def answer(problem: DriveProblem, run: Run) -> Locking:
@@ -116,12 +146,10 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     search = _Search(problem, reduced, turn * along * frequency, run)
     amplitudes = _CHART * slip / along
     creeps = search.creeps([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
-    settled = search.settled
+    own = search.last
     notes = list(reduced.notes)
-    if not settled:
-        notes.append(
-            "the creep under the case's vibration has not settled; give a longer solve.duration"
-        )
+    if not own.settled:
+        notes.append(f"the creep under the case's vibration has not settled: {own.settled_by}")
     threshold = None
     if locked:
         threshold = search.threshold(amplitudes, creeps[:-1])
@@ -144,7 +172,9 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         threshold=threshold,
         threshold_closed_form=closed,
         creep=float(creeps[-1]),
-        settled=settled,
+        settled=own.settled,
+        settled_by=own.settled_by,
+        step_error=own.step_error,
         creep_closed_form=limit * problem.amplitude if locked else None,
         amplitude=chart,
         creep_over=creeps[:-1] if locked else creeps,
@@ -178,12 +208,12 @@ class _Search:
         self._unit = unit
         self._run = run
         self._known = run.resume(key(code_key(__name__), asked(problem))) or {}
-        self.settled = False
+        self.last: DriveResult
 
     def creeps(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
         """Return the wheel's mean speed in the load's direction at each amplitude, rad/s.
 
-        Whether the last of them settled is kept.
+        The answer to the last of them is kept.
         """
         shaken = [
             (self._problem.shaken(self._problem.mode, float(amplitude)), self._reduced)
@@ -193,7 +223,7 @@ class _Search:
         for each in found:
             if isinstance(each, AsperityError):
                 raise each
-        self.settled = all(each.settled for each in found[-1:] if isinstance(each, DriveResult))
+        *_, self.last = (each for each in found if isinstance(each, DriveResult))
         speeds = [each.creep for each in found if isinstance(each, DriveResult)]
         if None in speeds:
             raise ConvergenceError("a march without a motor told no creep", reached={})

@@ -118,8 +118,12 @@ def mean_share(
     if before == 0.0 or after == 0.0:
         return share_x, share_y
     if smooth:
-        return (before_x + after_x) / (before + after), (before_y + after_y) / (before + after)
-    return (
-        0.5 * (before_x / before + after_x / after),
-        0.5 * (before_y / before + after_y / after),
-    )
+        mean_x = (before_x + after_x) / (before + after)
+        mean_y = (before_y + after_y) / (before + after)
+    else:
+        mean_x = 0.5 * (before_x / before + after_x / after)
+        mean_y = 0.5 * (before_y / before + after_y / after)
+    # Where friction takes more than the slip that is left, the mean would throw the slip about:
+    # of the two it is the end of the step that holds there.
+    part = after / (after + max(mobility_x, mobility_y))
+    return share_x + part * (mean_x - share_x), share_y + part * (mean_y - share_y)

@@ -27,17 +27,21 @@ class Alternative(NamedTuple):
         The best choice.
     safety : float
         The safety with it.
+    changes : tuple of str
+        What else it changes in the words of the verdict.
     """
 
     key: str
     value: str
     safety: float
+    changes: tuple[str, ...] = ()
 
     def told(self, asked: float, key: str = "") -> Sentence:
         """In words, beside what is asked: beyond ten times that, how far says nothing."""
         much, near = 10.0 * asked, Number.of(self.safety, ".3g", key and f"{key}.safety")
         safety = near if self.safety < much else f"over {much:g}"
-        return Sentence(f"{_WORDS[self.key]} {self.value} (", safety, ")")
+        also = "".join(f"; {change}" for change in self.changes)
+        return Sentence(f"{_WORDS[self.key]} {self.value} (", safety, f"{also})")
 
 
 def alternatives(judge: Judge, gearset: Gearset, operation: Operation) -> tuple[Alternative, ...]:

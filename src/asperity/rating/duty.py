@@ -59,7 +59,9 @@ def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
     whole = math.fsum(depths)
     return tuple(
         DutyPart(
-            *(float(number) for number in part),
+            hours=float(part.hours),
+            torque=float(part.torque),
+            speed=float(part.speed),
             wear=_known(1e3 * depth),
             share=_known(depth / whole if whole else math.nan),
             sump=_known(float(own["theta_S_degC"])),

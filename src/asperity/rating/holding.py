@@ -18,7 +18,7 @@ from asperity.rating.agma6034 import mesh
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
 from asperity.rating.self_locking import SelfLocking, Verdict
-from asperity.rating.verdict import NAMES
+from asperity.rating.standing import NAMES
 from asperity.results.quantity import text_of
 from asperity.results.table import Column, Table
 

@@ -88,7 +88,11 @@ class Operation(Table):
     worm_speed : float or str
         Speed of the worm :math:`n_1`, rad/s.
     output_torque : float or str
-        Rated wheel torque :math:`T_R`, N m: strength is judged by it.
+        Rated wheel torque :math:`T_R`, N m: strength is judged by it. Give this or
+        ``input_power`` or ``input_torque``.
+    input_power, input_torque : float or str, optional
+        Power :math:`P_1`, W, or torque :math:`T_1`, N m, of the worm in place of the wheel's
+        torque, which follows by the losses of ISO/TR 14521 of the gearset as it is.
     through_travel_torque : float or str, optional
         Wheel torque through the travel :math:`T_2`, N m: wear is judged by it. Left out:
         ``output_torque``, or as ``service`` has it. A duty cycle takes its place.
@@ -132,9 +136,17 @@ class Operation(Table):
     alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("wheel_revolutions", "life", "duty_cycle"),
     )
+    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("output_torque", "input_power", "input_torque"),
+    )
 
     worm_speed: Speed
-    output_torque: Torque
+    # Which is never missing where a standard is applied: see asperity.rating.driven.
+    output_torque: Torque = None  # type: ignore[assignment]
+    input_power: Annotated[float, Quantity("W", what="a power", example="0.25 kW", gt=0)] | None = (
+        None
+    )
+    input_torque: Torque | None = None
     through_travel_torque: Torque | None = None
     service: Literal["continuous", "valve"] = "continuous"
     wheel_revolutions: (
@@ -175,6 +187,8 @@ class Operation(Table):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Operation":
+        if self.driven_by:
+            return self
         if (
             self.through_travel_torque is not None
             and self.through_travel_torque > self.output_torque
@@ -187,10 +201,16 @@ class Operation(Table):
         if most > self.output_torque * _ROUNDING:
             raise InputError(
                 f"operation.duty_cycle has a part with {most:g} N m; none may exceed "
-                f"operation.output_torque, {self.output_torque:g} N m: raise that, by which strength "
-                "is judged"
+                f"operation.output_torque, {self.output_torque:g} N m: raise that, by which "
+                "strength is judged"
             )
         return self
+
+    @property
+    def driven_by(self) -> str:
+        """What of the worm is given in place of the torque of the wheel; else empty."""
+        given = (key for key in ("input_power", "input_torque") if getattr(self, key) is not None)
+        return next(given, "")
 
     @property
     def travel_torque(self) -> float:

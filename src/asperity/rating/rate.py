@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from asperity.casefile import Case, told
 from asperity.errors import InputError, choices, require_types, suggestion
 from asperity.gearset.geometry import Geometry
+from asperity.gearset.library import find
+from asperity.gearset.lubricants import Lubricant
+from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
-from asperity.rating.agma6034.rating import rate as rate_agma6034
 from asperity.rating.alternatives import Alternative, alternatives
-from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables, read_tables
-from asperity.rating.demands import Demand
+from asperity.rating.by_standard import PROMISED, judge_of, rate_by
+from asperity.rating.changes import changed_words
+from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
@@ -21,8 +24,7 @@ from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
-from asperity.rating.iso14521.rating import rate as rate_iso14521
-from asperity.rating.levers import Judge, Lever, levers
+from asperity.rating.levers import Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
@@ -37,21 +39,6 @@ if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
 
 STANDARDS = ("iso14521", "bs721", "agma6034")
-
-# Keys a reader of the JSON may count on: null where the number could not be had.
-PROMISED = {
-    "iso14521": (
-        "sliding_velocity_m_s", "mu_0T", "mu_zm", "Y_S", "Y_G", "Y_W", "Y_R", "h_star",
-        "p_m_star", "s_star", "eta_z1_2", "eta_z2_1", "eta_ges", "input_power_W",
-        "input_torque_Nm", "loss_meshing_W", "loss_idle_W", "loss_bearing_W", "loss_seal_W",
-        "sigma_Hm_MPa", "safety_wear", "safety_pitting", "safety_deflection", "safety_root",
-        "safety_temperature",
-    ),
-    "bs721": ("M_26k_Nm", "M_w_Nm", "M_s_Nm"),
-    "agma6034": (
-        "mu", "eta", "allowable_torque_Nm", "bending_stress_MPa", "C_s", "C_m", "C_v",
-    ),
-}  # fmt: skip
 """The standards, by the name they have in results."""
 
 ALL = "all"
@@ -288,6 +275,8 @@ def rate(
     )
     options = options or RatingOptions()
     wanted = known_standards(standards)
+    asked = operation
+    operation = driven(gearset, operation, options)
     given = inputs(gearset, operation, options)
     _require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
@@ -301,7 +290,7 @@ def rate(
     )
     for name in wanted:
         try:
-            found[name] = _rate(name, given, tables)
+            found[name] = rate_by(name, given, tables)
         except InputError as error:
             if len(wanted) == 1:
                 raise
@@ -318,7 +307,7 @@ def rate(
         geometry=gearset.geometry,
         **{name: found.get(name) for name in STANDARDS},
         self_locking=self_locking(given, found, tables),
-        notes=tuple(notes),
+        notes=(*told_of(asked, operation), *notes),
         assumed=assumptions(given),
     )
 
@@ -342,6 +331,8 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
     gearset, operation = case.require(Gearset), case.require(Operation)
     options = case.get(RatingOptions, RatingOptions())
     wanted = STANDARDS if standard == ALL else (standard,)
+    with told(case):
+        operation = driven(gearset, operation, options)
     _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
     return case, wanted
 
@@ -353,12 +344,25 @@ def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
     first, given = rated.verdict.first, rated.given
     if first is None:
         return rated
-    judge = _judge(first.demand, given.options, rated.tables_bs721)
+    judge = judge_of(first.demand, given.options, rated.tables_bs721)
+    others = alternatives(judge, given.gearset, given.operation)
     return dataclasses.replace(
         rated,
         levers=levers(judge, given.gearset, given.operation),
-        alternatives=alternatives(judge, given.gearset, given.operation),
+        alternatives=tuple(_with_changes(rated, one, standards, case.folder) for one in others),
     )
+
+
+def _with_changes(
+    rated: Rated, other: Alternative, standards: Sequence[str], folder: Path | None
+) -> Alternative:
+    """Return an alternative with what else it changes in the words of the verdict."""
+    given, (table, _, key) = rated.given, other.key.partition(".")
+    thing = find(Lubricant if key == "lubricant" else WheelMaterial, other.value)
+    tables: dict[str, Any] = {"gearset": given.gearset, "operation": given.operation}
+    tables[table] = tables[table].model_copy(update={key: thing})
+    changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
+    return other._replace(changes=changed_words(rated, changed))
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
@@ -393,19 +397,3 @@ def _require_consistent(given: Inputs, by_iso: bool) -> None:
                 f"{film}; {error}", film.value, film.driver, film.limits
             ) from None
         raise
-
-
-def _judge(demand: Demand, options: RatingOptions, tables: Tables) -> Judge:
-    def judge(gearset: Gearset, operation: Operation) -> float:
-        rating = _rate(demand.standard, inputs(gearset, operation, options), tables)
-        return float(rating[demand.key])
-
-    return judge
-
-
-def _rate(name: str, given: Inputs, tables: Tables) -> Rating:
-    if name == "iso14521":
-        return rate_iso14521(given)
-    if name == "bs721":
-        return rate_bs721(given, tables)
-    return rate_agma6034(given)

@@ -13,7 +13,7 @@ itself.
 import dataclasses
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from asperity.arrays import Real
 from asperity.formulas import formula
 from asperity.rating.agma6034 import mesh
 from asperity.rating.bs721 import torque
-from asperity.rating.bs721.tables import Tables
+from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
 from asperity.rating.iso14521 import friction as iso_friction
@@ -29,6 +29,17 @@ from asperity.rating.iso14521.symbols import alpha_n, gamma_m1
 from asperity.rating.result import Rating
 
 State = Literal["static", "dynamic"]
+
+
+class Numbers(Protocol):
+    """Numbers of ratings by ``standard.key``."""
+
+    def __contains__(self, key: object) -> bool: ...
+
+    def __getitem__(self, key: str) -> Any: ...
+
+
+_FACTORS = ("Y_S", "Y_G", "Y_W", "Y_R")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -179,6 +190,47 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
     return SelfLocking(given.lead_angle, given.friction_factor, tuple(verdicts))
 
 
+def locking_margins(
+    given: Inputs, found: Numbers, tables: Tables | None = None
+) -> dict[tuple[str, State], Real]:
+    """Return by how much friction is above that from which on a worm locks itself, over it.
+
+    Parameters
+    ----------
+    given : Inputs
+        What was rated, arrays of variants among them.
+    found : Numbers
+        Of ratings, or of variants; a standard that has none is left out.
+    tables : Tables, optional
+        Of BS 721, in place of those that ship.
+
+    Returns
+    -------
+    dict of (standard, state) to float or ndarray
+        At least 0 where the worm locks.
+    """
+    tan = np.tan(given.lead_angle)
+    limits = {"iso14521": tan, "bs721": tan, "agma6034": np.cos(given.pressure_angle) * tan}
+    keys = {"iso14521": "mu_zm", "bs721": "mu", "agma6034": "mu"}
+    margins: dict[tuple[str, State], Real] = {}
+    for name, limit in limits.items():
+        if f"{name}.{keys[name]}" in found:
+            at_rest = given.friction
+            if at_rest is None:
+                at_rest = _at_rest(given, name, found, tables or read_tables())
+            margins[name, "static"] = given.friction_factor * at_rest / limit - 1.0
+            margins[name, "dynamic"] = found[f"{name}.{keys[name]}"] / limit - 1.0
+    return margins
+
+
+def _at_rest(given: Inputs, name: str, found: Numbers, tables: Tables) -> Real:
+    if name == "agma6034":
+        return mesh.friction(0.0)
+    if name == "bs721":
+        return torque.friction(0.0, tables=tables)
+    return _iso_at_rest(given, {key: found[f"iso14521.{key}"] for key in _FACTORS})
+
+
 def _friction(
     given: Inputs, name: str, rating: Rating, tables: Tables
 ) -> tuple[tuple[State, float], tuple[State, float]]:
@@ -186,14 +238,14 @@ def _friction(
     if given.friction is not None:
         at_rest = given.friction
     elif name == "iso14521":
-        at_rest = _iso_at_rest(given, rating)
+        at_rest = float(_iso_at_rest(given, {key: rating[key] for key in _FACTORS}))
     else:
         at_rest = mesh.friction(0.0) if name == "agma6034" else torque.friction(0.0, tables=tables)
     moving = float(rating["mu_zm" if name == "iso14521" else "mu"])
     return ("static", given.friction_factor * at_rest), ("dynamic", moving)
 
 
-def _iso_at_rest(given: Inputs, rating: Rating) -> float:
+def _iso_at_rest(given: Inputs, factors: Mapping[str, Any]) -> Real:
     """Mean friction with the standard's law at no sliding velocity, which is its cap."""
     base = given.base_friction
     if base is None:
@@ -203,6 +255,4 @@ def _iso_at_rest(given: Inputs, rating: Rating) -> float:
             lubrication=given.operation.lubrication,
             base_oil=given.operation.lubricant.base_oil,
         )
-    factors = (float(rating[key]) for key in ("Y_S", "Y_G", "Y_W", "Y_R"))
-    mean: float = iso_friction.mean_friction(base, *factors)
-    return mean
+    return iso_friction.mean_friction(base, *(factors[key] for key in _FACTORS))

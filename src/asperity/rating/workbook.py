@@ -288,8 +288,8 @@ class _TracedInputs(Inputs):
             return ()
         found = []
         steps = zip(self.plain.duty, self.plain.operation.duty_cycle or (), strict=True)
-        for place, (part, step) in enumerate(steps, 1):
-            name = f"duty_cycle_{place}"
+        for number, (part, step) in enumerate(steps, 1):
+            name = f"duty_cycle_{number}"
             speed = self.worm_speed
             if step.worm_speed is not None:
                 speed = self.cells.input(f"{name}_worm_speed", part.speed, "rpm")

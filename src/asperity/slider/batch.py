@@ -16,6 +16,8 @@ from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
+from asperity.slider.integrators import integrator
+from asperity.slider.march import march
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
@@ -27,6 +29,7 @@ from asperity.slider.scaled import (
     Parameters,
     Pressing,
 )
+from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
 from asperity.slider.timetable import Timetable, march_notes, march_standing
 from asperity.waveform import displacement_at
@@ -133,7 +136,7 @@ def solve_many(
                 continue
             solved = _march([models[i] for i, _ in batch], [t for _, t in batch], flag)
             for (index, _), answer in zip(batch, solved, strict=True):
-                answers[index] = answer
+                answers[index] = _refined(models[index], answer, flag)
     for index in alone:
         if flag[0]:
             raise Stopped
@@ -142,6 +145,19 @@ def solve_many(
         except AsperityError as error:
             answers[index] = error
     return [answer for answer in answers if answer is not None]
+
+
+def _refined(
+    model: Model, answer: SlideResult | AsperityError, flag: np.ndarray
+) -> SlideResult | AsperityError:
+    """Return the answer of a body with a step that makes no great error, marched on its own."""
+    if isinstance(answer, AsperityError):
+        return answer
+
+    def once(finer: Model) -> SlideResult:
+        return march(finer, history=False, stop=flag)
+
+    return refined(model, once, answer)
 
 
 def fits_batch(model: Model) -> bool:
@@ -255,10 +271,17 @@ def _answer(
     second = (sums["drive_force"] - first_half) / (table.window - half)
     residual = abs(float(second - first_half / half))
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
+    standing = march_standing(model, table, residual, broke=broke)
+    error = None
+    if standing.settled:
+        at_end = integrator(model, table.step)
+        at_end.kept["state"][0] = _state(column, body)
+        error = error_of_march(at_end, table, float(sums["drive_force"] / sums["steps"]))
     try:
         return summarise(
             model, p, table.step, sums, start, _energies(column, body),
-            standing=march_standing(model, table, residual, broke=broke),
+            standing=standing,
+            step_error=error,
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,
@@ -290,7 +313,7 @@ def _load(column: FloatArray, body: _Body) -> None:
     column[row.LOSS] = q.damping
     column[row.PENETRATION] = q.reference
     if q.mobility == 0.0 and body.model.shape is not None:
-        wave = body.model.shape.wave(lead=body.model.normal_lead)
+        wave = body.model.wave(body.table.step, lead=body.model.normal_lead)
         column[row.PENETRATION] += q.base * displacement_at(wave, -_start(body.model))
     column[[row.LOAD, row.ELASTIC]] = elastic_force(q.law, column[row.PENETRATION])
 
@@ -311,7 +334,7 @@ def _waves(bodies: Sequence[_Body]) -> tuple[FloatArray, FloatArray, bool]:
         rate = model.frequency * table.step
         turn = 2.0 * math.pi * rate
         waves[:6, place] = (
-            model.shape.code, model.shape.rise, -_start(model), rate, math.cos(turn),
+            model.shape.code, model.wave(table.step).rise, -_start(model), rate, math.cos(turn),
             math.sin(turn),
         )  # fmt: skip
         waves[8, place] = model.shape.ramp

@@ -29,6 +29,7 @@ from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.march import March
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
+from asperity.slider.steady import growth_rate, sticks_and_slips
 from asperity.slider.timetable import march_notes, march_standing
 from asperity.slider.wear import wear_and_heat
 
@@ -145,6 +146,10 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         broke = walk.breakaway
         answer = _steady(model, law, began, broke, table.steps, history=history)
         notes = march_notes(model, table, 0.0, broke=broke is not None)
+        if (rate := growth_rate(model)) > 0.0:
+            why = sticks_and_slips(rate)
+            answer = dataclasses.replace(answer, settled=False, settled_by=why)
+            notes = (why, *notes)
         return dataclasses.replace(answer, notes=(*answer.notes, *notes))
     begin = min(round(model.start / table.step), table.window_start)
     walk.to(begin, _BLOCK)
@@ -326,6 +331,7 @@ def _result(
         ledger=ledger,
         normal=normal,
         wear=wear,
+        step_error=law.step_error,
         residual=law.residual,
         steps=steps,
         cycles=0,

@@ -19,7 +19,7 @@ from asperity.slider.scaled import (
 )
 from asperity.slider.summary import energies, pressed_energies
 from asperity.slider.two_phase import MEMORY, march_two_phase
-from asperity.waveform import AT_REST, fill_increments
+from asperity.waveform import fill_increments
 
 
 class Integrator:
@@ -48,7 +48,7 @@ class Integrator:
         self.model = model
         self.p = model.parameters(step)
         self.rate = model.frequency * step
-        self.wave = AT_REST if model.shape is None else model.shape.wave()
+        self.wave = model.wave(step)
         self.kept: Tree = {"state": np.zeros(1, self.state_type), "sums": self.no_sums()}
         self.sums["breakaway"] = -1.0
         self.clear()
@@ -135,8 +135,7 @@ class Pressed(Integrator):
         self.q = model.pressing(step)
         self.unit = model.normal_unit(step)
         self.kept["springs"] = np.zeros((2, self.q.heights.size))
-        lead = model.normal_lead
-        self.normal_wave = AT_REST if model.shape is None else model.shape.wave(lead=lead)
+        self.normal_wave = model.wave(step, lead=model.normal_lead)
 
     def clear(self) -> None:
         """Empty the sums but for the breakaway."""

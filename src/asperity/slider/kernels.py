@@ -21,6 +21,8 @@ from asperity.friction.lugre import stribeck_share
 from asperity.slider.scaled import COULOMB, DAHL, NODE
 from asperity.waveform import fill_increments
 
+_LEFT = 0.1  # of the drive velocity: a body that is as fast has left where it stuck
+
 
 @kernel
 def clear(sums):
@@ -40,8 +42,12 @@ def clear(sums):
 
 
 @kernel
-def add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, slip_y, rigid):
-    """Add a step to the sums: forces at both ends, the unit vibration's increment, the slip."""
+def add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, slip_y, held, rigid):
+    """Add a step to the sums: forces at both ends, the unit vibration's increment, the slip.
+
+    ``held`` is the most that friction holds at the slip's speed: more of a drive force, and the
+    body breaks away.
+    """
     mx = 0.5 * (fx + last_fx)
     my = 0.5 * (fy + last_fy)
     sums.drive_force += 0.5 * (fd + last_fd)
@@ -57,8 +63,17 @@ def add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, slip_y, rig
     sums.steps += 1.0
     if sums.breakaway < 0.0:
         sums.breakaway -= 1.0
-        if fd >= 1.0 and not rigid:
+        if fd >= held and not rigid:
             sums.breakaway = -1.0 - sums.breakaway
+
+
+@kernel
+def breaks_away_at(level, wx, p):
+    """Drive force that is more than a LuGre contact holds; infinite while the body only creeps.
+
+    Under static friction above the kinetic one it creeps for long before it leaves.
+    """
+    return level if p.static_ratio <= 1.0 or wx >= _LEFT * p.drive else math.inf
 
 
 @kernel
@@ -242,6 +257,7 @@ def march_block(state, sums, p, increments, steps, nodes):
         last_fy = fy
         last_fd = fd
         free = stiffness * stretch + damping * drive + p.pull
+        held = 1.0
         wx1 = wx
         wy1 = wy
         if model == DAHL:
@@ -263,6 +279,7 @@ def march_block(state, sums, p, increments, steps, nodes):
         else:
             speed = math.sqrt(dx * dx + dy * dy)
             limit = stribeck_share(speed, p.static_ratio, p.stribeck)
+            held = breaks_away_at(limit, wx, p)
             sx, sy = advance(
                 sx / limit, sy / limit, dx / limit, dy1 / limit, 0.0, dy2 / limit, 1.0, law
             )
@@ -278,7 +295,7 @@ def march_block(state, sums, p, increments, steps, nodes):
         else:
             fd, lost = pull_and_loss(free, stretch, wx, wx1, last_fd, p)
             sums.drag_work += lost
-        add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, rigid)
+        add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, held, rigid)
         if recording:
             record(nodes[n], fx, fy, fd, sx, sy, (n + 1) * drive - stretch, y, wx1, wy1)
         wx = wx1

@@ -15,6 +15,7 @@ from asperity.slider.integrators import integrator
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
+from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import Timetable, march_notes, march_standing
 from asperity.waveform import AT_REST
@@ -171,9 +172,12 @@ class March:
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
         broke = breakaway is not None
+        standing = march_standing(model, table, residual, broke=broke)
+        ratio = float(sums["drive_force"] / sums["steps"])
         return summarise(
             model, self.p, table.step, sums, start, self.energies(),
-            standing=march_standing(model, table, residual, broke=broke),
+            standing=standing,
+            step_error=error_of_march(self._body, table, ratio) if standing.settled else None,
             residual=residual,
             breakaway_time=breakaway,
             steps=table.steps,
@@ -226,6 +230,13 @@ def march(
         Ctrl-C was pressed.
     """
     run = run if run is not None else Run()
+    return refined(model, lambda finer: _marched(finer, history=history, stop=stop, run=run))
+
+
+def _marched(
+    model: Model, *, history: bool, stop: npt.NDArray[np.int64] | None, run: Run
+) -> SlideResult:
+    """March with the step that a model has."""
     body = March(model, record=history, stop=stop, run=run)
     if run.folder is not None:
         kept = run.resume(march_key(model, history=history))
@@ -241,4 +252,6 @@ def march_key(model: Model, *, history: bool) -> str:
     texts = ["" if table is None else table.model_dump_json() for table in tables]
     # A sampled wave's table, and the frequency of its file where the case says none.
     wave = AT_REST.table if model.shape is None else model.shape.table
-    return key(code_key(__name__), str(history), *texts, repr(model.frequency), wave)
+    return key(
+        code_key(__name__), str(history), *texts, repr(model.frequency), repr(model.finer), wave
+    )

@@ -56,11 +56,13 @@ def solve(
         answer = march(_to_march(model, none), history=history, stop=stop, run=run)
         left = none.reached.get("residual", math.nan)
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
-        if none.notes:
+        if none.notes and model.vibrates:
             note = (
                 "no stable state was found that repeats itself after 1, 2 or 4 cycles, the motion "
                 "is aperiodic as far as that tells: this is a march"
             )
+        if not model.vibrates and none.notes:
+            note = "this is a march"
         return dataclasses.replace(
             answer,
             settled_by=f"no state repeats itself; marched, {answer.settled_by}",

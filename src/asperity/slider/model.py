@@ -11,7 +11,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError, require_fields
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
-from asperity.normal import Normal, elastic_slope
+from asperity.normal import Normal
 from asperity.slider.indentation import greatest_indentation
 from asperity.slider.parameters import (
     FAR_APART,
@@ -23,29 +23,21 @@ from asperity.slider.parameters import (
     unit_vector,
 )
 from asperity.slider.scaled import MODELS, Parameters, Pressing
+from asperity.slider.steps import parts_of
 from asperity.slider.wear import Wear
 from asperity.vibration import Vibration
-from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN, Shape
+from asperity.waveform import AT_REST, SAMPLED, SINE, Shape, Wave
 
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4
 _WINDOW_RINGS = 20
 _WINDOW_CYCLES = 2
 WINDOW_SHARE = 0.75
-SLIP_BOUND = 0.5
-CHANGE_BOUND = 1.2e-3
-RING_BOUND = 0.25
-# Part of the penetration's length a body may come nearer in a step.
-LANDING_BOUND = 0.05
-_MOST_SWING = 1000.0
 # Springs are laid out to what the body comes to in so many cycles from rest and a little more.
 _FIRST_CYCLES = 100
 _MOST_FIRST_STEPS, _DEEPER = 1_000_000, 1.05
-COULOMB_BOUND = 0.1
-_TWO_PHASE_BOUND = 2.0
-_DRAG_BOUND = 1e7
-_MOST_SUBSTEPS = 1000
-_FAR_MORE = 1e12
+# Parts of a cycle by which steps may miss a corner of the wave; Coulomb's force jumps there.
+_MISSED, _MISSED_BY_COULOMB = 1e-5, 5e-6
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,6 +56,8 @@ class Model:
         What is normal to the plane; None: the normal force is a constant.
     wear : Wear or None
         What the contact wears and heats by; it goes with ``normal``.
+    finer : int
+        How many times finer than by its bounds a step is divided, for the error it makes.
     """
 
     slider: Slider
@@ -73,6 +67,7 @@ class Model:
     shape: Shape | None = dataclasses.field(default=None, repr=False)
     normal: Normal | None = None
     wear: Wear | None = None
+    finer: int = dataclasses.field(default=1, repr=False)
 
     def __post_init__(self) -> None:
         require_fields(self)
@@ -130,8 +125,15 @@ class Model:
 
     @property
     def start(self) -> float:
-        """Start of the vibration, s."""
-        return self.vibration.start if self.vibration is not None else 0.0
+        """Start of the vibration, s; of a wave with corners, on which steps end, a whole step."""
+        given = self.vibration.start if self.vibration is not None else 0.0
+        return round(given / self.step) * self.step if self.meets_corners else given
+
+    @property
+    def meets_corners(self) -> bool:
+        """Whether there are corners in the wave, and steps end on them."""
+        cornered = self.shape is not None and self.shape.cornered
+        return cornered and self.vibrates and self.solve.scheme != "two-phase"
 
     @property
     def ramp(self) -> float:
@@ -199,110 +201,54 @@ class Model:
     @functools.cached_property
     @in_proportion()
     def step(self) -> float:
-        """Time step as asked for, s; refused if it is too coarse for the waveform."""
+        """Time step as asked for, s; refused if it is too coarse for the waveform.
+
+        Where the waveform has corners, the next smaller one that ends on them, in whole steps of a
+        cycle.
+        """
         given = self.solve.step
         if self.shape is None or not self.vibrates:
             return given if given is not None else 1e-6
         most = 1.0 / (self.shape.least_steps * self.frequency)
         if given is None:
-            return min(1.0 / (_STEPS_A_CYCLE * self.frequency), most)
-        if given > most * (1.0 + 1e-9):
+            asked = min(1.0 / (_STEPS_A_CYCLE * self.frequency), most)
+        elif given > most * (1.0 + 1e-9):
             raise InputError(
                 f"solve.step is {given:g} s, too coarse for the vibration of {self.frequency:g} Hz;"
                 f" it must be at most {most:.3g} s"
             )
-        return given
+        else:
+            asked = given
+        if not self.meets_corners:
+            return asked
+        return 1.0 / (self.steps_to_corners(1.0 / (asked * self.frequency)) * self.frequency)
+
+    def wave(self, step: float, *, lead: float = 0.0) -> Wave:
+        """Return the wave as a march with steps in s meets it: its corners are put on the steps.
+
+        They are next to them anyway, by `steps_to_corners`.
+        """
+        if self.shape is None:
+            return AT_REST
+        shape = self.shape
+        if self.meets_corners:
+            shape = shape.on_corners(round(1.0 / (self.frequency * step)))
+        return shape.wave(lead=lead)
+
+    def steps_to_corners(self, least: float) -> int:
+        """Equal steps of a cycle that end on the corners of its waves, in the plane and up."""
+        if self.shape is None:
+            raise InputError("nothing vibrates")
+        along, across, up = self.unit_direction
+        leads = [0.0] * (along != 0.0 or across != 0.0) + [self.normal_lead] * (up != 0.0)
+        missed = _MISSED_BY_COULOMB if self.friction.model == "coulomb" else _MISSED
+        return self.shape.steps_to_corners(least, missed, leads)
 
     @functools.cached_property
     @in_proportion()
     def substeps(self) -> int:
-        """Parts each step is divided into so that `march` stays below its own bounds.
-
-        The bounds: the slip in a part at most half the deflection limit; its change from part to
-        part at most 0.12 % of it, for the friction where the slip reverses (coarser, the ratio is
-        wrong by up to 0.15 % at high speed ratios); a part at most a quarter of the reciprocal of
-        the body's angular frequency on asperities and drive. The two-phase scheme is not divided,
-        but refused where it is unstable. Coulomb friction has no deflection: there the vibration's
-        velocity changes by at most a tenth of the drive velocity from part to part, unless the
-        slip is prescribed (rigid drive, guided body) and keeps to a line.
-        """
-        drag = self.slider.drive_damping * self.slider.drive_velocity / self.full_friction
-        if drag > _DRAG_BOUND:
-            most = self.slider.drive_damping * _DRAG_BOUND / drag
-            raise InputError(
-                f"slider.drive_damping is {self.slider.drive_damping:g} N s/m, which resists the "
-                f"drive velocity with {drag:.3g} times the friction force, too much to tell the "
-                f"two apart; it must be at most {most:.3g} N s/m (for a rigid drive leave "
-                "slider.drive_stiffness out)"
-            )
-        if self.friction.model == "coulomb":
-            # Nothing elastic in the contact: the drive's own ring bounds the step, and the turn
-            # of the slip where the vibration passes the drive velocity.
-            ring = 2.0 * math.pi / self.ring_period if self.ring_period > 0.0 else 0.0
-            turn = self._sharpness * self.peak_velocity / self.slider.drive_velocity
-            if self.slider.rigid and not self.slider.free and not self._turns:
-                turn = 0.0
-            needed = self.step * max(ring / RING_BOUND, turn / COULOMB_BOUND)
-            return self._parts(max(needed, self._pressed()))
-        limit = self.friction.deflection_limit(self.slider.normal_force)
-        slip = (self.slider.drive_velocity + self.peak_velocity) * self.step / limit
-        if self.solve.scheme == "two-phase":
-            if slip > _TWO_PHASE_BOUND:
-                raise InputError(
-                    f"solve.step is {self.step:g} s; the two-phase scheme is unstable where the "
-                    f"slip in a step exceeds {_TWO_PHASE_BOUND:g} max_deflection, so it must be at "
-                    f"most {self.step * _TWO_PHASE_BOUND / slip:.3g} s here"
-                )
-            return 1
-        turn = self._sharpness * self.step
-        change = self.peak_velocity * self.step / limit * turn
-        needed = max(slip / SLIP_BOUND, math.sqrt(change / CHANGE_BOUND))
-        if self.slider.mass is not None and (not self.slider.rigid or self.slider.free):
-            stiffness = self.friction.stiffness(self.slider.normal_force)
-            stiffness *= max(1.0, self.friction.exponent * 2.0 ** (self.friction.exponent - 1.0))
-            stiffness += self.slider.drive_stiffness or 0.0
-            needed = max(needed, self.step * math.sqrt(stiffness / self.slider.mass) / RING_BOUND)
-        return self._parts(max(needed, self._pressed()))
-
-    def _pressed(self) -> float:
-        """Parts of a step that the contact needs: its ring at its stiffest, and a landing."""
-        if self.normal is None:
-            return 1.0
-        up = abs(self.unit_direction[2])
-        swing = up * self.amplitude / self.normal_length
-        if self.normal.control == "displacement" and swing > _MOST_SWING:
-            raise InputError(
-                f"the vibration's normal amplitude of {up * self.amplitude:.3g} m is {swing:.3g} "
-                f"times the penetration of {self.normal_length:.3g} m: no rigid machine holds that;"
-                " reduce the amplitude, or let the body rise with normal.control 'force'"
-            )
-        q = self._rigid_pressing(self.step)
-        ring = math.sqrt(q.mobility * elastic_slope(q.law, q.reference + 2.0 * swing))
-        landing = 2.0 * up * self.peak_velocity * self.step / self.normal_length
-        return max(ring / RING_BOUND, landing / LANDING_BOUND)
-
-    @property
-    def _turns(self) -> bool:
-        """Whether a prescribed slip changes its direction steadily, and not only its sign."""
-        smooth = self.shape is not None and self.shape.code in (SINE, SAMPLED)
-        return smooth and self.unit_direction[1] * self.friction.transfer != 0.0
-
-    @property
-    def _sharpness(self) -> float:
-        """Rate at which the vibration's velocity changes, 1/s: 2 pi f for a sine, or more."""
-        least = self.shape.least_steps if self.shape is not None else STEPS_A_TURN
-        return 2.0 * math.pi * self.frequency * least / STEPS_A_TURN
-
-    def _parts(self, needed: float) -> int:
-        if not needed <= _FAR_MORE:
-            raise InputError(FAR_APART)
-        if not needed <= _MOST_SUBSTEPS:
-            raise InputError(
-                f"solve.step is {self.step:g} s; the march would have to divide it by "
-                f"{needed:.3g}, more than {_MOST_SUBSTEPS}: give a step of at most "
-                f"{self.step * _MOST_SUBSTEPS / needed:.3g} s"
-            )
-        return max(1, math.ceil(needed * (1.0 - 1e-9)))
+        """Parts each step is divided into, see `asperity.slider.steps`."""
+        return self.finer * parts_of(self)
 
     def length(self, step: float) -> float:
         """Unit of length of the scaled problem, m."""
@@ -352,7 +298,7 @@ class Model:
 
     def pressing(self, step: float) -> Pressing:
         """Return what the kernels are given of the normal direction for a time step in s."""
-        scaled = self._rigid_pressing(step)
+        scaled = self.rigid_pressing(step)
         if self.friction.model != "springs" or self.normal is None:
             return scaled
         heights, weights = spring_profile(self.normal.law, self.friction.springs, self.deepest)
@@ -365,7 +311,7 @@ class Model:
         A little more than the body comes to from rest, in its first cycles under all of the
         vibration.
         """
-        q = self._rigid_pressing(self.step / self.substeps)
+        q = self.rigid_pressing(self.step / self.substeps)
         if self.shape is None or q.base == 0.0:
             return _DEEPER * max(q.reference, 1.0)
         rate = self.frequency * self.step / self.substeps
@@ -374,7 +320,7 @@ class Model:
         return _DEEPER * float(greatest_indentation(q, wave, rate, steps))
 
     @in_proportion()
-    def _rigid_pressing(self, step: float) -> Pressing:
+    def rigid_pressing(self, step: float) -> Pressing:
         """Numbers of the normal direction without springs."""
         if self.normal is None:
             raise InputError("the normal force of this body is a constant")

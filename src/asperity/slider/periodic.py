@@ -5,30 +5,31 @@ import time
 
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
-from asperity.slider import kernels as k
+from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.history import History
-from asperity.slider.integrators import Pressed, integrator
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
-from asperity.slider.pressed import march_pressed
 from asperity.slider.result import SlideResult
-from asperity.slider.shooting import ACCEPTED, SETTLING, differentiated, shoot
+from asperity.slider.shooting import ACCEPTED, SETTLING
+from asperity.slider.steady import growth_rate, sticks_and_slips
+from asperity.slider.step_error import error_of_state, refined
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.unknowns import most_unknowns
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
-UNSTABLE = 1.0 + 1e-3
-_PUSH = 1e-3
+_OF_MANY = (
+    "one of many: nothing damps a disturbance, and the ratio follows it; shown is the one without "
+    "a ringing of its own"
+)
+_REST = "give a damping (normal.damping_ratio), or march it from rest with solve.method 'march'"
 
 
 @in_proportion()
 def cycle_steps(model: Model) -> int:
-    """Steps a cycle is divided into: at least 256, a multiple of 4 to meet the waveform's kinks."""
+    """Steps a cycle is divided into: at least 256, a multiple of 4, or those that meet corners."""
     if not model.vibrates:
         return _REST_STEPS
     asked = model.substeps / (model.frequency * model.step)
@@ -37,96 +38,10 @@ def cycle_steps(model: Model) -> int:
             f"solve.step is {model.step:g} s, {asked:.3g} steps a vibration cycle; a periodic "
             f"state is found with at most {_MOST_STEPS:g}: give a larger step"
         )
+    if model.meets_corners:
+        whole = round(asked)
+        return whole * math.ceil(_LEAST_STEPS / whole)
     return 4 * math.ceil(max(asked * (1.0 - 1e-9), _LEAST_STEPS) / 4)
-
-
-class Cycle:
-    """The map of a body's state over one cycle of the vibration, or over several.
-
-    Attributes
-    ----------
-    body : Integrator
-        At the start of the cycle.
-    residual : float
-        Largest scaled change of an unknown over the cycle.
-    run : int
-        Cycles integrated so far.
-    """
-
-    def __init__(self, model: Model, steps: int, step: float) -> None:
-        self.body = integrator(model, step)
-        self.residual = math.inf
-        self.run = 0
-        self.period = 1
-        still = np.zeros(steps + 1)
-        shaken = model.shape is not None and model.vibrates
-        self.increments = model.shape.cycle(steps) if shaken and model.shape else still
-        self.rises = still
-        self.springs = np.zeros((2, 0))
-        self.q = None
-        if isinstance(self.body, Pressed):
-            self.q, self.springs = self.body.q, self.body.kept["springs"]
-            if shaken and model.shape is not None:
-                self.rises = model.shape.cycle(steps, model.normal_lead)
-            self.body.place(1.0, ramped=False)
-
-    def repeat(self, times: int) -> None:
-        """Ask for a state that repeats itself only after so many times the cycles."""
-        self.period *= times
-        self.increments = _repeated(self.increments, times)
-        self.rises = _repeated(self.rises, times)
-
-    def find(self, settle: int) -> bool:
-        """Look for the state that repeats itself; ``settle`` as in `shoot`."""
-        size = most_unknowns(self.springs)
-        jacobian = np.zeros((size, size))
-        self.residual, cycles, unknowns = shoot(
-            self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
-            self.rises, self.body.sums, jacobian, settle,
-        )  # fmt: skip
-        self.jacobian = jacobian[:unknowns, :unknowns]
-        self.run += cycles * self.period
-        return bool(self.residual <= ACCEPTED)
-
-    def multiplier(self) -> float:
-        """Return how much the least stable disturbance grows over the cycle."""
-        if self.q is not None:
-            self.jacobian = differentiated(
-                self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
-                self.rises, self.body.no_sums()[0], len(self.jacobian),
-            )  # fmt: skip
-        return _growth(self.jacobian)
-
-    def record(self) -> FloatArray:
-        """March over the cycle; returns what `history_of` takes, a row a step."""
-        body = self.body
-        steps = self.increments.size - 1
-        nodes = np.empty(steps, body.node_type)
-        here = body.kept["state"].copy()
-        here["lateral"] = 0.0
-        sums = body.no_sums()[0]
-        if self.q is None:
-            k.march_block(here[0], sums, body.p, self.increments, steps, nodes)
-        else:
-            here["height"] = 0.0
-            march_pressed(
-                here[0], self.springs.copy(), sums, body.p, self.q, self.increments, self.rises,
-                steps, nodes,
-            )  # fmt: skip
-        # Recorded in one stretch, and given as one a step.
-        nodes["position_x"] -= body.p.drive * np.arange(steps)
-        rows: FloatArray = nodes.view(np.float64).reshape(steps, -1)
-        return rows
-
-    def disturb(self) -> None:
-        """Push the body off its state, for it to go where it goes."""
-        self.body.state["velocity_x"] *= 1.0 + _PUSH
-        if self.q is not None:
-            self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
-
-
-def _repeated(increments: FloatArray, times: int) -> FloatArray:
-    return np.append(np.tile(increments[:-1], times), increments[0])
 
 
 class AperiodicError(ConvergenceError):
@@ -157,7 +72,7 @@ class AperiodicError(ConvergenceError):
         return error
 
 
-def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
+def solve_periodic(model: Model, *, history: bool = True, judged: bool = True) -> SlideResult:
     """Find the state that repeats itself every vibration cycle; of a pressed body, 1, 2 or 4.
 
     Parameters
@@ -166,6 +81,8 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
         The body. Start, duration and breakaway have no meaning here.
     history : bool
         Whether to keep motion and forces over one period.
+    judged : bool
+        Whether the error of the step is estimated, and the step chosen by it if none is given.
 
     Raises
     ------
@@ -174,14 +91,23 @@ def solve_periodic(model: Model, *, history: bool = True) -> SlideResult:
     ConvergenceError
         The powers of the state do not balance, or friction gives energy.
     """
+    if not judged:
+        return _found(model, history=history, judged=False)
+    return refined(model, lambda finer: _found(finer, history=history, judged=True))
+
+
+def _found(model: Model, *, history: bool, judged: bool) -> SlideResult:
+    """Find the state with the step that a model has."""
     began = time.perf_counter()
     steps = cycle_steps(model)
     step = 1.0 / (model.frequency * steps) if model.vibrates else model.step
     cycle = Cycle(model, steps, step)
     found, growth, notes = settle(cycle)
+    if not model.vibrates and (rate := growth_rate(model)) > 0.0:
+        found, notes = False, (sticks_and_slips(rate),)
     if not found:
         raise AperiodicError.of(cycle, notes)
-    return answer_of(model, step, cycle, growth, notes, began, history=history)
+    return answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)
 
 
 def answer_of(
@@ -193,12 +119,17 @@ def answer_of(
     began: float,
     *,
     history: bool,
+    judged: bool = True,
 ) -> SlideResult:
     """Return the result of a state that was found, with its multiplier, since a `perf_counter`."""
     end = cycle.body.energies()
+    standing = standing_of(cycle, growth)
+    if _OF_MANY in standing.settled_by:
+        notes += (f"this periodic state is {_OF_MANY}; {_REST}",)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
-        standing=standing_of(cycle, growth),
+        standing=standing,
+        step_error=error_of_state(cycle, model) if judged and standing.settled else None,
         residual=float(cycle.residual),
         steps=cycle.run * (len(cycle.increments) - 1) // cycle.period,
         cycles=cycle.run,
@@ -217,6 +148,8 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
     repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
     if growth > UNSTABLE:
         return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
+    if cycle.one_of_many(growth):
+        return Standing(False, f"{repeats}, but is {_OF_MANY}")
     return Standing(True, repeats)
 
 
@@ -261,13 +194,6 @@ def _longer(cycle: Cycle) -> tuple[bool, float]:
             if cycle.find(settle) and (growth := cycle.multiplier()) <= UNSTABLE:
                 return True, growth
     return False, growth
-
-
-def _growth(jacobian: FloatArray) -> float:
-    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken."""
-    if not jacobian.any():
-        return 0.0
-    return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
 
 
 def _one_period(model: Model, step: float, cycle: Cycle) -> History:

@@ -15,6 +15,7 @@ import numpy as np
 
 from asperity.compiled import kernel
 from asperity.friction.coulomb import mean_share
+from asperity.friction.dahl import TINY
 from asperity.friction.loaded import STIFFNESS, advance_loaded, friction_loss
 from asperity.friction.lugre import stribeck_share
 from asperity.friction.springs import (
@@ -25,6 +26,7 @@ from asperity.friction.springs import (
 from asperity.normal import elastic_force, indentation
 from asperity.slider.kernels import (
     add_step,
+    breaks_away_at,
     clear,
     condense,
     node_forces,
@@ -177,6 +179,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
         rise += q.mobility * (load - 1.0)
         limit = friction_limit(load, q.load_power)
         free = p.stiffness * state.stretch + p.damping * p.drive + p.pull
+        held = 1.0
         wx1 = wx
         wy1 = wy
         gain = 0.0
@@ -225,10 +228,12 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
         else:
             speed = math.sqrt(dx * dx + dy * dy)
             level = stribeck_share(speed, p.static_ratio, p.stribeck)
+            held = breaks_away_at(level, wx, p)
             last_sx = sx
             last_sy = sy
             # With the deflection kept it bends as under the load W; its force goes with the load.
-            share, before, after = limit, level, level
+            # An open contact lets its asperity go.
+            share, before, after = limit, level, level if limit > TINY else 0.0
             if q.keeps == STIFFNESS:
                 share, before, after = 1.0, last_limit * level, limit * level
             sx, sy, fx, fy = advance_loaded(
@@ -261,7 +266,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
         else:
             fd, lost = pull_and_loss(free, state.stretch, wx, wx1, last_fd, p)
             sums.drag_work += lost
-        add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, p.rigid)
+        add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, dx, dy, held, p.rigid)
         _add_load(
             sums, last_load, load, last_elastic, elastic, last_d, d, height, max(gain, 0.0), wear
         )

@@ -16,6 +16,7 @@ import numpy as np
 from asperity.compiled import kernel
 from asperity.elimination import eliminate
 from asperity.friction.loaded import STIFFNESS
+from asperity.friction.lugre import stribeck_share
 from asperity.normal import elastic_force
 from asperity.slider.kernels import clear, march_block
 from asperity.slider.other_drives import carried, damped
@@ -30,6 +31,7 @@ from asperity.slider.unknowns import (
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
+CLOSE = 1e-7  # of the defect that `close` leaves, where a ratio is asked for to a few digits
 _NEWTON_STEPS = 25
 _DIFFERENCE = 1e-7
 _LEAST_DIFFERENCE = 1e-10
@@ -72,7 +74,7 @@ def run_cycle(state, springs, p, q, increments, rises, sums):
 
 
 @kernel
-def _run(state, springs, p, q, increments, rises, sums):
+def run(state, springs, p, q, increments, rises, sums):
     """Forces that belong to a state, then one cycle from it."""
     _forces(state, springs, p, q, rises)
     run_cycle(state, springs, p, q, increments, rises, sums)
@@ -88,7 +90,7 @@ def _defect(
     read_unknowns(start[0], springs, p, q, before)
     end[0] = start[0]
     end_springs[:] = springs
-    _run(end[0], end_springs, p, q, increments, rises, sums)
+    run(end[0], end_springs, p, q, increments, rises, sums)
     read_unknowns(end[0], end_springs, p, q, after)
     worst = 0.0
     for i in range(count):
@@ -182,9 +184,9 @@ def _newton(
             write_unknowns(there, p, q, trial[0], trial_springs)
             if p.model != COULOMB:
                 size = math.sqrt(trial[0].deflection_x ** 2 + trial[0].deflection_y ** 2)
-                if q is None and size > 1.5:
-                    trial[0].deflection_x *= 1.0 / size
-                    trial[0].deflection_y *= 1.0 / size
+                if q is None and size > 1.5 * p.static_ratio:
+                    trial[0].deflection_x *= p.static_ratio / size
+                    trial[0].deflection_y *= p.static_ratio / size
             reached = _defect(
                 trial, trial_springs, p, q, increments, rises, sums, scales, count, trial_end,
                 trial_end_springs, trial_defect,
@@ -228,23 +230,26 @@ def _first_guess(
     # periodic state (longitudinal, k <= 1). Newton is at a loss there: the approach takes
     # forever.
     state.velocity_x = p.drive
-    state.deflection_x = 1.0
-    state.friction_x = 1.0
+    level = stribeck_share(p.drive, p.static_ratio, p.stribeck)
+    state.deflection_x = level
+    state.friction_x = level + p.slip_damping * p.drive
     if q is not None:
         for j in range(springs.shape[1]):
             springs[0, j] = max(q.reference - q.heights[j], 0.0)
     if not p.rigid:
-        state.stretch = 1.0 / p.stiffness
+        state.stretch = state.friction_x / p.stiffness
     worst = _defect(
         start, springs, p, q, increments, rises, sums, scales, count, end, end_springs,
         np.empty(count),
     )  # fmt: skip
     if worst <= 1e-12:
         return worst, 1
+    state.deflection_x = 1.0
+    state.friction_x = 1.0
     # Friction under the drive's mean motion alone tells the mean force to start from.
     state.stretch = 0.0
     for _ in range(3):
-        _run(state, springs, carried(p), q, increments, rises, sums)
+        run(state, springs, carried(p), q, increments, rises, sums)
     if not p.rigid:
         state.stretch = sums.friction_x / steps / p.stiffness
     return worst, 4
@@ -296,7 +301,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         )
     else:
         for _ in range(settle):
-            _run(start[0], springs, damped(p), q, increments, rises, sums)
+            run(start[0], springs, damped(p), q, increments, rises, sums)
         used = settle
     if worst > 1e-12:
         worst, cycles = _newton(
@@ -328,3 +333,43 @@ def differentiated(start, springs, p, q, increments, rises, sums, count):
         jacobian,
     )  # fmt: skip
     return jacobian
+
+
+@kernel
+def close(start, springs, p, q, increments, rises, sums, jacobian, most):
+    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of the cycle after it.
+
+    Returns the defect that is left and the cycles run, at most one more than ``most``.
+    """
+    scales = np.empty(most_unknowns(springs))
+    count = unknown_scales(start, springs, p, q, scales)
+    end = np.empty_like(start)
+    end_springs = np.empty_like(springs)
+    here = np.empty(count)
+    defect = np.empty(count)
+    step = np.empty(count)
+    worst = _defect(
+        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+    )
+    cycles = 1
+    while cycles < most and CLOSE < worst <= 1e300:
+        matrix = jacobian.copy()
+        for i in range(count):
+            step[i] = -defect[i]
+        if eliminate(matrix, step, count, 1e-14):
+            read_unknowns(start[0], springs, p, q, here)
+            for i in range(count):
+                here[i] += step[i] * scales[i]
+            write_unknowns(here, p, q, start[0], springs)
+        else:
+            # Found without Newton's method, in a cycle or some: it is left to itself here too.
+            start[0] = end[0]
+            springs[:] = end_springs
+        worst = _defect(
+            start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+        )
+        cycles += 1
+    start[0] = end[0]
+    springs[:] = end_springs
+    run_cycle(start[0], springs, p, q, increments, rises, sums)
+    return worst, cycles + 1

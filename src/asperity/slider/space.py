@@ -7,9 +7,12 @@ import numpy as np
 from asperity.errors import ConvergenceError
 from asperity.normal import elastic_slope, indentation
 from asperity.results import Quantities, quantity
-from asperity.slider.model import LANDING_BOUND, RING_BOUND, Model
+from asperity.slider.model import Model
+from asperity.slider.steps import LANDING_BOUND, RING_BOUND
 
 _MOST_GAIN = 1e-9  # of the friction power: rounding
+
+IN_FLIGHT = "the body does not land in the window of the means"
 
 
 class NormalMotion(Quantities):
@@ -17,8 +20,9 @@ class NormalMotion(Quantities):
 
     Attributes
     ----------
-    ratio_mean_load : float
-        Mean drive force over :math:`\mu` times the mean normal force.
+    ratio_mean_load : float or None
+        Mean drive force over :math:`\mu` times the mean normal force; None of a body that does not
+        land.
     normal_mean, normal_min, normal_max : float
         Normal force, N.
     open_share : float
@@ -46,7 +50,9 @@ class NormalMotion(Quantities):
         :math:`\langle N|v - \dot s|\rangle`, load over the slip of the asperities' feet, W.
     """
 
-    ratio_mean_load: float = quantity("F_dv/mu N", "", "mean drive force over mu times mean load")
+    ratio_mean_load: float | None = quantity(
+        "F_dv/mu N", "", "mean drive force over mu times mean load"
+    )
     normal_mean: float = quantity("N", "N", "mean normal force")
     normal_min: float = quantity("N_min", "N", "least normal force")
     normal_max: float = quantity("N_max", "N", "greatest normal force")
@@ -62,6 +68,11 @@ class NormalMotion(Quantities):
     multiplier: float | None = quantity("", "", "growth of a disturbance over that period")
     friction_gain: float = quantity("", "W", "power given by friction")
     wear_integral: float = quantity("", "W", "load over the slip of the asperities' feet")
+
+    @property
+    def in_flight(self) -> bool:
+        """Whether the body does not land in the window."""
+        return self.ratio_mean_load is None
 
 
 def normal_motion(
@@ -91,7 +102,7 @@ def normal_motion(
         # Each slips under its full friction: what is lost is the load's work over the slip.
         wear = lost
     return NormalMotion(
-        ratio_mean_load=float(sums["drive_force"] / count) / mean,
+        ratio_mean_load=float(sums["drive_force"] / count) / mean if mean else None,
         normal_mean=mean * load,
         normal_min=float(sums["load_min"]) * load,
         normal_max=float(sums["load_max"]) * load,
@@ -118,6 +129,8 @@ def remarks(model: Model, step: float, sums: np.void, motion: NormalMotion) -> t
     """
     q = model.pressing(step)
     notes = []
+    if motion.in_flight:
+        notes.append(f"{IN_FLIGHT}; give a longer solve.duration")
     ring = math.sqrt(q.mobility * elastic_slope(q.law, sums["penetration_max"]))
     if ring > 2.0 * RING_BOUND or sums["approach_max"] > 2.0 * LANDING_BOUND:
         finer = max(ring / RING_BOUND, sums["approach_max"] / LANDING_BOUND)

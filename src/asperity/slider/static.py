@@ -31,7 +31,9 @@ _PROFILES: dict[str, Profile] = {"linear": "flat", "hertz": "hertz", "rough": "r
 class LeastLoad(Quantities):
     """What happens normal to the plane, over a period."""
 
-    ratio_mean_load: float = quantity("F_s/mu N", "", "static friction over mu times mean load")
+    ratio_mean_load: float | None = quantity(
+        "F_s/mu N", "", "static friction over mu times mean load"
+    )
     normal_mean: float = quantity("N", "N", "mean normal force")
     normal_min: float = quantity("N_min", "N", "least normal force")
     normal_max: float = quantity("N_max", "N", "greatest normal force")
@@ -204,7 +206,7 @@ def _least_load(body: HeldBody, ratio: float) -> LeastLoad | None:
     load = body.model.slider.normal_force
     mean = float(sums["load"] / sums["steps"])
     return LeastLoad(
-        ratio_mean_load=ratio / mean,
+        ratio_mean_load=ratio / mean if mean else None,
         normal_mean=mean * load,
         normal_min=float(sums["load_min"]) * load,
         normal_max=float(sums["load_max"]) * load,

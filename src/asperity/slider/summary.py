@@ -15,10 +15,11 @@ from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import DAHL, LUGRE, NODE, PRESSED_NODE, SPRINGS, Parameters, Pressing
-from asperity.slider.space import normal_motion, remarks
+from asperity.slider.space import IN_FLIGHT, normal_motion, remarks
 from asperity.slider.wear import wear_and_heat
 
 _ADVICE = "give a smaller solve.step"
+_FLIGHT = 1e-9  # of the energy
 _SI = dict.fromkeys(("drive_force", "friction", "deflection", "position", "velocity"), 1.0)
 
 
@@ -86,6 +87,7 @@ def summarise(
     substeps: int = 1,
     period: int | None = None,
     multiplier: float | None = None,
+    step_error: float | None = None,
 ) -> SlideResult:
     """Turn the sums over a window, and the energies at its ends, into a result in SI.
 
@@ -97,7 +99,10 @@ def summarise(
     count = sums["steps"]
     force = model.full_friction
     ratio = float(sums["drive_force"] / count)
-    ledger = _ledger(model, p, step, sums, end[0] - start[0], end[1] - start[1])
+    mechanical = end[0] - start[0]
+    if model.normal is not None and not sums["load"] and abs(mechanical) <= _FLIGHT * abs(end[0]):
+        mechanical = 0.0  # in free flight, where no power is larger than the energy's rounding
+    ledger = _ledger(model, p, step, sums, mechanical, end[1] - start[1])
     normal = None
     if model.normal is not None:
         normal = normal_motion(model, step, sums, ledger.friction, period, multiplier)
@@ -106,8 +111,10 @@ def summarise(
     wear = None
     if normal is not None:
         notes += remarks(model, step, sums, normal)
+        if normal.in_flight:
+            standing = Standing(False, IN_FLIGHT)
         if model.wear is not None:
-            slip = normal.wear_integral / normal.normal_mean
+            slip = normal.wear_integral / normal.normal_mean if normal.normal_mean else 0.0
             mean = ledger.friction, slip
             wear = wear_and_heat(model.wear, normal.wear_integral, mean, model.frequency)
             notes += wear.notes
@@ -124,6 +131,7 @@ def summarise(
         wear=wear,
         settled=standing.settled,
         settled_by=standing.settled_by,
+        step_error=step_error,
         residual=residual,
         steps=steps,
         cycles=cycles,

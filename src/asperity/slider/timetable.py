@@ -4,15 +4,9 @@ import math
 
 from asperity.errors import InputError
 from asperity.results.settled import Standing
-from asperity.slider.model import (
-    CHANGE_BOUND,
-    COULOMB_BOUND,
-    RING_BOUND,
-    SLIP_BOUND,
-    WINDOW_SHARE,
-    Model,
-)
+from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
+from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
@@ -64,7 +58,11 @@ class Timetable:
         self.steps = whole * parts
         self.window = window * parts
         self.window_start = self.steps - self.window
-        self.middle = self.window_start + window // 2 * parts
+        half = window // 2
+        if self.cycles > 1 and self.cycles % 2:
+            # Half a cycle more or less would tell the halves apart.
+            half = round(self.cycles // 2 / (model.frequency * model.step))
+        self.middle = self.window_start + half * parts
         self.tail = tail * parts
 
 
@@ -125,17 +123,22 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
             "not steady: from the first to the second half of the window the mean drive force "
             f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"
         )
-    if model.substeps > 1 and model.friction.model == "coulomb":
+    bound = model.substeps // model.finer
+    if bound > 1 and model.friction.model == "coulomb":
         notes.append(
-            f"each step of {model.step:g} s was divided by {model.substeps}: the vibration's "
+            f"each step of {model.step:g} s was divided by {bound}: the vibration's "
             f"velocity must not change by more than {COULOMB_BOUND:g} of the drive velocity in a "
             f"step, nor the step exceed {RING_BOUND:g} over the body's angular frequency"
         )
-    elif model.substeps > 1:
+    elif bound > 1:
         notes.append(
-            f"each step of {model.step:g} s was divided by {model.substeps}: the slip in a step "
+            f"each step of {model.step:g} s was divided by {bound}: the slip in a step "
             f"must not exceed {SLIP_BOUND:g} max_deflection, nor change by more than "
             f"{CHANGE_BOUND:g} of it from step to step, nor the step exceed {RING_BOUND:g} "
             "over the body's angular frequency on its asperities"
+        )
+    if model.finer > 1:
+        notes.append(
+            f"each step was divided by {model.finer} more, for the error that it makes in the ratio"
         )
     return tuple(notes)

@@ -69,7 +69,7 @@ def march_two_phase(
             drag = p.damping * (p.drive - wx)
             fd1 = sx if rigid else p.stiffness * stretch + drag
             slip_x = d1x if on_body else wx - ux
-            add_step(sums, sx, sy, fd1, fx, fy, fd, u, slip_x, d1y + d2y, rigid)
+            add_step(sums, sx, sy, fd1, fx, fy, fd, u, slip_x, d1y + d2y, 1.0, rigid)
             if not rigid:
                 sums.drag_work += drag * (p.drive - wx)
             state.deflection_x = sx

@@ -11,11 +11,16 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import Proposals, propose
-from asperity.units import to_si
+from asperity.units import quantity_of, to_si
 
 MACRO = ("starts", "wheel_teeth", "centre_distance", "axial_module", "diameter_factor")
 """Keys of a gearset that are proposed."""
 
+_HELD = (*MACRO, "worm_pitch_diameter", "profile_shift")
+_COUNTED = {
+    "starts": 1, "wheel_teeth": 40, "axial_module": "4 mm", "diameter_factor": 10.0,
+    "worm_material": "case-hardened steel", "wheel_material": "CuSn12Ni2-C-GZ",
+}  # fmt: skip
 _STAND_IN = {"starts": 1, "wheel_teeth": 40, "centre_distance": "100 mm", "axial_module": "4 mm"}
 
 
@@ -30,6 +35,7 @@ SIZE = Command(
         Option("output_torque", "of the wheel", "TORQUE", default=None),
         Option("worm_speed", "of the worm", "SPEED", default=None),
         Option("rank", "size, efficiency or margin", "BY", default="size"),
+        Option("locks", "rest or motion: when the worm must lock itself", "WHEN", default=""),
         Option("uncut", "whether the wheels of those that hold are not cut", default=False),
     ),
 )
@@ -45,7 +51,13 @@ def ratio_of(text: object) -> float:
 
 
 def proposals(
-    values: Values, ratio: float, rank: str = "size", *, exact: bool = False, cut: bool = False
+    values: Values,
+    ratio: float,
+    rank: str = "size",
+    *,
+    exact: bool = False,
+    cut: bool = False,
+    locks: str = "",
 ) -> Proposals:
     """Propose gearsets for what a case file begins with.
 
@@ -53,16 +65,18 @@ def proposals(
     ----------
     values : dict
         The tables ``gearset``, ``operation`` and perhaps ``rating`` as a file has them; what the
-        gearset says of its macro-geometry is replaced.
+        gearset says of its macro-geometry is held, and the rest of it proposed.
     ratio : float
         Of the speeds.
     rank, exact
         As in `asperity.studies.proposals.propose`.
     cut : bool
         Whether to cut the wheel of each one that is shown, and leave out what no hob cuts.
+    locks
+        As in `asperity.studies.proposals.propose`.
     """
-    drop = (*MACRO, "worm_pitch_diameter", "profile_shift")
-    kept = {key: value for key, value in values["gearset"].items() if key not in drop}
+    kept = {key: value for key, value in values["gearset"].items() if key not in _HELD}
+    held = _held({key: value for key, value in values["gearset"].items() if key in _HELD})
     gearset = _table(Gearset, kept | _STAND_IN)
     operation = _table(Operation, values["operation"])
     options = _table(RatingOptions, values.get("rating", {}))
@@ -74,7 +88,29 @@ def proposals(
         rank=rank,
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
+        held=held,
+        locks=locks,
     )
+
+
+def _held(values: Mapping[str, Any]) -> dict[str, float]:
+    """Return what is given of the macro-geometry as numbers, lengths in mm; raises InputError."""
+    counts = {key: value for key, value in values.items() if key in ("starts", "wheel_teeth")}
+    one = _table(Gearset, _COUNTED | counts)
+    held = {key: float(getattr(one, key)) for key in counts}
+    for key, value in values.items():
+        quantity = quantity_of(Gearset, key)
+        if key not in counts and quantity is not None:
+            try:
+                number = quantity.check(value, text_only=True)
+            except InputError as error:
+                raise InputError(f"gearset.{key} is {value!r}; {error}") from None
+            held[key] = float(f"{1e3 * number:.12g}") if quantity.unit == "m" else number
+    if "diameter_factor" in held and "worm_pitch_diameter" in held:
+        raise InputError(
+            "gearset.diameter_factor and gearset.worm_pitch_diameter are given; keep one of them"
+        )
+    return held
 
 
 def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:

@@ -13,6 +13,11 @@ from asperity.units import quantity_of, split_unit
 
 # A safety that nothing moves would else be on its limit wherever the search looks.
 _ROOM = 1e-6
+_ABOVE = 1e-9
+
+LOCKING = "locking"
+"""What is kept of a worm that locks itself: friction over that from which on it does, 1 or more."""
+
 BOUNDED = (*VARIABLES, "profile_shift")
 
 
@@ -97,7 +102,8 @@ def least_safeties(rated: Rated, keep: Sequence[str] = ()) -> dict[str, float]:
     rated : Rated
         The gearset as it is.
     keep : sequence of str
-        Safeties that may not fall at all: a standard, ``standard.key``, a symbol, or ``all``.
+        Safeties that may not fall at all: a standard, ``standard.key``, a symbol, or ``all``; and
+        ``locking``: a worm that locks itself goes on to, at rest and in motion, by each standard.
 
     Raises
     ------
@@ -111,6 +117,11 @@ def least_safeties(rated: Rated, keep: Sequence[str] = ()) -> dict[str, float]:
         if math.isfinite(value) and value > 0.0:
             path = safety.demand.path
             least[path] = value if path in kept else min(value, asked)
+    if LOCKING in kept:
+        for one in rated.self_locking:
+            if one.locks:
+                ratio = one.friction / one.limit
+                least[f"{LOCKING}.{one.standard}.{one.state}"] = min(ratio, 1.0 + _ABOVE)
     return least
 
 
@@ -120,6 +131,7 @@ def known_safeties(name: str) -> set[str]:
         "all": {demand.path for demand in DEMANDS},
         **{standard: {d.path for d in DEMANDS if d.standard == standard} for standard in STANDARDS},
         **{demand.path: {demand.path} for demand in DEMANDS},
+        LOCKING: {LOCKING},
         **{d.symbol: {o.path for o in DEMANDS if o.symbol == d.symbol} for d in DEMANDS},
     }
     if name not in known:

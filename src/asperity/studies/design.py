@@ -15,10 +15,12 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
+from asperity.formulas import masking
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.threads import CLOSED_FORMS, thread_room
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, rate
+from asperity.rating.rate import STANDARDS, rate, tables_of
+from asperity.rating.self_locking import locking_margins
 from asperity.rating.variants import variants
 from asperity.sources import Source
 from asperity.studies.climb import spread
@@ -137,7 +139,8 @@ class Space:
         # The thesis (3.3.5), which asks for torques alone, looks at no threads.
         knows = least is not None and gearset.flank in CLOSED_FORMS
         self._judged = (*WORTH, *((THREADS,) if knows else ()), *self.least)
-        asked = {path.partition(".")[0] for path in self.least}
+        asked = {path.removeprefix("locking.").partition(".")[0] for path in self.least}
+        self._tables = tables_of(self.options, folder)
         self._standards = tuple(name for name in STANDARDS if name in {*NEEDED, *asked})
         for standard in NEEDED:
             # Alone, because then one that cannot be applied says why.
@@ -194,8 +197,15 @@ class Space:
             **self.values(points),
         )
         shift = np.broadcast_to(found.given.profile_shift, found.shape)
-        paths = _NUMBERS | {path: path for path in self.least}
+        locking = [path for path in self.least if path.startswith("locking.")]
+        paths = _NUMBERS | {path: path for path in self.least if path not in locking}
         numbers = {key: found[path] for key, path in paths.items()} | {"profile_shift": shift}
+        if locking:
+            with masking(found.shape):
+                margins = locking_margins(found.given, found, self._tables)
+            for (standard, state), margin in margins.items():
+                over = np.broadcast_to(np.asarray(margin, dtype=float) + 1.0, found.shape)
+                numbers[f"locking.{standard}.{state}"] = over
         if self.least_threads is not None:
             q, alpha = found.given.diameter_factor, self.values(points)["pressure_angle"]
             numbers[THREADS] = np.broadcast_to(self.threads_of(q, alpha), found.shape)

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+from asperity.rating.changes import changed_words, locking_words
 from asperity.rating.demands import DEMANDS
 from asperity.rating.rate import Rated
 from asperity.studies.quantities import varied_quantity
@@ -69,9 +70,21 @@ def safeties_json(before: Rated, after: Rated, made: Rated | None) -> list[dict[
     return [dict(zip(names, row, strict=False)) for row in rows]
 
 
+def locking_of(before: Rated, after: Rated, made: Rated | None) -> dict[str, dict[str, str]]:
+    """Return by which standards each design locks itself, by state."""
+    designs = {"given": before, "optimum": after} | ({"made": made} if made else {})
+    return {name: locking_words(one) for name, one in designs.items()}
+
+
 def falls(before: Rated, after: Rated) -> list[str]:
-    """Return a sentence for each safety that falls, is lost, or does not hold, and efficiency."""
-    said = []
+    """Return a sentence for each safety that falls, is lost, or does not hold, and efficiency.
+
+    And for each word of the verdict that changes: what holds, and what locks itself.
+    """
+    said = [
+        f"{text} (--keep locking holds that)" if text.startswith("no longer") else text
+        for text in changed_words(before, after)
+    ]
     for path, asked, old, new in safety_rows(before, after):
         if new is None:
             said.append(f"{path} has no answer any more")

@@ -21,7 +21,7 @@ from asperity.rating.rate import Rated, rate
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
-from asperity.studies.asked import bounds_of, known_safeties, least_safeties
+from asperity.studies.asked import LOCKING, bounds_of, known_safeties, least_safeties
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import ASSUMED, THREADS, VARIABLES, Bounds, Space
 from asperity.studies.designs import (
@@ -29,6 +29,7 @@ from asperity.studies.designs import (
     design_numbers,
     falls,
     free_numbers,
+    locking_of,
     safeties_json,
     safety_rows,
 )
@@ -152,6 +153,7 @@ class Optimum(Result):
             "made": None if self.made is None else design_numbers(self.made),
             "made_settings": list(self.made_settings),
             "safeties": safeties_json(self.before, self.after, self.made),
+            "locking": locking_of(self.before, self.after, self.made),
             "notes": list(self.notes),
         }
         return answer if self.curve is None else {**answer, "trade_off": self.curve.to_json()}
@@ -188,6 +190,8 @@ class Optimum(Result):
         rows += [
             [f"{path} (asked {asked:g})", *values] for path, asked, *values in safety_rows(*designs)
         ]
+        words = list(locking_of(self.before, self.after, self.made).values())
+        rows += [[key, *(one[key] for one in words)] for key in words[0]]
         symbols = [limit.symbol for limit in self.limits if limit.relation != "<="]
         active = [[limit.key, limit.relation, limit.bound, limit.value] for limit in self.active]
         remarks = [
@@ -354,6 +358,12 @@ def _limits(space: Space, capacity: Mapping[str, float], after: Rated) -> tuple[
             bound = space.least[demand.path]
             active = value - bound < _ACTIVE * bound
             limits.append(Limit(demand.path, demand.symbol, ">=", bound, value, active))
+    for one in after.self_locking:
+        path = f"{LOCKING}.{one.standard}.{one.state}"
+        if path in space.least:
+            bound, value = space.least[path], one.friction / one.limit
+            active = value - bound < _ACTIVE * bound
+            limits.append(Limit(path, "locking", ">=", bound, value, active))
     if space.least_threads is not None:
         g = after.geometry
         room = float(space.threads_of(g.diameter_factor, g.pressure_angle))

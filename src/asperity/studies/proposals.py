@@ -14,35 +14,26 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, suggestion
+from asperity.formulas import masking
 from asperity.gearset.parameters import Gearset
-from asperity.gearset.sizing import possible_starts
 from asperity.gearset.threads import thread_room
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import STANDARDS
+from asperity.rating.self_locking import locking_margins
 from asperity.rating.variants import Variants, variants
 from asperity.results import Result, quantity
 from asperity.results.table import Table
-
-DISTANCES = (25, 31.5, 40, 50, 63, 80, 100, 125, 140, 160, 180, 200, 225, 250, 280, 315, 355, 400,
-             450, 500)  # fmt: skip
-"""Centre distances, mm: R10 of ISO 3, and R20 from 125, as catalogues have them."""
-
-MODULES = (1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3, 8, 10, 12.5, 16, 20)
-"""Axial modules, mm: R10 of ISO 3, as DIN 780-2 has them (from memory)."""
-
-MOST_SHIFT = 0.5
-"""Greatest profile shift of the wheel to either side."""
-
-FACTORS = (6.0, 20.0)
-"""Least and greatest diameter factor; between them every half one is tried."""
+from asperity.studies.series import grid
 
 RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
+LOCKS = ("", "rest", "motion")
+"""When the worm must lock itself; empty: never."""
+
 MOST = 20
 """Proposals that are shown."""
 
 _FROM_SI = 1e3
-_RATIO_OFF = 0.03
 
 
 class Proposal(NamedTuple):
@@ -62,6 +53,10 @@ class Proposal(NamedTuple):
         The safety that has it, as ``standard.key``.
     holds : bool
         Whether every safety is enough.
+    locks_at_rest, locks_in_motion : tuple of str
+        The standards by whose friction the worm locks itself, of those that have an answer.
+    locks : str
+        In a word or two, by all of them: ``in motion``, ``at rest``, ``by some`` or ``no``.
     """
 
     starts: int
@@ -74,6 +69,9 @@ class Proposal(NamedTuple):
     margin: float
     limited_by: str
     holds: bool
+    locks_at_rest: tuple[str, ...] = ()
+    locks_in_motion: tuple[str, ...] = ()
+    locks: str = ""
 
     @property
     def keys(self) -> dict[str, Any]:
@@ -81,8 +79,8 @@ class Proposal(NamedTuple):
         return {
             "starts": self.starts,
             "wheel_teeth": self.wheel_teeth,
-            "centre_distance": f"{self.centre_distance_mm:g} mm",
-            "axial_module": f"{self.axial_module_mm:g} mm",
+            "centre_distance": f"{self.centre_distance_mm:.12g} mm",
+            "axial_module": f"{self.axial_module_mm:.12g} mm",
             "diameter_factor": self.diameter_factor,
         }
 
@@ -111,12 +109,12 @@ class Proposals(Result):
     def tables(self) -> tuple[Table, ...]:
         """Return a row for each proposal."""
         headings = ("", "a (mm)", "z_1", "z_2", "u", "m_x1 (mm)", "q_1", "x_2", "eta (%)", "margin",
-                    "least safety")  # fmt: skip
+                    "least safety", "locks")  # fmt: skip
         rows = [
             (str(place), f"{p.centre_distance_mm:g}", str(p.starts), str(p.wheel_teeth),
              f"{p.wheel_teeth / p.starts:.4g}",
              f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{p.profile_shift:.3g}",
-             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", p.limited_by)
+             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", p.limited_by, p.locks)
             for place, p in enumerate(self.found[:MOST], 1)
         ]  # fmt: skip
         best = self.found[0]
@@ -143,6 +141,8 @@ def propose(
     rank: str = "size",
     exact: bool = False,
     can_be_cut: Callable[[Mapping[str, Any]], bool] | None = None,
+    held: Mapping[str, float] | None = None,
+    locks: str = "",
 ) -> Proposals:
     """Propose gearsets for a ratio, by the torque and the speed of an operation.
 
@@ -164,6 +164,10 @@ def propose(
     can_be_cut : callable, optional
         Whether a hob cuts the wheel of a gearset with the keys of a `Proposal`. What is shown is
         asked for, and others take the place of what cannot be cut.
+    held : mapping of str to float, optional
+        What of the macro-geometry is given and not proposed, see `asperity.studies.series.grid`.
+    locks : {'', 'rest', 'motion'}
+        Whether the worm must lock itself, at rest or in motion, by every standard that rates it.
 
     Raises
     ------
@@ -176,13 +180,12 @@ def propose(
         )
     if not 3.0 <= gear_ratio <= 100.0:
         raise InputError(f"ratio is {gear_ratio:g}; it must be from 3 to 100")
-    grid = _grid(gear_ratio, exact=exact)
-    if not grid:
+    if locks not in LOCKS:
         raise InputError(
-            f"ratio is {gear_ratio:g}, which no whole numbers of starts and teeth give within "
-            f"{100 * _RATIO_OFF:g} %; choose another"
+            f"--locks {locks}: it must be one of {choices(LOCKS[1:])}{suggestion(locks, LOCKS[1:])}"
         )
-    tried = np.array(grid).T
+    designs = grid(gear_ratio, held or {}, exact=exact)
+    tried = np.array(designs).T
     room = thread_room(
         gearset.flank, gearset.tooth_proportions, tried[0], tried[4], gearset.pressure_angle
     )
@@ -206,13 +209,24 @@ def propose(
     margins, least, rated_by_all = _margins(rated)
     efficiency = np.asarray(rated["iso14521.eta_ges"])
     known = np.isfinite(margins) & np.isfinite(efficiency) & (efficiency > 0.0)
+    locking = _locking(rated)
+    if locks:
+        known &= np.all([margin >= 0.0 for margin in locking[locks].values()], axis=0)
     holding = known & (margins >= 1.0) & rated_by_all
     if not holding.any():
         holding = known & (margins >= 1.0)
     kept = np.flatnonzero(holding if holding.any() else known)
     if not len(kept):
+        if locks:
+            when = "at rest" if locks == "rest" else "in motion"
+            raise InputError(
+                f"no gearset of the series that can be rated locks itself {when} by every "
+                "standard: take a larger ratio, or leave --locks out"
+            )
+        other = " or hold less of the gearset with --set" if held else ""
         raise InputError(
             "no gearset of the series can be rated for this; look for a value with a wrong unit"
+            f"{other}"
         )
     worth = np.stack([-distance, efficiency, margins], axis=-1)
 
@@ -228,6 +242,7 @@ def propose(
             float(margins[n]),
             DEMANDS[least[n]].path,
             bool(holding[n]),
+            *_locks(locking, n),
         )
 
     def best(of: Any) -> Any:
@@ -237,10 +252,13 @@ def propose(
 
     shown, uncut = _that_can_be_cut(kept, best, proposal, can_be_cut)
     notes = list(rated.notes)
-    if pointed := len(grid) - starts.size:
+    if pointed := len(designs) - starts.size:
         notes.append(f"left out: {pointed} whose worm or hob would have pointed threads")
     if uncut:
         notes.append(f"left out: {uncut} whose wheel no hob cuts (asperity flank tells why)")
+    if held:
+        named = ", ".join(f"gearset.{key}" for key in held)
+        notes.append(f"held as it is set: {named}")
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
     if holding.any():
@@ -262,24 +280,6 @@ def propose(
         found=tuple(map(proposal, shown)),
         notes=tuple(notes),
     )
-
-
-def _grid(gear_ratio: float, *, exact: bool) -> list[tuple[float, ...]]:
-    """Return starts, teeth, centre distance, module, diameter factor and shift of all designs."""
-    found: list[tuple[float, ...]] = []
-    factors = np.arange(FACTORS[0], FACTORS[1] + 0.25, 0.5).tolist()
-    for distance in DISTANCES:
-        for starts in possible_starts(distance, gear_ratio):
-            near = round(starts * gear_ratio)
-            for teeth in (near,) if exact else (near - 1, near, near + 1):
-                if abs(teeth / starts / gear_ratio - 1.0) > _RATIO_OFF:
-                    continue
-                for module in MODULES:
-                    for factor in factors:
-                        shift = distance / module - 0.5 * (factor + teeth)
-                        if abs(shift) <= MOST_SHIFT:
-                            found.append((starts, teeth, distance, module, factor, shift))
-    return found
 
 
 def _that_can_be_cut(
@@ -321,6 +321,38 @@ def _margins(rated: Variants) -> tuple[FloatArray, Any, Any]:
     margins = np.take_along_axis(stacked, least[None], axis=0)[0]
     # What ISO/TR 14521 cannot rate has no efficiency either.
     return margins, least, ~np.any(np.isnan(stacked[asked]), axis=0)
+
+
+def _locking(rated: Variants) -> dict[str, dict[str, FloatArray]]:
+    """Return by state and standard by how much friction is above what locks; NaN without one."""
+    found: dict[str, dict[str, FloatArray]] = {"rest": {}, "motion": {}}
+    with masking(rated.shape):
+        margins = locking_margins(rated.given, rated)
+    for (standard, state), margin in margins.items():
+        everywhere = np.broadcast_to(np.asarray(margin, dtype=float), rated.shape)
+        # A standard without an answer has no say.
+        known = rated.reason(standard) == 0
+        found["rest" if state == "static" else "motion"][standard] = np.where(
+            known, everywhere, math.inf
+        )
+    return found
+
+
+def _locks(
+    locking: Mapping[str, Mapping[str, FloatArray]], n: int
+) -> tuple[tuple[str, ...], tuple[str, ...], str]:
+    """Return by which standards a design locks, at rest and in motion, and in a word."""
+    margins = {
+        state: {name: float(margin[n]) for name, margin in own.items() if margin[n] < math.inf}
+        for state, own in locking.items()
+    }
+    rest, motion = (
+        tuple(name for name, margin in margins[state].items() if margin >= 0.0)
+        for state in ("rest", "motion")
+    )
+    count = len(margins["rest"])
+    word = "in motion" if len(motion) == count else "at rest" if len(rest) == count else ""
+    return rest, motion, word or ("by some" if rest or motion else "no")
 
 
 def _undominated(worth: FloatArray) -> npt.NDArray[np.bool_]:

@@ -12,8 +12,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.gearset.sizing import MODULES as ISO_54
 from asperity.studies.design import VARIABLES, Space
-from asperity.studies.proposals import MODULES as DIN_780
 from asperity.studies.quantities import varied_quantity
+from asperity.studies.series import MODULES as DIN_780
 
 STEPS = {
     "pressure_angle": 0.1,

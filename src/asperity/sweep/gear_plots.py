@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.rating.demands import DEMANDS
-from asperity.rating.verdict import NAMES
+from asperity.rating.standing import NAMES
 from asperity.results.figures import BLACK, COLOURS, DASHES, legend, panels
 from asperity.sweep.axes import POINT
 from asperity.sweep.maps import axis_label, plane, ticks

@@ -12,8 +12,8 @@ from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import facts
 from asperity.rating.parameters import Operation
 from asperity.rating.rate import STANDARDS, Rated, rate_case
+from asperity.rating.standing import NAMES
 from asperity.rating.tables import TABLES
-from asperity.rating.verdict import NAMES
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.slider.result import table_inputs

@@ -101,6 +101,16 @@ class TeethModel(ReducedModel):
         """Without vibration, mean over a pitch, N m."""
         return float(self.courses[0].worm_torque.mean())
 
+    def torque_over(self, first: float, last: float) -> float:
+        """Mean without vibration over angles of the worm, N m."""
+        contact = self.contact
+        count = max(_PHASES, math.ceil(_PHASES * (last - first) / self.pitch_angle))
+        places = (np.arange(count) + 0.5) / count
+        phases = np.asarray(first + (last - first) * places, np.float64)
+        touching = touching_angles(contact, phases)
+        (course,) = sweep(Equilibrium(contact), phases, touching, [Asked(self.problem.load)])
+        return float(course.worm_torque.mean())
+
     @property
     def reversed_torque(self) -> float:
         """Of the worm if all friction were turned round, mean over a pitch, N m."""
@@ -208,7 +218,12 @@ class TeethModel(ReducedModel):
     @property
     def pitch(self) -> float:
         """Time from tooth to tooth, s."""
-        return 2.0 * math.pi / (self.problem.gearset.starts * self.problem.worm_speed)
+        return self.pitch_angle / self.problem.worm_speed
+
+    @property
+    def pitch_angle(self) -> float:
+        """Turn of the worm from tooth to tooth, rad."""
+        return 2.0 * math.pi / self.problem.gearset.starts
 
     def balanced(self, pose: FloatArray, load: float) -> FloatArray | None:
         """Turn the wheel, in place, to where the teeth carry a load, and return their answer."""

@@ -17,8 +17,8 @@ WANTED = 1e-3
 """Of the ratio: what a step that is not given is chosen to stay below."""
 
 _OF_POWERS = 2.5e-3  # of the largest power: the same of each of them
-# Cycles that are marched again: a share of all, so that an eighth of the time is added, and enough.
-_SHARE, ENOUGH = 4, 12
+# Of all cycles, the share that is marched again at most: it adds an eighth to the time.
+_SHARE = 4
 _COARSER = 2.0
 # What a shorter step aims at, the shortest, and what is to be left of the error after each.
 _AIM, _FINEST, _GAINS = 0.7, 1.0 / 16.0, 0.75
@@ -76,7 +76,7 @@ def step_error(march: March, measure: str, scale: float, power: float) -> StepEr
     """
     marked = march.marked.row
     last = march.rows[marked:]
-    count = min(ENOUGH, march.rows.size // _SHARE, last.size)
+    count = min(march.rows.size // _SHARE, last.size)
     if not count:
         return None
     return _apart(last[:count], march.again(_COARSER, count), measure, scale, power)
@@ -85,9 +85,8 @@ def step_error(march: March, measure: str, scale: float, power: float) -> StepEr
 def sensitive(march: March, measure: str, scale: float, power: float) -> bool:
     """Return whether a motion parts from its like by itself; parameters as of `step_error`."""
     marked = march.marked.row
-    count = min(ENOUGH, march.rows.size - marked)
-    one = march.rows[marked : marked + count]
-    return _apart(one, march.again(1.0, count, _NUDGE), measure, scale, power).off > _PARTED
+    one = march.rows[marked:]
+    return _apart(one, march.again(1.0, one.size, _NUDGE), measure, scale, power).off > _PARTED
 
 
 def _apart(
@@ -98,7 +97,8 @@ def _apart(
         # It left the finite numbers, or its flanks each other.
         return StepError(math.inf, math.inf)
     if measure == "rolled":
-        ratio = (mean(other, measure) - mean(one, measure)) / scale
+        before = mean(one, measure)
+        ratio = (mean(other, measure) - before) / max(scale, abs(before))
     else:
         ratio = _told(other, measure) / _told(one, measure) - 1.0
     most = max(*(abs(float(one[name].sum())) for name in _POWERS), power * one["time"].sum())

@@ -3,6 +3,9 @@
 import dataclasses
 import math
 
+import numpy as np
+
+from asperity.arrays import FloatArray
 from asperity.drive.headline import BALANCED
 
 # Means of three blocks within this of each other, a balanced wheel that turns with the worm to
@@ -90,6 +93,21 @@ class Judgement:
         elif self.nearer > 0.0:
             missing.append("it did not come nearer, as if no duration would do")
         return "; ".join(missing)
+
+
+def steady_speed(rolled: FloatArray, time: FloatArray) -> float:
+    """Return the speed at which a wheel goes on that also rings on its teeth.
+
+    Over a time, the ends of its swing tell more of that than of its creep: they are weighed by
+    nothing, and the middle by most.
+
+    Parameters
+    ----------
+    rolled, time : ndarray
+        Of stretches, one after the other, rad and s.
+    """
+    weights = np.sin(math.pi * (np.arange(time.size) + 0.5) / time.size) ** 2
+    return float((weights @ rolled) / (weights @ time))
 
 
 def _percent(share: float) -> str:

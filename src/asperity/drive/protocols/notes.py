@@ -3,7 +3,7 @@
 import math
 
 from asperity.drive.problem import DriveProblem
-from asperity.drive.protocols.accuracy import ENOUGH, WANTED, StepError
+from asperity.drive.protocols.accuracy import WANTED, StepError
 from asperity.drive.protocols.judgement import Judgement
 from asperity.drive.protocols.rest import Rest
 from asperity.drive.reduced.model import ReducedModel
@@ -93,6 +93,6 @@ def _of_step(problem: DriveProblem, off: StepError) -> str:
     if problem.solve.step is not None:
         return f"{found}: give a smaller solve.step, or none to have it chosen"
     return (
-        f"{found}, or the motion parts from its like by itself within {ENOUGH} cycles; its mean "
-        "over the three blocks is what stays"
+        f"{found}, or the motion parts from its like by itself within a block of cycles; its mean "
+        "over three of them is what stays"
     )

@@ -18,7 +18,7 @@ from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.judgement import PERIODIC
 from asperity.drive.protocols.march import March, Records, mean
-from asperity.drive.protocols.setup import begin
+from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.runs import Run
 
@@ -26,6 +26,7 @@ _SECONDS, _SWINGS = 60e-3, 20  # marched at least, and of the wheel on what hold
 _STRETCHES, _PARTS = 60, 10
 _LONGER = (1, 4)  # times as long, where it still grows by so much from part to part
 _GROWS = 1.05
+_WHOLE = 0.05  # of a number of pitches, by which it may miss a whole one
 # Of the wheel's speed; and where steady sliding is missed by no more, a march stays in it.
 _NUDGE, _MISSED = 1e-4, 1e-6
 
@@ -104,6 +105,35 @@ def at_rest(
         mean(last, "wheel_torque"), mean(last, "driving"), float(np.ptp(parts)), True,
         march.states, march.committed,
     )  # fmt: skip
+
+
+def over_the_same(
+    problem: DriveProblem, model: ReducedModel, march: March, cycles: int, rest: Rest
+) -> Rest:
+    """Return a drive without vibration over the part of a pitch that its march was judged by.
+
+    Parameters
+    ----------
+    problem, model, march : DriveProblem, ReducedModel, March
+        What was asked, its mesh and what was marched.
+    cycles : int
+        By which it was judged, the last of them.
+    rest : Rest
+        The same over whole pitches.
+    """
+    if model.pitch is None or not (march.system.speed and march.system.rolls):
+        return rest
+    if problem.drive.protocol == "window":
+        still = system(problem, model, shaken=False)
+        before = March(model, still, *begin(problem, model, still), Run(), march.stop)
+        before.go(cycles)
+        return dataclasses.replace(rest, torque=mean(before.rows, "torque"))
+    pitches = cycles * march.cycle / model.pitch
+    if abs(pitches - round(pitches)) < _WHOLE * pitches:
+        return rest
+    last = problem.worm_speed * march.rows.size * march.cycle
+    first = last - problem.worm_speed * cycles * march.cycle
+    return dataclasses.replace(rest, torque=model.torque_over(first, last))
 
 
 def _marched(

@@ -13,10 +13,10 @@ from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import StepError, sensitive, step_error
-from asperity.drive.protocols.judgement import Judgement
-from asperity.drive.protocols.march import March, Records, bands_of, mean
+from asperity.drive.protocols.judgement import Judgement, steady_speed
+from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
-from asperity.drive.protocols.rest import Rest, at_rest
+from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
 from asperity.drive.protocols.setup import switched_off, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
@@ -27,6 +27,10 @@ from asperity.runs.key import code_key, key
 
 _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
 _AFTER_SECONDS = 40e-3
+# Of the vibration's own speed, the least by which a creep that has to stay is measured.
+_CREEP = 0.1
+# Of the step, what a march that does not settle is tried with once more.
+_TRIED = 0.5
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
@@ -57,7 +61,7 @@ def solve_shaken(
     locked = problem.drive.protocol == "back-drive"
     moving = system(problem, model, motor=not locked)
     rest = at_rest(problem, model, moving, stop)
-    march = March(model, moving, rest.states.copy(), rest.committed.copy(), run, stop)
+    march = March(model, moving, rest.states, rest.committed, run, stop)
     if kept := run.resume(key(code_key(__name__, type(model).__module__), asked(problem))):
         march.restore(kept)
         if march.finer != 1.0:
@@ -71,11 +75,13 @@ def solve_shaken(
             judged, off = _first_cycles(march, window, rest.torque, power), None
         else:
             judged, off, rest = _settled(problem, model, march, rest, stop)
-        creep = mean(march.rows[-judged.cycles :], "rolled") if locked else None
+        last = march.rows[-judged.cycles :]
+        creep = steady_speed(last["rolled"], last["time"]) if locked else None
         held = _held_after(problem, model, march, run)
         began = float(march.states[0]["time"])
         if run.detailed:
             shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
+    rest = over_the_same(problem, model, march, judged.cycles, rest)
     answer = _summarise(problem, model, march, judged, rest, off)
     return dataclasses.replace(
         answer,
@@ -105,13 +111,19 @@ def _settled(
         )  # fmt: skip
         off = step_error(march, measure, scale, power) if judged.settled else None
         # Of elastic teeth steps are dear: of them the error is told alone.
-        if off is None or problem.solve.step is not None or model.pitch is not None:
+        chosen = problem.solve.step is None and model.pitch is None
+        finer = None
+        if chosen and off is not None:
+            finer = off.finer(march.finer, march.off)
+            if finer is not None and sensitive(march, measure, scale, power):
+                finer = None
+        elif chosen and problem.solve.duration is None and march.finer == 1.0:
+            # What has a period may lose it to a step that is too long.
+            finer = _TRIED
+        if finer is None:
             return judged, off, rest
-        finer = off.finer(march.finer, march.off)
-        if finer is None or sensitive(march, measure, scale, power):
-            return judged, off, rest
-        march.refine(finer, off.off)
-        rest = at_rest(problem, model, march.system, stop)
+        rest = at_rest(problem, model, refined(march.system, finer), stop)
+        march.restart(finer, math.inf if off is None else off.off, rest.states, rest.committed)
 
 
 def asked(problem: DriveProblem) -> str:
@@ -130,7 +142,7 @@ def _measured(problem: DriveProblem, rest: Rest, model: ReducedModel) -> tuple[s
     """Return what of a protocol's motion has to stay, and what it is measured by."""
     if problem.drive.protocol == "back-drive":
         speed = problem.velocity / model.point.length or problem.worm_speed
-        return "rolled", speed / model.point.ratio
+        return "rolled", _CREEP * speed / model.point.ratio
     if problem.drive.protocol == "held-wheel":
         return "wheel_torque", problem.load
     return "torque", rest.torque

@@ -104,6 +104,10 @@ class ReducedModel:
         """Without vibration, N m."""
         return self.point.worm_torque(self.problem.load, self.friction)
 
+    def torque_over(self, first: float, last: float) -> float:
+        """Mean without vibration over angles of the worm, N m: the same at all of them."""
+        return self.worm_torque
+
     @property
     def reversed_torque(self) -> float:
         """Of the worm if all friction were turned round, N m."""

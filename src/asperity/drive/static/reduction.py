@@ -21,6 +21,7 @@ SHARES = (1.0 / 16.0, 1.0 / 4.0, 1.0, 2.5)
 """Torques that the table has, over the load, which is the last but one."""
 
 _PHASES = 8
+_TELLING = 0.05  # coefficient of friction from which on torques tell their radius, to 10 um
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -55,17 +56,21 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
 
     upto = [Asked(share * load) for share in SHARES[:-1]]
     upto[-1] = upto[-1]._replace(look=look)
+    # Of little friction the torque says next to nothing of the radius that it acts at.
+    much = max(model.friction, _TELLING)
     courses = model.courses(upto)
     # Beyond the load as far as the teeth carry.
     with contextlib.suppress(InputError):
         courses += model.courses([Asked(SHARES[-1] * load)])
     torque = float(courses[len(upto) - 1].worm_torque.mean())
+    if much > model.friction:
+        torque = float(model.rubbing(much).courses([Asked(load)])[0].worm_torque.mean())
     whole, moment, work, friction = np.array(give).sum(axis=0)
     compliance = work / friction if friction > 0.0 else 0.0
     return TeethReduced(
         torque=np.array([course.torque for course in courses]),
         deflection=np.array([course.mean_deflection for course in courses]),
-        radius=_closed_form_radius(problem, model.friction, torque, moment / whole),
+        radius=_closed_form_radius(problem, much, torque, moment / whole),
         compliance=float(compliance),
         normal_force=float(whole / phases),
         mode=lowest_mode(model.sector.wheel, problem.gearset.wheel_material),

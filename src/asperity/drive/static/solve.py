@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -147,6 +148,14 @@ class StaticModel:
         force, radius, _ = np.array(means).T
         mean = float(force @ radius / force.sum())
         return self.problem.point(mean).sliding_speed(speed)
+
+    def rubbing(self, friction: float) -> StaticModel:
+        """Return the same with another coefficient of friction."""
+        other = copy.copy(self)
+        other.friction = friction
+        other.contact = TeethContact(self.sector, friction)
+        other.equilibrium = Equilibrium(other.contact, self.equilibrium.compliance)
+        return other
 
     def courses(
         self, asked: Sequence[Asked], step: Callable[[int], None] = lambda _number: None

@@ -64,12 +64,20 @@ class OnDemand(DriveResult):
     def headline(self) -> tuple[str, ...]:
         """Return what vibration does at the seats, to the stroke, and what fails."""
         torque, energy, *_ = super().headline()
-        word = "less" if self.energy_shaken < self.energy_plain else "no less"
-        stroke = f"a stroke takes {self.energy_shaken:.3g} J for {self.energy_plain:.3g}, {word}"
+        known = self.actuator_electrical is not None
+        least, most = ("", "") if known else ("at least ", "at most ")
+        word = ", less" if self.energy_shaken < self.energy_plain else ", no less"
+        if not known and self.energy_shaken < self.energy_plain:
+            word = ""
+        stroke = (
+            f"a stroke takes {least}{self.energy_shaken:.3g} J for {self.energy_plain:.3g}{word}"
+        )
         motor = f"motor {self.motor_shaken} for {self.motor_plain}"
         if self.motor_shaken == self.motor_plain:
             motor = f"the same motor, {self.motor_plain}"
-        light = f"{abs(self.saved_mass):.2g} kg {'lighter' if self.saved_mass > 0.0 else 'heavier'}"
+        lighter = self.saved_mass > 0.0
+        light = f"{abs(self.saved_mass):.2g} kg {'lighter' if lighter else 'heavier'}"
+        light = f"{most if lighter else least}{light}"
         holds = "holds" if self.held_after else "does NOT hold"
         said = [f"{stroke}; {motor}, {light} with the actuator", f"it {holds} after"]
         if self.safety_wear is not None:
@@ -143,7 +151,7 @@ def _told(
     with_it = np.array([torque, free, torque])
     time = turns / (problem.worm_speed / model.point.ratio)
     shaking, moving = float(time[0] + time[2]), float(time.sum())
-    electrical, apparent = shaken.actuator_electrical or 0.0, shaken.actuator_apparent or 0.0
+    electrical, apparent = _taken(problem, shaken)
 
     def service(torques: FloatArray) -> Service:
         parts = [(float(t), float(s)) for t, s in zip(torques, time, strict=True)]
@@ -172,11 +180,35 @@ def _told(
                 *shaken.notes,
                 "masses of motors, actuator and generator are from memory, to some 15 %, and a "
                 "factor of 2 for the latter two",
+                *_least(shaken, electrical),
                 *of_another_speed((found.before, found.after), problem.worm_speed),
                 *(() if worn else ("[rating] does not apply, so wear and heat are not told",)),
             ),
         }
     )
+
+
+def _least(shaken: DriveResult, electrical: float) -> tuple[str, ...]:
+    """Return the line about an actuator of which nothing but its work is known."""
+    if shaken.actuator_electrical is not None:
+        return ()
+    return (
+        f"of the actuator only the {shaken.ledger.actuator:.3g} W are counted that it gives to the "
+        f"gearset, {electrical:.3g} W from the mains: with the mass of the wheel, which is not "
+        "known, it takes and weighs more",
+    )
+
+
+def _taken(problem: DriveProblem, shaken: DriveResult) -> tuple[float, float]:
+    """Real power from the mains and apparent power of the actuator, or the least of both.
+
+    What swings in it follows from the mass that it moves; what it gives to the gearset does not.
+    """
+    if shaken.actuator_electrical is not None and shaken.actuator_apparent is not None:
+        return shaken.actuator_electrical, shaken.actuator_apparent
+    given = shaken.ledger.actuator
+    efficiency = 1.0 if problem.actuator is None else problem.actuator.efficiency
+    return max(given, 0.0) / efficiency, abs(given)
 
 
 def _exchanged(found: Exchange) -> dict[str, Any]:

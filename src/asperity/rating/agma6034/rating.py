@@ -151,8 +151,8 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
     notes = ["the friction force W_f is taken as Shigley has it, so that losses and e_W agree"]
     if given.duty:
         notes.append(
-            "the duty cycle: the standard has no rule for one; its safety and its sump are those of "
-            "the part that is nearest to its limit"
+            "the duty cycle: the standard has no rule for one; its safety and its sump are those "
+            "of the part that is nearest to its limit"
         )
     if not given.gearset.worm_material.hardened:
         notes.append(

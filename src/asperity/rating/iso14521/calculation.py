@@ -209,7 +209,7 @@ def _over_the_parts(parts: tuple[Values, ...], v: Values) -> None:
 
 
 def _place_of_most(depths: list[Real]) -> Any:
-    plain = [getattr(depth, "value", depth) for depth in depths]
+    plain: list[Any] = [getattr(depth, "value", depth) for depth in depths]
     return np.argmax(np.stack(np.broadcast_arrays(*plain)), axis=0)
 
 

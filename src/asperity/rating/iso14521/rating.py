@@ -93,8 +93,8 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
         notes.append(
             "the duty cycle: wear adds up over its parts, each with the sump at rest at its own "
             "temperature, and film and wear factors are those of the part that wears most; pitting "
-            "goes by its parts' damage, with the exponent of Z_h (our own rule); deflection and root "
-            "go by the rated torque"
+            "goes by its parts' damage, with the exponent of Z_h (our own rule); deflection and "
+            "root go by the rated torque"
         )
         if given.operation.through_travel_torque is not None:
             notes.append(

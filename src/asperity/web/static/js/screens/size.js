@@ -78,7 +78,8 @@ function Proposals({ found, options, through, parts }) {
       (one) => digits(one[key], count), "right",
       { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
     ]),
-    ["least safety", (one) => limit(one.limited_by)], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
+    ["least safety", (one) => limit(one.limited_by)], ["locks itself", ({ locks }) => locks],
+    ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
   ]} />`;
 }
 
@@ -163,7 +164,8 @@ export function view() {
       ${answer ? html`<p class="says">${answer.rated} gearsets rated, ${answer.holding} hold by every standard;
           shown are those that no other beats in size, efficiency and margin together. Oil, materials, roughness and
           life are the case's${through ? html`; its torque through the travel, ${through}, is not, since it goes with
-          another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
+          another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
+          none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}
     </section>

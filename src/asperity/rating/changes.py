@@ -1,0 +1,57 @@
+"""What changes in the words of a verdict from one gearset to another: what holds, what locks."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from asperity.rating.standing import NAMES, listed
+
+_SHORT = {"iso14521": "ISO", "bs721": "BS", "agma6034": "AGMA"}
+_STATES = {"static": "at rest", "dynamic": "in motion"}
+
+Rated = Any
+"""A `asperity.rating.rate.Rated`, whose module imports this one."""
+
+
+def changed_words(before: Rated, after: Rated) -> tuple[str, ...]:
+    """Return a sentence for each standard whose verdict, and each state whose locking, changes."""
+    return (*_standing(before, after), *_locking(before, after))
+
+
+def _standing(before: Rated, after: Rated) -> Iterator[str]:
+    old = {one.standard: one for one in before.verdict.standing}
+    for one in after.verdict.standing:
+        was = old.get(one.standard)
+        if was is None or (was.word, was.unrated) == (one.word, one.unrated):
+            continue
+        if was.word != one.word:
+            yield f"{NAMES[one.standard]}: {was.word} -> {one.word}"
+        lost = [name for name in one.unrated if name not in was.unrated]
+        if lost:
+            yield f"{NAMES[one.standard]}: no answer for {listed(lost)} any more"
+
+
+def _locking(before: Rated, after: Rated) -> Iterator[str]:
+    old = {(one.standard, one.state): one.locks for one in before.self_locking}
+    for state, words in _STATES.items():
+        for locks, said in ((False, "no longer locks itself"), (True, "now locks itself")):
+            names = [
+                NAMES.get(one.standard, "the given friction")
+                for one in after.self_locking
+                if one.state == state
+                and old.get((one.standard, state), locks) != one.locks
+                and one.locks == locks
+            ]
+            if names:
+                yield f"{said} {words} by {listed(names)}"
+
+
+def locking_words(rated: Rated) -> dict[str, str]:
+    """Return by which standards a worm locks itself, by state, as a table shows it."""
+    found = {}
+    for state, words in _STATES.items():
+        own = [one for one in rated.self_locking if one.state == state]
+        names = [_SHORT.get(one.standard, "that given") for one in own if one.locks]
+        found[f"locks itself {words}"] = (
+            "no" if not names else "yes" if len(names) == len(own) else f"by {listed(names)}"
+        )
+    return found

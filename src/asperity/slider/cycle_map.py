@@ -1,0 +1,194 @@
+"""The map of a body's state over a cycle of the vibration, whose fixed point repeats itself."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.slider import kernels as k
+from asperity.slider.integrators import Pressed, integrator
+from asperity.slider.model import Model
+from asperity.slider.pressed import march_pressed
+from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
+from asperity.slider.unknowns import (
+    most_unknowns,
+    read_unknowns,
+    unknown_scales,
+    write_unknowns,
+)
+from asperity.waveform import cycle_of_wave
+
+UNSTABLE = 1.0 + 1e-3
+_PUSH = 1e-3
+_WATCHED = 64  # cycles of a march that is pushed
+_LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
+_FAR_PUSH = 0.1
+_SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
+_MOST_WATCHED = 2000
+_GONE = 100.0  # times the push: it does not come back
+
+
+class Cycle:
+    """The map of a body's state over one cycle of the vibration, or over several.
+
+    Attributes
+    ----------
+    body : Integrator
+        At the start of the cycle.
+    residual : float
+        Largest scaled change of an unknown over the cycle.
+    run : int
+        Cycles integrated so far.
+
+    Parameters
+    ----------
+    phase : float
+        Where in the wave it begins, in cycles.
+    """
+
+    def __init__(self, model: Model, steps: int, step: float, phase: float = 0.0) -> None:
+        self.body = integrator(model, step)
+        self.step = step
+        self.residual = math.inf
+        self.run = 0
+        self.period = 1
+        still = np.zeros(steps + 1)
+        shaken = model.vibrates
+        self.increments = cycle_of_wave(model.wave(step, lead=phase), steps) if shaken else still
+        self.rises = still
+        self.springs = np.zeros((2, 0))
+        self.q = None
+        if isinstance(self.body, Pressed):
+            self.q, self.springs = self.body.q, self.body.kept["springs"]
+            if shaken:
+                lead = phase + model.normal_lead
+                self.rises = cycle_of_wave(model.wave(step, lead=lead), steps)
+            self.body.place(1.0, ramped=False)
+
+    def repeat(self, times: int) -> None:
+        """Ask for a state that repeats itself only after so many times the cycles."""
+        self.period *= times
+        self.increments = _repeated(self.increments, times)
+        self.rises = _repeated(self.rises, times)
+
+    def find(self, settle: int) -> bool:
+        """Look for the state that repeats itself; ``settle`` as in `shoot`."""
+        size = most_unknowns(self.springs)
+        jacobian = np.zeros((size, size))
+        self.residual, cycles, unknowns = shoot(
+            self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
+            self.rises, self.body.sums, jacobian, settle,
+        )  # fmt: skip
+        self.jacobian = jacobian[:unknowns, :unknowns]
+        self.run += cycles * self.period
+        return bool(self.residual <= ACCEPTED)
+
+    def multiplier(self) -> float:
+        """Return how much the least stable disturbance grows over the cycle.
+
+        By differences; but the map has corners, where a difference of one side is no derivative, so
+        that what seems to grow is marched, pushed to either side.
+        """
+        if self.q is not None:
+            self.jacobian = differentiated(
+                self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
+                self.rises, self.body.no_sums()[0], len(self.jacobian),
+            )  # fmt: skip
+        growth, self.mode = _growth(self.jacobian)
+        return self._marched(growth) if growth > UNSTABLE else growth
+
+    def one_of_many(self, growth: float) -> bool:
+        """Whether a disturbance of a state lasts, and the drive force follows it."""
+        if not _LASTING <= growth <= UNSTABLE:
+            return False
+        ratio = float(self.body.sums["drive_force"] / self.body.sums["steps"])
+        # A ring of the drive comes and goes with its sign: what both sides share is what it does.
+        means = [
+            mean
+            for push in (_FAR_PUSH, -_FAR_PUSH)
+            for _, mean in self.pushed(push * self.mode, _WATCHED)
+        ]
+        most = _SAME_RATIO if self.q is not None else _SAME_IN_PLANE
+        return not abs(float(np.mean(means)) - ratio) <= most
+
+    def _marched(self, growth: float) -> float:
+        """Return how much a push grows a cycle in a march, to the worse side, for what it may."""
+        worst = 0.0
+        half = round(0.5 * min(max(math.log(_GONE) / math.log(growth), _WATCHED), _MOST_WATCHED))
+        for push in (_PUSH, -_PUSH):
+            # The mode may turn round slowly: the most of a time tells more than its end.
+            most = [_PUSH, 0.0]
+            for n, (size, _) in enumerate(self.pushed(push * self.mode, 2 * half)):
+                if not size <= _GONE * _PUSH:
+                    worst = max(worst, _GONE ** (1.0 / (n + 1)))
+                    break
+                most[n >= half] = max(most[n >= half], size)
+            else:
+                worst = max(worst, (most[1] / most[0]) ** (1.0 / half))
+        return worst
+
+    def pushed(self, push: FloatArray, cycles: int) -> Iterator[tuple[float, float]]:
+        """March from the state, pushed in scaled unknowns.
+
+        Yields after each cycle how far it is off, and the mean drive force over mu F_N in it.
+        """
+        body, p, q = self.body, self.body.p, self.q
+        here, there, scales = (np.empty(most_unknowns(self.springs)) for _ in range(3))
+        state, springs, sums = body.kept["state"].copy(), self.springs.copy(), body.no_sums()
+        count = unknown_scales(state, springs, p, q, scales)
+        read_unknowns(state[0], springs, p, q, here)
+        there[:] = here
+        there[:count] += push * scales[:count]
+        write_unknowns(there, p, q, state[0], springs)
+        for _ in range(cycles):
+            run(state[0], springs, p, q, self.increments, self.rises, sums[0])
+            read_unknowns(state[0], springs, p, q, there)
+            off = np.abs(there[:count] - here[:count]) / scales[:count]
+            yield float(off.max(initial=0.0)), float(sums[0]["drive_force"] / sums[0]["steps"])
+
+    def record(self) -> FloatArray:
+        """March over the cycle; returns what `history_of` takes, a row a step."""
+        body = self.body
+        steps = self.increments.size - 1
+        nodes = np.empty(steps, body.node_type)
+        here = body.kept["state"].copy()
+        here["lateral"] = 0.0
+        sums = body.no_sums()[0]
+        if self.q is None:
+            k.march_block(here[0], sums, body.p, self.increments, steps, nodes)
+        else:
+            here["height"] = 0.0
+            march_pressed(
+                here[0], self.springs.copy(), sums, body.p, self.q, self.increments, self.rises,
+                steps, nodes,
+            )  # fmt: skip
+        # Recorded in one stretch, and given as one a step.
+        nodes["position_x"] -= body.p.drive * np.arange(steps)
+        rows: FloatArray = nodes.view(np.float64).reshape(steps, -1)
+        return rows
+
+    def disturb(self) -> None:
+        """Push the body off its state, for it to go where it goes."""
+        self.body.state["velocity_x"] *= 1.0 + _PUSH
+        if self.q is not None:
+            self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
+
+
+def _repeated(increments: FloatArray, times: int) -> FloatArray:
+    return np.append(np.tile(increments[:-1], times), increments[0])
+
+
+def _growth(jacobian: FloatArray) -> tuple[float, FloatArray]:
+    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken.
+
+    And the mode that it is of, its largest number 1.
+    """
+    if not jacobian.any():
+        return 0.0, np.zeros(len(jacobian))
+    growths, modes = np.linalg.eig(jacobian + np.eye(len(jacobian)))
+    place = int(np.argmax(np.abs(growths)))
+    mode = modes[:, place]
+    # Turned so that its real part is its most.
+    mode = (mode / mode[np.argmax(np.abs(mode))]).real
+    return float(np.abs(growths[place])), mode

@@ -1,0 +1,247 @@
+"""The error that the time step makes, from second solutions on twice the step.
+
+Of a state that repeats itself, the state on twice the step is found with the Jacobian of the first,
+in a few cycles. A march is at its end next to such a state, and both are found from there; where
+there is none, some of its last cycles are marched again on twice the step. All schemes but the
+thesis's are of order two, and a third of the difference is the error.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.errors import AsperityError
+from asperity.slider.cycle_map import Cycle
+from asperity.slider.integrators import Integrator
+from asperity.slider.model import Model
+from asperity.slider.result import SlideResult
+from asperity.slider.scaled import COULOMB
+from asperity.slider.shooting import close, differentiated, run_cycle
+from asperity.slider.timetable import Timetable
+from asperity.slider.unknowns import unknown_scales
+
+WANTED = 1e-3
+"""Error of a ratio that a step is chosen by, over the ratio."""
+_LEAST_RATIO = 1e-3  # what a ratio is taken as at least, for its error to be small against it
+_CLOSING = 6  # cycles at most to a state on another step
+_MOST_AGAIN = 50  # cycles at most that are run again
+_LEFT = 1e-4  # of the defect, above which a state is not found
+_SHARE = 0.1  # of a march's cycles that may be run again
+_AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
+_FINEST = 64  # times finer than by the bounds
+_ORDER_TWO = 3.0  # what the difference is of the error
+
+
+def refined(
+    model: Model, once: Callable[[Model], SlideResult], first: SlideResult | None = None
+) -> SlideResult:
+    """Solve with the largest step that makes no great error, or with that of the case.
+
+    Parameters
+    ----------
+    model : Model
+        The body.
+    once : callable
+        Solves a body with the step it has.
+    first : SlideResult, optional
+        Its answer for the model, if there is one.
+    """
+    answer = first if first is not None else once(model)
+    while (error := answer.step_error) is not None and error > allowed(answer):
+        over = math.sqrt(error / allowed(answer))
+        if model.solve.step is not None:
+            step = answer.model.step / answer.model.substeps / (1.1 * over)
+            return _noted(answer, f"give a solve.step of at most {step:.2g} s, or none")
+        finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
+        if finer < 2:
+            return _noted(answer, "no finer step was tried")
+        try:
+            better = once(dataclasses.replace(model, finer=answer.model.finer * finer))
+        except AsperityError:
+            return _noted(answer, "nothing was found with a finer one")
+        if better.step_error is None:
+            return _noted(answer, "what a finer one gives has not settled")
+        answer = better
+    return answer
+
+
+def _noted(answer: SlideResult, advice: str) -> SlideResult:
+    error = answer.step_error or 0.0
+    note = (
+        f"the step makes an error of about {error:.2g} in the ratio of {answer.ratio:.3g}: {advice}"
+    )
+    return dataclasses.replace(answer, notes=(*answer.notes, note))
+
+
+def allowed(answer: SlideResult) -> float:
+    """Return the error of a ratio that a step may make unannounced."""
+    return WANTED * max(abs(answer.ratio), _LEAST_RATIO)
+
+
+def error_of_state(cycle: Cycle, model: Model) -> float | None:
+    """Return the error of the ratio of a state that repeats itself; None where it is not found."""
+    steps = (len(cycle.increments) - 1) // cycle.period
+    if not model.vibrates:
+        return 0.0
+    alike, fine, coarse = _grids(model, steps)
+    ratio: float | None = _ratio(cycle)
+    if alike is not model:
+        ratio = _closed(alike, fine, cycle, cycle.jacobian)
+    other = _closed(alike, coarse, cycle, cycle.jacobian)
+    if ratio is None or other is None:
+        return _cycles_again(model, cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
+    return abs(other - ratio) / _ORDER_TWO + _off_corners(model, steps)
+
+
+def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
+    """Return the error of the ratio of a march, from where it ends; None of the two-phase scheme.
+
+    Parameters
+    ----------
+    body : Integrator
+        At its end; left as it is.
+    table : Timetable
+        Its steps.
+    ratio : float
+        What it found.
+    """
+    model, step, steps = body.model, table.step, table.steps
+    state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
+    if model.solve.scheme == "two-phase":
+        return None
+    cycles = steps * step * model.frequency
+    if not model.vibrates:
+        return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
+    asked = round(1.0 / (model.frequency * step))
+    alike, fine, coarse = _grids(model, asked)
+    phase = model.frequency * (steps * step - model.start)
+    if alike is not model:
+        phase = round(phase * coarse) / coarse
+    phase -= math.floor(phase)
+    end = Cycle(alike, fine, 1.0 / (fine * model.frequency), phase)
+    put(end, step, state, springs)
+    count = _unknowns(end)
+    if count + 1.5 * _CLOSING <= _SHARE * cycles:
+        jacobian = np.zeros((count, count))
+        if count:
+            jacobian = differentiated(
+                end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
+                end.body.no_sums()[0], count,
+            )  # fmt: skip
+        one = _closed(alike, fine, end, jacobian, phase)
+        other = _closed(alike, coarse, end, jacobian, phase)
+        if one is not None and other is not None and abs(one - ratio) <= _AGREE:
+            return abs(other - one) / _ORDER_TWO + _off_corners(model, asked)
+    again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
+    return _cycles_again(model, end, (alike, fine, coarse), phase, again)
+
+
+def _cycles_again(
+    model: Model, start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
+) -> float | None:
+    """Return the error of the mean friction of so many cycles from a start, on both grids."""
+    alike, *counts = grids
+    means = []
+    for count in counts:
+        trial = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
+        take_over(trial, start)
+        total = 0.0
+        for _ in range(cycles):
+            _run_once(trial)
+            total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
+        means.append(total / cycles)
+    error = abs(means[1] - means[0]) / _ORDER_TWO + _off_corners(model, counts[0])
+    return error if math.isfinite(error) else None
+
+
+def _run_once(cycle: Cycle) -> None:
+    body = cycle.body
+    run_cycle(
+        body.kept["state"][0], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
+        body.sums,
+    )  # fmt: skip
+
+
+def _marched_again(
+    model: Model, step: float, state: np.ndarray, springs: FloatArray, steps: int
+) -> float | None:
+    """Return the error of a body that nothing shakes, from so many steps and half as many."""
+    means = []
+    for count, length in ((2 * ((steps + 1) // 2), step), ((steps + 1) // 2, 2.0 * step)):
+        cycle = Cycle(model, count, length)
+        put(cycle, step, state, springs)
+        _run_once(cycle)
+        means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
+    error = abs(means[1] - means[0]) / _ORDER_TWO
+    return error if math.isfinite(error) else None
+
+
+def _grids(model: Model, steps: int) -> tuple[Model, int, int]:
+    """Return a body like one whose corners end both of two grids, and the steps of a cycle in each."""
+    if not model.meets_corners or model.shape is None:
+        return model, 2 * ((steps + 1) // 2), (steps + 1) // 2
+    coarse = 4 * max(1, round(0.125 * steps))
+    return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse, coarse
+
+
+def _off_corners(model: Model, steps: int) -> float:
+    """Return what corners that steps do not meet may do to a mean force, over mu F_N."""
+    if not model.meets_corners or model.shape is None:
+        return 0.0
+    return 2.0 * abs(model.shape.on_corners(steps).rise - model.shape.rise)
+
+
+def _closed(
+    model: Model, steps: int, other: Cycle, jacobian: FloatArray, phase: float = 0.0
+) -> float | None:
+    """Return the ratio of the state on other steps next to a state; None if there is none."""
+    trial = Cycle(model, steps, 1.0 / (steps * model.frequency), phase)
+    take_over(trial, other)
+    if other.period > 1:
+        trial.repeat(other.period)
+    body = trial.body
+    left, _ = close(
+        body.kept["state"], trial.springs, body.p, trial.q, trial.increments, trial.rises,
+        body.sums, np.ascontiguousarray(jacobian), _CLOSING,
+    )  # fmt: skip
+    ratio = _ratio(trial)
+    return ratio if left <= _LEFT and math.isfinite(ratio) else None
+
+
+def _ratio(cycle: Cycle) -> float:
+    return float(cycle.body.sums["drive_force"] / cycle.body.sums["steps"])
+
+
+def _unknowns(cycle: Cycle) -> int:
+    room = np.empty(7 + cycle.springs.size)
+    state = cycle.body.kept["state"]
+    count: int = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, room)
+    return count
+
+
+def take_over(cycle: Cycle, other: Cycle) -> None:
+    """Put a body where the same body is that another step is taken with."""
+    put(cycle, other.step, other.body.kept["state"], other.springs)
+
+
+def put(cycle: Cycle, step: float, state: np.ndarray, springs: FloatArray) -> None:
+    """Put a body where it is after steps of another length, s."""
+    body, p = cycle.body, cycle.body.p
+    longer = cycle.step / step
+    length = 1.0 / longer if p.model == COULOMB else 1.0
+    body.kept["state"][:] = state
+    there = body.state
+    for name in ("stretch", "lateral"):
+        there[name] *= length
+    for name in ("velocity_x", "velocity_y"):
+        there[name] *= length * longer
+    if cycle.q is not None:
+        there["rise"] *= longer
+    # Velocities are those of the half step that follows.
+    half = 0.5 * (1.0 - 1.0 / longer)
+    there["velocity_x"] += half * p.mobility_x * (there["drive_force"] - there["friction_x"])
+    there["velocity_y"] -= half * p.mobility_y * there["friction_y"]
+    cycle.springs[:] = springs

@@ -1,0 +1,96 @@
+r"""Steady sliding without vibration: friction is the law's own formula.
+
+Coulomb and Dahl: :math:`\mu F_N`; LuGre (Canudas de Wit et al. 1995):
+:math:`F = g(v) + h_v v`, :math:`g(v) = \mu F_N + (F_S - \mu F_N)\exp[-(v/v_s)^2]`.
+"""
+
+import itertools
+import math
+
+import pytest
+
+from asperity.casefile import read_case
+from asperity.slider import TABLES, Model, solve
+
+SLOW = """
+[slider]
+drive_velocity = "0.01 mm/s"
+normal_force = "1 N"
+[friction]
+model = "lugre"
+mu = 1.0022
+static_mu = 1.51
+tangential_stiffness = "1e5 N/m"
+stribeck_velocity = "1.0249 mm/s"
+viscous_damping = "0.38046 N s/m"
+[solve]
+method = "periodic"
+"""
+DRIVES = {
+    "rigid": (),
+    "elastic": (
+        "slider.mass=0.1 kg", "slider.drive_stiffness=0.2 MN/m", "slider.drive_damping=400 N s/m",
+    ),
+}  # fmt: skip
+
+
+def body(folder, *settings):
+    path = folder / "slow.toml"
+    path.write_text(SLOW)
+    return Model.from_case(read_case(path, TABLES, settings))
+
+
+def exact(velocity):
+    return 1.0022 + (1.51 - 1.0022) * math.exp(-((velocity / 1.0249e-3) ** 2)) + 0.38046 * velocity
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+@pytest.mark.parametrize("velocity", [1e-5, 3e-4, 2e-3, 0.1])
+@pytest.mark.parametrize("method", ["periodic", "homogenised"])
+def test_lugre_is_what_its_formula_says(tmp_path, velocity, method, drive):
+    settings = f"slider.drive_velocity={velocity} m/s", f"solve.method={method}", *DRIVES[drive]
+    answer = solve(body(tmp_path, *settings, "solve.duration=0.1 s"), history=False)
+    assert answer.drive_force == pytest.approx(exact(velocity), rel=1e-9)
+    assert answer.settled
+
+
+LAWS = {
+    "coulomb": ("friction.model=coulomb",),
+    "dahl": ("friction.model=dahl",),
+    "curved": ("friction.model=dahl", "friction.exponent=2", "friction.law=vector"),
+    "lugre": (
+        "friction.model=lugre",
+        "friction.static_mu=0.15",
+        "friction.stribeck_velocity=5 mm/s",
+        "friction.viscous_damping=1000 N s/m",
+    ),
+}
+WAYS = {
+    "along": ("vibration.direction=0 deg",),
+    "across": ("vibration.direction=90 deg",),
+    "oblique": ("vibration.direction=30 deg",),
+    "up": (
+        "vibration.direction=30 deg", "vibration.elevation=60 deg", "normal.law=linear",
+        "normal.stiffness=20 MN/m", "normal.damping_ratio=0.1", "friction.law=vector",
+    ),
+}  # fmt: skip
+
+
+def shaken(ratio, *settings):
+    case = read_case("table-4.3", TABLES, (*settings, f"vibration.velocity_ratio={ratio}"))
+    return solve(Model.from_case(case), history=False)
+
+
+@pytest.mark.parametrize(("law", "way"), list(itertools.product(LAWS, WAYS)))
+def test_a_vibration_of_nothing_changes_nothing(law, way):
+    settings = "solve.method=periodic", *LAWS[law], *WAYS[way]
+    nothing, little = (shaken(ratio, *settings) for ratio in (0.0, 1e-6))
+    assert nothing.settled
+    assert little.settled
+    assert little.ratio == pytest.approx(nothing.ratio, rel=1e-6)
+
+
+def test_nor_does_it_settle_what_sticks_and_slips():
+    falls = *LAWS["lugre"], "friction.viscous_damping=0 N s/m", "solve.method=periodic"
+    for ratio in (0.0, 1e-6):
+        assert not shaken(ratio, *falls).settled

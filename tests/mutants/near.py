@@ -1,0 +1,227 @@
+"""The tests nearest to a line: those that call the function it stands in, and little else.
+
+``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
+calls (``reach.py``) and writes ``near.json.gz``; with files of tests it runs those, and keeps what
+it noted of others in ``out/mutants``. A function that is not in it, since it has come
+later, has the tests of its module's others; a module that is not, the files of tests that name it
+or its room.
+"""
+
+import ast
+import functools
+import gzip
+import json
+import os
+import re
+import subprocess
+import sys
+from collections import Counter, defaultdict
+from pathlib import Path
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from mutants.sites import HERE, SOURCE, computing_modules
+
+TESTS = HERE.parent
+ROOT = TESTS.parent
+KEPT = HERE / "near.json.gz"
+ANSWERS = "tests/acceptance/test_same_answers.py"
+
+# What is about processes, files, texts or the page, and what needs programs of others.
+_LEFT_OUT = re.compile(
+    r"test_(web|docs|house|processes|rig_|terminal|store|interrupts|runs|casefile|compiled|errors|"
+    r"units|thesis_run|thesis_figures|fric_subroutine|calculix|python_units|sweep_axes|mutants)"
+)
+_OF_A_FUNCTION = 2  # tests that differ in their parameters alone
+_OF_A_FILE = 4
+_NEAREST = 20
+# A test of what is refused goes through little and looks at less: it comes last.
+_REFUSED = re.compile(r"refuse|cannot|asked_for|is_needed|nonsense|interrupted|hears")
+_RECORDED = 4
+_DEAREST = 20.0  # s, of one test
+_MOST, _LONGEST = 100, 20.0  # tests, and s of all
+_FEW, _FALLBACK_FILES = 5, 4
+
+
+def nearest(mutant) -> list[str]:
+    """Tests that are nearest to a mutant, the nearest first, as pytest names them."""
+    kept = _kept()
+    counts = Counter()
+    for function in _readers(mutant):
+        tests = kept["near"].get(function, ())
+        counts.update({test: _MOST - n for n, test in enumerate(tests)})
+    if len(counts) < _FEW:
+        # What is new has few: those of the module's other functions, and files that name it.
+        others = Counter()
+        for name, tests in kept["near"].items():
+            if name.startswith(f"{mutant.module}:"):
+                others.update({test: _MOST - n for n, test in enumerate(tests)})
+        counts.update(dict.fromkeys(others.keys() - counts.keys(), 0))
+    chosen = [kept["tests"][n] for n, _ in counts.most_common(_MOST)]
+    return chosen if len(chosen) >= _FEW else chosen + _naming(mutant.module)
+
+
+@functools.cache
+def _kept():
+    if not KEPT.exists():
+        return {"tests": [], "near": {}}
+    return json.loads(gzip.decompress(KEPT.read_bytes()))
+
+
+def _readers(mutant):
+    """Functions that use what is broken: its own, or those that name a constant or a field."""
+    package = SOURCE / "asperity"
+    tree = ast.parse((package / mutant.module).read_text("utf-8"))
+    functions = dict(_functions(tree))
+    if mutant.function in functions:
+        return [f"{mutant.module}:{mutant.function}"]
+    if mutant.function:
+        inside = f"{mutant.function}."
+        return [f"{mutant.module}:{name}" for name in functions if name.startswith(inside)]
+    names = {
+        target.id
+        for statement in tree.body
+        if statement.lineno <= mutant.line <= statement.end_lineno
+        for target in ast.walk(statement)
+        if isinstance(target, ast.Name) and isinstance(target.ctx, ast.Store)
+    }
+    found = _naming_any(mutant.module, functions, names)
+    dotted = ".".join(("asperity", *mutant.module.removesuffix(".py").split("/")))
+    for module in computing_modules():
+        text = (package / module).read_text("utf-8")
+        if f"from {dotted} import" in text:
+            found += _naming_any(module, dict(_functions(ast.parse(text))), names)
+    return found
+
+
+def _naming_any(module, functions, names):
+    return [
+        f"{module}:{name}"
+        for name, node in functions.items()
+        if names & {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
+    ]
+
+
+def _functions(tree, above=""):
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            name = f"{above}{node.name}"
+            if isinstance(node, ast.FunctionDef):
+                yield name, node
+            yield from _functions(node, f"{name}.")
+        else:
+            yield from _functions(node, above)
+
+
+def _naming(module):
+    """Files of tests that name a module, or its room, the closest first."""
+    parts = module.removesuffix(".py").split("/")
+    found = []
+    texts = {path: path.read_text("utf-8") for path in sorted(TESTS.glob("*/test_*.py"))}
+    for depth in range(len(parts), 0, -1):
+        name = ".".join(("asperity", *parts[:depth]))
+        package, _, last = name.rpartition(".")
+        names = re.compile(
+            rf"\b({re.escape(name)}\b|from {re.escape(package)} import .*\b{last}\b)"
+        )
+        for path, text in texts.items():
+            if names.search(text) and not _LEFT_OUT.match(path.name):
+                found.append(path.relative_to(ROOT).as_posix())
+    return list(dict.fromkeys(found))[:_FALLBACK_FILES]
+
+
+def make(reached) -> dict:
+    """Make the map of what :mod:`reach` noted, lines of JSON."""
+    modules = set(computing_modules())
+    lines = {line["test"]: line for line in map(json.loads, reached)}
+    callers, size = defaultdict(set), {}
+    for test, line in lines.items():
+        called = {_plain(name) for name in line["called"] if name.partition(":")[0] in modules}
+        size[test] = len(called)
+        for name in called:
+            callers[name].add(test)
+    near = {name: _nearest(tests, size, lines) for name, tests in sorted(callers.items())}
+    used = sorted({test for tests in near.values() for test in tests})
+    number = {test: n for n, test in enumerate(used)}
+    return {
+        "tests": used,
+        "near": {name: [number[test] for test in tests] for name, tests in near.items()},
+    }
+
+
+def _plain(name):
+    """Qualified name of a function as it is written: a comprehension is of what it stands in."""
+    return re.sub(r"(\.<locals>)|(\.<(listcomp|genexpr|dictcomp|setcomp|lambda)>)", "", name)
+
+
+def _nearest(tests, size, lines):
+    def close(test):
+        return bool(_REFUSED.search(test)), size[test], lines[test]["seconds"], test
+
+    def cheap(test):
+        return lines[test]["seconds"], test
+
+    tests = {test for test in tests if lines[test]["seconds"] <= _DEAREST}
+    recorded = {test for test in tests if test.startswith(ANSWERS)}
+    ordered = sorted(tests - recorded, key=close)
+    # First a few of each file, then recorded answers, which see whatever moves, then the others.
+    first = _few_of_each(ordered, _OF_A_FILE, _NEAREST)
+    cheapest = _few_of_each(sorted(recorded, key=cheap), _RECORDED, _RECORDED)
+    chosen, spent = [], 0.0
+    for test in dict.fromkeys(first + cheapest + ordered):
+        spent += lines[test]["seconds"]
+        if len(chosen) < _MOST and (spent <= _LONGEST or test in (*first, *cheapest)):
+            chosen.append(test)
+    return chosen
+
+
+def _few_of_each(tests, of_a_file, most):
+    """Of each file a few, and of those that differ in their parameters alone fewer."""
+    chosen, functions, files = [], Counter(), Counter()
+    for test in tests:
+        file, function = test.partition("::")[0], test.partition("[")[0]
+        if file == ANSWERS:
+            function = test.partition("[")[2].split(" ")[0]
+        if functions[function] < _OF_A_FUNCTION and files[file] < of_a_file:
+            chosen.append(test)
+            functions[function] += 1
+            files[file] += 1
+    return chosen[:most]
+
+
+def measure(reached: Path, names=()) -> None:
+    """Run the ordinary tests, or files of them, and note what they reach."""
+    reached.parent.mkdir(parents=True, exist_ok=True)
+    if not names:
+        reached.unlink(missing_ok=True)
+        names = [
+            path.relative_to(ROOT).as_posix()
+            for folder in ("unit", "literature", "property")
+            for path in sorted((TESTS / folder).glob("test_*.py"))
+            if not _LEFT_OUT.match(path.name)
+        ]
+        names.append(ANSWERS)
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join((str(SOURCE), str(TESTS))),
+        "OPENBLAS_NUM_THREADS": "1",
+        "REACHED": str(reached),
+    }
+    subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "mutants.reach", "-p", "no:cacheprovider",
+         *names],
+        cwd=ROOT, env=environment, check=False,
+    )  # fmt: skip
+
+
+def write(reached: Path) -> None:
+    """Write the map, the same bytes for the same tests."""
+    found = make(reached.read_text("utf-8").splitlines())
+    KEPT.write_bytes(gzip.compress(json.dumps(found, separators=(",", ":")).encode(), mtime=0))
+    print(f"{KEPT}: {len(found['near'])} functions, {len(found['tests'])} tests")
+
+
+if __name__ == "__main__":
+    noted = ROOT / "out" / "mutants" / "reached.jsonl"
+    measure(noted, sys.argv[1:])
+    write(noted)

@@ -1,0 +1,61 @@
+"""What of a vibration comes to a drive's worm and wheel, and how a march begins."""
+
+import numpy as np
+import pytest
+from apparatus.drives import problem
+
+from asperity.drive.protocols.march import March
+from asperity.drive.protocols.setup import begin, shakes, system
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
+from asperity.runs import Run
+
+
+def modelled(*settings):
+    given = problem(*settings)
+    return given, ReducedModel(given, reduction(given, Run()))
+
+
+@pytest.mark.parametrize(
+    ("mode", "around", "along"),
+    # Where the worm touches, and at its reference circle, for an amplitude of one.
+    [
+        ("axial", lambda point, radius: 0.0, lambda point, radius: 1.0),
+        ("torsional", lambda point, radius: point.radius / radius, lambda point, radius: 0.0),
+        # The wheel moves one way as the worm would the other.
+        ("wheel-axial", lambda point, radius: -1.0, lambda point, radius: 0.0),
+        (
+            "screw",
+            lambda point, radius: point.radius / radius,
+            lambda point, radius: -point.lead / radius,
+        ),
+    ],
+)
+def test_tangential_leaves_of_a_vibration_its_part_along_the_thread(mode, around, along):
+    amplitude = 3e-6
+    given, model = modelled(
+        "drive.protocol=tangential", f"vibration.mode={mode}", "vibration.applied_to="
+        + ("wheel" if mode == "wheel-axial" else "worm"),
+        f"vibration.displacement_amplitude={amplitude} m",
+    )  # fmt: skip
+    point, radius = model.point, given.reference_radius
+    thread = np.array([point.radius, -point.lead]) / np.hypot(point.radius, point.lead)
+    moved = amplitude * np.array([around(point, radius), along(point, radius)])
+    found = shakes(given, model)
+    left = np.array([point.radius * found["shake_worm_turn"], found["shake_worm_shift"]])
+    assert left == pytest.approx((moved @ thread) * thread, rel=1e-12, abs=1e-18)
+
+
+def test_flanks_that_slide_steadily_begin_with_the_friction_of_their_speed():
+    given, model = modelled(
+        "friction.model=lugre", "friction.static_mu=0.18", "friction.stribeck_velocity=2 m/s",
+        "friction.contact_damping=20 N s/m", "friction.viscous_damping=20 N s/m",
+        "vibration.displacement_amplitude=1e-6 um",
+    )  # fmt: skip
+    moving = system(given, model)
+    march = March(model, moving, *begin(given, model, moving), Run())
+    (first,) = march.stretches(1, 1e-6)
+    # What asperities, Stribeck's effect and dampings carry together is the steady friction.
+    assert model.friction > 1.02 * model.kinetic
+    static = model.point.worm_torque(given.load, model.friction)
+    assert first["torque"] / 1e-6 == pytest.approx(static, rel=1e-6)
