@@ -3,10 +3,11 @@ r"""Backlash of the mesh, the worm's axial clearance in it, and the threads that
 One flank of the worm touches; the other is away from the next flank of the wheel. Their shortest
 distance is the normal backlash. How far the worm can be turned between both, the wheel held, is in
 closed form the sum of what both flanks need, :math:`\Delta\varphi = D_+ + D_-`
-(`asperity.flanks.meshing.transmission`), and since a turn carries the thread along, the worm can
-be shifted by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial
-vibration can have from peak to peak. All are the least over a pitch, between its places too, and
-negative where the flanks interfere. The wheel's tips may stand nearer to the worm's core than that: `core_clearance`.
+(`asperity.flanks.meshing.transmission`), and since a turn carries the thread along, the worm can be
+shifted by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial vibration
+can have from peak to peak. All are the least over a pitch, between its places too, and negative
+where the flanks interfere. The wheel's tips may stand nearer to the worm's core than that:
+`core_clearance`.
 
 Lengths are in mm, angles in rad.
 """
