@@ -200,7 +200,7 @@ class Shape:
 
 
 def cycle_of_wave(wave: Wave, steps: int) -> FloatArray:
-    """Increments of a wave over a cycle's steps and the first of the next, in full from the start."""
+    """Increments of a wave, in full from the start, over a cycle's steps and one of the next."""
     out = np.empty(steps + 1)
     # One cycle late, so that the wave's rest before its start is not met.
     fill_increments(wave._replace(ramp=0.0), 1.0, 1.0 / steps, out)

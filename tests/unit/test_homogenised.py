@@ -308,10 +308,10 @@ def test_single_velocities_without_a_periodic_state_are_interpolated_over(case, 
 def failing(monkeypatch, fails):
     """Have no periodic state found where ``fails`` says so of the mean velocity."""
 
-    def attempt(model, *, history):
+    def attempt(model, **asked):
         if fails(model.slider.drive_velocity):
             raise ConvergenceError("no periodic state found", reached={"residual": 1e-3})
-        return solved(model, history=history)
+        return solved(model, **asked)
 
     solved = hl.solve_periodic
     monkeypatch.setattr(hl, "solve_periodic", attempt)

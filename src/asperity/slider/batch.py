@@ -329,7 +329,7 @@ def _load(column: FloatArray, body: _Body) -> None:
     column[row.LOSS] = q.damping
     column[row.PENETRATION] = q.reference
     if q.mobility == 0.0 and body.model.shape is not None:
-        wave = body.model.shape.wave(lead=body.model.normal_lead)
+        wave = body.model.wave(body.table.step, lead=body.model.normal_lead)
         column[row.PENETRATION] += q.base * displacement_at(wave, -_start(body.model))
     column[[row.LOAD, row.ELASTIC]] = elastic_force(q.law, column[row.PENETRATION])
 
@@ -350,7 +350,7 @@ def _waves(bodies: Sequence[_Body]) -> tuple[FloatArray, FloatArray, bool]:
         rate = model.frequency * table.step
         turn = 2.0 * math.pi * rate
         waves[:6, place] = (
-            model.shape.code, model.shape.rise, -_start(model), rate, math.cos(turn),
+            model.shape.code, model.wave(table.step).rise, -_start(model), rate, math.cos(turn),
             math.sin(turn),
         )  # fmt: skip
         waves[8, place] = model.shape.ramp

@@ -331,6 +331,7 @@ def _result(
         ledger=ledger,
         normal=normal,
         wear=wear,
+        step_error=law.step_error,
         residual=law.residual,
         steps=steps,
         cycles=0,

@@ -115,6 +115,8 @@ class HomogenisedLaw:
         `asperity.results.ledger.PressedLedger`, in SI.
     remarks : tuple of str
         What a reader should know of a pressed body's state at the drive velocity.
+    step_error : float or None
+        Of the ratio at the drive velocity, see `asperity.slider.step_error`.
     """
 
     velocity: FloatArray = dataclasses.field(repr=False)
@@ -126,6 +128,7 @@ class HomogenisedLaw:
     unsettled: tuple[float, ...] = ()
     pressed: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
+    step_error: float | None = None
 
     @functools.cached_property
     def arguments(self) -> tuple[FloatArray, FloatArray, float]:
@@ -229,7 +232,7 @@ def homogenise(model: Model) -> HomogenisedLaw:
     sampled = model.vibration is not None and model.vibration.waveform == "sampled"
     symmetric = not (oblique or sampled)
     tried = speeds if symmetric else np.concatenate([speeds, -speeds])
-    answers, missing = _states(model, tried)
+    answers, missing = _states(_finely(model), tried)
     rows = {v: _row(model, answer) for v, answer in answers.items()}
     front = {v: row for v, row in rows.items() if v > 0.0}
     back = {v: _backwards(row) for v, row in rows.items() if v < 0.0}
@@ -253,6 +256,7 @@ def homogenise(model: Model) -> HomogenisedLaw:
         table=np.array([(rest if v == 0.0 else front[v] if v > 0.0 else back[v]) for v in found]),
         full_friction=model.full_friction,
         residual=max(answer.residual for answer in answers.values()),
+        step_error=answers[drive].step_error if drive in answers else None,
         viscous=model.friction.viscous_damping / model.full_friction,
         missing=tuple(sorted(missing, key=lambda v: abs(v - drive))),
         unsettled=tuple(sorted(loose, key=lambda v: abs(v - drive))),
@@ -293,6 +297,17 @@ def _with_drive(speeds: FloatArray, drive: float) -> FloatArray:
     return speeds
 
 
+def _finely(model: Model) -> Model:
+    """Return the model with the step that the state at the drive velocity asks for."""
+    if model.solve.step is not None:
+        return model
+    try:
+        at_drive = solve_periodic(_at(model, model.slider.drive_velocity), history=False)
+    except (ConvergenceError, InputError):
+        return model
+    return dataclasses.replace(model, finer=at_drive.model.finer)
+
+
 def _states(
     model: Model, velocities: Iterable[float]
 ) -> tuple[dict[float, SlideResult], list[float]]:
@@ -302,7 +317,8 @@ def _states(
     missing: list[float] = []
     for velocity in velocities:
         try:
-            found[velocity] = solve_periodic(_at(model, velocity), history=False)
+            at_drive = velocity == model.slider.drive_velocity
+            found[velocity] = solve_periodic(_at(model, velocity), history=False, judged=at_drive)
         except (ConvergenceError, InputError) as error:
             # A step can be too coarse at the table's ends; at the drive velocity it is the case's.
             if isinstance(error, InputError) and velocity == model.slider.drive_velocity:
@@ -378,6 +394,7 @@ def _without_vibration(model: Model) -> HomogenisedLaw:
         table=np.concatenate([_backwards(front[::-1]), rest[None], front]),
         full_friction=force,
         residual=0.0,
+        step_error=0.0,
         viscous=viscous,
         pressed=tuple(told),
     )

@@ -36,9 +36,8 @@ WINDOW_SHARE = 0.75
 # Springs are laid out to what the body comes to in so many cycles from rest and a little more.
 _FIRST_CYCLES = 100
 _MOST_FIRST_STEPS, _DEEPER = 1_000_000, 1.05
-# Parts of a cycle by which steps may miss a corner of the wave. Coulomb's force jumps there, others
-# bend: they may miss it by so much of a step.
-_MISSED, _MISSED_OF_A_STEP = 5e-6, 0.02
+# Parts of a cycle by which steps may miss a corner of the wave; Coulomb's force jumps there.
+_MISSED, _MISSED_BY_COULOMB = 1e-5, 5e-6
 
 
 @dataclasses.dataclass(frozen=True)
@@ -225,15 +224,14 @@ class Model:
         return 1.0 / (self.steps_to_corners(1.0 / (asked * self.frequency)) * self.frequency)
 
     def wave(self, step: float, *, lead: float = 0.0) -> Wave:
-        """Return the wave as a march with steps in s meets it.
+        """Return the wave as a march with steps in s meets it: its corners are put on the steps.
 
-        Coulomb's force jumps at the corners of a wave. They lie on the steps to 5e-6 of a cycle,
-        and are put there.
+        They are next to them anyway, by `steps_to_corners`.
         """
         if self.shape is None:
             return AT_REST
         shape = self.shape
-        if self.meets_corners and self.friction.model == "coulomb":
+        if self.meets_corners:
             shape = shape.on_corners(round(1.0 / (self.frequency * step)))
         return shape.wave(lead=lead)
 
@@ -243,7 +241,7 @@ class Model:
             raise InputError("nothing vibrates")
         along, across, up = self.unit_direction
         leads = [0.0] * (along != 0.0 or across != 0.0) + [self.normal_lead] * (up != 0.0)
-        missed = _MISSED if self.friction.model == "coulomb" else _MISSED_OF_A_STEP / least
+        missed = _MISSED_BY_COULOMB if self.friction.model == "coulomb" else _MISSED
         return self.shape.steps_to_corners(least, missed, leads)
 
     @functools.cached_property

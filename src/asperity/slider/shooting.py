@@ -337,9 +337,9 @@ def differentiated(start, springs, p, q, increments, rises, sums, count):
 
 @kernel
 def close(start, springs, p, q, increments, rises, sums, jacobian, most):
-    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of its last cycle.
+    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of a cycle after it.
 
-    Returns the defect that is left and the cycles run, at most ``most``.
+    Returns the defect that is left and the cycles run, at most one more than ``most``.
     """
     scales = np.empty(most_unknowns(springs))
     count = unknown_scales(start, springs, p, q, scales)
@@ -352,20 +352,24 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
         start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
     )
     cycles = 1
-    while cycles < most and worst > CLOSE:
+    while cycles < most and CLOSE < worst <= 1e300:
         matrix = jacobian.copy()
         for i in range(count):
             step[i] = -defect[i]
-        if not eliminate(matrix, step, count, 1e-14):
-            break
-        read_unknowns(start[0], springs, p, q, here)
-        for i in range(count):
-            here[i] += step[i] * scales[i]
-        write_unknowns(here, p, q, start[0], springs)
+        if eliminate(matrix, step, count, 1e-14):
+            read_unknowns(start[0], springs, p, q, here)
+            for i in range(count):
+                here[i] += step[i] * scales[i]
+            write_unknowns(here, p, q, start[0], springs)
+        else:
+            # Found without Newton's method, in a cycle or some: it is left to itself here too.
+            start[0] = end[0]
+            springs[:] = end_springs
         worst = _defect(
             start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
         )
         cycles += 1
-        if not worst <= 1e300:
-            break
-    return worst, cycles
+    start[0] = end[0]
+    springs[:] = end_springs
+    run_cycle(start[0], springs, p, q, increments, rises, sums)
+    return worst, cycles + 1
