@@ -241,7 +241,7 @@ class March:
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
         broke = breakaway is not None
-        standing = march_standing(self._timed, table, residual, broke=broke)
+        standing = march_standing(self._timed, table, residual, broke=broke, means=self._means())
         ratio = float(sums["drive_force"] / sums["steps"])
         answer = summarise(
             model, self.p, table.step, sums, start, self.energies(),
