@@ -10,11 +10,15 @@ from typing import NamedTuple
 
 import asperity
 from asperity.casefile import read_case
+from asperity.friction import Friction
 from asperity.gearset import Gearset
+from asperity.normal import Normal
 from asperity.rating import Operation, agma6034, rate
 from asperity.rating.demands import DEMANDS
-from asperity.slider import TABLES, Model, solve
+from asperity.runs import Run
+from asperity.slider import TABLES, Model, Slider, Solve, solve, static
 from asperity.slider.closed_forms import directed_ratio
+from asperity.vibration import Vibration
 
 
 class Compared(NamedTuple):
@@ -78,11 +82,7 @@ def smallest(entry):
         entry["ratio"],
         entry["output_torque"],
         entry["worm_speed"],
-        # They run with this torque all the time, not with a third of it as an actuator.
-        settings=(
-            *entry.get("settings", ()),
-            f"operation.through_travel_torque={entry['output_torque']}",
-        ),
+        settings=entry.get("settings", ()),
     )
     return found.found[0].centre_distance_mm if found.holding else math.inf
 
@@ -103,7 +103,6 @@ def lacking(entry):
     operation = Operation(
         worm_speed=entry["worm_speed"],
         output_torque=entry["output_torque"],
-        through_travel_torque=entry["output_torque"],
         **given["operation"],
     )
     found = rate(gearset, operation)
@@ -138,6 +137,72 @@ def asperities():
             for method in ("march", "periodic")
         )
         yield Compared(f"drive force over mu F_N, shaken {way}", periodic, marched, 1e-3)
+
+
+GRAVITY = 9.80665
+# Acceleration of the base over that of gravity, azimuth and elevation in degrees, and the largest
+# pull over mu m g, for mu 0.3, at the worst phase.
+SHAKEN_BASE = (
+    (0.05, 0, 0, 0.8333), (0.15, 0, 0, 0.5), (0.28, 0, 0, 0.0667), (0.15, 90, 0, 0.8660),
+    (0.28, 90, 0, 0.3590), (0.20, 45, 0, 0.4105),
+    (0.10, 0, 90, 0.9), (0.50, 0, 90, 0.5), (0.15, 0, 30, 0.4920), (0.30, 60, 60, 0.3503),
+)  # fmt: skip
+
+
+def static_ratio(acceleration, azimuth, elevation):
+    """Largest pull over mu m g under which a body of 1 kg stays on a base shaken at 100 Hz."""
+    turn, stiffness = 200.0 * math.pi, (40.0 * 200.0 * math.pi) ** 2
+    contact = None
+    if elevation:
+        # Forty times as fast as the base, so that the body follows it but for 1/1600.
+        contact = Normal(law="linear", stiffness=stiffness, damping_ratio=0.05, units="SI")
+    body = Model(
+        Slider(drive_velocity=1e-3, normal_force=GRAVITY, mass=1.0, lateral="free", units="SI"),
+        Friction(model="coulomb", mu=0.3, units="SI"),
+        Vibration(
+            frequency=100.0, displacement_amplitude=acceleration * GRAVITY / turn**2,
+            direction=f"{azimuth} deg", elevation=f"{elevation} deg", units="SI",
+        ),
+        normal=contact,
+    )  # fmt: skip
+    return static.answer(body, Run()).static_ratio
+
+
+def shaken_base():
+    """Static friction on a base that is shaken, of a paper of 1967."""
+    for acceleration, azimuth, elevation, theirs in SHAKEN_BASE:
+        if not elevation:
+            yield Compared(
+                f"largest pull over mu m g, base shaken with {acceleration:g} g, {azimuth} deg",
+                theirs, static_ratio(acceleration, azimuth, elevation), 2e-3,
+            )  # fmt: skip
+
+
+PIN_SWING, PIN_DEFLECTION, PIN_FREQUENCY = 0.77, 2.44e-6, 22e3
+
+
+def pin(velocity):
+    """Answer for a pin on a disc that 22 kHz press and relieve, with its two fitted numbers."""
+    body = Model(
+        Slider(drive_velocity=velocity, normal_force=3.0, units="SI"),
+        Friction(mu=0.2, max_deflection=PIN_DEFLECTION, exponent=0.0, units="SI"),
+        Vibration(
+            frequency=PIN_FREQUENCY, displacement_amplitude=PIN_SWING * 1e-6, elevation="90 deg",
+            units="SI",
+        ),
+        Solve(method="periodic"),
+        normal=Normal(law="linear", control="displacement", penetration=1e-6, units="SI"),
+    )  # fmt: skip
+    return solve(body, history=False)
+
+
+def ultrasonic_pin():
+    """A steel pin under 22 kHz normal to the disc, of two speeds from one swing and one s_max."""
+    for speed, theirs in ((20.3, 0.38), (87.0, 0.71)):
+        yield Compared(
+            f"friction over that without vibration, {speed:g} mm/s",
+            theirs, pin(1e-3 * speed).ratio, 5e-3,
+        )  # fmt: skip
 
 
 def textbook():
@@ -175,4 +240,7 @@ def commercial():
     yield Compared("torque of the worm T_1", 80.074, found["input_torque_Nm"], 2e-4, "N m")
 
 
-ALL = {each.__name__: each for each in (closed_forms, asperities, textbook, commercial)}
+ALL = {
+    each.__name__: each
+    for each in (closed_forms, asperities, shaken_base, ultrasonic_pin, textbook, commercial)
+}

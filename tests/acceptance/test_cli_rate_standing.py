@@ -122,7 +122,7 @@ def test_first_lines_name_every_standard_that_cannot_tell_or_rates_outside(
 def test_an_efficiency_outside_its_range_is_marked_as_such(asperity, here):
     (here / "own.toml").write_text(CATALOGUE_30)
     shown = " ".join(asperity("rate", "own.toml")[1].split())
-    assert "efficiency 29.2 % of the gearbox, 52.7 % of the teeth (ISO/TR 14521), OUTSIDE" in shown
+    assert "efficiency 29.2 % of the gearbox, 52.7 % of the teeth (OUTSIDE ITS RANGE)" in shown
     # In its range it is not.
     assert "OUTSIDE" not in asperity("rate", "gearset-3")[1]
 

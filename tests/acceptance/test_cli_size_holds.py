@@ -152,5 +152,5 @@ def test_a_wheel_that_is_best_listed_tells_what_it_changes(asperity, here):
         words = {n: one["word"] for n, one in answer["verdict"]["standing"].items()}
         now = {n: one["word"] for n, one in changed["verdict"]["standing"].items()}
         for name, word in words.items():
-            told = any(f"{word} before, now {now[name]}" in text for text in other["changes"])
+            told = any(f"{word} -> {now[name]}" in text for text in other["changes"])
             assert told == (word != now[name])

@@ -14,7 +14,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.slider import Model
 
-from .plain_body import Wave, samples, steps_for, body_of, wave_of
+from .plain_body import Wave, body_of, samples, steps_for, wave_of
 
 SAMPLES = "wave.csv"
 MOST_STEPS = 5000

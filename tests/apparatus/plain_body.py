@@ -63,7 +63,7 @@ class Body(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Mean drive force over mu F_N, mean load over F_N, and what half the steps change of either."""
+    """Mean drive force over mu F_N, mean load over F_N; what half the steps change of either."""
 
     ratio: float
     load: float
@@ -160,10 +160,8 @@ def cycle_of(wave, lead, frequency, steps):
     edges = np.unique(np.concatenate([[0.0, 1.0], corners]))
     edges = edges[np.append(np.diff(edges) > 1e-12, True)]
     counts = np.maximum(np.ceil(np.diff(edges) * steps).astype(int), 4)
-    nodes = np.concatenate(
-        [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(edges, edges[1:], counts)]
-        + [[1.0]]
-    )
+    parts = zip(edges[:-1], edges[1:], counts, strict=True)
+    nodes = np.concatenate([*(np.linspace(a, b, n, endpoint=False) for a, b, n in parts), [1.0]])
     begin, end = nodes[:-1], nodes[1:]
     middle = 0.5 * (begin + end)
     phases = np.stack([begin, middle, end], axis=1)
@@ -627,8 +625,12 @@ def steps_for(p, frequency, wave):
             needed.append(math.sqrt(stiff / p.mass) / (0.1 * frequency))
     if p.normal != CONSTANT:
         swing = abs(p.base_z) / p.length
-        stiff = p.load / p.length * {LINEAR: 1.0, HERTZ: math.sqrt(1.0 + 2.0 * swing)}.get(
-            p.normal, math.exp(min(2.0 * swing, 6.0))
+        stiff = (
+            p.load
+            / p.length
+            * {LINEAR: 1.0, HERTZ: math.sqrt(1.0 + 2.0 * swing)}.get(
+                p.normal, math.exp(min(2.0 * swing, 6.0))
+            )
         )
         if p.dead:
             needed.append(math.sqrt(stiff / p.mass) / (0.1 * frequency))

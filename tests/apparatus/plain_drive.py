@@ -26,6 +26,7 @@ class Plain(NamedTuple):
     arm: float
     normal: np.ndarray  # along the motion, along the axis, radial
     logs: np.ndarray  # (2, n) of approach and force
+    end: np.ndarray  # approach, force and its slope, from where on it is straight
     damping: float
     backlash: float
     law: int
@@ -67,10 +68,12 @@ def wave_at(wave, rise, cycles):
 
 
 @kernel
-def elastic(logs, approach):
-    """Normal force by the power between the points on both sides."""
+def elastic(logs, end, approach):
+    """Normal force by the power between the points on both sides; far beyond them straight."""
     if approach <= 0.0:
         return 0.0
+    if approach > end[0]:
+        return end[1] + end[2] * (approach - end[0])
     place = math.log(approach)
     last = logs.shape[1] - 2
     cell = 0
@@ -111,19 +114,28 @@ def rub(plain, w, force, load, slip, dt):
     a = (1.0 + b) ** 2 - b * b * min(share2, 1.0)
     own = (b * along + math.sqrt(b * b * along * along + a * way2)) / a
     size = 0.0
+    lost = 0.0
+    before = w.copy()
     for i in range(3):
-        before = w[i]
-        moved = (slip[i] + b * own * before / limit) / (1.0 + b)
-        w[i] = (before + moved) / (1.0 + own / limit)
+        moved = (slip[i] + b * own * before[i] / limit) / (1.0 + b)
+        w[i] = (before[i] + moved) / (1.0 + own / limit)
         size += w[i] * w[i]
-        force[i] = plain.stiffness * w[i]
-        if plain.law == 2:
-            force[i] += load / plain.reference * (plain.rate * (w[i] - before) + plain.viscous * moved) / dt
     size = math.sqrt(size)
-    if size > limit:
-        for i in range(3):
-            force[i] -= plain.stiffness * w[i] * (1.0 - limit / size)
+    for i in range(3):
+        if size > limit:
             w[i] *= limit / size
+        force[i] = plain.stiffness * w[i]
+    if plain.law != 2:
+        return
+    # Dampings belong to the load; on rigid teeth the slip is all the asperities' own.
+    share = load / (plain.reference * dt)
+    for i in range(3):
+        lost += plain.stiffness * w[i] * (slip[i] - (w[i] - before[i]))
+        lost += share * (plain.rate * (w[i] - before[i]) + plain.viscous * slip[i]) * slip[i]
+    # Where the load falls faster than asperities follow, their damping would drive the slip on.
+    rate = plain.rate if lost >= 0.0 else 0.0
+    for i in range(3):
+        force[i] += share * (rate * (w[i] - before[i]) + plain.viscous * slip[i])
 
 
 @kernel
@@ -178,7 +190,7 @@ def march(plain, start, cycles, per_cycle, means):
                     nearing = side * (n[0] * (rel[0] - last[0]) + n[1] * (rel[1] - last[1])) / dt
                 if flank == 1:
                     approach -= plain.backlash
-                spring = elastic(plain.logs, approach)
+                spring = elastic(plain.logs, plain.end, approach)
                 load = spring * max(1.0 + plain.damping * nearing, 0.0)
                 if load > 0.0:
                     open_ = False

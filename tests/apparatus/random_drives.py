@@ -1,12 +1,13 @@
 """Random drives: as settings for the package, and as numbers for the plain model.
 
-All are of gearset 3 (4 starts, 60 teeth, axial module 2.1538 mm, diameter factor 8.4, 20 deg) with a
-measured mesh. What follows from these is calculated here once more.
+All are of gearset 3 (4 starts, 60 teeth, axial module 2.1538 mm, diameter factor 8.4, 20 deg) with
+a measured mesh. What follows from these is calculated here once more.
 """
 
 import math
 
 import numpy as np
+
 from apparatus.drives import POINTS, deflection
 from apparatus.plain_drive import COULOMB, DAHL, LUGRE, SINE, SQUARE, TRIANGLE, Plain, march
 
@@ -20,6 +21,7 @@ PLACES = {
     "screw": ("worm", "seat"),
 }  # fmt: skip
 _GIVE = 2e-3  # of the approach: Coulomb's on rigid teeth, as the package says of itself
+_REACH = 100.0  # of the force without vibration, up to which powers go on
 _PER_STEP = 12e-9  # s
 
 
@@ -91,6 +93,13 @@ def settings(drive):
     return tuple(given)
 
 
+def approach_at(logs, force):
+    """Return the approach under a force, and the power that the force goes by there."""
+    n = int(np.clip(np.searchsorted(logs[1], math.log(force)), 1, logs.shape[1] - 1))
+    power = (logs[1, n] - logs[1, n - 1]) / (logs[0, n] - logs[0, n - 1])
+    return math.exp(logs[0, n] + (math.log(force) - logs[1, n]) / power), power
+
+
 def plain(drive):
     """Return a drive as the plain model has it, and the steady sliding that it starts from."""
     length = math.hypot(RADIUS, LEAD)
@@ -108,11 +117,9 @@ def plain(drive):
     unit = 1.0 / (arm * (axial - friction / force * tilt))
     logs = np.log(np.stack([axial * arm * 1e-6 * angles, unit * torques]))
     full = drive["mu"] * force
-    approach = math.exp(np.interp(math.log(force), logs[1], logs[0]))
-    if not logs[1, 0] <= math.log(force) <= logs[1, -1]:
-        end = slice(0, 2) if math.log(force) < logs[1, 0] else slice(-2, None)
-        slope = np.diff(logs[0, end])[0] / np.diff(logs[1, end])[0]
-        approach = math.exp(logs[0, end][0] + slope * (math.log(force) - logs[1, end][0]))
+    approach, _ = approach_at(logs, force)
+    far, power = approach_at(logs, _REACH * force)
+    end = np.array([far, _REACH * force, power * _REACH * force / far])
     if drive["law"] == "coulomb":
         # Rigid asperities: what gives is the teeth, or next to nothing.
         slip, teeth = drive["compliance"] * full or _GIVE * approach, 0.0
@@ -131,8 +138,8 @@ def plain(drive):
         places[3 if drive["place"] == "seat" else 1] = -LEAD * amplitude / CIRCLE
     ratio, seat, mass = drive["damping_ratio"], drive["bearing"], drive["worm_mass"]
     model = Plain(
-        lead=LEAD, radius=RADIUS, arm=arm, normal=normal, logs=logs, damping=drive["damping"],
-        backlash=BACKLASH, law=LAWS[drive["law"]], mu=drive["mu"], reference=force,
+        lead=LEAD, radius=RADIUS, arm=arm, normal=normal, logs=logs, end=end,
+        damping=drive["damping"], backlash=BACKLASH, law=LAWS[drive["law"]], mu=drive["mu"], reference=force,
         stiffness=full / slip, teeth=teeth, rate=drive["rate"], viscous=drive["viscous"],
         torsion=drive["torsion"],
         torsion_damping=2.0 * ratio * math.sqrt(drive["torsion"] * drive["worm_inertia"]),
@@ -149,10 +156,10 @@ def plain(drive):
 
 
 def solved(drive, cycles, judged):
-    """Return the means of the last ``judged`` of so many cycles, ratio first, and what settles it.
+    """Return the means of the last ``judged`` of so many cycles, and what settles it.
 
-    As a dictionary: ``ratio``, powers of ``drive``, ``actuator``, ``load``, ``friction`` over that of
-    the motor without vibration, ``open``, and by how much what is to stay is missed over what is
+    As a dictionary: ``ratio``, powers of ``drive``, ``actuator``, ``load``, ``friction`` over that
+    of the motor without vibration, ``open``, and by how much what is to stay is missed over what is
     allowed, ``off``.
     """
     model, start, torque = plain(drive)

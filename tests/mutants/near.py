@@ -40,7 +40,7 @@ _NEAREST = 20
 _REFUSED = re.compile(r"refuse|cannot|asked_for|is_needed|nonsense|interrupted|hears")
 _RECORDED = 4
 _DEAREST = 20.0  # s, of one test
-_MOST, _LONGEST = 150, 40.0  # tests, and s of all
+_MOST, _LONGEST = 100, 20.0  # tests, and s of all
 _FEW, _FALLBACK_FILES = 5, 4
 
 

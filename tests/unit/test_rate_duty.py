@@ -131,3 +131,29 @@ def test_the_rated_torque_of_a_valve_counts_for_a_third_and_a_tenth():
         in plain.given.operation.model_copy(update={"service": "valve"}).wear_assumed
     )
     assert plain.given.operation.wear_assumed == ""
+
+
+@pytest.mark.parametrize("key", ["input_power", "input_torque"])
+def test_power_or_torque_of_the_worm_stands_for_that_of_the_wheel(key):
+    run = {name: value for name, value in RUN.items() if name != "output_torque"}
+    given = {"input_power": "0.9 kW", "input_torque": "6.2 N m"}[key]
+    found = rated(run=run, **{key: given})
+    of_result = {"input_power": ("input_power_W", 900.0), "input_torque": ("input_torque_Nm", 6.2)}
+    name, value = of_result[key]
+    assert found.iso14521[name] == pytest.approx(value, rel=1e-12)
+    assert any("follows from operation." + key in note for note in found.notes)
+    torque = found.iso14521["T_R"]
+    same = rated(run=run, output_torque=f"{torque!r} N m")
+    assert safeties(found) == pytest.approx(safeties(same), rel=1e-12)
+    many = variants(A100, Operation(**run, **{key: given}), diameter_factor=[12.5])
+    assert many["iso14521.safety_wear"][0] == pytest.approx(found.iso14521["S_W"], rel=1e-12)
+
+
+def test_two_forms_of_the_load_are_refused_and_so_is_less_than_idling():
+    with pytest.raises(InputError, match=r"output_torque and operation\.input_power are given"):
+        Operation(**RUN, input_power="1 kW")
+    run = {name: value for name, value in RUN.items() if name != "output_torque"}
+    with pytest.raises(InputError, match=r"output_torque is missing; give one of"):
+        Operation(**run)
+    with pytest.raises(InputError, match=r"input_power is 20 W; without load the gearbox takes"):
+        rated(run=run, input_power="20 W")

@@ -174,9 +174,19 @@ def test_an_unstable_state_is_told():
     assert solved("table-4.4").notes == ()
 
 
-def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_periodic_state():
+def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_state_that_stays():
+    answer = solve_periodic(falling(stribeck_velocity=1e-3, static_mu=0.2), history=False)
+    assert not answer.settled
+    assert "a disturbance grows" in answer.settled_by
+
+
+def test_where_no_state_repeats_itself_what_was_reached_is_told():
+    settings = (
+        "friction.law=split", "friction.exponent=0.5", "vibration.direction=90 deg",
+        "slider.lateral=guided",
+    )  # fmt: skip
     with pytest.raises(ConvergenceError) as raised:
-        solve_periodic(falling(stribeck_velocity=1e-3, static_mu=0.2))
+        solve_periodic(body("table-4.3", *settings))
     error = raised.value
     assert len(str(error).splitlines()) == 1
     assert "solve.method 'march' shows what it does" in str(error)

@@ -201,7 +201,9 @@ COMMANDS = (
         module="asperity.tribometer.fit.study",
         counts="fits and ends",
         arguments=(
-            Argument("data", "DATA.csv", "Columns ratio or force [N], sd if known, keys with units."),
+            Argument(
+                "data", "DATA.csv", "Columns ratio or force [N], sd if known, keys with units."
+            ),
         ),
         options=(
             Option("free", "Keys to fit, separated by commas.", "KEYS", default=None),

@@ -30,6 +30,7 @@ from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.gearset import oil
 from asperity.gearset.parameters import Gearset
+from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.iso14521.friction import base_friction
@@ -51,7 +52,8 @@ def rating_inputs(case: Case) -> Inputs:
     """
     with told(case):
         options = case.get(RatingOptions, RatingOptions())
-        given = inputs(case.require(Gearset), case.require(Operation), options)
+        gearset = case.require(Gearset)
+        given = inputs(gearset, driven(gearset, case.require(Operation), options), options)
         for key in ("friction", "base_friction"):
             value = getattr(options, key)
             if value is not None:

@@ -15,7 +15,8 @@ from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
 from asperity.gearset import Gearset, Geometry
-from asperity.rating import Operation
+from asperity.rating import Operation, RatingOptions
+from asperity.rating.driven import driven
 from asperity.slider.parameters import Solve
 from asperity.vibration import Vibration
 from asperity.waveform import Shape
@@ -101,8 +102,9 @@ class DriveProblem:
             They do not make a gearset's drive.
         """
         _check_tables(case)
-        operation = case.require(Operation)
         with told(case):
+            run = case.require(Operation)
+            operation = driven(case.require(Gearset), run, case.get(RatingOptions))
             vibration = shape = None
             if shaken and Vibration.table in case:
                 vibration = case.require(Vibration).of_gearset(PLACES)

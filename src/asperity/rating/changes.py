@@ -24,10 +24,10 @@ def _standing(before: Rated, after: Rated) -> Iterator[str]:
         if was is None or (was.word, was.unrated) == (one.word, one.unrated):
             continue
         if was.word != one.word:
-            yield f"by {NAMES[one.standard]}: {was.word} before, now {one.word}"
+            yield f"{NAMES[one.standard]}: {was.word} -> {one.word}"
         lost = [name for name in one.unrated if name not in was.unrated]
         if lost:
-            yield f"{NAMES[one.standard]} has no answer any more for {listed(lost)}"
+            yield f"{NAMES[one.standard]}: no answer for {listed(lost)} any more"
 
 
 def _locking(before: Rated, after: Rated) -> Iterator[str]:

@@ -45,6 +45,7 @@ class Forces(NamedTuple):
         (fx, fy, fz), (gx, gy, gz) = self.worm, self.wheel
         return {
             "rotation": self.rotation,
+            "standard": "ISO/TR 14521",
             "worm_axial_N": fx,
             "worm_radial_N": fy,
             "worm_tangential_N": fz,

@@ -88,7 +88,11 @@ class Operation(Table):
     worm_speed : float or str
         Speed of the worm :math:`n_1`, rad/s.
     output_torque : float or str
-        Rated wheel torque :math:`T_R`, N m: strength is judged by it.
+        Rated wheel torque :math:`T_R`, N m: strength is judged by it. Give this or
+        ``input_power`` or ``input_torque``.
+    input_power, input_torque : float or str, optional
+        Power :math:`P_1`, W, or torque :math:`T_1`, N m, of the worm in place of the wheel's
+        torque, which follows by the losses of ISO/TR 14521 of the gearset as it is.
     through_travel_torque : float or str, optional
         Wheel torque through the travel :math:`T_2`, N m: wear is judged by it. Left out:
         ``output_torque``, or as ``service`` has it. A duty cycle takes its place.
@@ -132,9 +136,17 @@ class Operation(Table):
     alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("wheel_revolutions", "life", "duty_cycle"),
     )
+    required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("output_torque", "input_power", "input_torque"),
+    )
 
     worm_speed: Speed
-    output_torque: Torque
+    # Which is never missing where a standard is applied: see asperity.rating.driven.
+    output_torque: Torque = None  # type: ignore[assignment]
+    input_power: Annotated[float, Quantity("W", what="a power", example="0.25 kW", gt=0)] | None = (
+        None
+    )
+    input_torque: Torque | None = None
     through_travel_torque: Torque | None = None
     service: Literal["continuous", "valve"] = "continuous"
     wheel_revolutions: (
@@ -175,6 +187,8 @@ class Operation(Table):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Operation":
+        if self.driven_by:
+            return self
         if (
             self.through_travel_torque is not None
             and self.through_travel_torque > self.output_torque
@@ -191,6 +205,12 @@ class Operation(Table):
                 "strength is judged"
             )
         return self
+
+    @property
+    def driven_by(self) -> str:
+        """What of the worm is given in place of the torque of the wheel; else empty."""
+        given = (key for key in ("input_power", "input_torque") if getattr(self, key) is not None)
+        return next(given, "")
 
     @property
     def travel_torque(self) -> float:
@@ -259,6 +279,10 @@ class RatingOptions(Table):
         and which makes the shear stress at the root some 5 % lower.
     bs721_tables : path, optional
         A TOML file of your own tables of BS 721, in place of those that ship from memory.
+    bs721_friction_angle : {'mu', 'mu_over_cos'}
+        What the efficiencies of BS 721 take for the friction angle: :math:`\arctan \mu`, or
+        :math:`\arctan(\mu/\cos\alpha_n)`, as Carvill, RoyMech and JGMA 405-01 have it; then a worm
+        locks itself at some 6 % less friction. Permissible torques do not rest on it.
     base_friction : float, optional
         Coefficient of friction in place of :math:`\mu_{0T}`: the methods of the thesis's Table 3.3
         act here.
@@ -281,6 +305,7 @@ class RatingOptions(Table):
     ] = "2010"
     iso14521_face_width: Literal["tip_chord", "reference_chord"] = "tip_chord"
     bs721_tables: Path | None = None
+    bs721_friction_angle: Literal["mu", "mu_over_cos"] = "mu"
     base_friction: (
         Annotated[
             float, Quantity("", what="a coefficient of friction", example="0.055", gt=0, lt=1)

@@ -16,6 +16,7 @@ from asperity.rating.alternatives import Alternative, alternatives
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.by_standard import PROMISED, judge_of, rate_by
 from asperity.rating.changes import changed_words
+from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
@@ -274,6 +275,8 @@ def rate(
     )
     options = options or RatingOptions()
     wanted = known_standards(standards)
+    asked = operation
+    operation = driven(gearset, operation, options)
     given = inputs(gearset, operation, options)
     _require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
@@ -304,7 +307,7 @@ def rate(
         geometry=gearset.geometry,
         **{name: found.get(name) for name in STANDARDS},
         self_locking=self_locking(given, found, tables),
-        notes=tuple(notes),
+        notes=(*told_of(asked, operation), *notes),
         assumed=assumptions(given),
     )
 
@@ -328,6 +331,8 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
     gearset, operation = case.require(Gearset), case.require(Operation)
     options = case.get(RatingOptions, RatingOptions())
     wanted = STANDARDS if standard == ALL else (standard,)
+    with told(case):
+        operation = driven(gearset, operation, options)
     _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
     return case, wanted
 

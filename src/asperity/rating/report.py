@@ -12,7 +12,7 @@ from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.verdict import bar, locking_line, power_lines
-from asperity.results.quantity import text_of
+from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
 from asperity.sources import Source
@@ -48,7 +48,8 @@ def sections(rated: Reported) -> Iterator[Section]:
         if rated.duty_cycle:
             yield Section("Duty cycle", tables=(duty_table(rated.duty_cycle),))
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
-        yield Section("Forces on shafts and bearings", (said,), tables=(_forces(rated),))
+        by = "Forces on shafts and bearings, by ISO/TR 14521"
+        yield Section(by, (said, *_of_agma(rated)), tables=(_forces(rated),))
     yield rated.contact or Section("Contact pattern and lines", (_NO_CONTACT,))
     yield Section("Self-locking", tables=(_self_locking(rated), *_held(rated)))
     limits = tuple(
@@ -63,6 +64,18 @@ def sections(rated: Reported) -> Iterator[Section]:
     for name, rating in rated.found.items():
         yield Section(f"Calculation by {rating.standard}", tables=(_numbers(name, rating, cited),))
     yield Section("Sources", tables=(_sources(cited),))
+
+
+def _of_agma(rated: Reported) -> Iterator[str]:
+    """Say where AGMA 6034 has another force, since it has friction of its own."""
+    iso, agma = rated.iso14521, rated.agma6034
+    if agma is not None:
+        there = Number.of(float(iso["F_tm1_N"]), ".5g", "iso14521.F_tm1_N")
+        other = Number.of(float(agma["W_W_N"]), ".5g", "agma6034.W_W_N")
+        yield Sentence(
+            "The tangential force on the worm is F_tm1 = ", there, " N here; AGMA 6034, by its own "
+            "friction and formula, has W_W = ", other, " N for it, which its calculation shows.",
+        )  # fmt: skip
 
 
 def _come_to(rated: Reported) -> Iterator[str]:

@@ -14,6 +14,7 @@ from asperity.formulas import Mask, Reasons, masking
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rated as rated_agma6034
 from asperity.rating.bs721.rating import rated as rated_bs721
+from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.parameters import Operation, RatingOptions
@@ -132,6 +133,7 @@ def variants(
         Names and shapes that do not fit, or the only standard asked for cannot be applied at all.
     """
     options = options or RatingOptions()
+    operation = driven(gearset, operation, options)
     given, impossible, shape = varied(gearset, operation, options, values)
     wanted = known_standards(standards)
     found: dict[str, Any] = {}

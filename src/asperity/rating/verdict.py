@@ -237,11 +237,10 @@ def power_lines(iso: Rating) -> Iterator[str]:
         Sentence(f"{name} ", number(key, ".0f" if float(iso[key]) >= 100.0 else ".3g"))
         for name, key in keys.items()
     )
-    outside = efficiency_outside(iso)
+    where = "OUTSIDE ITS RANGE" if efficiency_outside(iso) else "ISO/TR 14521"
     yield Sentence(
         "efficiency ", number("eta_ges", ".1f", 100.0), " % of the gearbox, ",
-        number("eta_z1_2", ".1f", 100.0), " % of the teeth (ISO/TR 14521)",
-        f", OUTSIDE ITS RANGE: {listed(outside)}" if outside else "",
+        number("eta_z1_2", ".1f", 100.0), f" % of the teeth ({where})",
     )  # fmt: skip
     yield Sentence(
         "losses ", number("loss_total_W", ".4g"), " W of ", number("input_power_W", ".4g"), " W: ",
@@ -283,11 +282,13 @@ def screen(
     # What is nearer to the verdict stays where there is no room for all.
     said = {f"{one.standard}: {reason}" for one in verdict.standing for reason in one.reasons}
     remarks = *(note for note in notes if note not in said), *_outside(found)
-    kept = {"best": tuple(best), "film": film, "remarks": remarks}
-    blocks = {"stands": verdict.stands(), "first": first, "power": power,
+    kept = {"film": film, "remarks": remarks}
+    blocks = {"stands": verdict.stands(), "first": first, "best": best, "power": power,
               "locking": (locking_line(locking),)}  # fmt: skip
     lines = {name: [line for one in of for line in wrapped(one)] for name, of in blocks.items()}
-    lines |= {"bars": ["", *verdict.bars(), ""], "best": [], "film": [], "remarks": []}
+    lines |= {"bars": ["", *verdict.bars(), ""], "film": [], "remarks": []}
+    if sum(map(len, lines.values())) >= _MOST_LINES:
+        lines["bars"] = lines["bars"][1:-1]
     shown = 0
     for name, texts in kept.items():
         for text in texts[:_MOST_REMARKS]:

@@ -24,6 +24,10 @@ from asperity.waveform import cycle_of_wave
 UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
 _WATCHED = 64  # cycles of a march that is pushed
+_LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
+_FAR_PUSH = 0.1
+_SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
+_MOST_WATCHED = 2000
 _GONE = 100.0  # times the push: it does not come back
 
 
@@ -121,18 +125,36 @@ class Cycle:
                 self.rises, self.body.no_sums()[0], len(self.jacobian),
             )  # fmt: skip
         growth, self.mode = _growth(self.jacobian)
-        return self._marched(self.mode) if growth > UNSTABLE else growth
+        return self._marched(growth) if growth > UNSTABLE else growth
 
-    def _marched(self, mode: FloatArray) -> float:
-        """Return how much a push along a mode grows a cycle in a march, to the worse side."""
+    def one_of_many(self, growth: float) -> bool:
+        """Whether a disturbance of a state lasts, and the drive force follows it."""
+        if not _LASTING <= growth <= UNSTABLE:
+            return False
+        ratio = float(self.body.sums["drive_force"] / self.body.sums["steps"])
+        # A ring of the drive comes and goes with its sign: what both sides share is what it does.
+        means = [
+            mean
+            for push in (_FAR_PUSH, -_FAR_PUSH)
+            for _, mean in self.pushed(push * self.mode, _WATCHED)
+        ]
+        most = _SAME_RATIO if self.q is not None else _SAME_IN_PLANE
+        return not abs(float(np.mean(means)) - ratio) <= most
+
+    def _marched(self, growth: float) -> float:
+        """Return how much a push grows a cycle in a march, to the worse side, for what it may."""
         worst = 0.0
+        half = round(0.5 * min(max(math.log(_GONE) / math.log(growth), _WATCHED), _MOST_WATCHED))
         for push in (_PUSH, -_PUSH):
-            for n, (size, _) in enumerate(self.pushed(push * mode, _WATCHED)):
+            # The mode may turn round slowly: the most of a time tells more than its end.
+            most = [_PUSH, 0.0]
+            for n, (size, _) in enumerate(self.pushed(push * self.mode, 2 * half)):
                 if not size <= _GONE * _PUSH:
+                    worst = max(worst, _GONE ** (1.0 / (n + 1)))
                     break
-            if not math.isfinite(size):
-                return math.inf
-            worst = max(worst, (size / _PUSH) ** (1.0 / (n + 1)))
+                most[n >= half] = max(most[n >= half], size)
+            else:
+                worst = max(worst, (most[1] / most[0]) ** (1.0 / half))
         return worst
 
     def pushed(self, push: FloatArray, cycles: int) -> Iterator[tuple[float, float]]:

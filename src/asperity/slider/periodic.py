@@ -20,6 +20,11 @@ from asperity.slider.summary import history_of, summarise
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
+_OF_MANY = (
+    "one of many: nothing damps a disturbance, and the ratio follows it; shown is the one without "
+    "a ringing of its own"
+)
+_REST = "give a damping (normal.damping_ratio), or march it from rest with solve.method 'march'"
 
 
 @in_proportion()
@@ -119,6 +124,8 @@ def answer_of(
     """Return the result of a state that was found, with its multiplier, since a `perf_counter`."""
     end = cycle.body.energies()
     standing = standing_of(cycle, growth)
+    if _OF_MANY in standing.settled_by:
+        notes += (f"this periodic state is {_OF_MANY}; {_REST}",)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
         standing=standing,
@@ -141,6 +148,8 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
     repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
     if growth > UNSTABLE:
         return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
+    if cycle.one_of_many(growth):
+        return Standing(False, f"{repeats}, but is {_OF_MANY}")
     return Standing(True, repeats)
 
 

@@ -4,8 +4,9 @@ import dataclasses
 from pathlib import Path
 from typing import Self
 
-from asperity.casefile import Case
+from asperity.casefile import Case, told
 from asperity.gearset import Gearset
+from asperity.rating.driven import driven
 from asperity.rating.parameters import Operation, RatingOptions
 
 
@@ -31,4 +32,7 @@ class Gears:
     def of(cls, case: Case) -> Self:
         """Return the tables of a case; raises InputError where one is missing."""
         options = case.get(RatingOptions)
-        return cls(case.require(Gearset), case.require(Operation), options, case.folder)
+        gearset = case.require(Gearset)
+        with told(case):
+            operation = driven(gearset, case.require(Operation), options)
+        return cls(gearset, operation, options, case.folder)

@@ -17,6 +17,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.friction.parameters import Friction
 from asperity.gearset.parameters import Gearset
+from asperity.rating.driven import driven
 from asperity.rating.iso14521.friction import base_friction
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
@@ -106,10 +107,11 @@ def compare_case(case: Case, methods: Sequence[Method] | None = None) -> Compari
     the vibration where they are there.
     """
     slider = case.get(Slider)
+    gearset, options = case.require(Gearset), case.get(RatingOptions)
     return compare(
-        case.require(Gearset),
-        case.require(Operation),
-        case.get(RatingOptions),
+        gearset,
+        driven(gearset, case.require(Operation), options),
+        options,
         methods=methods,
         vibration=case.get(Vibration),
         friction=case.get(Friction),

@@ -96,7 +96,6 @@ class March:
         self.stored = float(states[0]["stored"])
         self.finer = 1.0
         self.off = math.inf
-        self.since = 0
         self.marked = Marked(0, states.copy(), committed.copy())
         self._run = run
         self.stop = np.zeros(1, np.int64) if stop is None else stop
@@ -163,12 +162,15 @@ class March:
             return None
         return other.rows
 
-    def refine(self, finer: float, off: float) -> None:
-        """Go on in shorter steps, for what was off; what was marched counts no longer."""
+    def restart(self, finer: float, off: float, states: Records, committed: FloatArray) -> None:
+        """Begin anew in steps that are shorter, for what was off."""
         self.finer *= finer
         self.off = off
-        self.since = self.rows.size
         self.system = refined(self.system, finer)
+        self.states, self.committed = states, committed
+        self.stored = float(states[0]["stored"])
+        self.rows = self.rows[:0]
+        self.mark()
 
     def stretches(self, count: int, length: float) -> Records:
         """March so many stretches of a length in s, and return their sums.
@@ -226,7 +228,7 @@ class March:
         if pitch is not None:
             block = block_of_pitches(block, self.system.frequency, pitch, duration)
         # Its ramp is no part of a periodic state.
-        ramp = max(math.ceil(self.system.wave.ramp), self.since)
+        ramp = math.ceil(self.system.wave.ramp)
         longest = longest_march(block, self.system.frequency, duration)
         most = ramp + longest
         steps = (most - self.rows.size) * self.cycle / self.system.longest
@@ -316,7 +318,6 @@ class March:
             "seconds": self.seconds,
             "finer": self.finer,
             "off": self.off,
-            "since": self.since,
             "marked": self.marked.row,
             "marked_states": self.marked.states,
             "marked_committed": self.marked.committed,
@@ -328,7 +329,6 @@ class March:
         self.committed, self.seconds = tree["committed"], tree["seconds"]
         self.system = refined(self.system, float(tree["finer"]) / self.finer)
         self.finer, self.off = float(tree["finer"]), float(tree["off"])
-        self.since = int(tree["since"])
         self.marked = Marked(int(tree["marked"]), tree["marked_states"], tree["marked_committed"])
 
 

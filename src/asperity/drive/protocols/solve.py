@@ -14,7 +14,7 @@ from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import StepError, sensitive, step_error
 from asperity.drive.protocols.judgement import Judgement, steady_speed
-from asperity.drive.protocols.march import March, Records, bands_of, mean
+from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
 from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
 from asperity.drive.protocols.setup import switched_off, system
@@ -29,6 +29,8 @@ _SHOWN_CYCLES, _ROWS_A_CYCLE = 4, 200
 _AFTER_SECONDS = 40e-3
 # Of the vibration's own speed, the least by which a creep that has to stay is measured.
 _CREEP = 0.1
+# Of the step, what a march that does not settle is tried with once more.
+_TRIED = 0.5
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
@@ -59,7 +61,7 @@ def solve_shaken(
     locked = problem.drive.protocol == "back-drive"
     moving = system(problem, model, motor=not locked)
     rest = at_rest(problem, model, moving, stop)
-    march = March(model, moving, rest.states.copy(), rest.committed.copy(), run, stop)
+    march = March(model, moving, rest.states, rest.committed, run, stop)
     if kept := run.resume(key(code_key(__name__, type(model).__module__), asked(problem))):
         march.restore(kept)
         if march.finer != 1.0:
@@ -109,13 +111,19 @@ def _settled(
         )  # fmt: skip
         off = step_error(march, measure, scale, power) if judged.settled else None
         # Of elastic teeth steps are dear: of them the error is told alone.
-        if off is None or problem.solve.step is not None or model.pitch is not None:
+        chosen = problem.solve.step is None and model.pitch is None
+        finer = None
+        if chosen and off is not None:
+            finer = off.finer(march.finer, march.off)
+            if finer is not None and sensitive(march, measure, scale, power):
+                finer = None
+        elif chosen and problem.solve.duration is None and march.finer == 1.0:
+            # What has a period may lose it to a step that is too long.
+            finer = _TRIED
+        if finer is None:
             return judged, off, rest
-        finer = off.finer(march.finer, march.off)
-        if finer is None or sensitive(march, measure, scale, power):
-            return judged, off, rest
-        march.refine(finer, off.off)
-        rest = at_rest(problem, model, march.system, stop)
+        rest = at_rest(problem, model, refined(march.system, finer), stop)
+        march.restart(finer, math.inf if off is None else off.off, rest.states, rest.committed)
 
 
 def asked(problem: DriveProblem) -> str:

@@ -21,7 +21,8 @@ from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
-from asperity.rating import Operation, rate_case
+from asperity.rating import Operation, RatingOptions, rate_case
+from asperity.rating.driven import driven
 from asperity.rating.regime import Film
 from asperity.runs import Run
 from asperity.sources import Source
@@ -33,7 +34,9 @@ _CUSTOMARY = {
     "disc.profile_radius": f"{parameters.DISC_PROFILE_RADIUS:g} modules",
     "hob.tip_radius": f"{parameters.HOB_TIP_RADIUS:g} modules, or what there is room for",
 }
-_OUTSIDE = Source("common practice", "from memory", "d_a2 + m")
+_OUTSIDE = Source(
+    "MITCalc 1.74; SDP/SI, Elements of Metric Gear Technology, section 17", "verified", "d_a2 + m"
+)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -221,6 +224,10 @@ def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
     operation = case.get(Operation)
     if operation is None:
         return None, []
+    try:
+        operation = driven(gearset, operation, case.get(RatingOptions))
+    except InputError as error:
+        return None, [f"no load on the contact lines, for want of a torque: {error}"]
     if operation.oil_temperature is not None:
         return Load.of(gearset, operation, operation.oil_temperature), []
     try:
