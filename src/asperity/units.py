@@ -53,7 +53,7 @@ def split_unit(text: str) -> tuple[str, str] | None:
 def _convert(number: str, given: str, unit: str) -> float:
     if not _UNIT.fullmatch(given):
         raise InputError(f"{given!r} is not a unit")
-    text = _PLAIN_POWER.sub(r"**\1", given.replace("\u00b0C", "degC"))
+    text = _PLAIN_POWER.sub(r"**\1", re.sub("\u00b0([CF])", r"deg\1", given))
     if unit == "rad/s" and text.replace(" ", "") in _A_MINUTE:
         # Of turns, as standards write a speed of rotation.
         text = "rpm"
