@@ -20,6 +20,7 @@ from asperity.tribometer.fit.estimate import Estimate, Fit
 from asperity.tribometer.fit.forward import BLOCK, DRIVE, SLIDE, Predictor, prepared
 from asperity.tribometer.fit.free import Free
 from asperity.tribometer.fit.outliers import Spoilt, spoilt
+from asperity.tribometer.fit.problem import FitProblem
 from asperity.tribometer.fit.result import FitResult, Law, Proposed
 from asperity.tribometer.fit.words import improbable, notes, parameter_of, told_of
 from asperity.tribometer.parameters import Rig
@@ -36,18 +37,6 @@ _DEEPER = 3  # times that intervals are begun anew
 _LOWER = 0.02  # of the rise to an end, by which another fit is better
 _STRIKING = 2.0  # deviations
 _ALIKE = 0.01  # of chi-square, by which laws do not differ
-
-
-@dataclasses.dataclass(frozen=True)
-class FitProblem:
-    """Measurements, a case, and what is free in it."""
-
-    data: Measurements
-    case: Case
-    free: tuple[Free, ...]
-    laws: tuple[str, ...]
-    further: int
-    by: str
 
 
 def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
