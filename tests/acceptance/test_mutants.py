@@ -14,7 +14,9 @@ ALWAYS = len(sites.known()["always"])
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    return run.Copy(tmp_path_factory.mktemp("mutants"))
+    made = run.Copy(tmp_path_factory.mktemp("mutants"))
+    yield made
+    made.close()
 
 
 def _is_noticed(copy, mutant):

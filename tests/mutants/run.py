@@ -11,9 +11,7 @@ import contextlib
 import json
 import os
 import re
-import resource
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -54,13 +52,17 @@ class Copy:
         # Python takes a file for unchanged by its size and the second it was written in: what it
         # has compiled is taken over, and nothing is added.
         self._environment["PYTHONDONTWRITEBYTECODE"] = "1"
-        self._start = folder / "pytest"
+        self._folder = folder
         self._new_cache()
         used = subprocess.run(
             [sys.executable, "-c", "import asperity; print(asperity.__file__)"],
             env=self._environment, cwd=near.ROOT, capture_output=True, text=True, check=True,
         ).stdout.strip()  # fmt: skip
         assert Path(used).parent == self.package, used
+        self._server = subprocess.Popen(
+            [sys.executable, near.HERE / "server.py"], stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE, cwd=near.ROOT, env=self._environment, text=True,
+        )  # fmt: skip
 
     def text(self, module: str) -> str:
         """Source of a module as it should be."""
@@ -96,24 +98,22 @@ class Copy:
         return ""
 
     def _pytest(self, tests, longest):
-        command = [
-            sys.executable, "-m", "pytest", "-q", "-x", "--no-header", "--tb=no", "-rfE",
-            "-p", "no:cacheprovider", "-m", "slow or not slow", f"--basetemp={self._start}", *tests,
+        options = [
+            "-q", "-x", "--no-header", "--tb=no", "-rfE", "-p", "no:cacheprovider",
+            "-m", "slow or not slow", f"--basetemp={self._folder / 'pytest'}",
         ]  # fmt: skip
-        process = subprocess.Popen(
-            command, cwd=near.ROOT, env=self._environment, text=True, start_new_session=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-            preexec_fn=lambda: _bounded(round(longest)),
-        )  # fmt: skip
-        try:
-            output, _ = process.communicate(timeout=_AT_ALL * longest)
-        except subprocess.TimeoutExpired:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-            process.communicate()
-            return None, ""
-        out_of_time = process.returncode in (-signal.SIGXCPU, -signal.SIGKILL)
-        return None if out_of_time else process.returncode, output
+        output = self._folder / "output"
+        asked = {
+            "arguments": [*options, *tests], "output": str(output), "cpu": round(longest),
+            "seconds": _AT_ALL * longest, "bytes": _MEMORY,
+        }  # fmt: skip
+        print(json.dumps(asked), file=self._server.stdin, flush=True)
+        code = json.loads(self._server.stdout.readline())
+        return code, output.read_text("utf-8", "replace")
+
+    def close(self):
+        """End the process that tests."""
+        self._server.communicate()
 
     def _new_cache(self):
         """Forget all but kernels, which are kept under what they follow from."""
@@ -128,12 +128,6 @@ class Copy:
             for folder in compiled.iterdir():
                 if folder.is_dir() and not (kernels / folder.name).exists():
                     (kernels / folder.name).symlink_to(folder)
-
-
-def _bounded(seconds):
-    """Let what a broken line makes endless end, and what it makes boundless."""
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
 
 
 def tried(copy: Copy, mutant, longest: float = LONGEST, without=frozenset()) -> dict:
@@ -219,8 +213,6 @@ def _is_compiled(mutant):
 
 def _try(mutants, longest):
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
-    # Started in the background, programs are told to ignore it, and tests of Ctrl+C then fail.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
     passed, failing = {line["by"] for line in results().values()}, set()
     with tempfile.TemporaryDirectory() as folder:
         copy = Copy(Path(folder))
@@ -234,6 +226,8 @@ def _try(mutants, longest):
                     print(f"fails where nothing is broken: {line['by']}")
                     failing.add(line["by"])
                     line = tried(copy, mutant, longest, failing)
+            if line["by"].startswith("exit") and copy.fails(near.nearest(mutant)[:1]) != "":
+                sys.exit(f"tests do not run where nothing is broken: {line['by']}")
             with RESULTS.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(line) + "\n")
             print(f"{line['outcome']:9}{line['seconds']:6.1f} s  {line['name']}  {line['by']}")

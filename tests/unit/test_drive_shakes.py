@@ -5,10 +5,11 @@ import pytest
 from apparatus.drives import problem
 
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, shakes, system
+from asperity.drive.protocols.setup import begin, corners_of, shakes, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.runs import Run
+from asperity.waveform import displacement_at
 
 
 def modelled(*settings):
@@ -59,3 +60,16 @@ def test_flanks_that_slide_steadily_begin_with_the_friction_of_their_speed():
     assert model.friction > 1.02 * model.kinetic
     static = model.point.worm_torque(given.load, model.friction)
     assert first["torque"] / 1e-6 == pytest.approx(static, rel=1e-6)
+
+
+@pytest.mark.parametrize("settings", [
+    (), ("vibration.waveform=triangle",),
+    ("vibration.waveform=square", "vibration.rise_time=50 us", "vibration.frequency=5 kHz"),
+])  # fmt: skip
+def test_a_march_knows_the_corners_at_which_its_wave_turns(settings):
+    shape = problem(*settings).shape
+    wave, steps = shape.wave(), 2000
+    at = [displacement_at(wave, 1.0 + n / steps) for n in range(-1, steps + 1)]
+    bends = np.abs(np.diff(at, 2))
+    turned = np.flatnonzero(bends > 0.5 * bends.max()) / steps if settings else []
+    assert corners_of(shape) == pytest.approx(np.array(turned), abs=1e-9)

@@ -109,3 +109,4 @@ def test_a_copy_that_is_not_broken_passes_and_one_that_is_fails(tmp_path):
         assert copy.fails(tests).startswith("tests/literature/test_iso14521.py::")
     assert (copy.package / mutant.module).read_text("utf-8") == whole
     assert copy.fails(tests) == ""
+    copy.close()

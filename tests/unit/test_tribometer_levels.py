@@ -295,3 +295,22 @@ def test_white_noise_that_vibration_makes_greater_is_greater_in_shaken_windows()
     found = estimate_levels(times, 1.0 + noise, turned, window, shaken)
     expected = np.where(shaken, loud, quiet) ** 2 / blocks
     assert found.sensed == pytest.approx(expected, rel=0.15)
+
+
+def test_noise_of_the_torque_s_sensor_moves_no_speed():
+    found = joint(NOISES["white"], 1)
+    levels = dict(found.levels)
+    torque, speed = levels["torque_steel"], levels["speed_steel"]
+    still = {"gradients": np.zeros_like(torque.gradients)}
+    # All that is not known of the torque's levels is white noise, and so the sensor's.
+    levels["torque_steel"] = dataclasses.replace(torque, covariance=np.diag(torque.sensed), **still)
+    alone = dataclasses.replace(speed, give=0.0)
+    giving = dataclasses.replace(speed, give=-5.0)
+    deviations = []
+    for one in (alone, giving):
+        changed = dataclasses.replace(found, levels=levels | {"speed_steel": one}, correlation={})
+        interval = changed.interval(lambda pairs: float(pairs["speed_steel"][1]), 0, 1, 0.95)
+        deviations.append(interval.deviation)
+    assert deviations[1] == pytest.approx(deviations[0], rel=1e-9)
+    leaning = 5.0 / np.abs(torque.values).max() * math.sqrt(torque.sensed[1])
+    assert leaning > 0.1 * deviations[0]

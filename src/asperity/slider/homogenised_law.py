@@ -8,7 +8,7 @@ little with the base) is in the table.
 import dataclasses
 import functools
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, overload
 
 import numpy as np
@@ -166,16 +166,31 @@ class HomogenisedLaw:
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the law's numbers should know."""
+        return (*self._of_missing(), *self._of_unsettled())
+
+    def _of_unsettled(self) -> Iterator[str]:
+        if self.unsettled:
+            tried = len(self.velocity) - 1
+            yield (
+                f"at {len(self.unsettled)} of {tried} mean velocities the periodic state does not "
+                f"stay, among them {_places(self.unsettled)}: there the law is no prediction"
+            )
+
+    def _of_missing(self) -> Iterator[str]:
         if not self.missing:
-            return ()
+            return
         count = len(self.missing)
         tried = len({*self.velocity, *self.missing}) - 1
-        places = ", ".join(f"{velocity:.3g}" for velocity in self.missing[:_NAMED])
-        more = f" and {count - _NAMED} more" if count > _NAMED else ""
-        return (
+        yield (
             f"no periodic state was found at {count} of {tried} mean "
-            f"velocities, which are interpolated over: {places} m/s{more}",
+            f"velocities, which are interpolated over: {_places(self.missing)}"
         )
+
+
+def _places(velocities: Sequence[float]) -> str:
+    places = ", ".join(f"{velocity:.3g}" for velocity in velocities[:_NAMED])
+    more = f" and {len(velocities) - _NAMED} more" if len(velocities) > _NAMED else ""
+    return f"{places} m/s{more}"
 
 
 def homogenise(model: Model) -> HomogenisedLaw:

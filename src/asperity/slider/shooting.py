@@ -337,7 +337,7 @@ def differentiated(start, springs, p, q, increments, rises, sums, count):
 
 @kernel
 def close(start, springs, p, q, increments, rises, sums, jacobian, most):
-    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of the cycle after it.
+    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of a cycle after it.
 
     Returns the defect that is left and the cycles run, at most one more than ``most``.
     """

@@ -2,8 +2,9 @@
 
 Of a state that repeats itself, the state on twice the step is found with the Jacobian of the first,
 in a few cycles. A march is at its end next to such a state, and both are found from there; where
-there is none, some of its last cycles are marched again on twice the step. All schemes but the
-thesis's are of order two, and a third of the difference is the error.
+there is none, some of its last cycles are marched again on twice the step. Of order two the error
+is a third of the difference, of order one all of it: with low exponents, and at the corners of a
+wave with LuGre friction or under a load that changes.
 """
 
 import dataclasses
@@ -32,7 +33,10 @@ _LEFT = 1e-4  # of the defect, above which a state is not found
 _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 _FINEST = 64  # times finer than by the bounds
-_ORDER_TWO = 3.0  # what the difference is of the error
+_LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
+# What the difference is of the error, by the order.
+_ORDER_ONE = 1.0
+_ORDER_TWO = 3.0
 
 
 def refined(
@@ -92,8 +96,9 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
         ratio = _closed(alike, fine, cycle, cycle.jacobian)
     other = _closed(alike, coarse, cycle, cycle.jacobian)
     if ratio is None or other is None:
-        return _cycles_again(model, cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
-    return abs(other - ratio) / _ORDER_TWO + _off_corners(model, steps)
+        return _cycles_again(cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
+    off = _off_corners(model, alike, steps, ratio - _ratio(cycle))
+    return abs(other - ratio) / _of_the_error(model) + off
 
 
 def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
@@ -134,27 +139,39 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         one = _closed(alike, fine, end, jacobian, phase)
         other = _closed(alike, coarse, end, jacobian, phase)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
-            return abs(other - one) / _ORDER_TWO + _off_corners(model, asked)
+            off = _off_corners(model, alike, asked, one - ratio)
+            return abs(other - one) / _of_the_error(model) + off
     again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
-    return _cycles_again(model, end, (alike, fine, coarse), phase, again)
+    return _cycles_again(end, (alike, fine, coarse), phase, again)
 
 
 def _cycles_again(
-    model: Model, start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
+    start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
 ) -> float | None:
     """Return the error of the mean friction of so many cycles from a start, on both grids."""
     alike, *counts = grids
     means = []
     for count in counts:
-        trial = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
+        trial = Cycle(alike, count, 1.0 / (count * alike.frequency), phase)
         take_over(trial, start)
         total = 0.0
         for _ in range(cycles):
             _run_once(trial)
             total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
         means.append(total / cycles)
-    error = abs(means[1] - means[0]) / _ORDER_TWO + _off_corners(model, counts[0])
+    error = abs(means[1] - means[0]) / _of_the_error(alike)
     return error if math.isfinite(error) else None
+
+
+def _of_the_error(model: Model) -> float:
+    """Return what the difference to a solution on twice the step is of the error of the first."""
+    smooth = model.shape is None or not model.shape.cornered
+    friction = model.friction
+    stiff = friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT
+    if stiff and not (smooth and friction.law == "vector"):
+        return _ORDER_ONE
+    follows = friction.model == "lugre" or model.normal is not None
+    return _ORDER_ONE if follows and not smooth else _ORDER_TWO
 
 
 def _run_once(cycle: Cycle) -> None:
@@ -175,23 +192,28 @@ def _marched_again(
         put(cycle, step, state, springs)
         _run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
-    error = abs(means[1] - means[0]) / _ORDER_TWO
+    error = abs(means[1] - means[0]) / _of_the_error(model)
     return error if math.isfinite(error) else None
 
 
 def _grids(model: Model, steps: int) -> tuple[Model, int, int]:
-    """Return a body like one whose corners end both of two grids, and the steps of a cycle in each."""
+    """Return a body like one, with corners on both of two grids, and these: steps of a cycle."""
     if not model.meets_corners or model.shape is None:
         return model, 2 * ((steps + 1) // 2), (steps + 1) // 2
     coarse = 4 * max(1, round(0.125 * steps))
     return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse, coarse
 
 
-def _off_corners(model: Model, steps: int) -> float:
-    """Return what corners that steps do not meet may do to a mean force, over mu F_N."""
-    if not model.meets_corners or model.shape is None:
+def _off_corners(model: Model, alike: Model, steps: int, change: float) -> float:
+    """Return the error that is made by putting corners on steps.
+
+    ``change`` is that of the ratio from the wave on these steps to one alike.
+    """
+    if alike is model or model.shape is None or alike.shape is None:
         return 0.0
-    return 2.0 * abs(model.shape.on_corners(steps).rise - model.shape.rise)
+    met = model.shape.on_corners(steps).rise
+    apart = abs(alike.shape.rise - met)
+    return abs(change) * abs(met - model.shape.rise) / apart if apart > 1e-12 else 0.0
 
 
 def _closed(
