@@ -218,7 +218,6 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         No law's fit converges, or the model answers fewer measurements than there are parameters.
     """
     total, done = len(problem.laws) + 2 * len(problem.free), 0
-    first = time.monotonic()
 
     def looked() -> None:
         run.checkpoint(done, total, what="fits and ends of intervals")
@@ -239,8 +238,10 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         law = _chosen(problem, fitted)
         if not problem.data.weighed:
             fitted = _by_residuals(fitted, law)
-        began = sum(one.fit.evaluations for one in fitted.values())
-        each = (time.monotonic() - first) / max(began, 1)
+        # The first ones may have compiled what they need, and tell of no other.
+        began = time.monotonic()
+        fitted[law].fit.residuals(fitted[law].best.point)
+        each = time.monotonic() - began
         ends_of = 2 * len(problem.free)
         run.forecast(each * _AN_END * ends_of, f"{ends_of} ends of intervals")
         for _ in range(_DEEPER):
