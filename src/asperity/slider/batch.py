@@ -100,7 +100,10 @@ def solve_many(
 
     Marches of Dahl friction with exponent 1 run thirty-two at a time in vector instructions, those
     of bodies under a linear or Hertz contact too; the interpreter's lock is free meanwhile, so
-    threads share a processor's cores.
+    threads share a processor's cores. All others, periodic states and homogenised laws among them,
+    are solved one after the other: how many cycles a state takes differs from body to body. What
+    one of them costs is a few milliseconds, which cores share where each has a process of its own:
+    ``asperity sweep`` divides them so.
 
     Parameters
     ----------
