@@ -14,17 +14,18 @@ from apparatus.random_drives import CIRCLE, settings
 
 SEED = 1967
 RATIO, POWERS = 3e-3, 5e-3
-# Where one of both is nearer to the bounds of what settles, the other may lie beyond.
-NEAR = 2.0
+# A march that hammers falls into its period sooner or later by chance: where one of both has and
+# the other has not, both are given so many times as long.
+LONGER = 4
 
 
-def compared(drive):
+def compared(drive, *more, longer=1):
     """Return the answers of both, and by how much ratio and powers are apart."""
-    answer = solved(*settings(drive))
+    answer = solved(*settings(drive), *more)
     cycles = answer.course.cycle_end.size
     blocks = re.search(r"three blocks of (\d+) cycles agree", answer.settled_by)
     judged = 3 * int(blocks[1]) if blocks else cycles // 2 // 3 * 3
-    plain = random_drives.solved(drive, cycles, judged)
+    plain = random_drives.solved(drive, longer * cycles, judged)
     power = answer.torque_static * drive["speed"]
     powers = {
         name: getattr(answer.ledger, name) / power
@@ -37,10 +38,15 @@ def compared(drive):
 
 def agree(drive):
     answer, plain, ratio, powers = compared(drive)
+    if answer.settled != (plain["off"] <= 1.0):
+        seconds = LONGER * float(answer.course.cycle_end[-1])
+        given = f"solve.duration={seconds!r} s"
+        answer, plain, ratio, powers = compared(
+            drive, given, longer=LONGER if answer.settled else 1
+        )
+    assert answer.settled == (plain["off"] <= 1.0), drive
     if not answer.settled:
-        assert plain["off"] > 1.0 / NEAR, drive
         return
-    assert plain["off"] < NEAR, drive
     assert ratio <= RATIO * max(1.0, answer.torque_ratio), drive
     assert powers <= POWERS, drive
 

@@ -129,6 +129,9 @@ def test_the_speeds_and_ways_of_a_turning_vibration_are_those_of_its_threads():
     normal = np.cos(np.arctan2(4.0, 8.4)) * np.cos(np.radians(20.0))
     # A worm that turns at w moves its threads at p w along the axis, their normals' share of it.
     assert turned.approach_speed == pytest.approx(turned.velocity / circle * lead * normal)
+    for mode, share in (("axial", 1.0), ("wheel-axial", lead / 9.81e-3), ("screw", 0.0)):
+        other = problem(f"vibration.mode={mode}", "vibration.frequency=20 kHz")
+        assert other.approach_speed == pytest.approx(other.velocity * normal * share)
     # A quarter of the pitch is reached by p/r of the arc.
     most = 0.25 * np.pi * 2.15380e-3 * circle / lead
     assert geometry.axial_pitch == pytest.approx(np.pi * 2.15380)

@@ -1,11 +1,13 @@
 """Whether an answer has settled is a field of it, which all who show or use it heed."""
 
+import numpy as np
 import pytest
 from observe import new_cache
 
 from asperity.casefile import read_case
 from asperity.results import read
 from asperity.slider import TABLES, Model, solve, solve_many
+from asperity.slider.fading import still_to_come
 from asperity.sweep import run
 
 EARLY = "solve.duration=0.3 s", "vibration.start=10 ms"
@@ -118,3 +120,19 @@ def test_without_a_duration_a_march_goes_on_until_it_has_settled():
     assert answer.steps * model.step / model.substeps > model.duration
     (of_many, other) = solve_many([model, model])
     assert of_many.ratio == other.ratio == answer.ratio
+
+
+def test_halves_that_agree_while_a_slow_change_goes_on_are_not_enough():
+    # A time constant of ten windows: the halves are apart by 5 % of what is still to come.
+    for constant in (2.0, 5.0, 10.0):
+        edges = np.exp(-np.arange(5) / (4.0 * constant))
+        change = 0.01
+        means = 0.5 + change * 4.0 * constant * (edges[:-1] - edges[1:])
+        left = change * constant * (1.0 - edges[-1])
+        assert still_to_come(means.tolist()) == pytest.approx(left, rel=1e-6)
+
+
+def test_what_comes_and_goes_is_no_slow_change():
+    assert still_to_come([0.5, 0.501, 0.5, 0.501]) == 0.0
+    assert still_to_come([0.5, 0.501, 0.503, 0.506]) == 0.0
+    assert still_to_come([0.5] * 4) == 0.0

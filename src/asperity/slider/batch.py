@@ -282,12 +282,12 @@ def _answer(
     second = (sums["drive_force"] - first_half) / (table.window - half)
     residual = abs(float(second - first_half / half))
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
-    standing = march_standing(model, table, residual, broke=broke)
-    error = None
-    notes = march_notes(model, table, residual, broke=broke)
     ends = np.array([table.window_start, *table.quarters, table.steps])
     forces = np.array([0.0, *quarters, sums["drive_force"]])
     means = (np.diff(forces) / np.maximum(np.diff(ends), 1)).tolist()
+    standing = march_standing(model, table, residual, broke=broke, means=means)
+    error = None
+    notes = march_notes(model, table, residual, broke=broke)
     if standing.settled:
         at_end = integrator(model, table.step)
         at_end.kept["state"][0] = _state(column, body)

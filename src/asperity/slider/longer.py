@@ -3,13 +3,13 @@
 import math
 from collections.abc import Sequence
 
+from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
-from asperity.slider.timetable import UNSTEADY, WAYS, Timetable, bending, still_grows
+from asperity.slider.timetable import FAR, UNSTEADY, WAYS, Timetable, bending, still_grows
 
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _NEXT, _MOST_TRIED = 1.02, 400
-_FADES = 0.98  # what is left of a change after a quarter of the window, if it fades at all
 
 
 def needed(
@@ -40,7 +40,7 @@ def needed(
     loaded = model.start + _loading(model) + window
     if not (broke or model.vibrates or slider.rigid):
         least.append(loaded)
-    if residual > UNSTEADY:
+    if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(model, table, means, residual)
         if fading is not None:
             least.append(fading)
@@ -69,30 +69,27 @@ def _fading(
     A change :math:`e^{-t/\tau}` makes the halves of a window of length :math:`2\tau h` differ by
     :math:`(1 - e^{-h})^2/h` of what it is at the window's start.
     """
-    first, second, third, fourth = means
-    if third == first:
-        return None
-    left = (fourth - second) / (third - first)
-    if not 0.0 < left < _FADES:
+    quarters = quarters_in_time(means)
+    if quarters is None:
         return None
     window = table.window * table.step
-    tau = -0.25 * window / math.log(left)
+    tau = 0.25 * window * quarters
     begin = model.duration - window
-    most = _LEFT * UNSTEADY * _apart(window / tau) / residual
+    change = residual / apart(window / tau)
     duration = model.duration
     for _ in range(_MOST_TRIED):
         duration *= _NEXT
         longer = min(model.window, WINDOW_SHARE * (duration - model.start))
         later = duration - longer - begin
-        if later > 0.0 and math.exp(-later / tau) * _apart(longer / tau) <= most:
+        left = change * math.exp(-later / tau)
+        windows = longer / tau
+        if (
+            later > 0.0
+            and left * apart(windows) <= _LEFT * UNSTEADY
+            and left * mean_left(windows) <= _LEFT * FAR
+        ):
             return model.duration + _SPARE * (duration - model.duration)
     return None
-
-
-def _apart(windows: float) -> float:
-    """What a fading change makes the halves of a window differ by, of so many time constants."""
-    half = 0.5 * windows
-    return math.expm1(-half) ** 2 / half
 
 
 def advice(duration: float | None) -> str:

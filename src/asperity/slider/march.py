@@ -19,11 +19,10 @@ from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.timetable import Timetable, march_notes, march_standing
+from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
 from asperity.waveform import AT_REST
 
 _RECORDS = 4000
-_BLOCK = 1024
 _FARTHEST = 16.0  # times the usual duration, that a march goes on by itself
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
@@ -163,7 +162,7 @@ class March:
     def _to_the_end(self) -> tuple[SlideResult, float | None]:
         """March to the end, and say what duration would do."""
         table = self.table
-        stride, tail = _BLOCK, table.steps
+        stride, tail = BLOCK, table.steps
         if self._record:
             stride = max(1, table.steps // table.parts // _RECORDS) * table.parts
             tail = table.steps - table.tail
@@ -183,7 +182,10 @@ class March:
 
     def _quarter(self, number: int, target: int, stride: int, most: int | None = None) -> None:
         """March to the end of a quarter of the window, and keep the sums up to there."""
-        self.to(target if most is None else min(target, most), stride)
+        # At the end of a stretch, which are the same without these sums.
+        last = self.table.window_start if number < 3 else self.table.middle
+        end = last + (target - last) // stride * stride if number != 2 else target
+        self.to(end if most is None else min(end, most), stride)
         if len(self._quarters) < number:
             self._quarters.append((float(self.sums["drive_force"]), float(self.sums["steps"])))
 
@@ -239,7 +241,7 @@ class March:
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
         broke = breakaway is not None
-        standing = march_standing(self._timed, table, residual, broke=broke)
+        standing = march_standing(self._timed, table, residual, broke=broke, means=self._means())
         ratio = float(sums["drive_force"] / sums["steps"])
         answer = summarise(
             model, self.p, table.step, sums, start, self.energies(),

@@ -90,14 +90,14 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
     steps = (len(cycle.increments) - 1) // cycle.period
     if not model.vibrates:
         return 0.0
-    alike, fine, coarse = _grids(model, steps)
+    fine = _on_corners(model, cycle, steps)
     ratio: float | None = _ratio(cycle)
-    if alike is not model:
-        ratio = _closed(alike, fine, cycle, cycle.jacobian)
-    other = _closed(alike, coarse, cycle, cycle.jacobian)
+    if fine is not cycle:
+        ratio = _closed(fine, cycle.jacobian)
+    other = _closed(fine.twice(), cycle.jacobian)
     if ratio is None or other is None:
-        return _cycles_again(cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
-    off = _off_corners(model, alike, steps, ratio - _ratio(cycle))
+        return _cycles_again(fine, _CLOSING // 2)
+    off = _off_corners(model, fine, steps, ratio - _ratio(cycle))
     return abs(other - ratio) / _of_the_error(model) + off
 
 
@@ -121,45 +121,40 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     if not model.vibrates:
         return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
     asked = round(1.0 / (model.frequency * step))
-    alike, fine, coarse = _grids(model, asked)
+    alike, count = _grid(model, asked)
     phase = model.frequency * (steps * step - model.start)
     if alike is not model:
-        phase = round(phase * coarse) / coarse
+        phase = round(0.5 * phase * count) / (0.5 * count)
     phase -= math.floor(phase)
-    end = Cycle(alike, fine, 1.0 / (fine * model.frequency), phase)
+    end = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
     put(end, step, state, springs)
-    count = _unknowns(end)
-    if count + 1.5 * _CLOSING <= _SHARE * cycles:
-        jacobian = np.zeros((count, count))
-        if count:
+    unknowns = _unknowns(end)
+    if unknowns + 1.5 * _CLOSING <= _SHARE * cycles:
+        jacobian = np.zeros((unknowns, unknowns))
+        if unknowns:
             jacobian = differentiated(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums()[0], count,
+                end.body.no_sums()[0], unknowns,
             )  # fmt: skip
-        one = _closed(alike, fine, end, jacobian, phase)
-        other = _closed(alike, coarse, end, jacobian, phase)
+        fine = end.copied()
+        one = _closed(fine, jacobian)
+        other = _closed(fine.twice(), jacobian)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
-            off = _off_corners(model, alike, asked, one - ratio)
+            off = _off_corners(model, fine, asked, one - ratio)
             return abs(other - one) / _of_the_error(model) + off
-    again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
-    return _cycles_again(end, (alike, fine, coarse), phase, again)
+    return _cycles_again(end, min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN))
 
 
-def _cycles_again(
-    start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
-) -> float | None:
-    """Return the error of the mean friction of so many cycles from a start, on both grids."""
-    alike, *counts = grids
+def _cycles_again(start: Cycle, cycles: int) -> float | None:
+    """Return the error of the mean friction of so many cycles from a start."""
     means = []
-    for count in counts:
-        trial = Cycle(alike, count, 1.0 / (count * alike.frequency), phase)
-        take_over(trial, start)
+    for trial in (start.copied(), start.twice()):
         total = 0.0
         for _ in range(cycles):
             _run_once(trial)
             total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
         means.append(total / cycles)
-    error = abs(means[1] - means[0]) / _of_the_error(alike)
+    error = abs(means[1] - means[0]) / _of_the_error(start.body.model)
     return error if math.isfinite(error) else None
 
 
@@ -196,40 +191,47 @@ def _marched_again(
     return error if math.isfinite(error) else None
 
 
-def _grids(model: Model, steps: int) -> tuple[Model, int, int]:
-    """Return a body like one, with corners on both of two grids, and these: steps of a cycle."""
+def _grid(model: Model, steps: int) -> tuple[Model, int]:
+    """Return a body like one, with corners on every other step, and the steps of a cycle."""
     if not model.meets_corners or model.shape is None:
-        return model, 2 * ((steps + 1) // 2), (steps + 1) // 2
+        return model, 2 * ((steps + 1) // 2)
     coarse = 4 * max(1, round(0.125 * steps))
-    return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse, coarse
+    return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse
 
 
-def _off_corners(model: Model, alike: Model, steps: int, change: float) -> float:
+def _on_corners(model: Model, cycle: Cycle, steps: int) -> Cycle:
+    """Return the map of a body like one, where its wave has corners; else the map itself."""
+    alike, count = _grid(model, steps)
+    if alike is model:
+        return cycle
+    fine = Cycle(alike, count, 1.0 / (count * model.frequency))
+    put(fine, cycle.step, cycle.body.kept["state"], cycle.springs)
+    if cycle.period > 1:
+        fine.repeat(cycle.period)
+    return fine
+
+
+def _off_corners(model: Model, alike: Cycle, steps: int, change: float) -> float:
     """Return the error that is made by putting corners on steps.
 
     ``change`` is that of the ratio from the wave on these steps to one alike.
     """
-    if alike is model or model.shape is None or alike.shape is None:
+    other = alike.body.model.shape
+    if not model.meets_corners or model.shape is None or other is None:
         return 0.0
     met = model.shape.on_corners(steps).rise
-    apart = abs(alike.shape.rise - met)
+    apart = abs(other.rise - met)
     return abs(change) * abs(met - model.shape.rise) / apart if apart > 1e-12 else 0.0
 
 
-def _closed(
-    model: Model, steps: int, other: Cycle, jacobian: FloatArray, phase: float = 0.0
-) -> float | None:
-    """Return the ratio of the state on other steps next to a state; None if there is none."""
-    trial = Cycle(model, steps, 1.0 / (steps * model.frequency), phase)
-    take_over(trial, other)
-    if other.period > 1:
-        trial.repeat(other.period)
-    body = trial.body
+def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
+    """Return the ratio of the state next to where a body is, which goes there; None if none is."""
+    body = cycle.body
     left, _ = close(
-        body.kept["state"], trial.springs, body.p, trial.q, trial.increments, trial.rises,
+        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
         body.sums, np.ascontiguousarray(jacobian), _CLOSING,
     )  # fmt: skip
-    ratio = _ratio(trial)
+    ratio = _ratio(cycle)
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
@@ -242,11 +244,6 @@ def _unknowns(cycle: Cycle) -> int:
     state = cycle.body.kept["state"]
     count: int = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, room)
     return count
-
-
-def take_over(cycle: Cycle, other: Cycle) -> None:
-    """Put a body where the same body is that another step is taken with."""
-    put(cycle, other.step, other.body.kept["state"], other.springs)
 
 
 def put(cycle: Cycle, step: float, state: np.ndarray, springs: FloatArray) -> None:

@@ -33,11 +33,11 @@ def parts_of(model: "Model") -> int:
     The bounds: the slip in a part at most half the deflection limit; its change from part to part
     at most 0.12 % of it, for the friction where the slip reverses (coarser, the ratio is wrong by
     up to 0.15 % at high speed ratios); a part at most a quarter of the reciprocal of the body's
-    angular frequency on asperities and drive. With an exponent above 1 the slip of ``split`` and
-    ``unsplit`` counts for more. The two-phase scheme is not divided, but refused where it is unstable.
-    Coulomb friction has no deflection: there the vibration's velocity changes by at most a tenth of
-    the drive velocity from part to part, unless the slip is prescribed (rigid drive, guided body)
-    and keeps to a line.
+    angular frequency on asperities and drive. With an exponent above 1 the slip counts for more
+    under ``split`` and ``unsplit``. The two-phase scheme is not divided, but refused where it is
+    unstable. Coulomb friction has no deflection: there the vibration's velocity changes by at most
+    a tenth of the drive velocity from part to part, unless the slip is prescribed (rigid drive,
+    guided body) and keeps to a line.
     """
     slider, friction, step = model.slider, model.friction, model.step
     drag = slider.drive_damping * slider.drive_velocity / model.full_friction

@@ -1,17 +1,22 @@
 """When a march takes its means, and what its reader should know of them."""
 
 import math
+from collections.abc import Sequence
 
 from asperity.errors import InputError
 from asperity.results.settled import Standing
+from asperity.slider.fading import still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
+BLOCK = 1024
+"""Steps that a march takes at a time."""
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
 UNSTEADY = 1e-3
+FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
 WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
 
@@ -67,13 +72,24 @@ class Timetable:
 
     @property
     def quarters(self) -> tuple[int, int, int]:
-        """Steps at which the first three quarters of the window end."""
-        first = (self.window_start + self.middle) // 2
-        return first, self.middle, (self.middle + self.steps) // 2
+        """Steps at which the first three quarters of the window end, in whole blocks."""
+        first = (self.middle - self.window_start) // 2 // BLOCK * BLOCK
+        third = (self.steps - self.middle) // 2 // BLOCK * BLOCK
+        return self.window_start + first, self.middle, self.middle + third
 
 
-def march_standing(model: Model, table: Timetable, residual: float, *, broke: bool) -> Standing:
-    """Return whether a march has settled: by the halves of its window, if nothing is missing."""
+def march_standing(
+    model: Model,
+    table: Timetable,
+    residual: float,
+    *,
+    broke: bool,
+    means: Sequence[float] | None = None,
+) -> Standing:
+    """Return whether a march has settled: by the halves of its window, if nothing is missing.
+
+    ``means`` are those of the quarters of the window, where they are known.
+    """
     missing = []
     if not (broke or model.vibrates or model.slider.rigid):
         missing.append("the body has not broken away")
@@ -83,6 +99,8 @@ def march_standing(model: Model, table: Timetable, residual: float, *, broke: bo
         missing.append("the vibration grows into the window of the means")
     if not residual <= UNSTEADY:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
+    elif means is not None and (far := still_to_come(means)) > FAR:
+        missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     shown = f"the halves of the window agree to {UNSTEADY:g} of mu F_N"
     return Standing.of(missing, shown)
 

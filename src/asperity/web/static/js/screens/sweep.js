@@ -180,7 +180,8 @@ function Found({ name, names, data }) {
     ${count === 1 ? "has" : "have"} not settled: no prediction.</p>` : null;
   const marks = count ? [{ label: "not settled", unit: plain(units), points: "square",
     bare: true, values: values.map((value, at) => (loose[at] ? value : null)), colour: 6 }] : [];
-  return across ? html`${says}<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across} values=${values} />`
+  return across ? html`${says}<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across}
+      values=${values} />`
     : html`${says}<${Plot} title=${title} x=${down} height=${340}
       series=${[{ label: title, unit: plain(units), values, points: "round" }, ...marks]} />`;
 }
