@@ -39,10 +39,12 @@ class Copy:
     """A copy of the package in which a line at a time is broken, with a cache of its own."""
 
     def __init__(self, folder: Path, cache: Path | None = None) -> None:
-        self.source = source = sites.SOURCE
+        # As it is now, whatever is edited meanwhile.
+        self.source = folder / "whole"
         self.package = folder / "src" / "asperity"
-        shutil.copytree(source / "asperity", self.package)
-        (folder / "cases").symlink_to(source.parent / "cases")
+        shutil.copytree(sites.SOURCE / "asperity", self.source / "asperity")
+        shutil.copytree(self.source / "asperity", self.package)
+        (folder / "cases").symlink_to(near.ROOT / "cases")
         self._cache = cache or folder / "cache"
         self._environment = os.environ | {
             "PYTHONPATH": str(self.package.parent),
