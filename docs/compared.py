@@ -3,6 +3,7 @@
 import math
 
 import comparisons
+import gear_cases
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
@@ -40,6 +41,41 @@ class SizedTable(Directive):
         return _table(self, (36, 18, 9, 9, 28), rows)
 
 
+class CatalogueTable(Directive):
+    """A row for each position of a catalogue: the maker's numbers and the standards'."""
+
+    def run(self):
+        rows = [
+            ("a (mm), ratio", "torque (N m)", "BS 721 wear", "AGMA 6034", "efficiency (%)",
+             "BS 721 teeth", "ISO gearbox")
+        ]  # fmt: skip
+        for each in gear_cases.catalogue():
+            numbers = (each.torque, each.bs_wear, each.agma_torque, each.efficiency,
+                       each.bs_teeth, each.iso_gearbox)  # fmt: skip
+            shown = ("none" if n is None else f"{n:.3g}" for n in numbers)
+            rows.append((f"{each.centre_distance:g}, {each.ratio:g}", *shown))
+        return _table(self, (16, 14, 14, 14, 14, 14, 14), rows)
+
+
+class TextbookTable(Directive):
+    """A row for each number of Mott's example."""
+
+    def run(self):
+        rows = [("", "theirs", "ours")]
+        rows += [(name, f"{a:g}", f"{b:.4g}") for name, a, b in gear_cases.mott()]
+        return _table(self, (50, 25, 25), rows)
+
+
+class TrustTable(Directive):
+    """A row for each kind of number: how many are verified, of one source, from memory."""
+
+    def run(self):
+        found = list(gear_cases.trust())
+        rows = [("", "verified", "one source", "from memory"), *(map(str, each) for each in found)]
+        total = (sum(each[n] for each in found) for n in (1, 2, 3))
+        return _table(self, (46, 18, 18, 18), [*map(tuple, rows), ("together", *map(str, total))])
+
+
 def _table(directive, widths, rows):
     """Return the nodes of a table whose first row is its heading."""
     widths = " ".join(map(str, widths))
@@ -55,4 +91,7 @@ def setup(app):
     """Make the directive known."""
     app.add_directive("compared", ComparedTable)
     app.add_directive("sized", SizedTable)
+    app.add_directive("catalogue", CatalogueTable)
+    app.add_directive("textbook-gear", TextbookTable)
+    app.add_directive("trust", TrustTable)
     return {"parallel_read_safe": True}

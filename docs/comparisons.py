@@ -82,11 +82,7 @@ def smallest(entry):
         entry["ratio"],
         entry["output_torque"],
         entry["worm_speed"],
-        # They run with this torque all the time, not with a third of it as an actuator.
-        settings=(
-            *entry.get("settings", ()),
-            f"operation.through_travel_torque={entry['output_torque']}",
-        ),
+        settings=entry.get("settings", ()),
     )
     return found.found[0].centre_distance_mm if found.holding else math.inf
 
@@ -107,7 +103,6 @@ def lacking(entry):
     operation = Operation(
         worm_speed=entry["worm_speed"],
         output_torque=entry["output_torque"],
-        through_travel_torque=entry["output_torque"],
         **given["operation"],
     )
     found = rate(gearset, operation)

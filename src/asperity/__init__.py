@@ -29,7 +29,7 @@ if TYPE_CHECKING:
         static,
     )
     from asperity.rating.parameters import Operation, RatingOptions
-    from asperity.slider import Model, Slider, Solve, homogenise, solve
+    from asperity.slider import Model, Slider, Solve, homogenise, solve, solve_many
     from asperity.slider.wear import Wear
     from asperity.vibration import Vibration
 
@@ -56,7 +56,7 @@ _PLACES = {
         "static",
     ),
     "asperity.rating.parameters": ("Operation", "RatingOptions"),
-    "asperity.slider": ("Model", "Slider", "Solve", "homogenise", "solve"),
+    "asperity.slider": ("Model", "Slider", "Solve", "homogenise", "solve", "solve_many"),
     "asperity.slider.wear": ("Wear",),
     "asperity.vibration": ("Vibration",),
 }
@@ -94,6 +94,7 @@ __all__ = [
     "size",
     "slide",
     "solve",
+    "solve_many",
     "static",
 ]
 

@@ -53,6 +53,7 @@ liter = 1e-3 * meter ** 3 = l = L
 poise = 0.1 * pascal * second = P
 stokes = 1e-4 * meter ** 2 / second = St
 degree_Celsius = kelvin; offset: 273.15 = \u00b0C = degC
+degree_Fahrenheit = 5 / 9 * kelvin; offset: 255.372222222222222222222222222222 = \u00b0F = degF
 standard_gravity = 9.80665 * meter / second ** 2 = g_n
 inch = 0.0254 * meter = in
 foot = 12 * inch = ft

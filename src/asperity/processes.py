@@ -35,7 +35,7 @@ def alone(path: Path, says: str) -> Iterator[None]:
     InputError
         Another process holds it.
     StorageError
-        It cannot be made.
+        It cannot be made, or is a link.
     """
     try:
         import fcntl
@@ -44,8 +44,14 @@ def alone(path: Path, says: str) -> Iterator[None]:
         return
     while True:
         try:
-            file = path.open("a+", encoding="utf-8")
+            # A link would lead to a file of somebody else, which would be emptied.
+            descriptor = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_NOFOLLOW, 0o666)
+            file = os.fdopen(descriptor, "a+", encoding="utf-8")
         except OSError as error:
+            if path.is_symlink():
+                raise StorageError(
+                    f"{plain(str(path))} is a link, which nothing here makes; remove it"
+                ) from None
             raise StorageError(f"{plain(str(path))} cannot be written: {reason(error)}") from None
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -7,14 +7,16 @@
     asperity.rate("gearset-3").verdict.holds
     asperity.rate("gearset-3", settings=["operation.output_torque=300 N m"])
     asperity.slide(body, contact, shaking)
+    asperity.slide(asperity.Model(body, contact, shaking))
 
-A case is its name, a file, what :func:`read` gives, or tables in any order.
+A case is its name, a file, what :func:`read` gives, a `Model` of a sliding body, or tables in any
+order.
 """
 
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from asperity.casefile.case import Case, read_case
 from asperity.casefile.table import Table
@@ -27,12 +29,13 @@ if TYPE_CHECKING:
     from asperity.flanks.study.result import FlankStudy
     from asperity.rating.rate import Rated
     from asperity.results import Result
+    from asperity.slider.model import Model
     from asperity.slider.result import SlideResult
     from asperity.start.compare import Comparison
     from asperity.studies.optimise import Optimum
     from asperity.studies.proposals import Proposals
 
-What = str | os.PathLike[str] | Case | Table
+What: TypeAlias = "str | os.PathLike[str] | Case | Table | Model"
 
 
 def rate(*case: What, standard: str = "all", settings: Sequence[str] = ()) -> "Rated":
@@ -61,34 +64,167 @@ def rate(*case: What, standard: str = "all", settings: Sequence[str] = ()) -> "R
 
 
 def slide(*case: What, settings: Sequence[str] = ()) -> "SlideResult":
-    """Pull a body over a vibrating base; the parameters are those of :func:`rate`."""
+    """Pull a body over a vibrating base: its mean drive force, and how that compares.
+
+    By ``solve.method`` the body is marched, solved for its periodic state, or under the
+    homogenised law.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, a `Model`, or its tables: a `Slider`, a `Friction`, and as needed `Vibration`,
+        `Normal`, `Wear` and `Solve`.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    SlideResult
+        ``ratio`` is the mean drive force over that without vibration, ``drive_force`` the force, N,
+        ``ledger`` where the power goes, and ``settled`` whether it is a prediction.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    ConvergenceError
+        No answer is found; what was reached is told.
+    """
     return _answer("slide", case, settings)  # type: ignore[return-value]
 
 
 def static(*case: What, settings: Sequence[str] = ()) -> "Result":
-    """Find the largest force under which a body on a vibrating base holds; as :func:`slide`."""
+    """Find the largest force under which a body on a vibrating base holds.
+
+    The body creeps back and forth at less; at more it slides away.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, a `Model`, or its tables, as of :func:`slide`.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    Result
+        The force, over that of static friction without vibration and in N.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    ConvergenceError
+        No answer is found; what was reached is told.
+    """
     return _answer("static", case, settings)
 
 
 def sensitivity(*case: What, settings: Sequence[str] = ()) -> "Result":
-    """Raise each input of a worm gearset alone and follow its efficiency; as :func:`rate`."""
+    """Raise each input of a worm gearset alone and follow its efficiency.
+
+    What raises it most comes first.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, or its tables: a gearset and its operation.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    Result
+        Of each input its range and the efficiencies over it.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    """
     return _answer("sensitivity", case, settings)
 
 
 def methods(*case: What, settings: Sequence[str] = ()) -> "Result":
-    """Compare oils, additives, coatings and vibration by efficiency; as :func:`rate`."""
+    """Compare oils, additives, coatings and vibration by a worm gearset's efficiency.
+
+    The vibration is that of the case's ``[vibration]``, with the law of ``[friction]``.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, or its tables: a gearset and its operation, vibration and friction.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    Result
+        Of each way the efficiency with and without it.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    """
     return _answer("methods", case, settings)
 
 
 def optimise(*case: What, settings: Sequence[str] = ()) -> "Optimum":
-    """Find the most efficient design that keeps its load capacity; as :func:`rate`."""
+    """Find the most efficient design of a worm gearset that keeps its load capacity.
+
+    Ratio, torque and speed stay; what varies is told by ``[optimise]``.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, or its tables: a gearset and its operation.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    Optimum
+        The design, what it gains, and what bounds it.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    ConvergenceError
+        No answer is found; what was reached is told.
+    """
     return _answer("optimise", case, settings)  # type: ignore[return-value]
 
 
 def flank(
     *case: What, density: str | float = "intermediate", settings: Sequence[str] = ()
 ) -> "FlankStudy":
-    """Cut a worm wheel exactly and let it mesh; as :func:`rate`."""
+    """Cut a worm wheel exactly, by the envelope of its hob, and let it mesh.
+
+    Transmission error, contact pattern and lines, ease-off, backlash, and the mesh's files.
+
+    Parameters
+    ----------
+    *case : str, path, Case or tables
+        A case, or its tables: a gearset, and as needed `Hob`, `Disc`, `Modification`, `Mount`.
+    density : str or float
+        Of the mesh: ``"coarse"``, ``"intermediate"``, ``"fine"``, or an element's size, mm.
+    settings : sequence of str
+        ``table.key=value`` to change, as with ``--set``.
+
+    Returns
+    -------
+    FlankStudy
+        Both flanks' analysis, and the wheel to be written to files.
+
+    Raises
+    ------
+    InputError
+        In one line: what was given, what is allowed, what to do.
+    ConvergenceError
+        No answer is found; what was reached is told.
+    """
     return _answer("flank", case, settings, density=density)  # type: ignore[return-value]
 
 
@@ -181,7 +317,7 @@ def as_case(what: Sequence[What], settings: Sequence[str] = ()) -> Case:
         return read_case(what[0], case_tables(), settings)
     known = case_tables()
     tables: dict[str, Table] = {}
-    for given in what:
+    for given in _tables(what):
         if not isinstance(given, Table) or given.table not in known:
             raise InputError(
                 f"{shown(given)} is neither the name of a case, nor its file, nor one of its tables"
@@ -194,6 +330,16 @@ def as_case(what: Sequence[What], settings: Sequence[str] = ()) -> Case:
     if settings:
         raise InputError("settings change a case; change a table with its model_copy(update=...)")
     return Case("the tables given", Path().absolute(), tables, {}, known)
+
+
+def _tables(what: Sequence[What]) -> "list[Any]":
+    """Return the tables given, with those that models of sliding bodies hold."""
+    from asperity.slider.model import Model
+
+    found: list[Any] = []
+    for given in what:
+        found += given.tables if isinstance(given, Model) else [given]
+    return found
 
 
 def _answer(name: str, what: Sequence[What], settings: Sequence[str], **options: Any) -> "Result":

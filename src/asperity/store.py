@@ -76,6 +76,13 @@ def reason(error: OSError) -> str:
     return plain((error.strerror or str(error) or type(error).__name__).lower())
 
 
+def require_no_pipe(path: Path) -> None:
+    """Refuse what may keep who reads it waiting for ever."""
+    kind = path.stat().st_mode
+    if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
+        raise StorageError("it is a device or a pipe; save what it holds to a file")
+
+
 def read_bytes(path: str | os.PathLike[str], most: int = _MOST_BYTES) -> bytes:
     """Return the content of a file that somebody gave.
 
@@ -92,9 +99,7 @@ def read_bytes(path: str | os.PathLike[str], most: int = _MOST_BYTES) -> bytes:
         It cannot be read, is no regular file (a device or a pipe may never end), or is too large.
     """
     path = Path(path)
-    kind = path.stat().st_mode
-    if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
-        raise StorageError("it is a device or a pipe; save what it holds to a file")
+    require_no_pipe(path)
     keep_input(path)
     with path.open("rb") as file:
         content = file.read(most + 1)
@@ -314,6 +319,7 @@ def read_dataset(path: str | os.PathLike[str]) -> "xarray.Dataset":
     import xarray
 
     try:
+        require_no_pipe(Path(path))
         # Met by a file it cannot open, the netCDF reader complains once more when it is collected.
         with h5py.File(path) as file:
             dict(file.attrs)
@@ -323,6 +329,8 @@ def read_dataset(path: str | os.PathLike[str]) -> "xarray.Dataset":
         )
     except FileNotFoundError:
         raise StorageError(f"{path} cannot be read: no such file") from None
+    except StorageError as error:
+        raise StorageError(f"{path} cannot be read: {error}") from None
     except Exception as error:
         # A damaged file surfaces as whatever the layer that trips over it raises.
         raise StorageError(f"{path} cannot be read: not a netCDF file, or damaged") from error

@@ -53,7 +53,7 @@ def split_unit(text: str) -> tuple[str, str] | None:
 def _convert(number: str, given: str, unit: str) -> float:
     if not _UNIT.fullmatch(given):
         raise InputError(f"{given!r} is not a unit")
-    text = _PLAIN_POWER.sub(r"**\1", given.replace("\u00b0C", "degC"))
+    text = _PLAIN_POWER.sub(r"**\1", re.sub("\u00b0([CF])", r"deg\1", given))
     if unit == "rad/s" and text.replace(" ", "") in _A_MINUTE:
         # Of turns, as standards write a speed of rotation.
         text = "rpm"
@@ -96,7 +96,8 @@ def _from_pint(value: Any, unit: str) -> float:
         return _convert(number, str(value.units), unit)
 
 
-def _is_pint(value: object) -> bool:
+def is_quantity(value: object) -> bool:
+    """Return whether something is a quantity of pint, of whatever registry."""
     return hasattr(value, "magnitude") and hasattr(value, "units")
 
 
@@ -126,7 +127,7 @@ def to_si(value: object, unit: str, *, bare: str | None = None) -> float:
     >>> to_si(180, "rad", bare="deg")
     3.141592653589793
     """
-    if _is_pint(value):
+    if is_quantity(value):
         result = _from_pint(value, unit)
     elif isinstance(value, bool) or not isinstance(value, str | numbers.Real):
         raise InputError(f"{shown(value)} is not a number{' with a unit' if unit else ''}")

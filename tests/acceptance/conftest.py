@@ -18,6 +18,8 @@ from unittest import mock
 import pytest
 from observe import new_cache
 
+ROOT = Path(__file__).resolve().parents[2]
+
 
 @pytest.fixture(scope="session")
 def new_user(tmp_path_factory):
@@ -76,6 +78,9 @@ def asperity(environment):
     from asperity.cli.main import main
 
     def run(*arguments, env=environment, cwd="."):
+        if "--out" in arguments and Path(cwd).resolve() == ROOT:
+            out = Path(arguments[arguments.index("--out") + 1])
+            assert out.is_absolute(), f"{out} would be left in the repository; give cwd"
         output, errors = io.StringIO(), io.StringIO()
         with (
             mock.patch.dict(os.environ, env, clear=True),

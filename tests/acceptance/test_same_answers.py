@@ -47,6 +47,17 @@ CHANGES = (
         for line in ("drive", "flank")
         for place in ("json", f"{line}.json", "*answer*")
     ),
+    ("*", "*from_memory*", "documents have been found for numbers that were from memory"),
+    *(
+        (line, f"json.listed*.sources.*.{what}", "documents have been found")
+        for line in ("materials*", "lubricants*", "motors*")
+        for what in ("name", "confidence", "note")
+    ),
+    ("rate *", "json.agma6034.violations*", "the lead angles are those of Shigley"),
+    *(
+        ("rate *--out*", f"rate.csv:{column}", "documents have been found, forces are named")
+        for column in ("source", "confidence", "note", "meaning")
+    ),
     ("optimise *", "*json.locking", "whether a design locks itself is told"),
     ("rate *", "rate.html", "the report takes its place"),
     ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),

@@ -139,7 +139,8 @@ def plain(drive):
     ratio, seat, mass = drive["damping_ratio"], drive["bearing"], drive["worm_mass"]
     model = Plain(
         lead=LEAD, radius=RADIUS, arm=arm, normal=normal, logs=logs, end=end,
-        damping=drive["damping"], backlash=BACKLASH, law=LAWS[drive["law"]], mu=drive["mu"], reference=force,
+        damping=drive["damping"], backlash=BACKLASH,
+        law=LAWS[drive["law"]], mu=drive["mu"], reference=force,
         stiffness=full / slip, teeth=teeth, rate=drive["rate"], viscous=drive["viscous"],
         torsion=drive["torsion"],
         torsion_damping=2.0 * ratio * math.sqrt(drive["torsion"] * drive["worm_inertia"]),

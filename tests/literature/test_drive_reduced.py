@@ -9,12 +9,17 @@ law keeping its stiffness, with contact laws of 542 and 365 urad at 366 N m.
 
 import math
 
+import numpy as np
 import pytest
 from apparatus.drives import ASPERITIES, all_solved, case, deflection, problem
 
 from asperity.drive.locking import answer as locking
 from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.point import MeshPoint
+from asperity.drive.protocols.march import March
+from asperity.drive.protocols.setup import begin, system
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
 from asperity.runs import Run
 
 DUCTILE = "friction.max_deflection=2.8 um"
@@ -154,3 +159,31 @@ def test_asperities_of_exponent_1_creep_at_any_amplitude():
     assert answer.threshold == 0.0
     assert answer.creep > 0.0
     assert any("creep at any amplitude" in note for note in answer.notes)
+
+
+@pytest.mark.slow
+def test_a_wheel_that_rings_down_holds_however_long_it_is_looked_at():
+    # At the onset of the vibration the wheel begins to swing on its teeth.
+    given = (*LOCKING, "drive.worm_inertia=7e-6 kg m**2", "drive.load_inertia=3e-3 kg m**2")
+    brief, long = (
+        locked(*given, "vibration.displacement_amplitude=15 um", *more)
+        for more in ((), ("solve.duration=0.2 s",))
+    )
+    assert brief.settled
+    assert brief.settled_by.startswith("three blocks")
+    assert brief.threshold == pytest.approx(long.threshold, rel=0.02)
+    assert held_at(0.95 * brief.threshold, *given)
+    assert not held_at(1.05 * brief.threshold, *given)
+
+
+def held_at(amplitude, *given):
+    """Whether the wheel keeps its place over the second half of a tenth of a second."""
+    asked = prepare_locking(case(*given, f"vibration.displacement_amplitude={amplitude!r} m"))
+    model = ReducedModel(asked, reduction(asked, Run()))
+    moving = system(asked, model, motor=False)
+    march = March(model, moving, *begin(asked, model, moving), Run())
+    march.go(2000)
+    place = np.cumsum(march.rows["rolled"])
+    went = abs(place[-200:].mean() - place[1000:1200].mean())
+    swung = np.ptp(place[1000:1200])
+    return went < 0.3 * swung

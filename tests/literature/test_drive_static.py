@@ -285,3 +285,16 @@ def test_the_other_flank_s_balance_with_a_shaft_that_gives_is_the_first_s_mirror
     assert pulled == pytest.approx(-pushed, rel=1e-6)
     # It gives way about and along its axis and the wheel's the other way, outwards the same.
     assert back_yielded == pytest.approx(np.array([-1, -1, -1, 1]) * yielded, rel=1e-5)
+
+
+@pytest.mark.slow
+def test_the_radius_of_the_torque_is_told_of_next_to_no_friction():
+    # Without friction the torque is the same at every radius; beyond it, the radius hardly moves.
+    none, little, much = (
+        teeth_reduced(problem_of(*ONE_TOOTH, f"friction.mu={mu}"), Run(), phases=2).radius
+        for mu in (1e-6, 0.0499, 0.0501)
+    )
+    assert none == pytest.approx(little, abs=1e-6)
+    assert little == pytest.approx(much, abs=1e-6)
+    marched = problem_of(*ONE_TOOTH, "drive.model=teeth", "friction.mu=1e-6")
+    assert marched.point(none).worm_torque(366.0, 1e-6) == pytest.approx(24.4, abs=0.01)

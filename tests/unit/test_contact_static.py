@@ -51,6 +51,24 @@ def test_the_load_looked_for_is_borne_and_is_that_of_its_place():
     assert back.increments == 2
 
 
+@pytest.mark.parametrize("load", [0.0, 1e-9, -1e-9, 1e-300])
+def test_no_load_and_hardly_any_is_borne_from_where_there_was_one(load):
+    # Pressed, rubbed aside, and pushed back until nothing holds it along there.
+    solver = solver_of(0.3, RigidSurface.plane(), tolerance=1e-12)
+    down = load_to(solver, Guide(UP), 500.0, step=1e-6)
+    along = Guide(ALONG, Guide(UP).at(down.place))
+    aside = move_to(solver, along, 2e-6, start=on_guide(solver, along, down), increments=4)
+    back = load_to(solver, along, load, start=aside, step=-1e-7)
+    assert abs(back.load - load) <= 1e-9 * 500.0
+    assert back.place < aside.place
+    # Friction has held its part of the way: it does not lie where it began.
+    assert back.place != pytest.approx(0.0, abs=1e-8)
+    # Lifted until nothing bears any more.
+    up = load_to(solver, Guide(UP), load, start=down, step=-1e-7)
+    assert abs(up.load - load) <= 1e-9 * 500.0
+    assert load_to(solver, Guide(UP), 0.0).load == 0.0
+
+
 def test_a_turn_bears_the_moment_of_its_forces():
     # A plane below the block, hinged on a line beside it.
     centre = np.array([-0.01, 0.0, 0.0])

@@ -132,3 +132,20 @@ def test_a_stroke_s_headline_says_what_vibration_is_worth_and_what_fails(stroke)
     assert asked.safety_wear > 1.1
     assert not any("FAILS" in line for line in asked.headline())
     assert len(asked.headline()) == 3
+
+
+def test_a_shaken_wheel_s_actuator_counts_by_what_it_gives_at_least():
+    wheel = "vibration.mode=wheel-axial", "vibration.applied_to=wheel"
+    one = answer(prepare(case(*wheel, name="drive-actuator")), Run())
+    assert one.settled
+    assert one.actuator_electrical is None
+    seats = one.part_time[0] + one.part_time[2]
+    least = one.ledger.actuator * seats
+    assert least > 10.0
+    # The amplifier takes a tenth more.
+    assert one.energy_actuator == pytest.approx(least / 0.9)
+    work = one.part_shaken @ one.part_time * one.problem.worm_speed
+    assert one.energy_shaken == pytest.approx(work + least / 0.9)
+    assert one.actuator_mass > 0.0
+    assert "takes at least" in one.headline()[-1]
+    assert any("only the" in note and "from the mains" in note for note in one.notes)

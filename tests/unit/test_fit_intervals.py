@@ -78,6 +78,14 @@ def test_four_parameters_of_steady_sliding_have_the_intervals_of_the_exact_profi
     meets(answer(problem(tmp_path), Run()))
 
 
+@pytest.mark.slow
+def test_four_parameters_of_steady_sliding_are_fitted_by_the_model_itself(tmp_path):
+    result = answer(problem(tmp_path), Run())
+    assert result.marched == 0
+    assert result.points == 8
+    meets(result)
+
+
 def random_set(seed):
     """Steady sliding under a random law at random speeds, with noise; bodies of 1 N."""
     rng = np.random.default_rng(seed)

@@ -155,7 +155,7 @@ def test_a_lubricant_of_your_own_takes_its_density_from_the_base_oil():
     assert oil.viscosity_40 == 460e-6
     assert oil.density(288.15) == pytest.approx(1050.0, rel=1e-12)
     assert oil.assumed == {"lubricant.density_15": "1050 kg/m^3, typical of polyglycol oil"}
-    assert oil.source("density_15").confidence == "from memory"
+    assert oil.source("density_15").name == "MITCalc 1.74"
 
 
 @pytest.mark.parametrize(

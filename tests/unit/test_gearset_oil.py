@@ -93,5 +93,5 @@ def test_temperatures_outside_what_the_formulas_are_valid_for_are_reported():
     vg68 = find(Lubricant, "ISO VG 68 mineral")
     assert vg68.violations(333.15) == []
     hot = vg68.violations(273.15 + 200.0)
-    assert hot[0].startswith("oil temperature is 200 degC; ASTM D341")
+    assert hot[0].startswith("oil temperature is 200 degC; usual practice")
     assert hot[1].startswith("kinematic viscosity is 1.")

@@ -1,13 +1,16 @@
 """What a session in Python begins with: names at the top, one case or its tables, short reprs."""
 
+import math
 import subprocess
 import sys
 import textwrap
 
+import numpy as np
 import pytest
 
 import asperity
 from asperity.errors import InputError
+from asperity.slider.closed_forms import directed_ratio
 
 BODY = asperity.Slider(
     drive_velocity="0.5 mm/s", drive_stiffness="96068 N/m", mass="0.5 kg", normal_force="55 N"
@@ -67,6 +70,68 @@ def test_a_body_is_pulled_by_its_tables():
     result = asperity.slide(BODY, CONTACT, SHAKEN, PERIODIC)
     model = asperity.Model(BODY, CONTACT, SHAKEN, PERIODIC)
     assert result.ratio == asperity.solve(model).ratio
+
+
+def test_a_model_is_taken_as_its_tables_are():
+    model = asperity.Model(BODY, CONTACT, SHAKEN, PERIODIC)
+    by_tables = asperity.slide(BODY, CONTACT, SHAKEN, PERIODIC).to_json()
+    assert asperity.slide(model).to_json() | {"seconds": 0.0} == by_tables | {"seconds": 0.0}
+    # Without vibration it holds all it can; static is asked for what shakes.
+    shaken = asperity.static(asperity.Model(BODY, CONTACT, SHAKEN))
+    by_tables = asperity.static(BODY, CONTACT, SHAKEN).to_json()
+    assert shaken.to_json() | {"seconds": 0.0} == by_tables | {"seconds": 0.0}
+    assert "is given twice" in refusal(asperity.slide, model, CONTACT)
+
+
+def test_a_model_under_load_brings_all_its_tables():
+    normal = asperity.Normal(law="linear", penetration="1 um")
+    model = asperity.Model(BODY, CONTACT, SHAKEN, PERIODIC, normal=normal)
+    assert [type(one).__name__ for one in model.tables] == [
+        "Slider", "Friction", "Vibration", "Normal", "Solve",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "name", ["rate", "slide", "static", "sensitivity", "methods", "optimise", "flank"]
+)
+def test_every_command_says_for_itself_what_it_takes_and_gives(name):
+    said = getattr(asperity, name).__doc__
+    assert "; as :func:" not in said
+    for section in ("Parameters", "Returns", "Raises"):
+        assert f"{section}\n    ---" in said
+
+
+def test_a_law_of_many_velocities_is_that_of_each_and_says_what_it_holds():
+    law = asperity.homogenise(asperity.Model(BODY, CONTACT, SHAKEN, PERIODIC))
+    velocities = np.array([[-3e-3, -1e-6, 0.0], [5e-4, 2e-3, 10.0]])
+    forces = law(velocities)
+    assert forces.shape == (2, 3)
+    assert forces.tolist() == [[law(float(v)) for v in row] for row in velocities]
+    assert law(np.empty(0)).shape == (0,)
+    said = repr(law)
+    assert "\n" not in said
+    assert f"{law.velocity.size} mean velocities" in said
+    assert "full friction 5.5 N" in said
+    assert len(said) < 200
+
+
+def test_bodies_are_solved_by_the_dozen_whatever_the_method():
+    models = [
+        asperity.Model(BODY, CONTACT, SHAKEN.model_copy(update={"velocity_ratio": k}), PERIODIC)
+        for k in (2.0, 4.0)
+    ]
+    found = asperity.solve_many(models)
+    assert [one.ratio for one in found] == [asperity.solve(one).ratio for one in models]
+
+
+def test_closed_forms_take_angles_with_their_unit():
+    radians = directed_ratio(2.0, math.pi / 4.0)
+    assert directed_ratio(2, "45 deg") == radians
+    assert directed_ratio(2, theta="0.125 turn") == pytest.approx(radians, rel=1e-15)
+    assert directed_ratio([1.0, 2.0], "45 deg").tolist()[1] == radians
+    assert "theta is '45 kg'" in refusal(directed_ratio, 2.0, "45 kg")
+    assert "theta is '45'" in refusal(directed_ratio, 2.0, "45")
+    assert "k is '2'" in refusal(directed_ratio, "2", 0.0)
 
 
 def test_what_was_written_is_read(tmp_path):

@@ -1,11 +1,13 @@
 """Whether an answer has settled is a field of it, which all who show or use it heed."""
 
+import numpy as np
 import pytest
 from observe import new_cache
 
 from asperity.casefile import read_case
 from asperity.results import read
 from asperity.slider import TABLES, Model, solve, solve_many
+from asperity.slider.fading import still_to_come
 from asperity.sweep import run
 
 EARLY = "solve.duration=0.3 s", "vibration.start=10 ms"
@@ -79,3 +81,58 @@ class TestASweep:
         assert [text.get_text() for text in panel.get_legend().get_texts()] == ["not settled"]
         crosses = [line for line in panel.lines if line.get_marker() == "x"]
         assert [line.get_xdata().tolist() for line in crosses] == [[0.5]]
+
+
+def longer(answer):
+    """Return the duration that an answer says would do, as it says it."""
+    (said,) = [note for note in answer.notes if note.endswith("would do, by the means")]
+    return f"solve.duration={said.removeprefix('a solve.duration of ').partition(' s ')[0]} s"
+
+
+@pytest.mark.parametrize("ratio", [0.5, 2, 6])
+@pytest.mark.parametrize("duration", ["40 ms", "0.1 s"])
+def test_a_march_that_is_too_short_says_what_duration_would_do_and_that_does(duration, ratio):
+    given = "vibration.start=10 ms", f"vibration.velocity_ratio={ratio}"
+    short = solve(body(*given, f"solve.duration={duration}"), history=False)
+    assert not short.settled
+    assert solve(body(*given, longer(short)), history=False).settled
+
+
+def test_bodies_of_a_batch_say_the_same():
+    bodies = [body(*SHORT), body(*EARLY), body(*SHORT, "vibration.velocity_ratio=2")]
+    for one, of_many in zip(bodies, solve_many(bodies), strict=True):
+        assert of_many.notes == solve(one, history=False).notes
+
+
+SLOW = (
+    "slider.drive_velocity=0.01 mm/s", "slider.drive_stiffness=0.2 MN/m",
+    "vibration.velocity_amplitude=0.5 mm/s", "friction.max_deflection=4 um",
+)  # fmt: skip
+
+
+def test_without_a_duration_a_march_goes_on_until_it_has_settled():
+    model = body(*SLOW)
+    case = dict.fromkeys(("solve.duration",))
+    model = Model.from_case(read_case("table-4.3", TABLES, SLOW).replace_values(case))
+    answer = solve(model, history=False)
+    assert answer.settled
+    assert answer.notes[0].startswith("solve.duration is left out: the march went on to")
+    assert answer.steps * model.step / model.substeps > model.duration
+    (of_many, other) = solve_many([model, model])
+    assert of_many.ratio == other.ratio == answer.ratio
+
+
+def test_halves_that_agree_while_a_slow_change_goes_on_are_not_enough():
+    # A time constant of ten windows: the halves are apart by 5 % of what is still to come.
+    for constant in (2.0, 5.0, 10.0):
+        edges = np.exp(-np.arange(5) / (4.0 * constant))
+        change = 0.01
+        means = 0.5 + change * 4.0 * constant * (edges[:-1] - edges[1:])
+        left = change * constant * (1.0 - edges[-1])
+        assert still_to_come(means.tolist()) == pytest.approx(left, rel=1e-6)
+
+
+def test_what_comes_and_goes_is_no_slow_change():
+    assert still_to_come([0.5, 0.501, 0.5, 0.501]) == 0.0
+    assert still_to_come([0.5, 0.501, 0.503, 0.506]) == 0.0
+    assert still_to_come([0.5] * 4) == 0.0

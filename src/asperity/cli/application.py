@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from asperity.cli import outcome
+from asperity.cli.helped import as_written
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.cli.registered import (
     CaseArgument,
@@ -319,6 +320,7 @@ def run(arguments: list[str] | None = None) -> int:
     """Run the command line; returns its exit code."""
     outcome.hold_streams()
     command: Any = typer.main.get_command(app)
+    as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}
     for name, one in command.commands.items():

@@ -1,10 +1,12 @@
 """Where the command ``asperity`` begins, so light that Ctrl-C is heard from the first moment."""
 
+import os
 import sys
 
 from asperity.cli import interrupt
 from asperity.interrupts import hear_again
 
+_DIGITS = 4  # of a terminal's width
 TYPE_CHECKING = False  # as typing has it, which takes its time
 if TYPE_CHECKING:
     from typing import NoReturn
@@ -14,6 +16,9 @@ def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
     interrupt.at_once()
     hear_again()
+    if len(os.environ.get("COLUMNS", "")) > _DIGITS:
+        # Wider than any terminal, and than what prints the help can count to.
+        os.environ["COLUMNS"] = "9" * _DIGITS
     try:
         from asperity.cli.application import run
 

@@ -27,6 +27,7 @@ _MOST_CUTS = 12
 _MOST_SEARCHES = 60
 # Of a load, over itself.
 _TOLERANCE = 1e-9
+_SMALL = 0.01  # of the forces that the contact bears, for a load
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,14 +164,23 @@ def load_to(
         raise InputError(f"increments is {increments}; it must be at least 1")
     now = start
     first = start.load if isinstance(start, StaticState) else 0.0
+    # A small load is the difference of forces, which are known no better than themselves.
+    scale = max(abs(load), _SMALL * max(abs(first), _borne(start)))
     work = 0.0
     for part in range(1, increments + 1):
         target = first + part / increments * (load - first)
-        now, way = _one_load(solver, guide, target, now, step, abs(load))
+        now, way = _one_load(solver, guide, target, now, step, scale)
         step = way or step
         work += now.friction_work
     assert isinstance(now, StaticState)
     return dataclasses.replace(now, increments=increments, friction_work=work)
+
+
+def _borne(start: StaticState | float) -> float:
+    """Return the size of all contact forces of a state together, N."""
+    if not isinstance(start, StaticState):
+        return 0.0
+    return float(np.linalg.norm(start.contact.force.reshape(-1, 3), axis=1).sum())
 
 
 def _one_load(
@@ -208,7 +218,7 @@ def _one_load(
     for _ in range(_MOST_SEARCHES):
         high_state = tried(way)
         high, high_miss = way, high_state.load - target
-        if high_miss * miss <= 0.0:
+        if high_miss * miss <= 0.0 or found(high_state):
             break
         low, low_miss = high, high_miss
         way *= 2.0

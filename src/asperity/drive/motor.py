@@ -21,7 +21,7 @@ PRICE_PER_MASS = 23.0 / 6.0
 (7.5), a maker's cost and not a price."""
 
 LOWEST_VOLTAGE = 0.9
-"""Of the supply over its rated one; IEC 60038 (from memory)."""
+"""Of the supply over its rated one; IEC 60038: 230/400 V within 10 %."""
 
 # Of the speed, by which motors at the same mains differ by their slip.
 _SPEEDS = 0.1

@@ -9,7 +9,7 @@ from typing import Any, Literal, ParamSpec, Protocol, cast, get_args, get_origin
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, shown, suggestion
 from asperity.formulas.masks import (
     Invalid,
     Masked,
@@ -22,6 +22,7 @@ from asperity.formulas.masks import (
 from asperity.formulas.symbols import Bounds, Symbol, Unit, finite
 from asperity.formulas.traced import Traced
 from asperity.sources import Source
+from asperity.units import is_quantity, to_si
 
 P = ParamSpec("P")
 
@@ -92,7 +93,7 @@ def formula(
         @functools.wraps(body)
         def apply(*args: Any, on_invalid: Invalid = "raise", **kwargs: Any) -> Any:
             system = kwargs.pop("units", "si") if made.own else "si"
-            given, shape = made.bind(args, kwargs)
+            given, shape = made.bind(args, kwargs, system)
             if on_invalid == "mask" and shape:
                 with masking(shape) as mask:
                     values = made.evaluate(given, shape, system)
@@ -171,7 +172,7 @@ class _Made:
         self.signature = inspect.Signature(parameters)
 
     def bind(
-        self, args: tuple[Any, ...], kwargs: dict[str, Any]
+        self, args: tuple[Any, ...], kwargs: dict[str, Any], system: str
     ) -> tuple[dict[str, Any], tuple[int, ...]]:
         """Return the arguments by name, numbers as floats and arrays, and their common shape."""
         given = dict(zip(self.positional, args, strict=False))
@@ -183,7 +184,9 @@ class _Made:
         for name, value in given.items():
             if name in self.symbols:
                 if type(value) is not float and value is not None:
-                    given[name] = number = real(name, value)
+                    given[name] = number = real(
+                        name, _in_unit(name, value, self.symbols[name], system)
+                    )
                     if type(number) is not float:
                         arrays[name] = number
             elif name in self.words and value not in self.words[name]:
@@ -286,6 +289,19 @@ class _Made:
         if heading:
             lines += ["", "Examples", *examples.split("\n")]
         return "\n".join(lines)
+
+
+def _in_unit(name: str, value: Any, symbol: Symbol, system: str) -> Any:
+    """Return a text or a quantity with a unit as a number in that of a symbol."""
+    unit = symbol.unit
+    if isinstance(unit, Unit):
+        unit = unit.si if system == "si" else unit.own
+    if not unit or not (isinstance(value, str) or is_quantity(value)):
+        return value
+    try:
+        return to_si(value, unit)
+    except InputError as error:
+        raise InputError(f"{name} is {shown(value)}: {error}") from None
 
 
 def _named(unit: str | Unit) -> str:

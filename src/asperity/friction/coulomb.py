@@ -5,6 +5,9 @@ import math
 from asperity.compiled import kernel
 
 _SLIPS = 1.0 - 1e-9  # square of the share from which the contact slips
+# Steps in which friction stops a slip that is resolved in so many parts of one; from one step less
+# on they alone count.
+_SLOW, _PARTS = 4.0, 16
 
 
 @kernel
@@ -84,6 +87,44 @@ def _reversal(before, free, mobility):
 
 
 @kernel
+def _damped(share_x, share_y, mean_x, mean_y, after, mobility):
+    """Mean share, or the share at the end where friction takes more than the slip that is left.
+
+    There the mean would throw the slip about.
+    """
+    part = after / (after + mobility)
+    return share_x + part * (mean_x - share_x), share_y + part * (mean_y - share_y)
+
+
+@kernel
+def _through_rest(x, y, push_x, push_y, mobility_x, mobility_y, last_x, last_y):
+    """Mean share in the plane while a steady push turns, stops or sets off a slip, part by part."""
+    mobility_x /= _PARTS
+    mobility_y /= _PARTS
+    mobility = max(mobility_x, mobility_y)
+    sum_x = 0.0
+    sum_y = 0.0
+    for _ in range(_PARTS):
+        free_x = x + push_x / _PARTS
+        free_y = y + push_y / _PARTS
+        share_x, share_y = project(free_x, free_y, mobility_x, mobility_y, last_x, last_y)
+        before = math.sqrt(x * x + y * y)
+        x1 = free_x - mobility_x * share_x
+        y1 = free_y - mobility_y * share_y
+        after = math.sqrt(x1 * x1 + y1 * y1)
+        slips = share_x * share_x + share_y * share_y >= _SLIPS
+        if slips and before > 0.0 and after > 0.0:
+            mean_x = (x + x1) / (before + after)
+            mean_y = (y + y1) / (before + after)
+            share_x, share_y = _damped(share_x, share_y, mean_x, mean_y, after, mobility)
+        x = free_x - mobility_x * share_x
+        y = free_y - mobility_y * share_y
+        sum_x += share_x
+        sum_y += share_y
+    return sum_x / _PARTS, sum_y / _PARTS
+
+
+@kernel
 def mean_share(
     before_x, before_y, free_x, free_y, mobility_x, mobility_y, smooth, last_x, last_y
 ):  # fmt: skip
@@ -117,13 +158,21 @@ def mean_share(
     after = math.sqrt(after_x * after_x + after_y * after_y)
     if before == 0.0 or after == 0.0:
         return share_x, share_y
-    if smooth:
-        mean_x = (before_x + after_x) / (before + after)
-        mean_y = (before_y + after_y) / (before + after)
-    else:
+    mobility = max(mobility_x, mobility_y)
+    if not smooth:
         mean_x = 0.5 * (before_x / before + after_x / after)
         mean_y = 0.5 * (before_y / before + after_y / after)
-    # Where friction takes more than the slip that is left, the mean would throw the slip about:
-    # of the two it is the end of the step that holds there.
-    part = after / (after + max(mobility_x, mobility_y))
-    return share_x + part * (mean_x - share_x), share_y + part * (mean_y - share_y)
+        return _damped(share_x, share_y, mean_x, mean_y, after, mobility)
+    mean_x = (before_x + after_x) / (before + after)
+    mean_y = (before_y + after_y) / (before + after)
+    mean_x, mean_y = _damped(share_x, share_y, mean_x, mean_y, after, mobility)
+    # Slower than friction can make it in some steps, a slip turns and stops within one.
+    slow = _SLOW - min(before, after) / mobility if mobility > 0.0 else 0.0
+    if slow <= 0.0:
+        return mean_x, mean_y
+    x, y = _through_rest(
+        before_x, before_y, free_x - before_x, free_y - before_y, mobility_x, mobility_y,
+        last_x, last_y,
+    )  # fmt: skip
+    part = min(slow, 1.0)
+    return mean_x + part * (x - mean_x), mean_y + part * (y - mean_y)

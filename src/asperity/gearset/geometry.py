@@ -113,7 +113,7 @@ class Geometry:
 
         Notes
         -----
-        The outside diameter is :math:`d_{e2} = d_{a2} + m_{x1}`, from memory, in both rules.
+        The outside diameter is :math:`d_{e2} = d_{a2} + m_{x1}` (MITCalc, SDP/SI) in both rules.
         """
         if tooth_proportions not in RULES:
             raise InputError(

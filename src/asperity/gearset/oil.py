@@ -12,10 +12,22 @@ from asperity.sources import Range, Source
 FORMULAS = Source("ISO/TR 14521:2010, DIN 3996:2012", "one source")
 """Where the formulas of this module come from."""
 
-TEMPERATURE = Range("oil temperature", -20.0, 150.0, "degC", Source("ASTM D341", "from memory"))
+TEMPERATURE = Range(
+    "oil temperature",
+    -20.0,
+    150.0,
+    "degC",
+    Source("usual practice", "one source", "bounds of our own; ASTM D341 has none"),
+)
 """Where an oil follows them: above its pour point and before it boils off."""
 
-VISCOSITY = Range("kinematic viscosity", 2.0, 2e7, "mm²/s", Source("ASTM D341", "from memory"))
+VISCOSITY = Range(
+    "kinematic viscosity",
+    2.0,
+    2e7,
+    "mm²/s",
+    Source("ASTM D341", "from memory", "2 mm²/s by its summary; the upper end has no document"),
+)
 """Where the constant 0.7 of the viscosity formula holds."""
 
 _LG_40, _LG_100 = math.log10(313.15), math.log10(373.15)

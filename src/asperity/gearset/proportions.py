@@ -30,7 +30,7 @@ class Heights(NamedTuple):
 
 
 def bs721_heights(axial_module: Real, lead_angle: Real) -> Heights:
-    r"""Tooth heights of BS 721, from memory.
+    r"""Tooth heights of BS 721, as Jindal, Machine Design, example 28-2 has them.
 
     :math:`h_{a1} = m`, :math:`h_{f1} = m (2.2 \cos\gamma - 1)`,
     :math:`h_{a2} = m (2 \cos\gamma - 1)`, :math:`h_{f2} = m (1 + 0.2 \cos\gamma)`,
@@ -72,7 +72,7 @@ RULES: Mapping[str, Callable[[Real, Real], Heights]] = {
 """The rules by the name they have in a case file."""
 
 SOURCES: Mapping[str, Source] = {
-    "bs721": Source("BS 721-2:1983", "from memory"),
+    "bs721": Source("BS 721-2:1983, by Jindal, Machine Design, example 28-2", "one source"),
     "iso": Source("ISO/TR 10828", "from memory", "clearance 0.2 m as is customary"),
 }
 """Where each rule comes from."""

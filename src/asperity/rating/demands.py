@@ -7,7 +7,7 @@ from asperity.rating.entries import facts
 from asperity.sources import Source
 
 _ISO = Source("ISO/TR 14521:2010", "one source")
-_ISO_FROM_MEMORY = Source("ISO/TR 14521:2010", "from memory")
+_MITCALC = Source("ISO/TR 14521:2010, by MITCalc 1.74", "one source")
 _RATIO = Source("definition", "verified", "what is permitted over what is required")
 
 
@@ -58,7 +58,7 @@ DEMANDS = (
     Demand("iso14521", "safety_pitting", "pitting", 1.0, _ISO),
     Demand("iso14521", "safety_deflection", "deflection", 1.0, _ISO),
     Demand("iso14521", "safety_root", "root", 1.1, _ISO),
-    Demand("iso14521", "safety_temperature", "temperature", 1.1, _ISO_FROM_MEMORY),
+    Demand("iso14521", "safety_temperature", "temperature", 1.1, _MITCALC),
     Demand("bs721", "safety_wear", "wear", 1.0, _RATIO),
     Demand("bs721", "safety_strength", "strength", 1.0, _RATIO),
     Demand("agma6034", "safety_torque", "torque", 1.0, _RATIO),

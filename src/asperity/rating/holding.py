@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from asperity.rating.agma6034 import mesh
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
-from asperity.rating.self_locking import SelfLocking, Verdict
+from asperity.rating.self_locking import SelfLocking, Verdict, friction_share
 from asperity.rating.standing import NAMES
 from asperity.results.quantity import text_of
 from asperity.results.table import Column, Table
@@ -109,4 +109,5 @@ def _efficiency(given: Inputs, verdict: Verdict, share: float) -> float:
     mu = share * verdict.friction
     if verdict.standard == "agma6034":
         return float(mesh.wheel_driving_efficiency(mu, given.lead_angle, given.pressure_angle))
-    return float(efficiency.wheel_driving_efficiency(given.lead_angle, mu))
+    own = mu / friction_share(given, verdict.standard)
+    return float(efficiency.wheel_driving_efficiency(given.lead_angle, own))

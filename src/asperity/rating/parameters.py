@@ -279,6 +279,10 @@ class RatingOptions(Table):
         and which makes the shear stress at the root some 5 % lower.
     bs721_tables : path, optional
         A TOML file of your own tables of BS 721, in place of those that ship from memory.
+    bs721_friction_angle : {'mu', 'mu_over_cos'}
+        What the efficiencies of BS 721 take for the friction angle: :math:`\arctan \mu`, or
+        :math:`\arctan(\mu/\cos\alpha_n)`, as Carvill, RoyMech and JGMA 405-01 have it; then a worm
+        locks itself at some 6 % less friction. Permissible torques do not rest on it.
     base_friction : float, optional
         Coefficient of friction in place of :math:`\mu_{0T}`: the methods of the thesis's Table 3.3
         act here.
@@ -301,6 +305,7 @@ class RatingOptions(Table):
     ] = "2010"
     iso14521_face_width: Literal["tip_chord", "reference_chord"] = "tip_chord"
     bs721_tables: Path | None = None
+    bs721_friction_angle: Literal["mu", "mu_over_cos"] = "mu"
     base_friction: (
         Annotated[
             float, Quantity("", what="a coefficient of friction", example="0.055", gt=0, lt=1)

@@ -3,7 +3,7 @@ r"""The regime of lubrication: the film between the teeth over how rough they ar
 .. math:: \lambda = \frac{h}{\sqrt{R_{q1}^2 + R_{q2}^2}}
 
 Below 1 asperities carry the load on what additives leave between them, from 3 on the film carries
-it alone, and both do between (usual practice, from memory). Heights are taken as normally
+it alone, and both do between (Hamrock's regimes begin there). Heights are taken as normally
 distributed, for which :math:`R_q = \sqrt{\pi/2}\,R_a`, and the wheel's flanks as being as rough as
 the worm's, to which they run in.
 """

@@ -170,8 +170,8 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
             name,
             state,
             mu,
-            locking_friction(given.lead_angle),
-            efficiency.wheel_driving_efficiency(given.lead_angle, mu),
+            friction_share(given, name) * locking_friction(given.lead_angle),
+            efficiency.wheel_driving_efficiency(given.lead_angle, mu / friction_share(given, name)),
         )
         for name, rated_by in plain.items()
         for state, mu in _friction(given, rated_by, ratings[rated_by], tables)
@@ -188,6 +188,12 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
             for state, mu in _friction(given, "agma6034", ratings["agma6034"], tables)
         ]
     return SelfLocking(given.lead_angle, given.friction_factor, tuple(verdicts))
+
+
+def friction_share(given: Inputs, name: str) -> Real:
+    """What BS 721 divides its friction by, where that is asked for; else 1."""
+    asked = name == "bs721" and given.options.bs721_friction_angle == "mu_over_cos"
+    return np.cos(given.pressure_angle) if asked else 1.0
 
 
 def locking_margins(
@@ -210,7 +216,11 @@ def locking_margins(
         At least 0 where the worm locks.
     """
     tan = np.tan(given.lead_angle)
-    limits = {"iso14521": tan, "bs721": tan, "agma6034": np.cos(given.pressure_angle) * tan}
+    limits = {
+        "iso14521": tan,
+        "bs721": friction_share(given, "bs721") * tan,
+        "agma6034": np.cos(given.pressure_angle) * tan,
+    }
     keys = {"iso14521": "mu_zm", "bs721": "mu", "agma6034": "mu"}
     margins: dict[tuple[str, State], Real] = {}
     for name, limit in limits.items():

@@ -7,7 +7,7 @@ leaves it out.
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from asperity.results.quantity import quantity
+from asperity.results.quantity import Sentence, quantity, text_of
 
 MARK = "*"
 """Behind a number that has not settled, in a table."""
@@ -46,6 +46,14 @@ def by_what() -> Any:
 def error_of_step() -> Any:
     """Declare the field of the error that the step makes, of what the answer is asked for."""
     return quantity("", "", "error of the ratio from the step", default=None)
+
+
+def marked(values: Sequence[Any], loose: Sequence[bool]) -> list[Any]:
+    """Return numbers as a table has them, those that have not settled marked."""
+    return [
+        Sentence(text_of(value), f" {MARK}") if out else value
+        for value, out in zip(values, loose, strict=True)
+    ]
 
 
 def unsettled(answer: object) -> str:

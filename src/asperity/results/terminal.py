@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 _MOST_READABLE = 79
 _USUAL = 80
+_DIGITS = 4  # of a width; what is wider is as wide
 _GAP = "  "
 _NARROWEST = 8  # that a column is made where the terminal asks for less
 
@@ -33,8 +34,8 @@ def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
 def _terminal_width() -> int:
     """Return ``COLUMNS``, or the width of the first standard stream that is a terminal."""
     given = os.environ.get("COLUMNS", "")
-    if given.isdecimal() and int(given):
-        return int(given)
+    if given.isdecimal() and (width := int(given[:_DIGITS])):
+        return width
     for stream in range(3):
         with contextlib.suppress(OSError):
             return os.get_terminal_size(stream).columns or _USUAL

@@ -1,5 +1,6 @@
 """Many bodies at once: compiled batches of those that can march in one, one by one otherwise."""
 
+import dataclasses
 import math
 import time
 from collections.abc import Iterator, Sequence
@@ -17,6 +18,7 @@ from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.integrators import integrator
+from asperity.slider.longer import advice, needed
 from asperity.slider.march import march
 from asperity.slider.methods import solve
 from asperity.slider.model import Model
@@ -98,7 +100,10 @@ def solve_many(
 
     Marches of Dahl friction with exponent 1 run thirty-two at a time in vector instructions, those
     of bodies under a linear or Hertz contact too; the interpreter's lock is free meanwhile, so
-    threads share a processor's cores.
+    threads share a processor's cores. All others, periodic states and homogenised laws among them,
+    are solved one after the other: how many cycles a state takes differs from body to body. What
+    one of them costs is a few milliseconds, which cores share where each has a process of its own:
+    ``asperity sweep`` divides them so.
 
     Parameters
     ----------
@@ -157,6 +162,9 @@ def _refined(
     def once(finer: Model) -> SlideResult:
         return march(finer, history=False, stop=flag)
 
+    if not answer.settled and model.solve.duration is None:
+        # It goes on until it has settled, by itself.
+        return march(model, history=False, stop=flag)
     return refined(model, once, answer)
 
 
@@ -215,8 +223,9 @@ def _march(
     done = 0
     start_energies: list[tuple[float, float]] = [(0.0, 0.0)] * len(bodies)
     start_free = np.zeros(len(bodies))
-    first_half = np.zeros(len(bodies))
-    edges = {t.window_start for t in tables} | {t.middle for t in tables}
+    # Sums of the drive force up to where the first three quarters of the window end.
+    quarters = np.zeros((3, len(bodies)))
+    edges = {t.window_start for t in tables}.union(*(t.quarters for t in tables))
     first_window = min(t.window_start for t in tables)
     for edge in sorted(edges | {tables[0].steps}):
         while done < edge:
@@ -245,12 +254,13 @@ def _march(
                 column[row.MAX_APPROACH] = 0.0
                 start_energies[place] = _energies(column, body)
                 start_free[place] = _state(column, body)["drive_force"]
-            if table.middle == edge:
-                first_half[place] = _drive_sum(column, body.p, start_free[place])
+            for n, end in enumerate(table.quarters):
+                if end == edge:
+                    quarters[n, place] = _drive_sum(column, body.p, start_free[place])
     seconds = (time.perf_counter() - began) / len(bodies)
     return [
-        _answer(buffer[:, place], body, start_energies[place], start_free[place], half, seconds)
-        for place, (body, half) in enumerate(zip(bodies, first_half, strict=True))
+        _answer(buffer[:, place], body, start_energies[place], start_free[place], sums, seconds)
+        for place, (body, sums) in enumerate(zip(bodies, quarters.T, strict=True))
     ]
 
 
@@ -259,7 +269,7 @@ def _answer(
     body: _Body,
     start: tuple[float, float],
     start_free: float,
-    first_half: float,
+    quarters: FloatArray,
     seconds: float,
 ) -> SlideResult | AsperityError:
     """Result of a body whose march is at its end."""
@@ -268,17 +278,22 @@ def _answer(
         return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
     sums = _sums(column, body, start_free)
     half = table.middle - table.window_start
+    first_half = float(quarters[1])
     second = (sums["drive_force"] - first_half) / (table.window - half)
     residual = abs(float(second - first_half / half))
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
-    standing = march_standing(model, table, residual, broke=broke)
+    ends = np.array([table.window_start, *table.quarters, table.steps])
+    forces = np.array([0.0, *quarters, sums["drive_force"]])
+    means = (np.diff(forces) / np.maximum(np.diff(ends), 1)).tolist()
+    standing = march_standing(model, table, residual, broke=broke, means=means)
     error = None
+    notes = march_notes(model, table, residual, broke=broke)
     if standing.settled:
         at_end = integrator(model, table.step)
         at_end.kept["state"][0] = _state(column, body)
         error = error_of_march(at_end, table, float(sums["drive_force"] / sums["steps"]))
     try:
-        return summarise(
+        answer = summarise(
             model, p, table.step, sums, start, _energies(column, body),
             standing=standing,
             step_error=error,
@@ -288,10 +303,14 @@ def _answer(
             seconds=seconds,
             breakaway_time=float(column[row.WAITED]) * table.step if broke else None,
             substeps=model.substeps,
-            notes=march_notes(model, table, residual, broke=broke),
+            notes=notes,
         )  # fmt: skip
-    except ConvergenceError as error:
-        return error
+    except ConvergenceError as failed:
+        return failed
+    if answer.settled:
+        return answer
+    foreseen = needed(model, table, means, residual, broke=broke)
+    return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen)))
 
 
 def _load(column: FloatArray, body: _Body) -> None:

@@ -12,15 +12,9 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.runs.tree import Tree
+from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.model import Model
-from asperity.slider.periodic import (
-    UNSTABLE,
-    AperiodicError,
-    Cycle,
-    answer_of,
-    cycle_steps,
-    settle,
-)
+from asperity.slider.periodic import AperiodicError, answer_of, cycle_steps, settle
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import SETTLING
 

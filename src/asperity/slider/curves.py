@@ -14,7 +14,6 @@ from asperity.results.variables import rounded
 from asperity.slider.closed_forms.ratios import directed_ratio, triangle_directed_ratio
 from asperity.slider.continuation import follow
 from asperity.slider.model import Model
-from asperity.slider.periodic import UNSTABLE
 
 OVER = ("direction", "k")
 """What a curve goes over."""
@@ -93,7 +92,7 @@ def curve(model: Model, over: str = OVER[0], points: int = 37) -> Curve:
         None if None in closed else np.array(closed),
         np.array([
             isinstance(f, ConvergenceError)
-            or (f.normal is not None and not (f.normal.multiplier or 0.0) <= UNSTABLE)
+            or not f.settled
             for f in found
         ]),
     )  # fmt: skip

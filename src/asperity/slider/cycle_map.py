@@ -1,5 +1,6 @@
 """The map of a body's state over a cycle of the vibration, whose fixed point repeats itself."""
 
+import copy
 import math
 from collections.abc import Iterator
 
@@ -9,6 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.slider import kernels as k
 from asperity.slider.integrators import Pressed, integrator
 from asperity.slider.model import Model
+from asperity.slider.other_drives import in_longer_steps
 from asperity.slider.pressed import march_pressed
 from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
 from asperity.slider.unknowns import (
@@ -65,6 +67,33 @@ class Cycle:
                 lead = phase + model.normal_lead
                 self.rises = cycle_of_wave(model.wave(step, lead=lead), steps)
             self.body.place(1.0, ramped=False)
+
+    def copied(self) -> "Cycle":
+        """Return the same map, for the body to go elsewhere."""
+        other = copy.copy(self)
+        body = other.body = copy.copy(self.body)
+        body.kept = {"state": body.kept["state"].copy(), "sums": body.no_sums()}
+        body.sums["breakaway"] = -1.0
+        other.springs = body.kept["springs"] = self.springs.copy()
+        return other
+
+    def twice(self) -> "Cycle":
+        """Return the map of the same body with steps twice as long; they are an even number."""
+        other = self.copied()
+        body, state = other.body, other.body.state
+        other.step, body.rate = 2.0 * self.step, 2.0 * body.rate
+        p = body.p = in_longer_steps(body.p, 2.0)
+        # Velocities are those of the half step that follows.
+        gained = 0.25 * p.mobility_x * (state["drive_force"] - state["friction_x"])
+        state["velocity_x"] = 2.0 * state["velocity_x"] + gained
+        state["velocity_y"] = 2.0 * state["velocity_y"] - 0.25 * p.mobility_y * state["friction_y"]
+        if self.q is not None:
+            mobility, damping = 4.0 * self.q.mobility, 0.5 * self.q.damping
+            other.q = self.q._replace(mobility=mobility, damping=damping)
+            state["rise"] *= 2.0
+        other.increments = _in_pairs(self.increments)
+        other.rises = other.increments if self.q is None else _in_pairs(self.rises)
+        return other
 
     def repeat(self, times: int) -> None:
         """Ask for a state that repeats itself only after so many times the cycles."""
@@ -173,6 +202,11 @@ class Cycle:
         self.body.state["velocity_x"] *= 1.0 + _PUSH
         if self.q is not None:
             self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
+
+
+def _in_pairs(increments: FloatArray) -> FloatArray:
+    pairs = increments[:-1].reshape(-1, 2).sum(axis=1)
+    return np.append(pairs, pairs[0])
 
 
 def _repeated(increments: FloatArray, times: int) -> FloatArray:

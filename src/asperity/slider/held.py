@@ -15,10 +15,11 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.friction.loaded import STIFFNESS
 from asperity.friction.parameters import Friction
 from asperity.normal import elastic_force, indentation
+from asperity.slider.cycle_map import Cycle
 from asperity.slider.held_kernels import carry
 from asperity.slider.integrators import Pressed
 from asperity.slider.model import Model
-from asperity.slider.periodic import Cycle, cycle_steps, settle
+from asperity.slider.periodic import cycle_steps, settle
 from asperity.slider.pressed import friction_limit
 from asperity.slider.scaled import COULOMB, SPRINGS, Parameters
 

@@ -19,15 +19,11 @@ from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.results.settled import Standing
 from asperity.slider import homogenised_law as hl
 from asperity.slider.history import History
-from asperity.slider.homogenised_law import (
-    HomogenisedLaw,
-    homogenise,
-    interpolate,
-    value_and_slope,
-)
+from asperity.slider.homogenised_law import HomogenisedLaw, homogenise
 from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.march import March
 from asperity.slider.model import Model
+from asperity.slider.pieces import interpolate, value_and_slope
 from asperity.slider.result import SlideResult
 from asperity.slider.steady import growth_rate, sticks_and_slips
 from asperity.slider.timetable import march_notes, march_standing

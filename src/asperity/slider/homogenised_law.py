@@ -8,13 +8,12 @@ little with the base) is in the table.
 import dataclasses
 import functools
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, overload
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.lugre import stribeck_share
 from asperity.results.settled import Standing
@@ -22,6 +21,7 @@ from asperity.slider.homogenised_normal import remarks_of, told_by
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic
+from asperity.slider.pieces import each
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import ACCEPTED
 
@@ -53,37 +53,7 @@ def _backwards(rows: FloatArray) -> FloatArray:
     return turned
 
 
-@kernel
-def value_and_slope(velocity, breaks, coefficients, viscous):
-    """Cubic interpolation in a table and its derivative.
-
-    Beyond the table's ends what is missing of 1 plus the viscous part falls as ``1/v^2``.
-    """
-    last = breaks.size - 1
-    at = min(max(velocity, breaks[0]), breaks[last])
-    piece = np.searchsorted(breaks, at, side="right") - 1
-    piece = min(piece, last - 1)
-    x = at - breaks[piece]
-    value = coefficients[0, piece]
-    slope = 0.0
-    for i in range(1, 4):
-        slope = slope * x + value
-        value = value * x + coefficients[i, piece]
-    if at == velocity:
-        return value, slope
-    full = 1.0 if velocity > 0.0 else -1.0
-    gap = value - viscous * at - full
-    share = (at / velocity) ** 2
-    return full + viscous * velocity + gap * share, viscous - 2.0 * gap * share / velocity
-
-
-@kernel
-def interpolate(velocity, breaks, coefficients, viscous):
-    """Mean force over the full friction force; the arguments are those of a law."""
-    return value_and_slope(velocity, breaks, coefficients, viscous)[0]
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class HomogenisedLaw:
     r"""Cycle-mean friction as a function of the mean velocity.
 
@@ -154,16 +124,30 @@ class HomogenisedLaw:
         values = np.atleast_1d(np.asarray(velocity, dtype=float))
         if not np.all(np.isfinite(values)):
             raise InputError("the velocity is not finite; give finite velocities in m/s")
-        force = self.full_friction * np.array(
-            [interpolate(v, *self.arguments) for v in values.ravel()]
-        )
+        force = self.full_friction * each(values.ravel(), *self.arguments)
         return float(force[0]) if np.ndim(velocity) == 0 else force.reshape(values.shape)
+
+    def __repr__(self) -> str:
+        """Return how much is tabulated, and what the law says at its ends and in its middle."""
+        low, high = float(self.velocity[0]), float(self.velocity[-1])
+        front = self.velocity > 0.0
+        forces = self.full_friction * self.table[front, FORCE]
+        held = ""
+        if self.missing:
+            held = f", {len(self.missing)} interpolated over"
+        if self.unsettled:
+            held += f", {len(self.unsettled)} not settled"
+        return (
+            f"HomogenisedLaw({self.velocity.size} mean velocities from {low:.3g} to {high:.3g} m/s"
+            f"{held}: {forces[0]:.4g} N at {self.velocity[front][0]:.3g} m/s to {forces[-1]:.4g} N "
+            f"at {high:.3g} m/s, full friction {self.full_friction:.4g} N)"
+        )
 
     def column(self, column: int, velocity: FloatArray) -> FloatArray:
         """One column of the table at some velocities; beyond its ends, that of the end."""
         breaks, c = self._pieces(column)
         inside = np.clip(velocity, breaks[0], breaks[-1])
-        return np.array([interpolate(v, breaks, c, 0.0) for v in inside])
+        return each(inside, breaks, c, 0.0)
 
     def normal_to_the_plane(self, velocity: FloatArray) -> dict[str, FloatArray]:
         """What ``pressed`` names at some velocities; beyond the table's ends, that of the end."""
@@ -182,16 +166,31 @@ class HomogenisedLaw:
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the law's numbers should know."""
+        return (*self._of_missing(), *self._of_unsettled())
+
+    def _of_unsettled(self) -> Iterator[str]:
+        if self.unsettled:
+            tried = len(self.velocity) - 1
+            yield (
+                f"at {len(self.unsettled)} of {tried} mean velocities the periodic state does not "
+                f"stay, among them {_places(self.unsettled)}: there the law is no prediction"
+            )
+
+    def _of_missing(self) -> Iterator[str]:
         if not self.missing:
-            return ()
+            return
         count = len(self.missing)
         tried = len({*self.velocity, *self.missing}) - 1
-        places = ", ".join(f"{velocity:.3g}" for velocity in self.missing[:_NAMED])
-        more = f" and {count - _NAMED} more" if count > _NAMED else ""
-        return (
+        yield (
             f"no periodic state was found at {count} of {tried} mean "
-            f"velocities, which are interpolated over: {places} m/s{more}",
+            f"velocities, which are interpolated over: {_places(self.missing)}"
         )
+
+
+def _places(velocities: Sequence[float]) -> str:
+    places = ", ".join(f"{velocity:.3g}" for velocity in velocities[:_NAMED])
+    more = f" and {len(velocities) - _NAMED} more" if len(velocities) > _NAMED else ""
+    return f"{places} m/s{more}"
 
 
 def homogenise(model: Model) -> HomogenisedLaw:

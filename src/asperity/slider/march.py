@@ -1,5 +1,6 @@
 """Marching a body through time, stretch by stretch: kept, interrupted and gone on with."""
 
+import dataclasses
 import time
 
 import numpy as np
@@ -12,16 +13,18 @@ from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider.history import History
 from asperity.slider.integrators import integrator
+from asperity.slider.longer import advice, needed
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.timetable import Timetable, march_notes, march_standing
+from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
 from asperity.waveform import AT_REST
 
 _RECORDS = 4000
-_BLOCK = 1024
+_FARTHEST = 16.0  # times the usual duration, that a march goes on by itself
+_FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
 
 
@@ -63,6 +66,9 @@ class March:
         self._body = integrator(model, self.table.step)
         self._start: tuple[float, float] | None = None
         self._first_half: npt.NDArray[np.void] | None = None
+        self._timed = model  # with the duration that is marched
+        # Of the window's quarters, sums of the drive force and steps up to where they end.
+        self._quarters: list[tuple[float, float]] = []
         # Of each recorded stretch: its first step and its steps; mean, least and greatest.
         self._places: list[npt.NDArray[np.int64]] = []
         self._rows: list[FloatArray] = []
@@ -119,9 +125,44 @@ class March:
             self._run.checkpoint(self.done, self.table.steps, self.tree)
 
     def run(self) -> SlideResult:
-        """March to the end, from wherever the march stands."""
+        """March to the end, from wherever the march stands.
+
+        Where the case says no duration it goes on until it has settled, within bounds.
+        """
+        while True:
+            answer, duration = self._to_the_end()
+            if answer.settled:
+                return self._told(answer)
+            farthest = _FARTHEST * self.model.duration
+            marched = self._timed.duration
+            if self.model.solve.duration is not None or marched >= farthest * (1.0 - 1e-9):
+                note = advice(duration)
+                return self._told(dataclasses.replace(answer, notes=(*answer.notes, note)))
+            low, high = (share * marched for share in _FURTHER)
+            self._go_on(min(max(duration or high, low), high, farthest))
+
+    def _told(self, answer: SlideResult) -> SlideResult:
+        """Return an answer with how far it went on."""
+        if self._timed is self.model:
+            return answer
+        until = "when it had settled" if answer.settled else "and has not settled"
+        note = (
+            f"solve.duration is left out: the march went on to {self._timed.duration:.3g} s, "
+            f"{until}"
+        )
+        return dataclasses.replace(answer, notes=(note, *answer.notes))
+
+    def _go_on(self, duration: float) -> None:
+        """Take a later end."""
+        longer = self.model.solve.model_copy(update={"duration": duration}, units="SI")
+        self._timed = dataclasses.replace(self.model, solve=longer)
+        self.table = Timetable(self._timed)
+        self._start, self._first_half, self._quarters = None, None, []
+
+    def _to_the_end(self) -> tuple[SlideResult, float | None]:
+        """March to the end, and say what duration would do."""
         table = self.table
-        stride, tail = _BLOCK, table.steps
+        stride, tail = BLOCK, table.steps
         if self._record:
             stride = max(1, table.steps // table.parts // _RECORDS) * table.parts
             tail = table.steps - table.tail
@@ -129,13 +170,34 @@ class March:
         if self._start is None:
             self._start = self.energies()
             self._body.clear()
-        self.to(table.middle, stride)
+        self._quarter(1, table.quarters[0], stride)
+        self._quarter(2, table.middle, stride)
         if self._first_half is None:
             self._first_half = self._body.kept["sums"].copy()
             self._body.clear()
+        self._quarter(3, table.quarters[2], stride, most=tail)
         self.to(tail, stride)
         self.to(table.steps, table.parts)
         return self._result(self._start, self._first_half[0])
+
+    def _quarter(self, number: int, target: int, stride: int, most: int | None = None) -> None:
+        """March to the end of a quarter of the window, and keep the sums up to there."""
+        # At the end of a stretch, which are the same without these sums.
+        last = self.table.window_start if number < 3 else self.table.middle
+        end = last + (target - last) // stride * stride if number != 2 else target
+        self.to(end if most is None else min(end, most), stride)
+        if len(self._quarters) < number:
+            self._quarters.append((float(self.sums["drive_force"]), float(self.sums["steps"])))
+
+    def _means(self) -> list[float]:
+        """Mean drive force in the quarters of the window."""
+        last = float(self.sums["drive_force"]), float(self.sums["steps"])
+        pairs = (self._quarters[0], self._quarters[1]), (self._quarters[2], last)
+        return [
+            force / max(steps, 1.0)
+            for early, whole in pairs
+            for force, steps in (early, (whole[0] - early[0], whole[1] - early[1]))
+        ]
 
     def energies(self) -> tuple[float, float]:
         """Energies at the present node, see `asperity.slider.summary.energies`."""
@@ -149,6 +211,8 @@ class March:
             "body": self._body.kept,
             "start": self._start,
             "first_half": self._first_half,
+            "quarters": self._quarters,
+            "duration": self._timed.duration,
             "places": self._places,
             "rows": self._rows,
         }
@@ -157,11 +221,16 @@ class March:
         """Go back to where a march of the same body stood when it gave its tree."""
         self.done, self.seconds = tree["done"], tree["seconds"]
         self._body.kept = tree["body"]
+        if tree["duration"] != self.model.duration:
+            self._go_on(tree["duration"])
+        self._quarters = [(one[0], one[1]) for one in tree["quarters"]]
         self._start = None if tree["start"] is None else tuple(tree["start"])
         self._first_half = tree["first_half"]
         self._places, self._rows = list(tree["places"]), list(tree["rows"])
 
-    def _result(self, start: tuple[float, float], first_half: np.void) -> SlideResult:
+    def _result(
+        self, start: tuple[float, float], first_half: np.void
+    ) -> tuple[SlideResult, float | None]:
         model, table = self.model, self.table
         halves = first_half, self.sums
         sums = self._body.no_sums()[0]
@@ -172,9 +241,9 @@ class March:
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
         broke = breakaway is not None
-        standing = march_standing(model, table, residual, broke=broke)
+        standing = march_standing(self._timed, table, residual, broke=broke, means=self._means())
         ratio = float(sums["drive_force"] / sums["steps"])
-        return summarise(
+        answer = summarise(
             model, self.p, table.step, sums, start, self.energies(),
             standing=standing,
             step_error=error_of_march(self._body, table, ratio) if standing.settled else None,
@@ -183,10 +252,13 @@ class March:
             steps=table.steps,
             cycles=table.cycles,
             history=self.history() if self._record else None,
-            notes=march_notes(model, table, residual, broke=broke),
+            notes=march_notes(self._timed, table, residual, broke=broke),
             substeps=model.substeps,
             seconds=self.seconds,
         )  # fmt: skip
+        if answer.settled:
+            return answer, None
+        return answer, needed(self._timed, table, self._means(), residual, broke=broke)
 
     def history(self) -> History:
         """Return motion and forces of the stretches recorded so far."""

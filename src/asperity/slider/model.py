@@ -7,7 +7,7 @@ from typing import Self
 
 import numpy as np
 
-from asperity.casefile import Case
+from asperity.casefile import Case, Table
 from asperity.errors import InputError, require_fields
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
@@ -93,6 +93,12 @@ class Model:
         solve = case.get(Solve, Solve())
         tables = case.require(Slider), case.require(Friction), vibration, solve, shape
         return cls(*tables, case.get(Normal), case.get(Wear))
+
+    @property
+    def tables(self) -> list[Table]:
+        """The tables of a case of this body."""
+        given = self.slider, self.friction, self.vibration, self.normal, self.wear, self.solve
+        return [table for table in given if table is not None]
 
     @property
     def full_friction(self) -> float:

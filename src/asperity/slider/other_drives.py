@@ -1,4 +1,4 @@
-"""A body on another drive than its own: one that carries it along, one that is damped."""
+"""A body on another drive than its own: carried along, or damped; and in longer steps."""
 
 import math
 
@@ -32,4 +32,20 @@ def damped(p):
     lost = 0.5 * mobility * damping
     return _on_other_drive(
         p, False, damping, (1.0 - lost) / (1.0 + lost), mobility / (1.0 + lost), p.mobility_y
+    )
+
+
+def in_longer_steps(p: Parameters, longer: float) -> Parameters:
+    """Return the body in steps that are longer, by the same unit of length."""
+    mobility = longer * longer * p.mobility_x * 2.0 / (1.0 + p.retained)
+    lost = 0.5 * mobility * p.damping / longer
+    return p._replace(
+        drive=longer * p.drive,
+        damping=p.damping / longer,
+        retained=(1.0 - lost) / (1.0 + lost),
+        mobility_x=mobility / (1.0 + lost),
+        mobility_y=longer * longer * p.mobility_y,
+        rate_damping=p.rate_damping / longer,
+        slip_damping=p.slip_damping / longer,
+        stribeck=longer * p.stribeck,
     )

@@ -337,9 +337,9 @@ def differentiated(start, springs, p, q, increments, rises, sums, count):
 
 @kernel
 def close(start, springs, p, q, increments, rises, sums, jacobian, most):
-    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of the cycle after it.
+    """Newton from ``start`` with a Jacobian that is known; ``sums`` are those of its last cycle.
 
-    Returns the defect that is left and the cycles run, at most one more than ``most``.
+    Returns the defect that is left and the cycles run, at most ``most``.
     """
     scales = np.empty(most_unknowns(springs))
     count = unknown_scales(start, springs, p, q, scales)
@@ -369,7 +369,7 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
             start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
         )
         cycles += 1
-    start[0] = end[0]
-    springs[:] = end_springs
-    run_cycle(start[0], springs, p, q, increments, rises, sums)
-    return worst, cycles + 1
+    # The drive's force at the start is that at the end, which a rigid drive has of its contact.
+    before = p.stiffness * start[0].stretch + p.damping * (p.drive - start[0].velocity_x)
+    sums.drive_force += 0.5 * (end[0].drive_force - before)
+    return worst, cycles

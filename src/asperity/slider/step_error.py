@@ -2,8 +2,9 @@
 
 Of a state that repeats itself, the state on twice the step is found with the Jacobian of the first,
 in a few cycles. A march is at its end next to such a state, and both are found from there; where
-there is none, some of its last cycles are marched again on twice the step. All schemes but the
-thesis's are of order two, and a third of the difference is the error.
+there is none, some of its last cycles are marched again on twice the step. Of order two the error
+is a third of the difference, of order one all of it: with low exponents, and at the corners of a
+wave with LuGre friction or under a load that changes.
 """
 
 import dataclasses
@@ -32,7 +33,10 @@ _LEFT = 1e-4  # of the defect, above which a state is not found
 _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 _FINEST = 64  # times finer than by the bounds
-_ORDER_TWO = 3.0  # what the difference is of the error
+_LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
+# What the difference is of the error, by the order.
+_ORDER_ONE = 1.0
+_ORDER_TWO = 3.0
 
 
 def refined(
@@ -86,14 +90,15 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
     steps = (len(cycle.increments) - 1) // cycle.period
     if not model.vibrates:
         return 0.0
-    alike, fine, coarse = _grids(model, steps)
+    fine = _on_corners(model, cycle, steps)
     ratio: float | None = _ratio(cycle)
-    if alike is not model:
-        ratio = _closed(alike, fine, cycle, cycle.jacobian)
-    other = _closed(alike, coarse, cycle, cycle.jacobian)
+    if fine is not cycle:
+        ratio = _closed(fine, cycle.jacobian)
+    other = _closed(fine.twice(), cycle.jacobian)
     if ratio is None or other is None:
-        return _cycles_again(model, cycle, (alike, fine, coarse), 0.0, _CLOSING // 2)
-    return abs(other - ratio) / _ORDER_TWO + _off_corners(model, steps)
+        return _cycles_again(fine, _CLOSING // 2)
+    off = _off_corners(model, fine, steps, ratio - _ratio(cycle))
+    return abs(other - ratio) / _of_the_error(model) + off
 
 
 def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
@@ -116,45 +121,52 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     if not model.vibrates:
         return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
     asked = round(1.0 / (model.frequency * step))
-    alike, fine, coarse = _grids(model, asked)
+    alike, count = _grid(model, asked)
     phase = model.frequency * (steps * step - model.start)
     if alike is not model:
-        phase = round(phase * coarse) / coarse
+        phase = round(0.5 * phase * count) / (0.5 * count)
     phase -= math.floor(phase)
-    end = Cycle(alike, fine, 1.0 / (fine * model.frequency), phase)
+    end = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
     put(end, step, state, springs)
-    count = _unknowns(end)
-    if count + 1.5 * _CLOSING <= _SHARE * cycles:
-        jacobian = np.zeros((count, count))
-        if count:
+    unknowns = _unknowns(end)
+    if unknowns + 1.5 * _CLOSING <= _SHARE * cycles:
+        jacobian = np.zeros((unknowns, unknowns))
+        if unknowns:
             jacobian = differentiated(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums()[0], count,
+                end.body.no_sums()[0], unknowns,
             )  # fmt: skip
-        one = _closed(alike, fine, end, jacobian, phase)
-        other = _closed(alike, coarse, end, jacobian, phase)
+        fine = end.copied()
+        one = _closed(fine, jacobian)
+        other = _closed(fine.twice(), jacobian)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
-            return abs(other - one) / _ORDER_TWO + _off_corners(model, asked)
-    again = min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN)
-    return _cycles_again(model, end, (alike, fine, coarse), phase, again)
+            off = _off_corners(model, fine, asked, one - ratio)
+            return abs(other - one) / _of_the_error(model) + off
+    return _cycles_again(end, min(max(1, int(_SHARE * cycles / 2.0)), _MOST_AGAIN))
 
 
-def _cycles_again(
-    model: Model, start: Cycle, grids: tuple[Model, int, int], phase: float, cycles: int
-) -> float | None:
-    """Return the error of the mean friction of so many cycles from a start, on both grids."""
-    alike, *counts = grids
+def _cycles_again(start: Cycle, cycles: int) -> float | None:
+    """Return the error of the mean friction of so many cycles from a start."""
     means = []
-    for count in counts:
-        trial = Cycle(alike, count, 1.0 / (count * model.frequency), phase)
-        take_over(trial, start)
+    for trial in (start.copied(), start.twice()):
         total = 0.0
         for _ in range(cycles):
             _run_once(trial)
             total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
         means.append(total / cycles)
-    error = abs(means[1] - means[0]) / _ORDER_TWO + _off_corners(model, counts[0])
+    error = abs(means[1] - means[0]) / _of_the_error(start.body.model)
     return error if math.isfinite(error) else None
+
+
+def _of_the_error(model: Model) -> float:
+    """Return what the difference to a solution on twice the step is of the error of the first."""
+    smooth = model.shape is None or not model.shape.cornered
+    friction = model.friction
+    stiff = friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT
+    if stiff and not (smooth and friction.law == "vector"):
+        return _ORDER_ONE
+    follows = friction.model == "lugre" or model.normal is not None
+    return _ORDER_ONE if follows and not smooth else _ORDER_TWO
 
 
 def _run_once(cycle: Cycle) -> None:
@@ -175,39 +187,51 @@ def _marched_again(
         put(cycle, step, state, springs)
         _run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
-    error = abs(means[1] - means[0]) / _ORDER_TWO
+    error = abs(means[1] - means[0]) / _of_the_error(model)
     return error if math.isfinite(error) else None
 
 
-def _grids(model: Model, steps: int) -> tuple[Model, int, int]:
-    """Return a body like one whose corners end both of two grids, and the steps of a cycle in each."""
+def _grid(model: Model, steps: int) -> tuple[Model, int]:
+    """Return a body like one, with corners on every other step, and the steps of a cycle."""
     if not model.meets_corners or model.shape is None:
-        return model, 2 * ((steps + 1) // 2), (steps + 1) // 2
+        return model, 2 * ((steps + 1) // 2)
     coarse = 4 * max(1, round(0.125 * steps))
-    return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse, coarse
+    return dataclasses.replace(model, shape=model.shape.on_corners(coarse)), 2 * coarse
 
 
-def _off_corners(model: Model, steps: int) -> float:
-    """Return what corners that steps do not meet may do to a mean force, over mu F_N."""
-    if not model.meets_corners or model.shape is None:
+def _on_corners(model: Model, cycle: Cycle, steps: int) -> Cycle:
+    """Return the map of a body like one, where its wave has corners; else the map itself."""
+    alike, count = _grid(model, steps)
+    if alike is model:
+        return cycle
+    fine = Cycle(alike, count, 1.0 / (count * model.frequency))
+    put(fine, cycle.step, cycle.body.kept["state"], cycle.springs)
+    if cycle.period > 1:
+        fine.repeat(cycle.period)
+    return fine
+
+
+def _off_corners(model: Model, alike: Cycle, steps: int, change: float) -> float:
+    """Return the error that is made by putting corners on steps.
+
+    ``change`` is that of the ratio from the wave on these steps to one alike.
+    """
+    other = alike.body.model.shape
+    if not model.meets_corners or model.shape is None or other is None:
         return 0.0
-    return 2.0 * abs(model.shape.on_corners(steps).rise - model.shape.rise)
+    met = model.shape.on_corners(steps).rise
+    apart = abs(other.rise - met)
+    return abs(change) * abs(met - model.shape.rise) / apart if apart > 1e-12 else 0.0
 
 
-def _closed(
-    model: Model, steps: int, other: Cycle, jacobian: FloatArray, phase: float = 0.0
-) -> float | None:
-    """Return the ratio of the state on other steps next to a state; None if there is none."""
-    trial = Cycle(model, steps, 1.0 / (steps * model.frequency), phase)
-    take_over(trial, other)
-    if other.period > 1:
-        trial.repeat(other.period)
-    body = trial.body
+def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
+    """Return the ratio of the state next to where a body is, which goes there; None if none is."""
+    body = cycle.body
     left, _ = close(
-        body.kept["state"], trial.springs, body.p, trial.q, trial.increments, trial.rises,
+        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
         body.sums, np.ascontiguousarray(jacobian), _CLOSING,
     )  # fmt: skip
-    ratio = _ratio(trial)
+    ratio = _ratio(cycle)
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
@@ -220,11 +244,6 @@ def _unknowns(cycle: Cycle) -> int:
     state = cycle.body.kept["state"]
     count: int = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, room)
     return count
-
-
-def take_over(cycle: Cycle, other: Cycle) -> None:
-    """Put a body where the same body is that another step is taken with."""
-    put(cycle, other.step, other.body.kept["state"], other.springs)
 
 
 def put(cycle: Cycle, step: float, state: np.ndarray, springs: FloatArray) -> None:

@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from asperity.errors import InputError
+from asperity.friction.dahl import VECTOR
 from asperity.normal import elastic_slope
 from asperity.slider.parameters import FAR_APART
 from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN
@@ -21,6 +22,8 @@ _MOST_SWING = 1000.0
 _TWO_PHASE_BOUND = 2.0
 _DRAG_BOUND = 1e7
 _MOST_SUBSTEPS = 1000
+# Slip counts for so much more at most, where it turns back at the limit and the exponent is high.
+_MOST_RELAXED = 16.0
 _FAR_MORE = 1e12
 
 
@@ -30,11 +33,11 @@ def parts_of(model: "Model") -> int:
     The bounds: the slip in a part at most half the deflection limit; its change from part to part
     at most 0.12 % of it, for the friction where the slip reverses (coarser, the ratio is wrong by
     up to 0.15 % at high speed ratios); a part at most a quarter of the reciprocal of the body's
-    angular frequency on asperities and drive. An exponent above 1 relaxes an asperity faster, and
-    its slip counts for more. The two-phase scheme is not divided, but refused where it is unstable.
-    Coulomb friction has no deflection: there the vibration's velocity changes by at most a tenth of
-    the drive velocity from part to part, unless the slip is prescribed (rigid drive, guided body)
-    and keeps to a line.
+    angular frequency on asperities and drive. With an exponent above 1 the slip counts for more
+    under ``split`` and ``unsplit``. The two-phase scheme is not divided, but refused where it is
+    unstable. Coulomb friction has no deflection: there the vibration's velocity changes by at most
+    a tenth of the drive velocity from part to part, unless the slip is prescribed (rigid drive,
+    guided body) and keeps to a line.
     """
     slider, friction, step = model.slider, model.friction, model.step
     drag = slider.drive_damping * slider.drive_velocity / model.full_friction
@@ -65,6 +68,10 @@ def parts_of(model: "Model") -> int:
                 f"most {step * _TWO_PHASE_BOUND / slip:.3g} s here"
             )
         return 1
+    if friction.law_code != VECTOR:
+        # An asperity at its limit relaxes so much faster when the slip turns back; `vector` goes
+        # along a steady slip by its closed form.
+        slip *= min(max(1.0, 2.0**friction.exponent - 1.0), _MOST_RELAXED)
     turn = _sharpness(model) * step
     change = model.peak_velocity * step / limit * turn
     needed = max(slip / SLIP_BOUND, math.sqrt(change / CHANGE_BOUND))

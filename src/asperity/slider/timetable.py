@@ -1,18 +1,23 @@
 """When a march takes its means, and what its reader should know of them."""
 
 import math
+from collections.abc import Sequence
 
 from asperity.errors import InputError
 from asperity.results.settled import Standing
+from asperity.slider.fading import still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
+BLOCK = 1024
+"""Steps that a march takes at a time."""
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
-_UNSTEADY = 1e-3
-_WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
+UNSTEADY = 1e-3
+FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
+WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
 
 class Timetable:
@@ -65,32 +70,63 @@ class Timetable:
         self.middle = self.window_start + half * parts
         self.tail = tail * parts
 
+    @property
+    def quarters(self) -> tuple[int, int, int]:
+        """Steps at which the first three quarters of the window end, in whole blocks."""
+        first = (self.middle - self.window_start) // 2 // BLOCK * BLOCK
+        third = (self.steps - self.middle) // 2 // BLOCK * BLOCK
+        return self.window_start + first, self.middle, self.middle + third
 
-def march_standing(model: Model, table: Timetable, residual: float, *, broke: bool) -> Standing:
-    """Return whether a march has settled: by the halves of its window, if nothing is missing."""
+
+def march_standing(
+    model: Model,
+    table: Timetable,
+    residual: float,
+    *,
+    broke: bool,
+    means: Sequence[float] | None = None,
+) -> Standing:
+    """Return whether a march has settled: by the halves of its window, if nothing is missing.
+
+    ``means`` are those of the quarters of the window, where they are known.
+    """
     missing = []
     if not (broke or model.vibrates or model.slider.rigid):
         missing.append("the body has not broken away")
-    if _bending(model) > 0.0:
+    if bending(model) > 0.0:
         missing.append("the asperities are still being taken up")
-    if _still_grows(model, table):
+    if still_grows(model, table):
         missing.append("the vibration grows into the window of the means")
-    if not residual <= _UNSTEADY:
+    if not residual <= UNSTEADY:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
-    shown = f"the halves of the window agree to {_UNSTEADY:g} of mu F_N"
+    elif means is not None and (far := still_to_come(means)) > FAR:
+        missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
+    if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
+        missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
+    shown = f"the halves of the window agree to {UNSTEADY:g} of mu F_N"
     return Standing.of(missing, shown)
 
 
-def _bending(model: Model) -> float:
+def bending(model: Model) -> float:
     """Deflection limit of asperities that are still being taken up at the end, m; 0 of none."""
     way = model.slider.drive_velocity * model.duration
     bent = 0.0
     if model.friction.model != "coulomb":
         bent = model.friction.deflection_limit(model.slider.normal_force)
-    return bent if way < _WAYS * bent else 0.0
+    return bent if way < WAYS * bent else 0.0
 
 
-def _still_grows(model: Model, table: Timetable) -> bool:
+def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
+    """How far the mean is from where Dahl's asperities come to, over mu F_N.
+
+    Those with an exponent above 1 come to their limit as the inverse of time, or more slowly.
+    """
+    if model.friction.model != "dahl" or model.friction.exponent <= 1.0 or model.slider.rigid:
+        return 0.0
+    return residual * (model.duration - model.start) / (0.5 * table.window * table.step)
+
+
+def still_grows(model: Model, table: Timetable) -> bool:
     """Whether the vibration grows into the window."""
     grown = model.start + model.ramp
     return model.vibrates and grown > (table.steps - table.window) * table.step * (1.0 + 1e-9)
@@ -107,18 +143,18 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
         )
     if not (broke or model.vibrates or model.slider.rigid):
         notes.append("the body has not broken away; give a longer solve.duration")
-    if (bent := _bending(model)) > 0.0:
+    if (bent := bending(model)) > 0.0:
         way = model.slider.drive_velocity * model.duration
         notes.append(
-            f"the drive goes {way:.2g} m, not {_WAYS:g} times the {bent:.2g} m that asperities "
+            f"the drive goes {way:.2g} m, not {WAYS:g} times the {bent:.2g} m that asperities "
             "bend: the body is still being taken up; give a longer solve.duration"
         )
-    if _still_grows(model, table):
+    if still_grows(model, table):
         notes.append(
             f"the vibration grows until {model.start + model.ramp:.3g} s, into the window of the "
             "means: give a longer solve.duration"
         )
-    if residual > _UNSTEADY:
+    if residual > UNSTEADY:
         notes.append(
             "not steady: from the first to the second half of the window the mean drive force "
             f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"

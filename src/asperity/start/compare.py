@@ -11,6 +11,7 @@ from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.results import Result
 from asperity.results.quantity import text_of
+from asperity.results.settled import MARK, told, unsettled
 from asperity.results.table import Table
 from asperity.units import quantity_of
 
@@ -36,6 +37,8 @@ class Comparison(Result):
         out and has no default.
     numbers : tuple of (str, str, tuple)
         Each number that differs: its key, what it is, and its value in each.
+    settled : tuple of bool or None
+        Whether the answer of each has settled; None of what is no march and no state.
     """
 
     title: ClassVar[str] = "Cases side by side"
@@ -46,6 +49,7 @@ class Comparison(Result):
     asked: tuple[tuple[str, tuple[str | None, ...]], ...]
     numbers: tuple[tuple[str, str, tuple[float | None, ...]], ...]
     said: tuple[str, ...] = ()
+    settled: tuple[bool | None, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return what differs by key."""
@@ -54,6 +58,7 @@ class Comparison(Result):
             "cases": list(self.cases),
             "inputs": {key: list(values) for key, values in self.asked},
             "results": {key: list(values) for key, _, values in self.numbers},
+            **({"settled": list(self.settled)} if any(s is not None for s in self.settled) else {}),
             "notes": list(self.notes),
         }
 
@@ -65,10 +70,15 @@ class Comparison(Result):
         remarks = list(self.said)
         if len(shown) < len(self.numbers):
             remarks.append(f"{len(self.numbers) - len(shown)} more numbers differ: --json")
+        settled = self.settled or (None,) * len(self.cases)
+        cases = [
+            f"{case} {MARK}" if stays is False else case
+            for case, stays in zip(self.cases, settled, strict=True)
+        ]
         alike = "They differ" if inputs else "They ask the same"
         return (
             Table.of(("asked", *self.cases), inputs, title=alike),
-            Table.of((f"asperity {self.command}", *self.cases), results, remarks=remarks),
+            Table.of((f"asperity {self.command}", *cases), results, remarks=remarks),
         )
 
 
@@ -105,6 +115,11 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         for name, result in zip(names, answers, strict=True)
         for sentence in _verdict(result)
     ]
+    said += [
+        f"{MARK} {name}: {sentence}"
+        for name, result in zip(names, answers, strict=True)
+        for sentence in (told(result) if unsettled(result) else ())
+    ]
     said += _most_to_gain(names, gains)
     return Comparison(
         command=command.name,
@@ -112,6 +127,7 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         asked=tuple(_inputs(cases)),
         numbers=tuple(_differing(flat, meanings)),
         said=tuple(said),
+        settled=tuple(getattr(result, "settled", None) for result in answers),
     )
 
 

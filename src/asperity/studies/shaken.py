@@ -11,6 +11,7 @@ from pathlib import Path
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.friction.parameters import Friction
+from asperity.results.settled import unsettled
 from asperity.slider.closed_forms import directed_ratio, vibration_power
 from asperity.vibration import Vibration
 
@@ -140,6 +141,9 @@ def _solved(
     still = solve_periodic(Model(body, friction, solve=how), history=False)
     model = Model(body, friction, turned, how, turned.shape(folder))
     shaken = solve_periodic(model, history=False)
+    for state in (still, shaken):
+        if missing := unsettled(state):
+            raise ConvergenceError(f"the sliding under vibration has not settled: {missing}")
     if shaken.ledger is None:
         raise ConvergenceError("a periodic state came without its ledger")
     without = still.drive_force * sliding_velocity

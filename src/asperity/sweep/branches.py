@@ -10,6 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
 from asperity.results import Result, quantity
+from asperity.results.settled import MARK, marked
 from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
@@ -46,7 +47,7 @@ class Branches(Result):
     value : ndarray, shape (n,)
         Its values in its unit.
     ratio, ratio_mean_load, penetration_swing, open_share, normal_min, normal_max, period,
-    multiplier
+    multiplier, settled
         ndarray, shape (2, n), there and back; NaN where no state was found that repeats itself
         after 1, 2 or 4 cycles. What is normal to the plane is NaN without ``[normal]``.
     missing : int
@@ -74,6 +75,7 @@ class Branches(Result):
     normal_max: FloatArray = quantity("N_max", "N", "greatest normal force", dims=_DIMS)
     period: FloatArray = quantity("", "", "cycles until the state repeats itself", dims=_DIMS)
     multiplier: FloatArray = quantity("", "", "growth of a disturbance over it", dims=_DIMS)
+    settled: FloatArray = quantity("", "", "1 where the state stays, 0 where not", dims=_DIMS)
     missing: int = quantity("", "", "states not found")
     seconds: float = quantity(
         "", "s", "time it took", key="seconds", only="json", shown=False, default=0.0
@@ -137,16 +139,19 @@ class Branches(Result):
         shown = {name: values for name, values in shown.items() if not np.isnan(values).all()}
         unit = f" ({self.axis.unit})" if self.axis.unit else ""
         headings = [f"value{unit}", *shown]
-        return tuple(
-            Table.of(
-                headings,
-                np.stack(
-                    [self.value, *(values[way] for values in shown.values())], axis=1
-                ).tolist(),
-                title=f"{title}: {self.axis.path}",
-            )
-            for way, title in enumerate(_WAYS)
-        )
+        tables = []
+        for way, title in enumerate(_WAYS):
+            loose = self.settled[way] == 0.0
+            ratio, *others = (values[way].tolist() for values in shown.values())
+            columns = self.value.tolist(), marked(ratio, loose.tolist()), *others
+            remarks = (f"{MARK} not settled, no prediction",) if loose.any() else ()
+            tables.append(
+                Table.of(
+                    headings, list(zip(*columns, strict=True)),
+                    title=f"{title}: {self.axis.path}", remarks=remarks,
+                )
+            )  # fmt: skip
+        return tuple(tables)
 
 
 def prepare(case: Case, *, over: Sequence[str]) -> tuple[Case, Axis, list[Model]]:
@@ -225,6 +230,6 @@ def _of(state: SlideResult | ConvergenceError, name: str) -> float:
     """A number of a state, NaN where it has none."""
     if isinstance(state, ConvergenceError):
         return np.nan
-    holder = state if name == "ratio" else state.normal
+    holder = state if name in ("ratio", "settled") else state.normal
     value = getattr(holder, name, None)
     return np.nan if value is None else float(value)

@@ -99,6 +99,14 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
                 marker=marker, markersize=4.0 if way == "there" else 6.5, fillstyle="none",
                 linewidth=1.0, label=way,
             )  # fmt: skip
+            out = (dataset["settled"].sel(way=way).values == 0.0) if "settled" in dataset else None
+            if out is not None and out.any():
+                told = any(line.get_label() == "not settled" for line in panel.lines)
+                panel.plot(
+                    found["value"].values[out], scale * found.values[out], linestyle="",
+                    marker="x", color=BLACK, zorder=5,
+                    label=None if told else "not settled",
+                )  # fmt: skip
         panel.set_ylabel(label)
         panel.margins(x=0.01)
     legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)

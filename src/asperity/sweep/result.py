@@ -12,10 +12,9 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.results import Result, quantity
-from asperity.results.quantity import Sentence, text_of
-from asperity.results.settled import MARK
+from asperity.results.settled import MARK, marked
 from asperity.results.table import Table
-from asperity.slider.periodic import UNSTABLE
+from asperity.slider.cycle_map import UNSTABLE
 from asperity.sweep.axes import Axis, spanned
 from asperity.sweep.subject import Subject, named
 
@@ -290,8 +289,8 @@ def _table(
     matrix = plain and len(axes[1].shown) <= _MOST_COLUMNS
     if matrix:
         headings = [" \\ ".join(map(_heading, axes)), *map(_text, axes[1].shown)]
-        marked = [_marked(*row) for row in zip(values.tolist(), loose.tolist(), strict=True)]
-        rows = [[shown, *row] for shown, row in zip(axes[0].shown, marked, strict=True)]
+        shown = [marked(*row) for row in zip(values.tolist(), loose.tolist(), strict=True)]
+        rows = [[place, *row] for place, row in zip(axes[0].shown, shown, strict=True)]
     else:
         headings = [*map(_heading, axes), *variables]
         places = (
@@ -299,7 +298,7 @@ def _table(
             for at in np.ndindex(*shape)
         )
         first, *others = (each.ravel().tolist() for each in variables.values())
-        columns = zip(_marked(first, loose.ravel().tolist()), *others, strict=True)
+        columns = zip(marked(first, loose.ravel().tolist()), *others, strict=True)
         pairs = zip(places, columns, strict=True)
         rows = [[*place, *numbers] for place, numbers in itertools.islice(pairs, _MOST_ROWS + 1)]
     more = len(axes[0].shown) if matrix else values.size
@@ -307,14 +306,6 @@ def _table(
         left = f"... and {more - _MOST_ROWS} more rows; the files of --out, and --json, hold all"
         remarks = (left, *remarks)
     return Table.of(headings, rows[:_MOST_ROWS], remarks=remarks)
-
-
-def _marked(values: Sequence[float], loose: Sequence[bool]) -> list[object]:
-    """Return numbers as a table has them, behind some of them a mark."""
-    return [
-        Sentence(text_of(value), f" {MARK}") if out else value
-        for value, out in zip(values, loose, strict=True)
-    ]
 
 
 def _heading(axis: Axis) -> str:

@@ -10,8 +10,11 @@ from asperity.sources import Source
 
 THESIS = Source("thesis 6.3 and 6.4", "verified", "Table 6.3 and Table 6.8 are found again")
 HERTZ = Source("Hertz line contact", "verified")
-FILM = Source("Dowson and Higginson, line contact", "from memory", "exponents 0.7, 0.54, -0.13")
-RMS = Source("Rq = 1.25 Ra of a Gaussian surface", "from memory")
+FILM = Source(
+    "Dowson and Higginson, line contact, by a program of cam and tappet", "one source",
+    "exponents 0.7, 0.54, -0.13",
+)  # fmt: skip
+RMS = Source("Rq = 1.25 Ra of a Gaussian surface", "one source", "exercises on Hamrock's text")
 
 d = Annotated[Real, Symbol("d", "m", positive)]
 omega = Annotated[Real, Symbol("omega", "rad/s")]

@@ -112,7 +112,8 @@ def data(folder: Folder, body: Body) -> dict[str, Any]:
     Of one that has not ended, those of what is there so far.
     """
     found = folder.job(str(body["id"])).glob("*.nc")
-    paths = sorted(found, key=lambda path: (path.name == SO_FAR, path.name))
+    own = (path for path in found if path.is_file() and not path.is_symlink())
+    paths = sorted(own, key=lambda path: (path.name == SO_FAR, path.name))
     if not paths:
         raise InputError("the job has left no data")
     return variables(paths[0], [name for name in str(body.get("names", "")).split(",") if name])

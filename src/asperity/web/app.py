@@ -1,5 +1,6 @@
 """What is answered at which address."""
 
+import errno
 import filecmp
 import json
 from collections.abc import Awaitable, Callable
@@ -17,7 +18,7 @@ from asperity import __version__
 from asperity.errors import AsperityError
 from asperity.leftovers import temporary_beside
 from asperity.start.listed import listed
-from asperity.store import read_text, write_atomically, write_text
+from asperity.store import read_text, reason, write_atomically, write_text
 from asperity.web.folder import CASE, MOST_FILE, Folder
 from asperity.web.guard import Refused, body_of, parts_of, refusal
 from asperity.web.jobs import Jobs
@@ -26,6 +27,7 @@ from asperity.web.verbs import LIVE, object_of
 
 Endpoint = Callable[[Request], Awaitable[Response]]
 
+_NO_ROOM, _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG), 507
 _STATIC = Path(__file__).with_name("static")
 
 
@@ -70,7 +72,8 @@ class Page:
         }
         routes = [Route(at.split()[1], to, methods=at.split()[:1]) for at, to in asked.items()]
         files = Mount("/", StaticFiles(directory=_STATIC))
-        refused: Any = dict.fromkeys((AsperityError, Refused, HTTPException), _refused)
+        kinds = AsperityError, Refused, HTTPException, OSError, UnicodeError
+        refused: Any = dict.fromkeys(kinds, _refused)
         made = Starlette(routes=[*routes, files], exception_handlers=refused)
         made.router.redirect_slashes = False
         return made
@@ -165,7 +168,7 @@ def _file(found: Callable[[dict[str, str]], Path]) -> Endpoint:
 
     async def answer(request: Request) -> Response:
         path = found(request.path_params)
-        if not path.is_file():
+        if path.is_symlink() or not path.is_file():
             raise Refused(404, f"{path.name} is not there")
         return FileResponse(path, filename=path.name)
 
@@ -182,4 +185,9 @@ async def _refused(request: Request, error: Exception) -> Response:
         return refusal(error.status_code, f"{error.detail}: {request.method} {request.url.path}")
     if isinstance(error, AsperityError):
         return refusal(400, str(error), error.exit_code)
+    if isinstance(error, OSError):
+        line = f"{request.method} {request.url.path}: {reason(error)}"
+        return refusal(_FULL if error.errno in _NO_ROOM else 500, line, 1)
+    if isinstance(error, UnicodeError):
+        return refusal(400, "there is half a character in it, of which no text can be made")
     return refusal(getattr(error, "status", 500), str(error))

@@ -6,6 +6,7 @@ what is behind ``/api/`` takes the token that was printed with the address, and 
 origin.
 """
 
+import asyncio
 import hmac
 import sys
 import traceback
@@ -22,6 +23,9 @@ Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
 Send = Callable[[Message], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+PATIENCE = 20.0
+"""Seconds in which the next part of a request must come."""
 
 MOST_BODY = 1_000_000
 """Bytes of a request, but for files that are uploaded."""
@@ -50,6 +54,8 @@ class Refused(Exception):  # noqa: N818 - a request that is not answered is no e
 
 def refusal(status: int, line: str, exit_code: int = 2) -> JSONResponse:
     """Return what is answered where there is no answer: one line."""
+    # What was given may stand in the line, with half a character in it.
+    line = line.encode("utf-8", "replace").decode()
     return JSONResponse(told(line, exit_code), status)
 
 
@@ -138,7 +144,15 @@ async def parts_of(request: Request, most: int) -> AsyncIterator[bytes]:
     size = 0
     if int(request.headers.get("content-length", 0)) > most:
         raise Refused(413, f"at most {most} bytes are taken")
-    async for part in request.stream():
+    stream = request.stream()
+    while True:
+        try:
+            async with asyncio.timeout(PATIENCE):
+                part = await anext(stream, None)
+        except TimeoutError:
+            raise Refused(408, f"nothing more of the request has come for {PATIENCE:g} s") from None
+        if part is None:
+            return
         size += len(part)
         if size > most:
             raise Refused(413, f"at most {most} bytes are taken")

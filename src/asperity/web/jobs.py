@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import dataclasses
 import json
 import shutil
 import signal
@@ -10,7 +11,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
-from asperity.errors import StorageError
+from asperity.errors import AsperityError, StorageError
 from asperity.processes import begun, end, heard
 from asperity.store import read_bytes, read_text, reason, write_text
 from asperity.web.folder import ANSWER, REQUEST, STATE, Folder
@@ -24,6 +25,25 @@ GRACE = 10.0
 """Seconds in which a job that is stopped keeps what it has, before it is ended."""
 
 _HEARTBEAT = 15.0
+_BLANK = Job("", "", "", "")
+
+
+def _kept(path: Path) -> Job:
+    """Return a job as it was kept; ValueError or TypeError of what is none."""
+    if path.is_symlink():
+        raise ValueError("it is a link")
+    told = json.loads(read_text(path))
+    # What is no number there would be none in the list of all.
+    json.dumps(told, allow_nan=False)
+    job = Job(**told)
+    for field in dataclasses.fields(Job):
+        kind, value = type(getattr(_BLANK, field.name)), getattr(job, field.name)
+        if (
+            not isinstance(value, (int, float) if kind is float else kind)
+            and field.name != "reached"
+        ):
+            raise TypeError(field.name)
+    return job
 
 
 class Jobs:
@@ -41,8 +61,8 @@ class Jobs:
         self._waiting: list[Job] = []
         self._closing = False
         for path in sorted(folder.jobs.glob(f"*/{REQUEST}"), key=lambda one: one.stat().st_mtime):
-            with contextlib.suppress(OSError, ValueError, TypeError):
-                job = Job(**json.loads(read_text(path.with_name(STATE))))
+            with contextlib.suppress(OSError, ValueError, TypeError, AsperityError):
+                job = _kept(path.with_name(STATE))
                 if job.id == path.parent.name:
                     # What ran when the server ended does so no more.
                     job.state = job.state if job.state in ENDED else "stopped"

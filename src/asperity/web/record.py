@@ -70,7 +70,8 @@ class Job:
     @property
     def answered(self) -> bool:
         """Whether its answer is there."""
-        return (self.home / ANSWER).is_file()
+        path = self.home / ANSWER
+        return path.is_file() and not path.is_symlink()
 
     @property
     def brief(self) -> dict[str, str]:

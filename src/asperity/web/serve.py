@@ -3,6 +3,8 @@
 import asyncio
 import contextlib
 import contextvars
+import html
+import os
 import secrets
 import socket
 import webbrowser
@@ -18,6 +20,7 @@ from asperity.web.folder import Folder
 
 HOST = "127.0.0.1"
 _HELD = ".asperity-page"
+_DOOR = "asperity-page.html"  # no hidden name: browsers that are packed away cannot read those
 PORT = 8321
 """Where the page is if nothing else is asked for and nobody else is there."""
 
@@ -44,18 +47,20 @@ def serve(
 
     from asperity.web.app import Page
     from asperity.web.guard import Guard
+    from asperity.web.patience import Patient
 
     place, name, screen = opened(case, folder)
     listening = _socket(port)
     number = listening.getsockname()[1]
     token = secrets.token_urlsafe(24)
+    door = place.resolve() / _DOOR
     asked = {"case": name, "token": token} if name else {"token": token}
     address = f"http://{HOST}:{number}/#/{screen}?{urlencode(asked)}"
 
     async def life() -> None:
         page = Page(Folder(place))
         config = uvicorn.Config(
-            Guard(page.application(), token, number), http="h11", loop="asyncio", ws="none",
+            Guard(page.application(), token, number), http=Patient, loop="asyncio", ws="none",
             lifespan="off", access_log=False, log_config=None, log_level="critical",
             server_header=False, timeout_graceful_shutdown=1,
         )  # fmt: skip
@@ -69,9 +74,9 @@ def serve(
         for worker in page.workers.values():
             await worker.start()
         tell(address)
-        if browser:
-            webbrowser.open(address)
         try:
+            if browser:
+                _open(address, door)
             await server.serve(sockets=[listening])
             await page.jobs.close()
             for worker in page.workers.values():
@@ -81,12 +86,29 @@ def serve(
             page.jobs.kill()
             for worker in page.workers.values():
                 worker.kill()
+            door.unlink(missing_ok=True)
 
     taken = f"is served already at http://{HOST}:{number}; open the address printed there, or "
     held = alone(place.resolve() / _HELD, taken + "take another --folder")
     with contextlib.suppress(KeyboardInterrupt), contextlib.closing(listening), held:
         # What the page reads it may also write: nothing is noted as the input of a command.
         contextvars.Context().run(asyncio.run, life())
+
+
+def _open(address: str, door: Path) -> None:
+    """Open an address in the browser by a file that leads to it and is its owner's alone.
+
+    What is called with the address itself shows the token to every user of the machine.
+    """
+    door.unlink(missing_ok=True)
+    descriptor = os.open(door, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+        file.write(
+            '<!doctype html><meta charset="utf-8"><title>asperity</title>'
+            f'<meta http-equiv="refresh" content="0;url={html.escape(address)}">'
+            f'<a href="{html.escape(address)}">asperity page</a>'
+        )
+    webbrowser.open(door.resolve().as_uri())
 
 
 def _socket(port: int) -> socket.socket:

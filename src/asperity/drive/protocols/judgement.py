@@ -91,7 +91,7 @@ class Judgement:
         if math.isfinite(self.nearer) and self.nearer > 0.0:
             missing.append(f"a solve.duration longer by {1e3 * self.nearer:.2g} ms would do")
         elif self.nearer > 0.0:
-            missing.append("it did not come nearer, as if no duration would do")
+            missing.append("it came no nearer on its way: a longer solve.duration may not do")
         return "; ".join(missing)
 
 

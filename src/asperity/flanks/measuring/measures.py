@@ -29,22 +29,24 @@ _TRIED = 12
 _CUSTOMARY = 1.7
 
 SIZES = (
-    0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5,
+    1.0, 1.1, 1.25, 1.4, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5,
     3.75, 4.0, 4.25, 4.5, 5.0, 5.25, 5.5, 6.0, 6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 10.5, 11.0, 12.0,
     14.0, 15.0, 16.0, 18.0, 20.0, 22.0, 25.0, 28.0, 30.0, 35.0, 40.0, 45.0, 50.0,
 )  # fmt: skip
-"""Diameters of pins and balls for measuring, mm."""
+"""Diameters of pins and balls for measuring, mm; below 1 mm DIN 3977 has wires of other sizes."""
 
 TOLERANCES = (
     (10.0, 0.02), (50.0, 0.03), (125.0, 0.04), (280.0, 0.05), (560.0, 0.06), (1000.0, 0.08),
-    (math.inf, 0.1),
+    (1600.0, 0.1), (2500.0, 0.13), (4000.0, 0.16), (6300.0, 0.2), (10000.0, 0.25),
 )  # fmt: skip
 """Tolerance of the normal thickness by diameter up to which it holds, mm: series 25."""
 
 SOURCES = {
-    "measuring pins and balls": Source("DIN 3977", "from memory", "the series of diameters"),
+    "measuring pins and balls": Source(
+        "DIN 3977:1981, table 1", "one source", "as the tests of the program gearcore have it"
+    ),
     "tolerance of the tooth thickness": Source(
-        "DIN 3967, series 25", "from memory", "made for cylindrical gears"
+        "DIN 3967:1978, table 2, series 25", "one source", "made for cylindrical gears"
     ),
 }
 """Where what is assumed of measuring comes from."""
@@ -217,7 +219,8 @@ def _thickness(wheel: Wheel, radius: float) -> float:
 
 
 def _tolerance(diameter: float) -> float:
-    return next(tolerance for most, tolerance in TOLERANCES if diameter <= most)
+    found = (tolerance for most, tolerance in TOLERANCES if diameter <= most)
+    return next(found, TOLERANCES[-1][1])
 
 
 def _tried(find: Callable[[float], Rest], size: float) -> Rest | None:

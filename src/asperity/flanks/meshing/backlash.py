@@ -3,10 +3,11 @@ r"""Backlash of the mesh, the worm's axial clearance in it, and the threads that
 One flank of the worm touches; the other is away from the next flank of the wheel. Their shortest
 distance is the normal backlash. How far the worm can be turned between both, the wheel held, is in
 closed form the sum of what both flanks need, :math:`\Delta\varphi = D_+ + D_-`
-(`asperity.flanks.meshing.transmission`), and since a turn carries the thread along, the worm can
-be shifted by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial
-vibration can have from peak to peak. All are the least over a pitch, and negative where the flanks
-interfere. The wheel's tips may stand nearer to the worm's core than that: `core_clearance`.
+(`asperity.flanks.meshing.transmission`), and since a turn carries the thread along, the worm can be
+shifted by :math:`p\,\Delta\varphi` instead: its axial clearance, the most that an axial vibration
+can have from peak to peak. All are the least over a pitch, between its places too, and negative
+where the flanks interfere. The wheel's tips may stand nearer to the worm's core than that:
+`core_clearance`.
 
 Lengths are in mm, angles in rad.
 """
@@ -15,8 +16,9 @@ import math
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.meshing.transmission import ToothSearch, Transmission
+from asperity.flanks.meshing.transmission import ToothSearch, Transmission, least_between
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.flanks.wheel.frame import on_cylinder
@@ -66,24 +68,48 @@ def normal_backlash(bearing: Transmission, other: ToothSearch) -> float:
     Negative: the depth by which the flanks interfere.
     """
     samples = bearing.wheel_angle.size
+    step = other.pitch / samples
     beta = other.places(samples)
-    index = np.mod(np.rint(beta / (other.pitch / samples)).astype(np.int64), samples)
-    phase = other.pair.ratio * beta + bearing.search.flank.side * bearing.lead[index]
+    index = np.mod(np.rint(beta / step).astype(np.int64), samples)
+    near = _gaps(other, beta, bearing, bearing.lead[index])
+    values = np.full(samples, math.inf)
+    np.minimum.at(values, index, near)
+
+    def at(angle: float) -> float:
+        lead = bearing.search.least_lead(angle)
+        return float(_gaps(other, angle + other.turns, bearing, lead).min())
+
+    return least_between(values, step, at)
+
+
+def _gaps(
+    other: ToothSearch, beta: FloatArray, bearing: Transmission, lead: FloatArray | float
+) -> FloatArray:
+    """Return distances to the other flank at angles of the wheel, exact where they are least."""
+    phase = other.pair.ratio * beta + bearing.search.flank.side * lead
     rough = other.gap(beta, phase, np.full(beta.size, -math.inf))[:, 0]
     near = np.full(beta.size, float(rough.min()) + _NEAR)
-    return float(other.gap(beta, phase, near)[:, 0].min())
+    return np.asarray(other.gap(beta, phase, near)[:, 0])
 
 
 def play(meshes: dict[int, Transmission]) -> Play:
     """Return the play of a mesh from the transmission on both flanks, over the same places."""
     pair = meshes[1].search.pair
-    turn = float((meshes[1].lead + meshes[-1].lead).min())
+    turn = _turn(meshes)
     return Play(
         normal={side: normal_backlash(meshes[side], meshes[-side].search) for side in (1, -1)},
         axial=pair.worm.reduced_lead * turn,
         worm_angle=turn,
         wheel_angle=turn / pair.ratio,
     )
+
+
+def _turn(meshes: dict[int, Transmission]) -> float:
+    """Return by how much the worm can be turned with the wheel held, the least over a pitch."""
+    searches = [meshes[side].search for side in (1, -1)]
+    leads = meshes[1].lead + meshes[-1].lead
+    step = searches[0].pitch / leads.size
+    return least_between(leads, step, lambda beta: sum(one.least_lead(beta) for one in searches))
 
 
 def core_clearance(pair: Pair, blank: Blank) -> float:
@@ -106,7 +132,7 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
     worm = meshes[1].search.pair.worm
     widest = worm.half_space + worm.half_pitch - float(worm.curve(2.0)[1])
     normal = math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
-    turn = float((meshes[1].lead + meshes[-1].lead).min())
+    turn = _turn(meshes)
     slope = 2.0 * normal
     tried: list[tuple[float, float]] = []
     # For ZI this is the answer.

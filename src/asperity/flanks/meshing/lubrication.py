@@ -32,7 +32,7 @@ from asperity.results import Quantities, quantity
 from asperity.sources import Source
 
 SOURCES = {
-    "film": Source("Dowson and Higginson, 1966", "from memory"),
+    "film": Source("Dowson and Higginson, by a program of cam and tappet", "one source"),
     "stiffness": Source(
         "finite elements of gearset 3's tooth against a rigid worm",
         "one source",

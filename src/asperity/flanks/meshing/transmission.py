@@ -14,6 +14,7 @@ frame is that of the right-handed gearset.
 import dataclasses
 import functools
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -36,6 +37,9 @@ _STEPS = 25
 _NEAR = 2e-2
 _CONSTANT = 1e-13
 _RIGID = 1e-9
+# Of what is even there is no dip between places; one deeper than this part of its bend is not
+# missed, and one is found to this part of a step.
+_EVEN, _DEEPER, _NARROW = 1e-13, 0.1, 3e-4
 # Of the step between places, to which extremes are found.
 _FINE = 1e-4
 
@@ -100,6 +104,21 @@ class ToothSearch:
         found = self._least(kernels.TURN, worm, beta, np.zeros(beta.size), near)
         found[:, 0] -= nominal
         return found
+
+    @functools.cached_property
+    def turns(self) -> FloatArray:
+        """Whole pitches by which the wheel is turned to bring each tooth of a mesh to one place."""
+        places = self.places(SAMPLES)
+        first = math.floor(float(places[0]) / self.pitch) - 1
+        last = math.ceil(float(places[-1]) / self.pitch) + 1
+        return np.asarray(self.pitch * np.arange(first, last + 1), dtype=np.float64)
+
+    def least_lead(self, beta: float) -> float:
+        """Return :math:`D` of the tooth that bears at an angle of the wheel, rad."""
+        beta_of = beta + self.turns
+        rough = self.lead(beta_of, np.full(beta_of.size, -math.inf))[:, 0]
+        near = np.full(beta_of.size, float(rough.min()) + _NEAR / self.pair.worm.reduced_lead)
+        return float(self.lead(beta_of, near)[:, 0].min())
 
     def gap(self, beta: FloatArray, phase: FloatArray, exact: FloatArray) -> FloatArray:
         """Return by rows the least distance to the worm's thread, mm, and where, as `lead` does."""
@@ -280,16 +299,9 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
     if (high - low) / search.pair.ratio <= _CONSTANT:
         return high - low
     step = search.pitch / lead.size
-    places = search.places(lead.size)
-    first = math.floor(float(places[0]) / search.pitch) - 1
-    last = math.ceil(float(places[-1]) / search.pitch) + 1
-    turns = np.asarray(search.pitch * np.arange(first, last + 1), dtype=np.float64)
-    near = _NEAR / search.pair.worm.reduced_lead
 
     def at(beta: float, sign: float) -> float:
-        rough = search.lead(beta + turns, np.full(turns.size, -math.inf))[:, 0]
-        exact = np.full(turns.size, float(rough.min()) + near)
-        return sign * float(search.lead(beta + turns, exact)[:, 0].min())
+        return sign * search.least_lead(beta)
 
     def extreme(sign: float) -> float:
         values = sign * lead
@@ -300,3 +312,29 @@ def _range(search: ToothSearch, lead: FloatArray) -> float:
         return float(minimum(at, (sign,), *bracket, _FINE * step, _STEPS, -math.inf)[1])
 
     return -extreme(-1.0) - extreme(1.0)
+
+
+def least_between(values: FloatArray, step: float, at: Callable[[float], float]) -> float:
+    """Return the least of a function of the wheel's angle, looked for between its places as well.
+
+    Parameters
+    ----------
+    values : ndarray
+        At places over a pitch from angle 0, after which they repeat themselves.
+    step : float
+        Between the places, rad.
+    at : callable
+        The function.
+    """
+    least = float(values.min())
+    before, after = np.roll(values, 1), np.roll(values, -1)
+    bend = before + after - 2.0 * values
+    dips = (values <= before) & (values <= after) & (bend > _EVEN)
+    # A parabola's depth between its places, twice, and what another curve may go deeper.
+    depth = (before - after)[dips] ** 2 / (4.0 * bend[dips]) + _DEEPER * bend[dips]
+    dips[dips] = values[dips] - depth <= least
+    for k in np.flatnonzero(dips):
+        bracket = ((k - 1) * step, before[k], k * step, values[k], (k + 1) * step, after[k])
+        found = minimum(at, (), *bracket, _NARROW * step, _STEPS, -math.inf)
+        least = min(least, float(found[1]))
+    return least

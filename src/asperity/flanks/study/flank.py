@@ -34,7 +34,9 @@ _CUSTOMARY = {
     "disc.profile_radius": f"{parameters.DISC_PROFILE_RADIUS:g} modules",
     "hob.tip_radius": f"{parameters.HOB_TIP_RADIUS:g} modules, or what there is room for",
 }
-_OUTSIDE = Source("common practice", "from memory", "d_a2 + m")
+_OUTSIDE = Source(
+    "MITCalc 1.74; SDP/SI, Elements of Metric Gear Technology, section 17", "verified", "d_a2 + m"
+)
 
 
 @dataclasses.dataclass(frozen=True)

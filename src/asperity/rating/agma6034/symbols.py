@@ -13,7 +13,8 @@ from asperity.sources import Source
 
 VERIFIED = Source("ANSI/AGMA 6034-B92", "verified")
 ONE_SOURCE = Source("ANSI/AGMA 6034-B92", "one source")
-FROM_MEMORY = Source("ANSI/AGMA 6034-B92", "from memory")
+SCOPE = Source("ANSI/AGMA 6034-B92 (R2016), scope", "one source")
+LEAD_ANGLES = Source("Shigley's Mechanical Engineering Design, table 15-9", "one source")
 SHIGLEY = Source("Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 15", "verified")
 
 _POUND_FORCE = 0.45359237 * 9.80665

@@ -58,8 +58,11 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     if mean is None:
         mean = torque.friction(v["sliding_velocity_m_s"], tables=tables)
     v["mu"] = mean * given.friction_factor
-    v["eta"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu"])
-    v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu"])
+    angle = v["mu"]
+    if by_normal_section(given):
+        angle = angle / np.cos(given.pressure_angle)
+    v["eta"] = efficiency.worm_driving_efficiency(given.lead_angle, angle)
+    v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, angle)
     geometry = given.axial_module, given.diameter_factor, given.lead_angle
     m, q, lead = geometry
     at, d_2 = v["sliding_velocity_m_s"], given.wheel_reference_diameter
@@ -92,6 +95,11 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     return v, tuple(note for note in (wear_note, strength_note) if note)
 
 
+def by_normal_section(given: Inputs) -> bool:
+    """Whether the efficiencies take mu/cos(alpha_n) for the tangent of the friction angle."""
+    return given.options.bs721_friction_angle == "mu_over_cos"
+
+
 def _with_worm(v: Values, symbol: str, worm: Callable[[], Real]) -> tuple[Real, str]:
     """Return the lower torque of wheel and worm, and why the worm is not rated."""
     wheel = v[f"{symbol}_wheel_Nm"]
@@ -120,6 +128,9 @@ def _equations(given: Inputs, values: Values) -> dict[str, str]:
     if given.duty:
         for key, exponent, torque in (("U_w_h", 3, "T_2"), ("U_s_h", 7, "T_R")):
             by_case[key] = f"sum of U_i n_i/n_1 (T_i/{torque})^{exponent} over the duty cycle"
+    if by_normal_section(given):
+        by_case["eta"] = "tan(gamma_m1)/tan(gamma_m1 + atan(mu/cos(alpha_n)))"
+        by_case["eta_back"] = "tan(gamma_m1 - atan(mu/cos(alpha_n)))/tan(gamma_m1)"
     if given.friction is not None:
         by_case["mu"] = f"k_mu {given.friction:g}"
     return by_case

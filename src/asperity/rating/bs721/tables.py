@@ -17,7 +17,7 @@ from asperity.formulas import Bounds, Symbol, check, current_mask
 from asperity.sources import Source, weakest
 
 _SHIPPED = Path(__file__).parents[1] / "data" / "bs721.toml"
-_ABOUT = ("source", "confidence", "note")
+_ABOUT = ("source", "confidence", "note", "checked")
 
 
 class TableRangeError(InputError):

@@ -34,7 +34,7 @@ from asperity.rating.iso14521 import (
 )
 
 ROOT_LIFE_FACTOR = 1.0
-"""Y_NL, from memory."""
+"""Y_NL, the default of MITCalc; that by wheel and grade has no document."""
 
 _OF_WEAR = (
     "theta_S_degC", "theta_S_lim_degC", "alpha_L_W_m2K", "A_R_m2", "theta_M_degC", "nu_M_mm2_s",

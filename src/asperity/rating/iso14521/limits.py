@@ -13,7 +13,7 @@ _FROM_MEMORY = Source(_STANDARD, "from memory")
 VALIDITY: Mapping[str, Range] = {
     "centre_distance": Range("centre distance a (Y_S)", 65.0, 250.0, "mm", _ONE_SOURCE),
     "profile_shift": Range(
-        "profile shift x_2 (h*, p_m*)", -1.0, 1.0, "", Source("usual practice", "from memory")
+        "profile shift x_2 (h*, p_m*)", -1.0, 1.0, "", Source("MITCalc 1.74", "one source")
     ),
     "geometry_factor": Range(
         "geometry factor Y_G", 0.0, 2.0, "", Source("one commercial program", "one source")
@@ -25,7 +25,7 @@ VALIDITY: Mapping[str, Range] = {
 """Where the standard's formulas are valid; the symbol in brackets is what rests on it."""
 
 
-_PRACTICE = Source("usual practice", "from memory")
+_PRACTICE = Source("usual practice", "one source", "bounds of our own")
 
 PLAUSIBLE: Mapping[str, Range] = {
     "theta_S_degC": Range(

@@ -37,7 +37,7 @@ def meshing_loss(
     return 0.1 * wheel_torque * worm_speed / ratio * (1.0 / efficiency - 1.0)
 
 
-@formula(symbol="P_Vz2_1", unit="W", equation="0.1 T_2 n_1/u (1 - eta_z2_1)", source=s.FROM_MEMORY)
+@formula(symbol="P_Vz2_1", unit="W", equation="0.1 T_2 n_1/u (1 - eta_z2_1)", source=s.BALANCE)
 def back_driving_meshing_loss(
     wheel_torque: s.T_2, worm_speed: s.n_1, ratio: s.u, efficiency: s.eta_z2_1
 ) -> Real:

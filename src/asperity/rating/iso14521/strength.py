@@ -17,7 +17,7 @@ _Actual = Annotated[Real, Symbol("actual", "", positive)]
 
 @formula(symbol="S", equation="allowable/actual", source=s.ONE_SOURCE)
 def safety(allowable: _Allowable, actual: _Actual) -> Real:
-    """Safety, what is allowable over what is there; temperatures in degC (from memory).
+    """Safety, what is allowable over what is there; temperatures in degC (so in MITCalc).
 
     The least the standard asks for stands in `asperity.rating.demands`.
 
@@ -139,5 +139,5 @@ def root_shear_stress(
 
 @formula(symbol="tau_FG", unit="MPa", equation="tau_FlimT Y_NL", source=s.ONE_SOURCE)
 def root_shear_limit(shear_strength: s.tau_FlimT, life_factor: s.Y_NL = 1.0) -> Real:
-    """Shear stress at which the wheel's teeth break; a life factor of 1 is from memory."""
+    """Shear stress at which the wheel's teeth break; 1 is the factor MITCalc takes."""
     return shear_strength * life_factor

@@ -12,7 +12,9 @@ from asperity.sources import Source
 _STANDARD = "ISO/TR 14521:2010, DIN 3996:2012"
 VERIFIED = Source(_STANDARD, "verified")
 ONE_SOURCE = Source(_STANDARD, "one source")
-FROM_MEMORY = Source(_STANDARD, "from memory")
+BALANCE = Source(
+    "definition", "verified", "balance of power; MITCalc divides it by eta_z2_1 besides"
+)
 DEFINITION = Source("definition", "verified")
 
 # Geometry

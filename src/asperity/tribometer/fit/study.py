@@ -20,6 +20,7 @@ from asperity.tribometer.fit.estimate import Estimate, Fit
 from asperity.tribometer.fit.forward import BLOCK, DRIVE, SLIDE, Predictor, prepared
 from asperity.tribometer.fit.free import Free
 from asperity.tribometer.fit.outliers import Spoilt, spoilt
+from asperity.tribometer.fit.problem import FitProblem
 from asperity.tribometer.fit.result import FitResult, Law, Proposed
 from asperity.tribometer.fit.words import improbable, notes, parameter_of, told_of
 from asperity.tribometer.parameters import Rig
@@ -36,18 +37,6 @@ _DEEPER = 3  # times that intervals are begun anew
 _LOWER = 0.02  # of the rise to an end, by which another fit is better
 _STRIKING = 2.0  # deviations
 _ALIKE = 0.01  # of chi-square, by which laws do not differ
-
-
-@dataclasses.dataclass(frozen=True)
-class FitProblem:
-    """Measurements, a case, and what is free in it."""
-
-    data: Measurements
-    case: Case
-    free: tuple[Free, ...]
-    laws: tuple[str, ...]
-    further: int
-    by: str
 
 
 def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
@@ -229,7 +218,6 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         No law's fit converges, or the model answers fewer measurements than there are parameters.
     """
     total, done = len(problem.laws) + 2 * len(problem.free), 0
-    first = time.monotonic()
 
     def looked() -> None:
         run.checkpoint(done, total, what="fits and ends of intervals")
@@ -250,8 +238,10 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         law = _chosen(problem, fitted)
         if not problem.data.weighed:
             fitted = _by_residuals(fitted, law)
-        began = sum(one.fit.evaluations for one in fitted.values())
-        each = (time.monotonic() - first) / max(began, 1)
+        # The first ones may have compiled what they need, and tell of no other.
+        began = time.monotonic()
+        fitted[law].fit.residuals(fitted[law].best.point)
+        each = time.monotonic() - began
         ends_of = 2 * len(problem.free)
         run.forecast(each * _AN_END * ends_of, f"{ends_of} ends of intervals")
         for _ in range(_DEEPER):

@@ -2,19 +2,15 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.tribometer.fit.estimate import Estimate
-from asperity.tribometer.fit.forward import SLIDE
+from asperity.tribometer.fit.forward import SLIDE, Predictor
 from asperity.tribometer.fit.outliers import Outlier, Spoilt
+from asperity.tribometer.fit.problem import FitProblem
 from asperity.tribometer.fit.result import Parameter
-
-if TYPE_CHECKING:
-    from asperity.tribometer.fit.forward import Predictor
-    from asperity.tribometer.fit.study import FitProblem
 
 _CORRELATED, _AS_ONE = 0.95, 0.999
 _UNLIKELY = 0.05
@@ -26,7 +22,7 @@ Walls = dict[tuple[int, int], tuple[float, str]]
 
 
 def parameter_of(
-    problem: "FitProblem", best: Estimate, correlation: FloatArray, ends: Ends, walls: Walls,
+    problem: FitProblem, best: Estimate, correlation: FloatArray, ends: Ends, walls: Walls,
     place: int,
 ) -> Parameter:  # fmt: skip
     """Return a parameter with its interval, and what the data do not tell of it."""
@@ -61,7 +57,7 @@ def parameter_of(
     )  # fmt: skip
 
 
-def row_of(problem: "FitProblem", place: int) -> str:
+def row_of(problem: FitProblem, place: int) -> str:
     """Return what a measurement is called."""
     count = place + 1
     end = {1: "st", 2: "nd", 3: "rd"}.get(count % 10 if count % 100 not in (11, 12, 13) else 0)
@@ -69,7 +65,7 @@ def row_of(problem: "FitProblem", place: int) -> str:
 
 
 def notes(
-    problem: "FitProblem", predict: "Predictor", best: Estimate, answered: Sequence[int],
+    problem: FitProblem, predict: Predictor, best: Estimate, answered: Sequence[int],
     left_out: Sequence[tuple[int, str]], ruined: Spoilt | None, deviations: FloatArray,
 ) -> list[str]:  # fmt: skip
     """Return what a reader of a fit should know, the gravest first.
@@ -132,7 +128,7 @@ def notes(
 
 
 def told_of(
-    problem: "FitProblem", place: int, one: Outlier, deviations: FloatArray
+    problem: FitProblem, place: int, one: Outlier, deviations: FloatArray
 ) -> dict[str, float | int]:
     """Return a row that spoils a fit, as JSON has it."""
     value = float(problem.data.values[place])
@@ -157,7 +153,7 @@ def improbable(chi2: float, freedom: int) -> bool:
     return chance(chi2, freedom) < _UNLIKELY
 
 
-def _improbable(problem: "FitProblem", best: Estimate, ruined: Spoilt | None) -> list[str]:
+def _improbable(problem: FitProblem, best: Estimate, ruined: Spoilt | None) -> list[str]:
     freedom = best.residuals.size - best.point.size
     if not problem.data.weighed:
         return [
@@ -188,7 +184,7 @@ def _improbable(problem: "FitProblem", best: Estimate, ruined: Spoilt | None) ->
     return [told]
 
 
-def _beyond(problem: "FitProblem", answered: Sequence[int], deviations: FloatArray) -> list[str]:
+def _beyond(problem: FitProblem, answered: Sequence[int], deviations: FloatArray) -> list[str]:
     """Tell of ratios that no law can give, however its parameters are chosen."""
     data = problem.data
     if problem.by != SLIDE or data.forces or "normal" in problem.case:

@@ -20,6 +20,7 @@ _NUMERIC = frozenset(
     ("double", "single", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
 )
 _MOST_OF_A_BYTE = 1100  # what zeros are compressed to
+_FREE, _MOST_OF_NOISE = 100_000_000, 20  # bytes, and of a byte, that samples may unpack to
 _BEGINNING = 1 << 16
 _NOTE = "the file tells no units; its channels are taken as volts"
 _TOLD = frozenset(("Tstart", _INTERVAL, "ExtraSamples", "RequestedLength", "Length", "Version"))
@@ -69,10 +70,21 @@ def _plain(path: Path) -> dict[str, Any]:
     # SciPy's reader ends the process on some damaged cells, structures and texts.
     _check_tags(path)
     listed = [(name, shape) for name, shape, kind in whosmat(path) if kind in _NUMERIC]
-    if 8 * sum(math.prod(shape) for _, shape in listed) > _MOST_OF_A_BYTE * path.stat().st_size:
-        raise ValueError("more values than it can hold")
+    _see_size(path, 8 * sum(math.prod(shape) for _, shape in listed))
     found = loadmat(path, variable_names=[name for name, _ in listed])
     return {key: np.asarray(value) for key, value in found.items() if not key.startswith("__")}
+
+
+def _see_size(path: Path, unpacked: int) -> None:
+    """Refuse a file that unpacks to far more than measured samples ever do."""
+    size = path.stat().st_size
+    if unpacked > _MOST_OF_A_BYTE * size:
+        raise ValueError("more values than it can hold")
+    if unpacked > _FREE + _MOST_OF_NOISE * size:
+        raise InputError(
+            f"{plain(path.name)} of {1e-6 * size:.3g} MB unpacks to {1e-6 * unpacked:.3g} MB, as "
+            "no measured samples do; save the channels without compression"
+        )
 
 
 def _check_tags(path: Path) -> None:
@@ -112,10 +124,8 @@ def _check_inner(content: bytes, at: int, end: int, order: str) -> None:
 def _hdf5(path: Path) -> dict[str, Any]:
     import h5py
 
-    size = path.stat().st_size
     with h5py.File(path, "r") as file:
         store.require_whole(file, plain(path.name))
         sets: Sequence[Any] = [one for one in file.values() if isinstance(one, h5py.Dataset)]
-        if sum(one.size * one.dtype.itemsize for one in sets) > _MOST_OF_A_BYTE * size:
-            raise ValueError("more values than it can hold")
+        _see_size(path, sum(one.size * one.dtype.itemsize for one in sets))
         return {str(one.name).strip("/"): one[...] for one in sets}

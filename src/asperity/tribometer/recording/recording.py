@@ -99,6 +99,11 @@ class Recording:
             There is no such file, or it is no recording or damaged.
         """
         name = plain(str(path))
+        with contextlib.suppress(FileNotFoundError):  # which is told below
+            try:
+                store.require_no_pipe(path)
+            except OSError as error:
+                raise StorageError(f"{name} cannot be read: {store.reason(error)}") from None
         try:
             with _opened(path) as file:
                 if _ANSWER not in file.attrs:  # what a command wrote may be written anew

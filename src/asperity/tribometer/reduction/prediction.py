@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from asperity.casefile import Case
 from asperity.errors import AsperityError
 from asperity.friction import Friction
+from asperity.results.settled import unsettled
 from asperity.slider.batch import solve_many
 from asperity.slider.closed_forms import (
     longitudinal_ratio,
@@ -54,5 +55,6 @@ def model_ratios(case: Case, load: float, asked: Sequence[Asked | None]) -> list
         vibration = Vibration.model_validate(shaken)
         models[place] = Model(slider, friction, vibration, Solve(method="periodic"))
     for place, answer in zip(models, solve_many(list(models.values())), strict=True):
-        found[place] = None if isinstance(answer, AsperityError) else answer.ratio
+        if not isinstance(answer, AsperityError) and not unsettled(answer):
+            found[place] = answer.ratio
     return found

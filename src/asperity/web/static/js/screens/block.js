@@ -83,12 +83,21 @@ function Mesh({ text, elements, nodes }) {
       ${nodes} nodes on the base</p></div>`;
 }
 
+/** What an answer that has not settled lacks. */
+function Loose({ numbers }) {
+  if (numbers.settled?.value !== false) return null;
+  return html`<p role="status">Not settled, no prediction: ${numbers.settled_by.value}.</p>`;
+}
+
 function Settled({ work }) {
   const numbers = byKey(work.data?.entries);
   const data = useData(work, ["friction", "slider_friction"]);
   if (!work.data) return null;
   const along = ({ values }) => values.filter((_, at) => at % 2 === 0);
-  return html`<div class="headline"><p class="large"><${Num} entry=${numbers.ratio} count=${4} /></p>
+  const loose = numbers.settled?.value === false;
+  return html`<${Loose} numbers=${numbers} />
+    <div class="headline"><p class="large">${loose ? "(" : null}<${Num}
+      entry=${numbers.ratio} count=${4} />${loose ? ")" : null}</p>
       <p>elastic block; the rigid body <${Num} entry=${numbers.slider_ratio} count=${4} /><br />
         <${Num} entry=${numbers.unsteadiness} label count=${2} /></p></div>
     ${data ? html`<${Plot} title="Friction over a settled cycle" y="friction (N)"
@@ -104,7 +113,8 @@ function Marched({ work }) {
   if (!work.data) return null;
   const milli = ({ values }) => values.map((value) => 1e3 * value);
   const pressure = data?.pressure.values.map((value) => value / 1e3);
-  return html`<p class="row">${["ratio", "drive_force_N", "peak_pressure_Pa"].map((key) =>
+  return html`<${Loose} numbers=${numbers} />
+    <p class="row">${["ratio", "drive_force_N", "peak_pressure_Pa"].map((key) =>
       html`<${Num} entry=${numbers[key]} label count=${4} />`)}</p>
     ${data ? html`<div class="grid">
       <${FlankMap} title="Pressure under the block" label="mean pressure at a node" unit="kPa"

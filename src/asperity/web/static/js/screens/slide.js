@@ -116,15 +116,16 @@ function Strength({ k }) {
 function Headline({ numbers }) {
   const ratio = numbers.ratio?.value;
   if (ratio === undefined) return html`<div class="headline"><p class="large">…</p></div>`;
-  const says =
-    ratio < 0 ? "The vibration drives the body forward; the drive holds it back."
+  const loose = numbers.settled?.value === false;
+  const says = loose ? `Not settled, no prediction: ${numbers.settled_by.value}.`
+    : ratio < 0 ? "The vibration drives the body forward; the drive holds it back."
     : ratio > 0.9995 ? "The vibration takes nothing off the force."
     : `of the force without vibration is left: ${digits(100 * (1 - ratio), 3)} % less.`;
   const [shaken, still] = ["drive_force_N", "static_drive_force_N"]
     .map((key) => readable(numbers[key].value, "N").join(" "));
   const entry = { ...numbers.ratio, equation: `${numbers.ratio.symbol} = ${shaken} / ${still}` };
   return html`<div class="headline">
-    <p class="large"><${Num} entry=${entry} count=${4} /></p>
+    <p class="large">${loose ? "(" : null}<${Num} entry=${entry} count=${4} />${loose ? ")" : null}</p>
     <p><span role="status">${says}</span><br />
       <${Num} entry=${numbers.drive_force_N} label /> of
       ${" "}<${Num} entry=${numbers.static_drive_force_N} />${" "}

@@ -20,6 +20,8 @@ const LOOK = 1000;
 const SLOW = 504;
 /** The least that a point of many takes, s. */
 const LEAST = 5e-4;
+/** The variable that says which points have settled. */
+const SETTLED = "settled";
 /** The most points of an axis. */
 const MOST = 500;
 
@@ -154,7 +156,8 @@ function useSoFar({ id, job }) {
     (async () => {
       const names = overAll(await get(path, leave));
       const name = [wanted, SLIDE.shown, GEAR.shown, names[0]?.[0]].find((each) => names.some(([key]) => key === each));
-      setKnown({ id, names, name, data: await get(`${path}?names=${name}`, leave) });
+      const wants = names.some(([key]) => key === SETTLED) ? `${name},${SETTLED}` : name;
+      setKnown({ id, names, name, data: await get(`${path}?names=${wants}`, leave) });
       if (state === "running") again();
     })().catch((error) => error.name === "AbortError" || again());
     return () => {
@@ -171,7 +174,14 @@ function Found({ name, names, data }) {
   const title = names.find(([key]) => key === name)[1];
   const [down, across] = dims.map((dim) =>
     ({ label: words(dim), unit: plain(data[dim]?.units), values: data[dim]?.values ?? [] }));
-  return across ? html`<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across} values=${values} />`
-    : html`<${Plot} title=${title} x=${down} height=${340}
-      series=${[{ label: title, unit: plain(units), values, points: "round" }]} />`;
+  const loose = values.map((value, at) => value !== null && data[SETTLED]?.values[at] === 0);
+  const count = loose.filter(Boolean).length;
+  const says = count ? html`<p role="status">${count} of ${values.length} points
+    ${count === 1 ? "has" : "have"} not settled: no prediction.</p>` : null;
+  const marks = count ? [{ label: "not settled", unit: plain(units), points: "square",
+    bare: true, values: values.map((value, at) => (loose[at] ? value : null)), colour: 6 }] : [];
+  return across ? html`${says}<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across}
+      values=${values} />`
+    : html`${says}<${Plot} title=${title} x=${down} height=${340}
+      series=${[{ label: title, unit: plain(units), values, points: "round" }, ...marks]} />`;
 }

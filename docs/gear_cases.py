@@ -1,0 +1,168 @@
+"""Worm gearsets of others, and how far the numbers that rate them can be trusted.
+
+Sources: a catalogue of worm gearboxes of the NMRV kind (rated torques and efficiencies at 1400
+rpm; its starts and teeth, and a worm of 0.43 centre distances, are from memory); R. Mott, Machine
+Elements in Mechanical Design, 4th edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal,
+Machine Design, example 28-2.
+"""
+
+import importlib
+import math
+import pkgutil
+import tomllib
+from pathlib import Path
+from typing import NamedTuple
+
+import asperity.rating
+from asperity.errors import InputError
+from asperity.gearset import Gearset
+from asperity.gearset.library import Sourced, every
+from asperity.gearset.lubricants import BaseOil, Lubricant
+from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial
+from asperity.rating import Operation, rate
+
+STARTS = {7.5: 4, 15: 2, 30: 1, 40: 1, 50: 1, 60: 1, 80: 1, 100: 1}
+"""By ratio, from memory."""
+
+# Centre distance in mm, ratio, rated torque in N m and efficiency of the gearbox in percent.
+CATALOGUE = (
+    (63, 7.5, 129, 88.0), (63, 15, 139, 82.1), (63, 30, 164, 72.9), (63, 40, 141, None),
+    (63, 50, None, 65.0), (63, 60, 126, 62.2), (63, 80, None, 56.0), (63, 100, 113, 51.1),
+    (30, 60, 13, None),
+)  # fmt: skip
+# Where the torque is not at hand, one between its neighbours.
+_BETWEEN = {50: 133.0, 80: 119.0}
+
+
+class Position(NamedTuple):
+    """A position of a catalogue and what the standards have for it; None without an answer."""
+
+    centre_distance: float
+    ratio: float
+    torque: float | None
+    efficiency: float | None
+    bs_wear: float | None
+    agma_torque: float | None
+    bs_teeth: float | None
+    iso_gearbox: float | None
+
+
+def catalogue():
+    """Yield each position with the torque that BS 721 and AGMA 6034 permit for 12,000 h."""
+    for distance, ratio, torque, efficiency in CATALOGUE:
+        found = _rated(distance, ratio, torque or _BETWEEN[ratio])
+        yield Position(
+            distance,
+            ratio,
+            torque,
+            efficiency,
+            _number(found.bs721, "M_w_Nm"),
+            _number(found.agma6034, "allowable_torque_Nm"),
+            _number(found.bs721, "eta", 100.0),
+            _number(found.iso14521, "eta_ges", 100.0),
+        )
+
+
+def _rated(distance, ratio, torque):
+    worm = 0.43 * distance
+    teeth = round(STARTS[ratio] * ratio)
+    module = (2.0 * distance - worm) / teeth
+    gearset = Gearset(
+        starts=STARTS[ratio], wheel_teeth=teeth, centre_distance=f"{distance} mm",
+        axial_module=f"{module} mm", diameter_factor=worm / module,
+        worm_material="case-hardened steel", wheel_material="CuSn12-C-GZ",
+    )  # fmt: skip
+    operation = Operation(
+        worm_speed="1400 rpm", output_torque=f"{torque} N m", life="12000 h",
+        lubricant="ISO VG 320 polyglycol",
+    )  # fmt: skip
+    return rate(gearset, operation)
+
+
+def _number(rating, key, times=1.0):
+    return None if rating is None or key not in rating else times * float(rating[key])
+
+
+def mott():
+    """Yield Mott's example of rating, as the book has it and as AGMA 6034 here."""
+    inch, capacity = {"units": "inch"}, asperity.rating.agma6034.capacity
+    wheel, worm = 8.667, 2.0
+    lead = math.atan(3 / 6.0 / worm)
+    sliding = asperity.rating.agma6034.mesh.sliding_velocity(worm, lead, 1750.0, **inch)
+    found = (
+        capacity.materials_factor(0.5 * (wheel + worm), wheel, "sand", **inch),
+        capacity.ratio_correction_factor(52 / 3),
+        capacity.velocity_factor(sliding, **inch),
+    )
+    load = capacity.allowable_tangential_load(found[0], wheel, 1.25, *found[1:], **inch)
+    names = "materials factor C_s", "ratio factor C_m", "velocity factor C_v", "rated load, lbf"
+    yield from zip(names, (740.0, 0.814, 0.265, 1123.0), (*found, load), strict=True)
+
+
+class Trust(NamedTuple):
+    """How many numbers of a kind are verified, of one source, and from memory."""
+
+    kind: str
+    verified: int
+    one_source: int
+    from_memory: int
+
+
+def trust():
+    """Yield how far the numbers can be trusted, counted where they stand."""
+    yield _tables_of_bs721()
+    kinds = {
+        "wheel materials": WheelMaterial, "worm materials": WormMaterial, "steels": Steel,
+        "base oils": BaseOil, "oils": Lubricant,
+    }  # fmt: skip
+    for kind, model in kinds.items():
+        yield _counted(kind, [s for thing in every(model) for s in _sources(model, thing)])
+    for kind in ("iso14521", "bs721", "agma6034"):
+        found = {f.symbol + f.equation: f.source for f in _formulas(kind)}
+        yield _counted(f"formulas of {kind}", [s.confidence for s in found.values() if s])
+
+
+def _tables_of_bs721():
+    path = Path(asperity.rating.__file__).parent / "data" / "bs721.toml"
+    all_, checked = 0, 0
+    for table in tomllib.loads(path.read_text("utf-8")).values():
+        checked += sum(map(len, table.get("checked", {}).values()))
+        kept = {k: v for k, v in table.items() if k not in ("checked", "x", "diameter_factor")}
+        all_ += _count_numbers(kept)
+    return Trust("tables of BS 721", 0, checked, all_ - checked)
+
+
+def _count_numbers(value):
+    if isinstance(value, dict):
+        return sum(map(_count_numbers, value.values()))
+    if isinstance(value, list):
+        return len(value)
+    return int(isinstance(value, int | float) and not isinstance(value, bool))
+
+
+def _sources(model, thing):
+    for key in model.model_fields.keys() - Sourced.model_fields.keys():
+        value = getattr(thing, key, None)
+        if isinstance(value, int | float | dict) and not isinstance(value, bool):
+            count = len(value) if isinstance(value, dict) else 1
+            try:
+                yield from [thing.source(key).confidence] * count
+            except (InputError, KeyError):
+                continue
+    if model is Steel:
+        yield thing.source("number").confidence
+
+
+def _counted(kind, confidences):
+    words = "verified", "one source", "from memory"
+    return Trust(kind, *(sum(one == word for one in confidences) for word in words))
+
+
+def _formulas(kind):
+    package = importlib.import_module(f"asperity.rating.{kind}")
+    for module in pkgutil.iter_modules(package.__path__):
+        here = importlib.import_module(f"{package.__name__}.{module.name}")
+        for one in vars(here).values():
+            made = hasattr(one, "equation") and hasattr(one, "source")
+            if made and getattr(one, "__module__", "") == here.__name__:
+                yield one

@@ -1,0 +1,52 @@
+r"""How the means of a march still change: by what fades, from the quarters of its window.
+
+What fades as :math:`e^{-t/\tau}` leaves, of means :math:`a, b, c, d` over the quarters,
+:math:`(d - b)/(c - a)` of a change a quarter on.
+"""
+
+import itertools
+import math
+from collections.abc import Sequence
+
+_FADES = 0.98  # what is left of a change after a quarter of the window, if it fades at all
+_ROUNDING = 1e-5  # of mu F_N: smaller changes are not looked at
+
+
+def quarters_in_time(means: Sequence[float]) -> float | None:
+    """Return how many quarters of the window the time constant is; None where nothing fades."""
+    first, second, third, fourth = means
+    if third == first:
+        return None
+    left = (fourth - second) / (third - first)
+    return -1.0 / math.log(left) if 0.0 < left < _FADES else None
+
+
+def apart(windows: float) -> float:
+    """Return what a fading change makes the halves of a window differ by, of its start.
+
+    The window is so many time constants long.
+    """
+    half = 0.5 * windows
+    return math.expm1(-half) ** 2 / half
+
+
+def mean_left(windows: float) -> float:
+    """Return what is left of a fading change in the mean over a window, of its start."""
+    return -math.expm1(-windows) / windows
+
+
+def still_to_come(means: Sequence[float]) -> float:
+    """Return how far a mean is from where it goes to, over mu F_N; 0 where nothing fades steadily.
+
+    Steadily: from quarter to quarter in the same direction, and less each time.
+    """
+    steps = [after - before for before, after in itertools.pairwise(means)]
+    steady = all(step * steps[0] > 0.0 for step in steps) and (
+        abs(steps[0]) > abs(steps[1]) > abs(steps[2])
+    )
+    quarters = quarters_in_time(means)
+    change = abs(0.5 * (means[2] + means[3] - means[0] - means[1]))
+    if not steady or quarters is None or change < _ROUNDING:
+        return 0.0
+    windows = 4.0 / quarters
+    return change / apart(windows) * mean_left(windows)

@@ -1,0 +1,113 @@
+"""What duration a march would have settled in, from how its means change in the window."""
+
+import math
+from collections.abc import Sequence
+
+from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
+from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.timetable import (
+    FAR,
+    UNSTEADY,
+    WAYS,
+    Timetable,
+    bending,
+    still_grows,
+    still_to_bend,
+)
+
+_LEFT = 0.5  # of what is steady enough, that a change shall have come down to
+_SPARE = 1.2
+_NEXT, _MOST_TRIED = 1.02, 400
+
+
+def needed(
+    model: Model, table: Timetable, means: Sequence[float], residual: float, *, broke: bool
+) -> float | None:
+    r"""Return the duration in s that a march needs to settle; None where none is foreseen.
+
+    Parameters
+    ----------
+    model : Model
+        The body, with the duration it was marched for.
+    table : Timetable
+        Its steps.
+    means : sequence of float
+        Of the drive force over :math:`\mu F_N` in the four quarters of the window.
+    residual : float
+        How far the halves are apart.
+    broke : bool
+        Whether it has broken away.
+    """
+    slider = model.slider
+    window = model.window / WINDOW_SHARE
+    least = [1.0 * model.duration]
+    if (bent := bending(model)) > 0.0:
+        least.append(_SPARE * WAYS * bent / slider.drive_velocity)
+    if still_grows(model, table):
+        least.append(max(model.start + model.ramp + model.window, model.start + window))
+    loaded = model.start + _loading(model) + window
+    if not (broke or model.vibrates or slider.rigid):
+        least.append(loaded)
+    if residual > UNSTEADY or still_to_come(means) > FAR:
+        fading = _fading(model, table, means, residual)
+        if fading is not None:
+            least.append(fading)
+        elif loaded > model.duration:
+            least.append(loaded)
+        elif len(least) == 1:
+            return None
+    if (far := still_to_bend(model, table, residual)) > FAR:
+        least.append(model.start + (model.duration - model.start) * far / (_LEFT * FAR))
+    longest = max(least)
+    return longest if longest > model.duration else None
+
+
+def _loading(model: Model) -> float:
+    """Time in which the drive is stretched to what friction holds, s."""
+    slider, friction = model.slider, model.friction
+    if slider.drive_stiffness is None:
+        return 0.0
+    held = (friction.static_mu or friction.mu) * slider.normal_force
+    return _SPARE * held / (slider.drive_stiffness * slider.drive_velocity)
+
+
+def _fading(
+    model: Model, table: Timetable, means: Sequence[float], residual: float
+) -> float | None:
+    r"""Duration in which the change of the means fades, s; None where it does not.
+
+    A change :math:`e^{-t/\tau}` makes the halves of a window of length :math:`2\tau h` differ by
+    :math:`(1 - e^{-h})^2/h` of what it is at the window's start.
+    """
+    quarters = quarters_in_time(means)
+    if quarters is None:
+        return None
+    window = table.window * table.step
+    tau = 0.25 * window * quarters
+    begin = model.duration - window
+    change = residual / apart(window / tau)
+    duration = model.duration
+    for _ in range(_MOST_TRIED):
+        duration *= _NEXT
+        longer = min(model.window, WINDOW_SHARE * (duration - model.start))
+        later = duration - longer - begin
+        left = change * math.exp(-later / tau)
+        windows = longer / tau
+        if (
+            later > 0.0
+            and left * apart(windows) <= _LEFT * UNSTEADY
+            and left * mean_left(windows) <= _LEFT * FAR
+        ):
+            return model.duration + _SPARE * (duration - model.duration)
+    return None
+
+
+def advice(duration: float | None) -> str:
+    """Say what duration would do."""
+    if duration is None:
+        return (
+            "no solve.duration is foreseen that would do: solve.method 'periodic' looks for a "
+            "state that lasts"
+        )
+    digit = 10.0 ** (math.floor(math.log10(duration)) - 1)
+    return f"a solve.duration of {math.ceil(duration / digit) * digit:.3g} s would do, by the means"

@@ -1,0 +1,86 @@
+"""Drives under vibration against a plain model of two to three freedoms.
+
+The model (`apparatus.plain_drive`) has equations of its own: rates of Coulomb's, Dahl's and LuGre's
+friction, powers between the points of the contact, leapfrog in steps some tens of times shorter.
+"""
+
+import re
+
+import numpy as np
+import pytest
+from apparatus import random_drives
+from apparatus.drives import solved
+from apparatus.random_drives import CIRCLE, settings
+
+SEED = 1967
+RATIO, POWERS = 3e-3, 5e-3
+# A march that hammers falls into its period sooner or later by chance: where one of both has and
+# the other has not, both are given so many times as long.
+LONGER = 4
+
+
+def compared(drive, *more, longer=1):
+    """Return the answers of both, and by how much ratio and powers are apart."""
+    answer = solved(*settings(drive), *more)
+    cycles = answer.course.cycle_end.size
+    blocks = re.search(r"three blocks of (\d+) cycles agree", answer.settled_by)
+    judged = 3 * int(blocks[1]) if blocks else cycles // 2 // 3 * 3
+    plain = random_drives.solved(drive, longer * cycles, judged)
+    power = answer.torque_static * drive["speed"]
+    powers = {
+        name: getattr(answer.ledger, name) / power
+        for name in ("drive", "actuator", "load", "friction")
+    }
+    most = max(1.0, *map(abs, powers.values()))
+    apart = max(abs(powers[name] - plain[name]) for name in powers) / most
+    return answer, plain, abs(answer.torque_ratio - plain["ratio"]), apart
+
+
+def agree(drive):
+    answer, plain, ratio, powers = compared(drive)
+    if answer.settled != (plain["off"] <= 1.0):
+        seconds = LONGER * float(answer.course.cycle_end[-1])
+        given = f"solve.duration={seconds!r} s"
+        answer, plain, ratio, powers = compared(
+            drive, given, longer=LONGER if answer.settled else 1
+        )
+    assert answer.settled == (plain["off"] <= 1.0), drive
+    if not answer.settled:
+        return
+    assert ratio <= RATIO * max(1.0, answer.torque_ratio), drive
+    assert powers <= POWERS, drive
+
+
+@pytest.mark.parametrize(("law", "mode"), [("dahl", "torsional"), ("lugre", "axial")])
+def test_a_drive_is_that_of_the_plain_model(law, mode):
+    agree(DRIVE | {"law": law, "mode": mode, "viscous": 10.0 * (law == "lugre")})
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(over="part")
+@pytest.mark.parametrize("part", range(15))
+def test_random_drives_are_those_of_the_plain_model(part):
+    for number in range(10 * part, 10 * part + 10):
+        agree(random_drives.drawn(np.random.default_rng([SEED, number])))
+
+
+DRIVE = {
+    "mode": "axial", "place": "worm", "wave": "sine", "frequency": 10e3, "amplitude": 4e-6,
+    "law": "coulomb", "mu": 0.2, "slip": 7e-8, "rate": 0.0, "viscous": 0.0, "compliance": 0.0,
+    "damping": 0.01, "inertia": 3.2e-3, "worm_inertia": 5e-6, "worm_mass": 0.3, "load": 450.0,
+    "speed": 20.0, "torsion": 4394.0, "bearing": 0.0, "damping_ratio": 0.03,
+}  # fmt: skip
+
+
+def test_axial_vibration_of_brittle_flanks_can_save_energy_without_a_loss_of_contact():
+    # It was held for a law that axial and torsional vibration buy torque, not energy.
+    speed = DRIVE["speed"] * CIRCLE / np.cos(np.arctan2(4.0, 8.4))
+    amplitude = float(1.2 * speed / (2.0 * np.pi * DRIVE["frequency"]))
+    drive = DRIVE | {"amplitude": amplitude, "compliance": 2.9e-9}
+    answer, plain, ratio, powers = compared(drive)
+    assert answer.settled
+    assert answer.open_share == plain["open"] == 0.0
+    assert answer.energy_ratio < 0.94
+    assert plain["drive"] + plain["actuator"] == pytest.approx(answer.energy_ratio, abs=1e-3)
+    assert ratio < 1e-3
+    assert powers < 1e-3

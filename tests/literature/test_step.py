@@ -1,0 +1,229 @@
+"""The error that the time step makes: on the corners of waves, through sticking, law by law.
+
+Closed form: rigid friction under a square wave across the drive has the full share while the wave
+dwells and 1/sqrt(1 + k^2) of it on the flanks, for a share 2 r of the period. Orders are measured
+on periodic states, from 300 to 2400 steps a cycle against 16,000.
+"""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from apparatus.grid import slow
+
+from asperity.friction import Friction
+from asperity.normal import Normal
+from asperity.slider import solve
+from asperity.slider.batch import solve_many
+from asperity.slider.model import Model
+from asperity.slider.parameters import Slider, Solve
+from asperity.slider.periodic import cycle_steps, solve_periodic
+from asperity.slider.step_error import WANTED
+from asperity.vibration import Vibration
+
+RIGID = {"drive_velocity": 0.5e-3, "normal_force": 55.0}
+GUIDED = RIGID | {"mass": 0.5, "drive_stiffness": 96068.0, "lateral": "guided"}
+FREE = GUIDED | {"drive_damping": 100.0, "lateral": "free"}
+DAMPED = GUIDED | {"drive_damping": 400.0}
+COULOMB = {"model": "coulomb", "mu": 0.1}
+DAHL = {"model": "dahl", "mu": 0.1, "max_deflection": 1.15e-6}
+LUGRE = DAHL | {
+    "model": "lugre", "static_mu": 0.12, "stribeck_velocity": 1e-3, "contact_damping": 20.0,
+}  # fmt: skip
+SINE = {"frequency": 4000.0, "velocity_ratio": 6.0, "direction": 0.7}
+SQUARE = SINE | {"waveform": "square", "rise_time": 0.2 / 4000.0}
+TRIANGLE = SINE | {"waveform": "triangle"}
+BALL = {"law": "hertz", "stiffness": 3e7, "damping_ratio": 0.05}
+
+
+def body(slider=RIGID, friction=COULOMB, vibration=SINE, normal=None, **asked):
+    return Model(
+        Slider(**slider, units="SI"),
+        Friction(**friction, units="SI"),
+        Vibration(**vibration, units="SI"),
+        Solve(**({"method": "periodic"} | asked), units="SI"),
+        None,
+        Normal(**normal, units="SI") if normal else None,
+    )
+
+
+def across(rise, k=20.0, frequency=4000.0):
+    return {
+        "waveform": "square", "rise_time": rise / frequency, "frequency": frequency,
+        "velocity_ratio": k, "direction": math.pi / 2,
+    }  # fmt: skip
+
+
+def left_across(rise, k=20.0):
+    return 1.0 - 2.0 * rise + 2.0 * rise / math.hypot(1.0, k)
+
+
+@pytest.mark.parametrize("rise", [0.333, 0.071, 0.2137, 0.4871])
+def test_a_square_wave_across_a_rigid_drive_leaves_what_its_closed_form_says(rise):
+    answer = solve(body(vibration=across(rise)), history=False)
+    assert answer.ratio == pytest.approx(left_across(rise), abs=2e-5)
+
+
+def test_a_march_ends_its_steps_on_corners_wherever_the_vibration_starts():
+    wave = across(0.333) | {"start": 1.23456e-3}
+    answer = solve(body(vibration=wave, method="march", duration=0.02), history=False)
+    assert answer.ratio == pytest.approx(left_across(0.333), abs=1e-4)
+
+
+def test_steps_of_any_square_wave_end_on_its_corners():
+    rng = np.random.default_rng(7)
+    for rise in rng.uniform(0.01, 0.5, 50):
+        model = body(GUIDED, DAHL, across(rise))
+        steps = 1.0 / (model.frequency * model.step)
+        assert steps == pytest.approx(round(steps), abs=1e-6)
+        assert abs(model.wave(model.step).rise - rise) < 4e-4
+        corner = 0.5 * model.wave(model.step).rise * steps
+        assert corner == pytest.approx(round(corner), abs=1e-6)
+
+
+def test_steps_of_a_sine_are_those_asked_for():
+    assert body().step == 1.0 / (500 * 4000.0)
+    assert body(step=1.7e-6).step == 1.7e-6
+
+
+def test_coulomb_friction_in_the_plane_keeps_order_two_through_sticking():
+    slider = {
+        "drive_velocity": 0.0005784875899689136, "normal_force": 28.0580007065706,
+        "mass": 0.15124105864253434, "drive_stiffness": 279948.40114346496,
+        "drive_damping": 177.43141096515828, "lateral": "free",
+    }  # fmt: skip
+    vibration = {
+        "frequency": 487.76655071792425, "velocity_amplitude": 0.00530944230389119,
+        "direction": math.radians(84.92491601848904),
+    }  # fmt: skip
+    friction = {"model": "coulomb", "mu": 0.23666459770412968}
+    answers = [
+        solve(body(slider, friction, vibration, step=1.0 / (487.77 * n)), history=False).ratio
+        for n in (1000, 2000, 8000)
+    ]
+    assert answers[0] == pytest.approx(0.965149, abs=5e-5)
+    coarse, fine = (abs(ratio - answers[2]) for ratio in answers[:2])
+    assert fine < 0.35 * coarse < 1e-6
+
+
+@functools.cache
+def _reference(slider, friction, vibration, normal):
+    tables = [dict(table) for table in (slider, friction, vibration)]
+    model = body(*tables, dict(normal) or None, step=1.0 / (4000.0 * 16000))
+    return solve_periodic(model, history=False, judged=False).ratio
+
+
+def order_of(slider, friction, vibration, normal=None):
+    """Order in which the ratio converges, and its relative error at 300 steps a cycle."""
+    tables = (slider, friction, vibration, normal or {})
+    truth = _reference(*(tuple(table.items()) for table in tables))
+    steps, errors = [], []
+    for count in np.unique(np.geomspace(300, 2400, 8).astype(int)):
+        model = body(slider, friction, vibration, normal, step=1.0 / (4000.0 * count))
+        steps.append(cycle_steps(model))
+        errors.append(abs(solve_periodic(model, history=False, judged=False).ratio - truth))
+    return -np.polyfit(np.log(steps), np.log(errors), 1)[0], errors[0] / abs(truth)
+
+
+@pytest.mark.parametrize("wave", [SINE, slow(SQUARE), slow(TRIANGLE)])
+@pytest.mark.parametrize("exponent", [1.0, slow(3.25)])
+def test_dahl_friction_of_the_law_vector_is_of_order_two_at_corners_too(exponent, wave):
+    order, coarse = order_of(GUIDED, DAHL | {"law": "vector", "exponent": exponent}, wave)
+    assert order == pytest.approx(2.0, abs=0.1)
+    assert coarse < 3e-5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("wave", [SINE, SQUARE, TRIANGLE])
+@pytest.mark.parametrize("exponent", [1.0, 3.25])
+@pytest.mark.parametrize("law", ["split", "unsplit"])
+def test_split_and_unsplit_are_of_order_two_more_or_less(law, exponent, wave):
+    order, coarse = order_of(GUIDED, DAHL | {"law": law, "exponent": exponent}, wave)
+    assert 1.1 < order < 3.0
+    assert coarse < 5e-5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["vector", "split", "unsplit"])
+def test_exponent_0_is_of_order_one_at_corners(law):
+    order, coarse = order_of(GUIDED, DAHL | {"law": law, "exponent": 0.0}, TRIANGLE)
+    assert order == pytest.approx(1.0, abs=0.15)
+    assert coarse < 1e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("wave", "expected"), [(SINE, 2.0), (SQUARE, 1.0), (TRIANGLE, 1.0)])
+def test_lugre_friction_is_of_order_two_and_of_one_at_corners(wave, expected):
+    order, coarse = order_of(GUIDED, LUGRE, wave)
+    assert order == pytest.approx(expected, abs=0.15)
+    assert coarse < 1e-4
+
+
+@pytest.mark.parametrize(("slider", "wave"), [(GUIDED, SQUARE), slow(FREE, SQUARE)])
+def test_coulomb_friction_is_of_order_two_between_corners(slider, wave):
+    order, coarse = order_of(slider, COULOMB, wave)
+    assert order == pytest.approx(2.0, abs=0.1)
+    assert coarse < 3e-5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("wave", "expected"), [(SINE, 2.0), (SQUARE, 1.0)])
+def test_under_a_load_that_changes_the_order_is_two_and_one_at_corners(wave, expected):
+    order, coarse = order_of(GUIDED, DAHL, wave | {"elevation": 0.5}, BALL)
+    assert order == pytest.approx(expected, abs=0.15)
+    assert coarse < 3e-5
+
+
+def test_the_error_of_the_step_is_what_a_finer_step_shows():
+    for slider, friction in ((RIGID, COULOMB), (FREE, COULOMB), (GUIDED, DAHL)):
+        answer = solve(body(slider, friction, step=1.0 / (4000.0 * 300)), history=False)
+        tables = (slider, friction, SINE, {})
+        error = abs(answer.ratio - _reference(*(tuple(table.items()) for table in tables)))
+        assert answer.step_error == pytest.approx(error, rel=0.4)
+
+
+def test_a_march_tells_the_error_of_its_periodic_state():
+    step = 1.0 / (4000.0 * 300)
+    state = solve(body(DAMPED, DAHL, step=step), history=False)
+    march = solve(body(DAMPED, DAHL, method="march", step=step, duration=0.8), history=False)
+    assert march.step_error == pytest.approx(state.step_error, rel=0.2)
+
+
+LAZY = {
+    "drive_velocity": 0.44e-3, "normal_force": 246.0, "mass": 0.165, "lateral": "free",
+}  # fmt: skip
+AT_THE_LIMIT = {
+    "model": "dahl", "mu": 0.309, "max_deflection": 0.26e-6, "law": "unsplit", "exponent": 0.0,
+}  # fmt: skip
+FAST_ACROSS = {"frequency": 5606.0, "velocity_ratio": 16.6, "direction": math.pi / 2}
+
+
+def test_left_out_the_step_is_chosen_by_its_error_and_given_it_is_noted():
+    chosen = solve(body(LAZY, AT_THE_LIMIT, FAST_ACROSS), history=False)
+    assert chosen.model.finer > 1
+    assert chosen.step_error <= WANTED * chosen.ratio
+    step = 1.0 / (5606.0 * 500)
+    given = solve(body(LAZY, AT_THE_LIMIT, FAST_ACROSS, step=step), history=False)
+    assert given.model.finer == 1
+    assert given.step_error > WANTED * given.ratio
+    assert "give a solve.step of at most" in given.notes[-1]
+    assert abs(given.ratio - chosen.ratio) > WANTED * chosen.ratio
+
+
+def test_a_lane_tells_the_error_of_its_single_march():
+    models = [
+        body(RIGID, DAHL, SINE | {"velocity_ratio": k}, method="march", duration=0.1)
+        for k in (3.0, 6.0)
+    ]
+    for lane, model in zip(solve_many(models), models, strict=True):
+        alone = solve(model, history=False)
+        assert lane.step_error == pytest.approx(alone.step_error, rel=1e-3)
+
+
+def test_a_body_that_slides_steadily_owes_nothing_to_its_step():
+    model = Model(
+        Slider(**GUIDED, units="SI"), Friction(**DAHL, units="SI"),
+        solve=Solve(duration=0.5, units="SI"),
+    )  # fmt: skip
+    assert solve(model, history=False).step_error == pytest.approx(0.0, abs=1e-6)

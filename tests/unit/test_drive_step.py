@@ -1,0 +1,132 @@
+"""The step of a drive's march: what it makes wrong, how it is chosen, where it ends."""
+
+import numpy as np
+import pytest
+from apparatus.drives import problem, solved
+from apparatus.grid import slow
+from apparatus.random_drives import drawn, settings
+
+from asperity.drive.protocols.judgement import Judgement, steady_speed
+from asperity.drive.protocols.march import March
+from asperity.drive.protocols.setup import begin, system
+from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.reduction import reduction
+from asperity.runs import Run
+
+# 26 kHz on the worm: half a microsecond is a 76th of a cycle.
+FAST = (
+    "vibration.mode=torsional", "vibration.frequency=26 kHz", "vibration.waveform=triangle",
+    "vibration.displacement_amplitude=20 um", "friction.model=coulomb", "friction.mu=0.2",
+    "drive.tangential_compliance=0 m/N", "operation.output_torque=300 N m",
+)  # fmt: skip
+SMOOTH = "vibration.mode=wheel-axial", "vibration.frequency=20 kHz", "vibration.velocity_ratio=1.5"
+
+
+@pytest.mark.parametrize("way", [slow(FAST), slow(SMOOTH), ("vibration.velocity_ratio=1.5",)])
+def test_what_the_step_makes_wrong_is_what_steps_a_tenth_as_long_make_right(way):
+    coarse, fine = solved(*way, "solve.step=0.3 us"), solved(*way, "solve.step=0.03 us")
+    assert coarse.settled
+    assert fine.settled
+    off = abs(coarse.torque_ratio / fine.torque_ratio - 1.0)
+    assert 0.7 * off < coarse.step_error < 4.0 * off
+    assert fine.step_error < 0.3 * coarse.step_error
+
+
+def test_a_step_that_is_not_given_is_chosen_by_what_it_makes_wrong():
+    given, chosen = solved(*FAST, "solve.step=0.38 us"), solved(*FAST)
+    assert given.step_error > 1e-3
+    assert any("give a smaller solve.step, or none to have it chosen" in n for n in given.notes)
+    assert chosen.step_error < 1e-3
+    assert chosen.steps > given.steps
+    fine = solved(*FAST, "solve.step=0.02 us")
+    assert chosen.torque_ratio == pytest.approx(fine.torque_ratio, rel=1e-3)
+    scale = fine.torque_static * fine.problem.worm_speed
+    assert abs(chosen.ledger.friction - fine.ledger.friction) < 5e-3 * scale
+    assert not any("makes an error" in note for note in chosen.notes)
+
+
+def test_where_half_the_step_says_the_same_the_step_stays():
+    screw = ("vibration.velocity_ratio=1.5",)
+    one = solved(*screw)
+    assert one.step_error < 1e-3
+    assert one.steps == solved(*screw, f"solve.step={one.problem.step!r} s").steps
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(over="part")
+@pytest.mark.parametrize("part", range(10))
+def test_a_finer_step_changes_no_second_digit_of_a_random_drive(part):
+    for number in range(8 * part, 8 * part + 8):
+        drive = drawn(np.random.default_rng([1995, number]))
+        one = solved(*settings(drive))
+        if not one.settled:
+            continue
+        step = 1e9 * float(one.course.cycle_end[-1]) / one.steps
+        finer = solved(*settings(drive), f"solve.step={0.25 * step!r} ns")
+        if finer.settled:
+            assert one.torque_ratio == pytest.approx(finer.torque_ratio, rel=5e-3), drive
+
+
+@pytest.mark.parametrize(
+    ("wave", "corners"),
+    [
+        (("vibration.waveform=triangle",), (0.25, 0.75)),
+        (("vibration.waveform=square", "vibration.rise_time=0.1 ms"), (0.1, 0.4, 0.6, 0.9)),
+    ],
+)
+def test_steps_end_on_the_corners_of_a_waveform(wave, corners):
+    # Steps of 0.37 us, none of which would end on a corner by itself.
+    given = problem("vibration.velocity_ratio=1.2", *wave, "solve.step=0.37 us")
+    model = ReducedModel(given, reduction(given, Run()))
+    moving = system(given, model)
+    assert moving.corners == pytest.approx(corners)
+    march = March(model, moving, *begin(given, model, moving), Run())
+    met = []
+    for _ in range(14000):
+        before = float(march.states[0]["corner"])
+        march.stretches(1, 0.1e-6)
+        if march.states[0]["corner"] != before:
+            met.append(before)
+    cycles = np.array(met) * moving.frequency
+    expected = [n + phase for n in range(3) for phase in corners]
+    assert cycles == pytest.approx(expected[: len(met)], abs=1e-9)
+    assert len(met) > 2 * len(corners)
+
+
+def test_a_smooth_wave_has_no_corners():
+    given = problem("vibration.velocity_ratio=1.2")
+    moving = system(given, ReducedModel(given, reduction(given, Run())))
+    assert moving.corners.size == 0
+
+
+def test_a_wheel_that_does_not_turn_with_the_worm_has_not_settled():
+    good = Judgement.of(spread=1e-3, balance=1e-3, stored=1e-3, turned=1e-3, cycles=36)
+    assert good.settled
+    assert "three blocks of 12 cycles agree" in good.said("torque ratio")
+    slow = Judgement.of(spread=1e-4, balance=1e-4, stored=1e-4, turned=-0.033, cycles=36)
+    assert not slow.settled
+    assert slow.said("torque ratio").startswith("the wheel turns 3.3 % slower than with the worm")
+
+
+def test_what_a_march_settled_by_or_lacks_is_told_and_what_its_duration_would_do():
+    one = solved("vibration.velocity_ratio=1.5")
+    assert one.settled
+    assert "turns with the worm" in one.settled_by
+    hammering = solved(
+        "vibration.mode=axial", "vibration.frequency=7.5 kHz",
+        "vibration.displacement_amplitude=160 um", "solve.duration=10 ms",
+    )  # fmt: skip
+    assert not hammering.settled
+    assert "spreads by" in hammering.settled_by
+    assert "duration" in hammering.settled_by
+    assert hammering.step_error is None
+    assert any(note == f"aperiodic: {hammering.settled_by}" for note in hammering.notes)
+
+
+def test_a_wheel_that_rings_without_creeping_has_no_speed():
+    time = np.full(480, 1e-5)
+    place = 1e-6 * np.sin(2.0 * np.pi * 3.1e3 * np.cumsum(time))
+    ringing = np.diff(place, prepend=0.0)
+    assert abs(ringing.sum() / time.sum()) > 1e-5
+    assert abs(steady_speed(ringing, time)) < 1e-6
+    assert steady_speed(ringing + 0.2 * time, time) == pytest.approx(0.2, rel=1e-5)
