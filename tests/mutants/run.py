@@ -89,10 +89,14 @@ class Copy:
             if code is None:
                 return None
             if code == _NO_SUCH_TEST and (gone := set(_NOT_FOUND.findall(output))):
-                left = [test for test in tests if not gone & {test, test.partition("::")[0]}]
+                names = [
+                    {test, *(test.partition(sign)[0] for sign in ("[", "::"))} for test in tests
+                ]
+                left = [test for test, own in zip(tests, names, strict=True) if not gone & own]
                 if len(left) < len(tests):
                     tests = left
                     continue
+                raise RuntimeError(f"tests that nobody asked for are not found: {gone}")
             if code in (0, _NONE_CHOSEN):
                 return ""
             failed = _FAILED.search(output)
