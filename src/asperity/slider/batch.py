@@ -1,6 +1,7 @@
 """Many bodies at once: compiled batches of those that can march in one, one by one otherwise."""
 
 import dataclasses
+import functools
 import math
 import time
 from collections.abc import Iterator, Sequence
@@ -118,6 +119,7 @@ def solve_many(
         One for each model; the exception of a body that could not be solved stands in its place.
     """
     flag = stop if stop is not None else np.zeros(1, dtype=np.int64)
+    by_itself = functools.partial(march, history=False, stop=flag)
     answers: list[SlideResult | AsperityError | None] = [None] * len(models)
     groups: dict[tuple[object, ...], list[tuple[int, Timetable]]] = {}
     alone: list[int] = []
@@ -141,7 +143,9 @@ def solve_many(
                 continue
             solved = _march([models[i] for i, _ in batch], [t for _, t in batch], flag)
             for (index, _), answer in zip(batch, solved, strict=True):
-                answers[index] = _refined(models[index], answer, flag)
+                if not isinstance(answer, AsperityError):
+                    answer = refined(models[index], by_itself, answer)
+                answers[index] = answer
     for index in alone:
         if flag[0]:
             raise Stopped
@@ -150,22 +154,6 @@ def solve_many(
         except AsperityError as error:
             answers[index] = error
     return [answer for answer in answers if answer is not None]
-
-
-def _refined(
-    model: Model, answer: SlideResult | AsperityError, flag: np.ndarray
-) -> SlideResult | AsperityError:
-    """Return the answer of a body with a step that makes no great error, marched on its own."""
-    if isinstance(answer, AsperityError):
-        return answer
-
-    def once(finer: Model) -> SlideResult:
-        return march(finer, history=False, stop=flag)
-
-    if not answer.settled and model.solve.duration is None:
-        # It goes on until it has settled, by itself.
-        return march(model, history=False, stop=flag)
-    return refined(model, once, answer)
 
 
 def fits_batch(model: Model) -> bool:
