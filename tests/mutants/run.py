@@ -32,18 +32,18 @@ _NOT_FOUND = re.compile(r"^ERROR: (?:file or directory )?not found: .*?(tests/.*
 _NO_SUCH_TEST, _NONE_CHOSEN = 4, 5
 
 _MEMORY = 8 * 2**30
-_FIRST = 24  # tests that are tried first
+_FIRST = 26  # tests that are tried first
 
 
 class Copy:
     """A copy of the package in which a line at a time is broken, with a cache of its own."""
 
-    def __init__(self, folder: Path, source: Path = sites.SOURCE) -> None:
-        self.source = source
+    def __init__(self, folder: Path, cache: Path | None = None) -> None:
+        self.source = source = sites.SOURCE
         self.package = folder / "src" / "asperity"
         shutil.copytree(source / "asperity", self.package)
         (folder / "cases").symlink_to(source.parent / "cases")
-        self._cache = folder / "cache"
+        self._cache = cache or folder / "cache"
         self._environment = os.environ | {
             "PYTHONPATH": str(self.package.parent),
             "ASPERITY_CACHE": str(self._cache),
@@ -215,7 +215,7 @@ def _try(mutants, longest):
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     passed, failing = {line["by"] for line in results().values()}, set()
     with tempfile.TemporaryDirectory() as folder:
-        copy = Copy(Path(folder))
+        copy = Copy(Path(folder), RESULTS.parent / "cache")
         for mutant in mutants:
             line = tried(copy, mutant, longest, failing)
             # A test that fails of itself has noticed nothing.
