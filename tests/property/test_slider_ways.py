@@ -244,7 +244,9 @@ def test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies(tmp_path, metho
 @pytest.mark.parametrize("part", range(8))
 @pytest.mark.parametrize("method", ["march", "periodic", "homogenised"])
 def test_a_vibration_of_nothing_changes_nothing(tmp_path, method, part):
-    assert check_that_nothing_changes((7, part), 25, tmp_path, method) >= 8
+    # Many a march is too short to settle.
+    least = {"march": 3, "periodic": 15, "homogenised": 5}[method]
+    assert check_that_nothing_changes((7, part), 25, tmp_path, method) >= least
 
 
 @pytest.mark.slow
