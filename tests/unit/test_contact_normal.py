@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from asperity.contact.elastic import ElasticMaterial, condense
-from asperity.contact.increment import IncrementProblem, IncrementSolver
+from asperity.contact.increment import IncrementProblem, IncrementSolver, newton
+from asperity.contact.increment.equations import Increment
+from asperity.contact.increment.multipliers import classical, multiplier_tangent
+from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
 from asperity.contact.interface.normal import NormalLaw, augmented_overclosure, pressure
 from asperity.contact.interface.rigid import Pose, RigidSurface
 from asperity.contact.interface.surface import contact_surface
@@ -211,3 +214,50 @@ def test_other_laws_have_one_slope(name):
     law = NormalLaw(name, 1e14)
     assert law.slope_at(5e4) == 1e14
     assert law.overclosure(5e4) == (5e-10 if name == "linear" else 0.0)
+
+
+def test_a_newton_step_takes_account_of_the_multipliers_that_end():
+    # What bears under a ball that is drawn back a little: at the rim multipliers end, and the body
+    # comes forth there, which closes what the others leave open.
+    mesh = box((6 * SIZE, 6 * SIZE, 4 * SIZE), (6, 6, 4), 1)
+    body = condense(mesh, ElasticMaterial(E, 0.3, 7850.0), "bottom", tied="top", use_cache=False)
+    law = NormalLaw("hard", 10 * E / SIZE)
+    problem = IncrementProblem(body.flexibility, contact_surface(mesh, "bottom"),
+                               RigidSurface.sphere(RADIUS), law)  # fmt: skip
+    solver = IncrementSolver(problem)
+    state = move_to(solver, BALL, DEEP).contact.state
+    motion = SurfaceMotion(BALL.at(DEEP), Drift.between(BALL.at(DEEP), BALL.at(DEEP)))
+
+    def overclosure(corner):
+        """Integrated about the corners, for multipliers at them."""
+        given = state.committed(problem.from_corners @ corner)
+        increment = Increment(problem, np.zeros(3 * problem.nodes), motion.numbers(), given)
+        trial, _ = newton.solve(increment, state.traction)
+        over = -trial.points.distance.reshape(problem.surface.weights.shape)
+        return problem.from_corners.T @ problem.surface.to_forces(over), trial
+
+    known = state.multiplier[problem.corners]
+    bearing = np.flatnonzero(known > 0.0)
+    ended = bearing[np.argsort(known[bearing])[:3]]
+    rest = np.setdiff1d(bearing, ended)
+    # A little pressure at the rim that has to end, and the others as they are without overclosure.
+    corner = known.copy()
+    corner[ended] = 0.0
+    for _ in range(4):
+        _, trial = overclosure(corner)
+        updated = np.where(corner > 0.0, classical(problem, trial, corner), 0.0)
+        corner = multiplier_tangent(problem, trial, corner, updated).applied(
+            problem, corner, updated
+        )
+    settled = np.abs(overclosure(corner)[0][rest]).max()
+    held = corner.copy()
+    held[ended] = 1e-3 * corner.max()
+    before, trial = overclosure(held)
+    updated = np.where(np.isin(np.arange(held.size), rest), classical(problem, trial, held), 0.0)
+    after = multiplier_tangent(problem, trial, held, updated).applied(problem, held, updated)
+    assert np.all(after[ended] == 0.0)
+    left = np.abs(overclosure(after)[0][rest]).max()
+    size = np.abs(before[rest]).max()
+    assert settled < 1e-3 * size
+    assert left < 0.02 * size
+    assert np.abs(after - corner).max() < 0.02 * np.abs(held - corner).max()

@@ -38,6 +38,11 @@ def reported(command: Callable[P, None]) -> Callable[P, None]:
             _end(_line(error), error.exit_code)
         except KeyboardInterrupt as error:
             _end(str(error) or interrupt.LINE, interrupt.INTERRUPTED)
+        except (MemoryError, RuntimeError) as error:
+            if isinstance(error, RuntimeError) and "new thread" not in str(error):
+                raise
+            what = "memory" if isinstance(error, MemoryError) else "threads"
+            _end(f"the system gives no more {what}; raise its limit (ulimit), or ask for less", 1)
         except BrokenPipeError:
             # Who read the output has seen enough. Python would complain at its own last flush.
             silence_standard_output()

@@ -159,13 +159,10 @@ def _refined(
     if isinstance(answer, AsperityError):
         return answer
 
-    def once(finer: Model) -> SlideResult:
-        return march(finer, history=False, stop=flag)
-
     if not answer.settled and model.solve.duration is None:
         # It goes on until it has settled, by itself.
         return march(model, history=False, stop=flag)
-    return refined(model, once, answer)
+    return refined(model, lambda finer: march(finer, history=False, stop=flag), answer)
 
 
 def fits_batch(model: Model) -> bool:
