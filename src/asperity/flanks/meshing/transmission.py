@@ -39,7 +39,7 @@ _CONSTANT = 1e-13
 _RIGID = 1e-9
 # Of what is even there is no dip between places; one deeper than this part of its bend is not
 # missed, and one is found to this part of a step.
-_EVEN, _DEEPER, _NARROW = 1e-13, 0.1, 3e-4
+_EVEN, _DEEPER, _NARROW = 1e-13, 0.5, 3e-4
 # Of the step between places, to which extremes are found.
 _FINE = 1e-4
 
