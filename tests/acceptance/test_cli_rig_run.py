@@ -10,7 +10,9 @@ SETTINGS = [part for one in SMALL for part in ("--set", one)]
 
 
 def test_a_plan_is_one_json_object_with_its_files(asperity, tmp_path):
-    code, output, errors = asperity("rig", "plan", "rig-final", "--json", "--out", "plan", cwd=tmp_path)
+    code, output, errors = asperity(
+        "rig", "plan", "rig-final", "--json", "--out", "plan", cwd=tmp_path
+    )
     plan = json.loads(output)
     assert code == 0
     assert (plan["file_count"], plan["cell_count"], plan["recording_time_s"]) == (30, 180, 5400.0)

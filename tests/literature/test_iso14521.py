@@ -342,3 +342,8 @@ def test_both_widths_that_carry_are_offered_and_the_assumed_one_is_named():
     for options, rated in (({}, tip), ({"iso14521_face_width": "reference_chord"}, chord)):
         found = variants(gearset, operation, RatingOptions(**options, units="SI"), starts=[1.0])
         assert found["iso14521.tau_F_MPa"][0] == pytest.approx(rated.iso14521["tau_F_MPa"])
+
+
+def test_the_size_factor_of_pitting_halves_where_2900_and_the_distance_make_12000():
+    assert iso.pitting.pitting_size_factor(100.0) == pytest.approx(1.0)
+    assert iso.pitting.pitting_size_factor(9100.0) == pytest.approx(0.5)

@@ -35,12 +35,12 @@ FORCE, MU, LIMIT = 55.0, 0.1, 68.75e-9
 PERIODIC = Solve(method="periodic")
 
 
-def worst_phase(acceleration, azimuth, elevation):
-    """Largest pull over mu m g of a body that moves with its base, mu 0.3."""
+def worst_phase(acceleration, azimuth, elevation, followed=1.0):
+    """Largest pull over mu m g of a body that moves with its base, mu 0.3; so much more up."""
     flat, up = math.cos(math.radians(elevation)), math.sin(math.radians(elevation))
     along = acceleration * flat * math.cos(math.radians(azimuth)) / 0.3
     across = acceleration * flat * math.sin(math.radians(azimuth)) / 0.3
-    return math.sqrt((1.0 - acceleration * up) ** 2 - across**2) - along
+    return math.sqrt((1.0 - followed * acceleration * up) ** 2 - across**2) - along
 
 
 @pytest.mark.parametrize("row", comparisons.SHAKEN_BASE)
@@ -50,13 +50,14 @@ def test_what_was_published_of_a_shaken_base_is_the_worst_phase(row):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 @pytest.mark.parametrize("row", [row for row in comparisons.SHAKEN_BASE if row[2]])
 def test_a_body_on_a_base_shaken_out_of_the_plane_stays_below_the_published_pull(row):
     *shaken, published = row
     # The contact rings forty times as fast as the base and follows it but for that much.
-    followed = worst_phase(shaken[0] / (1.0 - 40.0**-2), *shaken[1:])
+    followed = worst_phase(*shaken, followed=1.0 / (1.0 - 40.0**-2))
     found = comparisons.static_ratio(*shaken)
-    assert found == pytest.approx(followed, abs=3e-4)
+    assert found == pytest.approx(followed, abs=3e-5)
     assert found == pytest.approx(published, abs=1e-3)
 
 

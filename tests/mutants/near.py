@@ -38,7 +38,7 @@ _OF_A_FILE = 4
 _NEAREST = 20
 # A test of what is refused goes through little and looks at less: it comes last.
 _REFUSED = re.compile(r"refuse|cannot|asked_for|is_needed|nonsense|interrupted|hears")
-_RECORDED = 4
+_RECORDED = 6
 _DEAREST = 20.0  # s, of one test
 _MOST, _LONGEST = 100, 20.0  # tests, and s of all
 _FEW, _FALLBACK_FILES = 5, 4
@@ -159,19 +159,16 @@ def _nearest(tests, size, lines):
     def close(test):
         return bool(_REFUSED.search(test)), size[test], lines[test]["seconds"], test
 
-    def cheap(test):
-        return lines[test]["seconds"], test
-
     tests = {test for test in tests if lines[test]["seconds"] <= _DEAREST}
     recorded = {test for test in tests if test.startswith(ANSWERS)}
     ordered = sorted(tests - recorded, key=close)
     # First a few of each file, then recorded answers, which see whatever moves, then the others.
     first = _few_of_each(ordered, _OF_A_FILE, _NEAREST)
-    cheapest = _few_of_each(sorted(recorded, key=cheap), _RECORDED, _RECORDED)
+    answers = _few_of_each(sorted(recorded, key=close), _RECORDED, _RECORDED)
     chosen, spent = [], 0.0
-    for test in dict.fromkeys(first + cheapest + ordered):
+    for test in dict.fromkeys(first + answers + ordered):
         spent += lines[test]["seconds"]
-        if len(chosen) < _MOST and (spent <= _LONGEST or test in (*first, *cheapest)):
+        if len(chosen) < _MOST and (spent <= _LONGEST or test in (*first, *answers)):
             chosen.append(test)
     return chosen
 

@@ -32,18 +32,20 @@ _NOT_FOUND = re.compile(r"^ERROR: (?:file or directory )?not found: .*?(tests/.*
 _NO_SUCH_TEST, _NONE_CHOSEN = 4, 5
 
 _MEMORY = 8 * 2**30
-_FIRST = 24  # tests that are tried first
+_FIRST = 26  # tests that are tried first
 
 
 class Copy:
     """A copy of the package in which a line at a time is broken, with a cache of its own."""
 
-    def __init__(self, folder: Path, source: Path = sites.SOURCE) -> None:
-        self.source = source
+    def __init__(self, folder: Path, cache: Path | None = None) -> None:
+        # As it is now, whatever is edited meanwhile.
+        self.source = folder / "whole"
         self.package = folder / "src" / "asperity"
-        shutil.copytree(source / "asperity", self.package)
-        (folder / "cases").symlink_to(source.parent / "cases")
-        self._cache = folder / "cache"
+        shutil.copytree(sites.SOURCE / "asperity", self.source / "asperity")
+        shutil.copytree(self.source / "asperity", self.package)
+        (folder / "cases").symlink_to(near.ROOT / "cases")
+        self._cache = cache or folder / "cache"
         self._environment = os.environ | {
             "PYTHONPATH": str(self.package.parent),
             "ASPERITY_CACHE": str(self._cache),
@@ -87,10 +89,14 @@ class Copy:
             if code is None:
                 return None
             if code == _NO_SUCH_TEST and (gone := set(_NOT_FOUND.findall(output))):
-                left = [test for test in tests if not gone & {test, test.partition("::")[0]}]
+                names = [
+                    {test, *(test.partition(sign)[0] for sign in ("[", "::"))} for test in tests
+                ]
+                left = [test for test, own in zip(tests, names, strict=True) if not gone & own]
                 if len(left) < len(tests):
                     tests = left
                     continue
+                raise RuntimeError(f"tests that nobody asked for are not found: {gone}")
             if code in (0, _NONE_CHOSEN):
                 return ""
             failed = _FAILED.search(output)
@@ -215,7 +221,7 @@ def _try(mutants, longest):
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     passed, failing = {line["by"] for line in results().values()}, set()
     with tempfile.TemporaryDirectory() as folder:
-        copy = Copy(Path(folder))
+        copy = Copy(Path(folder), RESULTS.parent / "cache")
         for mutant in mutants:
             line = tried(copy, mutant, longest, failing)
             # A test that fails of itself has noticed nothing.

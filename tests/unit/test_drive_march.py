@@ -7,6 +7,7 @@ import signal
 import numpy as np
 import pytest
 from apparatus.drives import ASPERITIES, all_solved, case, deflection, problem, solved
+from apparatus.grid import slow
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -351,13 +352,25 @@ class Pressed(Run):
         super().checkpoint(*args, **kwargs)
 
 
+GIVEN_STEP = (
+    "vibration.frequency=4 kHz", "solve.duration=15 ms", "vibration.velocity_ratio=1.2",
+    "drive.flanks=driving", "solve.step=0.25 us",
+)  # fmt: skip
+# Its step is given up for a shorter one.
+CHOSEN_STEP = (
+    "vibration.mode=torsional", "vibration.frequency=26 kHz", "vibration.waveform=triangle",
+    "vibration.displacement_amplitude=20 um", "friction.model=coulomb", "friction.mu=0.2",
+    "drive.tangential_compliance=0 m/N", "operation.output_torque=300 N m",
+)  # fmt: skip
+
+
 # Checkpoints of it: within the first block, one in a later one, and at the very last.
-@pytest.mark.parametrize("protocol", ["steady", "on-demand"])
-def test_a_drive_interrupted_anywhere_answers_as_if_it_had_not_been(tmp_path, protocol):
-    given = problem(
-        f"drive.protocol={protocol}", "vibration.frequency=4 kHz", "solve.duration=15 ms",
-        "vibration.velocity_ratio=1.2", "drive.flanks=driving", "solve.step=0.25 us",
-    )  # fmt: skip
+@pytest.mark.parametrize(
+    ("protocol", "settings"),
+    [("steady", GIVEN_STEP), ("on-demand", GIVEN_STEP), slow("steady", CHOSEN_STEP)],
+)
+def test_a_drive_interrupted_anywhere_answers_as_if_it_had_not_been(tmp_path, protocol, settings):
+    given = problem(f"drive.protocol={protocol}", *settings)
     counting = Pressed(tmp_path / "whole", 0)
     wanted = answer(given, counting)
     checkpoints = -counting.left
@@ -367,7 +380,10 @@ def test_a_drive_interrupted_anywhere_answers_as_if_it_had_not_been(tmp_path, pr
         with pytest.raises(Interrupted, match="goes on from"):
             answer(given, Pressed(folder, at))
         again = answer(given, Run(folder=folder))
-        for name in ("torque", "torque_balance", "spread", "settled", "force_max", "held_after"):
+        for name in (
+            "torque", "torque_balance", "spread", "settled", "settled_by", "step_error",
+            "force_max", "held_after",
+        ):  # fmt: skip
             assert getattr(again, name) == getattr(wanted, name), (at, name)
         assert again.course.cycle_torque.tobytes() == wanted.course.cycle_torque.tobytes()
 

@@ -73,3 +73,14 @@ def test_a_march_knows_the_corners_at_which_its_wave_turns(settings):
     bends = np.abs(np.diff(at, 2))
     turned = np.flatnonzero(bends > 0.5 * bends.max()) / steps if settings else []
     assert corners_of(shape) == pytest.approx(np.array(turned), abs=1e-9)
+
+
+def test_a_seat_begins_with_the_energy_of_a_spring_under_the_worm_s_thrust():
+    settings = "vibration.mode=axial", "vibration.applied_to=seat", "drive.worm_mass=0.3 kg"
+    stored = []
+    for seat in ((), ("shaft.bearing_axial=50 kN/mm",)):
+        given, model = modelled(*settings, *seat)
+        states, _ = begin(given, model, system(given, model))
+        stored.append(float(states[0]["stored"]))
+    thrust = given.load / model.point.arm
+    assert stored[1] - stored[0] == pytest.approx(0.5 * thrust**2 / 50e6, rel=1e-6)

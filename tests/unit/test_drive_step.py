@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from apparatus.drives import problem, solved
 from apparatus.grid import slow
+from apparatus.random_drives import drawn, settings
 
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March
@@ -49,6 +50,21 @@ def test_where_half_the_step_says_the_same_the_step_stays():
     one = solved(*screw)
     assert one.step_error < 1e-3
     assert one.steps == solved(*screw, f"solve.step={one.problem.step!r} s").steps
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(over="part")
+@pytest.mark.parametrize("part", range(10))
+def test_a_finer_step_changes_no_second_digit_of_a_random_drive(part):
+    for number in range(8 * part, 8 * part + 8):
+        drive = drawn(np.random.default_rng([1995, number]))
+        one = solved(*settings(drive))
+        if not one.settled:
+            continue
+        step = 1e9 * float(one.course.cycle_end[-1]) / one.steps
+        finer = solved(*settings(drive), f"solve.step={0.25 * step!r} ns")
+        if finer.settled:
+            assert one.torque_ratio == pytest.approx(finer.torque_ratio, rel=5e-3), drive
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ _BAR = 27
 _MOST_LEVERS = 3
 _MOST_REMARKS = 3
 _MOST_LINES = 23
+_SHORT_LINES = 14
 
 
 class Safety(NamedTuple):
@@ -110,8 +111,10 @@ class Verdict(NamedTuple):
         )
 
     def __repr__(self) -> str:
-        said = [line for sentence in self.sentences() for line in wrapped(sentence)]
-        return "\n".join((*said, *self.bars()))
+        said = [line for text in (*self.stands(), *self.nearest()) for line in wrapped(text)]
+        best, bars = [line for text in self.best() for line in wrapped(text)], [*self.bars()]
+        short = len(said) + len(best) + len(bars) <= _SHORT_LINES
+        return "\n".join((*said, *(best if short else ()), *bars))
 
     @property
     def first(self) -> Safety | None:

@@ -1,9 +1,10 @@
 """Many bodies at once: compiled batches of those that can march in one, one by one otherwise."""
 
 import dataclasses
+import functools
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -101,9 +102,8 @@ def solve_many(
     Marches of Dahl friction with exponent 1 run thirty-two at a time in vector instructions, those
     of bodies under a linear or Hertz contact too; the interpreter's lock is free meanwhile, so
     threads share a processor's cores. All others, periodic states and homogenised laws among them,
-    are solved one after the other: how many cycles a state takes differs from body to body. What
-    one of them costs is a few milliseconds, which cores share where each has a process of its own:
-    ``asperity sweep`` divides them so.
+    are solved one after the other, a few milliseconds each: how many cycles a state takes differs
+    from body to body. Cores share them in processes of their own, as ``asperity sweep`` has it.
 
     Parameters
     ----------
@@ -118,6 +118,7 @@ def solve_many(
         One for each model; the exception of a body that could not be solved stands in its place.
     """
     flag = stop if stop is not None else np.zeros(1, dtype=np.int64)
+    by_itself = functools.partial(march, history=False, stop=flag)
     answers: list[SlideResult | AsperityError | None] = [None] * len(models)
     groups: dict[tuple[object, ...], list[tuple[int, Timetable]]] = {}
     alone: list[int] = []
@@ -141,7 +142,7 @@ def solve_many(
                 continue
             solved = _march([models[i] for i, _ in batch], [t for _, t in batch], flag)
             for (index, _), answer in zip(batch, solved, strict=True):
-                answers[index] = _refined(models[index], answer, flag)
+                answers[index] = _refined(models[index], by_itself, answer)
     for index in alone:
         if flag[0]:
             raise Stopped
@@ -153,19 +154,17 @@ def solve_many(
 
 
 def _refined(
-    model: Model, answer: SlideResult | AsperityError, flag: np.ndarray
+    model: Model, by_itself: Callable[[Model], SlideResult], answer: SlideResult | AsperityError
 ) -> SlideResult | AsperityError:
-    """Return the answer of a body with a step that makes no great error, marched on its own."""
+    """Return the answer of a body that settled if it may, by a step that makes no great error."""
     if isinstance(answer, AsperityError):
         return answer
-
-    def once(finer: Model) -> SlideResult:
-        return march(finer, history=False, stop=flag)
-
-    if not answer.settled and model.solve.duration is None:
-        # It goes on until it has settled, by itself.
-        return march(model, history=False, stop=flag)
-    return refined(model, once, answer)
+    try:
+        if not answer.settled and model.solve.duration is None:
+            return by_itself(model)
+        return refined(model, by_itself, answer)
+    except AsperityError as error:
+        return error
 
 
 def fits_batch(model: Model) -> bool:

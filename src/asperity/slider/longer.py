@@ -5,7 +5,15 @@ from collections.abc import Sequence
 
 from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
-from asperity.slider.timetable import FAR, UNSTEADY, WAYS, Timetable, bending, still_grows
+from asperity.slider.timetable import (
+    FAR,
+    UNSTEADY,
+    WAYS,
+    Timetable,
+    bending,
+    still_grows,
+    still_to_bend,
+)
 
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
@@ -48,6 +56,8 @@ def needed(
             least.append(loaded)
         elif len(least) == 1:
             return None
+    if (far := still_to_bend(model, table, residual)) > FAR:
+        least.append(model.start + (model.duration - model.start) * far / (_LEFT * FAR))
     longest = max(least)
     return longest if longest > model.duration else None
 

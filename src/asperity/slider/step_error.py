@@ -32,7 +32,7 @@ _MOST_AGAIN = 50  # cycles at most that are run again
 _LEFT = 1e-4  # of the defect, above which a state is not found
 _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
-_FINEST = 64  # times finer than by the bounds
+_FINEST = 16  # times finer than by the bounds
 _LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
 # What the difference is of the error, by the order.
 _ORDER_ONE = 1.0
@@ -55,7 +55,9 @@ def refined(
     """
     answer = first if first is not None else once(model)
     while (error := answer.step_error) is not None and error > allowed(answer):
-        over = math.sqrt(error / allowed(answer))
+        over = error / allowed(answer)
+        if _of_the_error(model) == _ORDER_TWO:
+            over = math.sqrt(over)
         if model.solve.step is not None:
             step = answer.model.step / answer.model.substeps / (1.1 * over)
             return _noted(answer, f"give a solve.step of at most {step:.2g} s, or none")

@@ -1,16 +1,15 @@
 """Into how many parts a sliding body's time step is divided, for what happens in it to be small."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from asperity.errors import InputError
+from asperity.friction import Friction
 from asperity.friction.dahl import VECTOR
-from asperity.normal import elastic_slope
-from asperity.slider.parameters import FAR_APART
-from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN
-
-if TYPE_CHECKING:
-    from asperity.slider.model import Model
+from asperity.normal import Normal, elastic_slope
+from asperity.slider.parameters import FAR_APART, Slider, Solve
+from asperity.slider.scaled import Pressing
+from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN, Shape
 
 SLIP_BOUND = 0.5
 CHANGE_BOUND = 1.2e-3
@@ -27,7 +26,40 @@ _MOST_RELAXED = 16.0
 _FAR_MORE = 1e12
 
 
-def parts_of(model: "Model") -> int:
+class _Body(Protocol):
+    """What of a `Model` its steps follow from."""
+
+    @property
+    def slider(self) -> Slider: ...
+    @property
+    def friction(self) -> Friction: ...
+    @property
+    def solve(self) -> Solve: ...
+    @property
+    def shape(self) -> Shape | None: ...
+    @property
+    def normal(self) -> Normal | None: ...
+    @property
+    def step(self) -> float: ...
+    @property
+    def frequency(self) -> float: ...
+    @property
+    def peak_velocity(self) -> float: ...
+    @property
+    def amplitude(self) -> float: ...
+    @property
+    def full_friction(self) -> float: ...
+    @property
+    def ring_period(self) -> float: ...
+    @property
+    def normal_length(self) -> float: ...
+    @property
+    def unit_direction(self) -> tuple[float, float, float]: ...
+    def rigid_pressing(self, step: float) -> Pressing:
+        """Return the numbers of the normal direction without springs."""
+
+
+def parts_of(model: _Body) -> int:
     """Parts each step is divided into so that `march` stays below its own bounds.
 
     The bounds: the slip in a part at most half the deflection limit; its change from part to part
@@ -83,7 +115,7 @@ def parts_of(model: "Model") -> int:
     return _whole(model, max(needed, _pressed(model)))
 
 
-def _pressed(model: "Model") -> float:
+def _pressed(model: _Body) -> float:
     """Parts of a step that the contact needs: its ring at its stiffest, and a landing."""
     if model.normal is None:
         return 1.0
@@ -101,19 +133,19 @@ def _pressed(model: "Model") -> float:
     return max(ring / RING_BOUND, landing / LANDING_BOUND)
 
 
-def _turns(model: "Model") -> bool:
+def _turns(model: _Body) -> bool:
     """Whether a prescribed slip changes its direction steadily, and not only its sign."""
     smooth = model.shape is not None and model.shape.code in (SINE, SAMPLED)
     return smooth and model.unit_direction[1] * model.friction.transfer != 0.0
 
 
-def _sharpness(model: "Model") -> float:
+def _sharpness(model: _Body) -> float:
     """Rate at which the vibration's velocity changes, 1/s: 2 pi f for a sine, or more."""
     least = model.shape.least_steps if model.shape is not None else STEPS_A_TURN
     return 2.0 * math.pi * model.frequency * least / STEPS_A_TURN
 
 
-def _whole(model: "Model", needed: float) -> int:
+def _whole(model: _Body, needed: float) -> int:
     if not needed <= _FAR_MORE:
         raise InputError(FAR_APART)
     if not needed <= _MOST_SUBSTEPS:

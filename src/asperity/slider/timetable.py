@@ -101,6 +101,8 @@ def march_standing(
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
     elif means is not None and (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
+    if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
+        missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
     shown = f"the halves of the window agree to {UNSTEADY:g} of mu F_N"
     return Standing.of(missing, shown)
 
@@ -112,6 +114,16 @@ def bending(model: Model) -> float:
     if model.friction.model != "coulomb":
         bent = model.friction.deflection_limit(model.slider.normal_force)
     return bent if way < WAYS * bent else 0.0
+
+
+def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
+    """How far the mean is from where Dahl's asperities come to, over mu F_N.
+
+    Those with an exponent above 1 come to their limit as the inverse of time, or more slowly.
+    """
+    if model.friction.model != "dahl" or model.friction.exponent <= 1.0 or model.slider.rigid:
+        return 0.0
+    return residual * (model.duration - model.start) / (0.5 * table.window * table.step)
 
 
 def still_grows(model: Model, table: Timetable) -> bool:

@@ -317,6 +317,8 @@ class March:
             "committed": self.committed,
             "seconds": self.seconds,
             "finer": self.finer,
+            "longest": self.system.longest,
+            "landing": self.system.landing,
             "off": self.off,
             "marked": self.marked.row,
             "marked_states": self.marked.states,
@@ -327,7 +329,8 @@ class March:
         """Go back to where a march of the same drive stood when it gave its tree."""
         self.rows, self.states = tree["rows"], tree["states"]
         self.committed, self.seconds = tree["committed"], tree["seconds"]
-        self.system = refined(self.system, float(tree["finer"]) / self.finer)
+        steps = {name: float(tree[name]) for name in ("longest", "landing")}
+        self.system = self.system._replace(**steps)
         self.finer, self.off = float(tree["finer"]), float(tree["off"])
         self.marked = Marked(int(tree["marked"]), tree["marked_states"], tree["marked_committed"])
 
