@@ -128,7 +128,7 @@ def test_a_wave_of_the_folder_is_taken_from_there_and_named_so_in_the_case(page)
     assert tomllib.loads(asked.json["toml"])["vibration"]["samples"] == "sine.csv"
 
 
-_TRUST = "from memory)", "one source)", "verified)"
+_TRUST = "from memory", "one source", "verified"
 
 
 def test_behind_each_number_stand_symbol_meaning_source_and_trust(page):
@@ -140,7 +140,10 @@ def test_behind_each_number_stand_symbol_meaning_source_and_trust(page):
     surer = [entry for entry in entries.values() if "own" in entry]
     assert surer
     for entry in surer:
-        own, weakest = (_TRUST.index(entry[key].split("(")[-1]) for key in ("own", "source"))
+        own, weakest = (
+            next(n for n, word in enumerate(_TRUST) if word in entry[key])
+            for key in ("own", "source")
+        )
         assert own > weakest, entry["key"]
     mu = entries["iso14521.mu_zm"]
     assert mu["value"] == answer["answer"]["iso14521"]["mu_zm"]
