@@ -261,7 +261,7 @@ class March:
         found = self.judged(*asked, end=end)
         apart = block * max(1, (end - ramp) // (2 * block))
         if found.settled or end - apart - _BLOCKS * block < ramp:
-            return dataclasses.replace(found, nearer=0.0 if found.settled else math.inf)
+            return dataclasses.replace(found, nearer=0.0 if found.settled else math.nan)
         before = self.judged(*asked, end=end - apart)
         nearer = math.inf
         if found.off < _NEARER * before.off:
