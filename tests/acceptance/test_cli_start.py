@@ -417,3 +417,42 @@ def test_what_cannot_be_compared_is_one_line(asperity, cases, said):
     assert (code, output) == (2, "")
     assert said in errors
     assert errors.count("\n") == 1
+
+
+def test_duty_cycles_beside_each_other_are_counted_and_the_sump_is_of_the_hottest_part(
+    asperity, tmp_path
+):
+    parts = [(250, 1400, 500), (150, 1400, 1500), (60, 700, 3000)]
+    for name, own in (("three", parts), ("one", parts[1:2])):
+        steps = ", ".join(
+            f'{{ duration = "{h} h", output_torque = "{t} N m", worm_speed = "{n} rpm" }}'
+            for t, n, h in own
+        )
+        (tmp_path / f"{name}.toml").write_text(f"{DUTY}duty_cycle = [{steps}]\n")
+    (tmp_path / "life.toml").write_text(f'{DUTY}life = "5000 h"\n')
+    files = [tmp_path / f"{name}.toml" for name in ("three", "one", "life")]
+    code, output, errors = asperity("compare", *files)
+    assert code == 0, errors
+    assert "LoadStep" not in output
+    row = next(line for line in output.splitlines() if "operation.duty_cycle" in line)
+    assert row.split()[1:] == ["3", "parts", "1", "part", "-"]
+    answers = [json.loads(asperity("rate", file, "--json")[1])["iso14521"] for file in files]
+    sumps = [one.get("theta_S_max_degC", one["theta_S_degC"]) for one in answers]
+    results = json.loads(asperity("compare", *files, "--json")[1])["results"]
+    assert results["iso14521.theta_S_max_degC"] == sumps
+
+
+DUTY = """
+[gearset]
+starts = 1
+wheel_teeth = 50
+centre_distance = "100 mm"
+axial_module = "3.15 mm"
+diameter_factor = 12.5
+worm_material = "case-hardened steel"
+wheel_material = "CuSn12Ni2-C-GZ"
+[operation]
+lubricant = "ISO VG 220 polyglycol"
+output_torque = "250 N m"
+worm_speed = "1400 rpm"
+"""

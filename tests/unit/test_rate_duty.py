@@ -211,3 +211,16 @@ def test_a_part_whose_wheel_is_beyond_the_speeds_of_bs_721_leaves_it_without_an_
     )
     assert np.isnan(many["bs721.safety_wear"]).all()
     assert np.isnan(many["bs721.safety_strength"]).all()
+
+
+def test_a_part_that_carries_next_to_nothing_is_refused():
+    with pytest.raises(InputError, match=r"part with 1e-300 N m; it must be at least 1e-09 of"):
+        Operation(**RUN, duty_cycle=steps((1e-300, 1400, 10)))
+    lightest = rated(duty_cycle=steps((250, 1400, 500), (2.6e-7, 1400, 500)))
+    assert all(np.isfinite(value) for value in safeties(lightest).values())
+
+
+def test_sump_of_a_duty_cycle_is_told_of_the_part_that_wears_most():
+    meaning = rated(duty_cycle=steps(*BINS)).iso14521.entry("theta_S_degC").meaning
+    assert meaning.endswith("in the part of the duty cycle that wears most")
+    assert "part" not in rated(life="2 h").iso14521.entry("theta_S_degC").meaning

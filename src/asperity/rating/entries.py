@@ -140,9 +140,12 @@ def entries(
         if source is not GIVEN:
             source = weakest(source, fact.source, *rests_on)
             trusted[fact.symbol] = source
+        meaning = fact.meaning
+        if given.duty and fact.key == "theta_S_degC":
+            meaning += " in the part of the duty cycle that wears most"
         made.append(
             Entry(
-                fact.key, fact.symbol, value, fact.unit, fact.meaning, equation, source,
+                fact.key, fact.symbol, value, fact.unit, meaning, equation, source,
                 of_equation=None if source in (GIVEN, fact.source) else fact.source,
             )
         )  # fmt: skip

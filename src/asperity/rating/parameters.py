@@ -1,5 +1,6 @@
 """The `[operation]` and `[rating]` tables: how a worm gearset is run, and how it is to be rated."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -37,6 +38,7 @@ _ASSUMED = {
 }
 
 _ROUNDING = 1.0 + 1e-12
+_LEAST_SHARE = 1e-9
 
 Torque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", gt=0)]
 Temperature = Annotated[
@@ -203,6 +205,13 @@ class Operation(Table):
                 f"operation.duty_cycle has a part with {most:g} N m; none may exceed "
                 f"operation.output_torque, {self.output_torque:g} N m: raise that, by which "
                 "strength is judged"
+            )
+        least = min((step.output_torque for step in self.duty_cycle or ()), default=math.inf)
+        if least < self.output_torque * _LEAST_SHARE:
+            raise InputError(
+                f"operation.duty_cycle has a part with {least:g} N m; it must be at least "
+                f"{_LEAST_SHARE:g} of operation.output_torque, {self.output_torque:g} N m: leave "
+                "out what carries nothing"
             )
         return self
 

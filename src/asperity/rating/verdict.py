@@ -303,9 +303,11 @@ def screen(
                 shown += name == "remarks"
     memory = len({entry.key for rating in found.values() for entry in rating if entry.from_memory})
     more = len(kept["remarks"]) - shown
+    rest = "number rests" if memory == 1 else "numbers rest"
+    further = f", {more} remark{'s' * (more > 1)}" if more > 0 else ""
     lines["end"] = [
-        f"assumed {assumed} keys, {memory} numbers rest on sources from memory"
-        f"{f', {more} remarks' if more > 0 else ''}: --full"
+        f"assumed {assumed} key{'s' * (assumed != 1)}, {memory} {rest} on sources from memory"
+        f"{further}: --full"
     ]
     order = "stands", "first", "best", "bars", "power", "film", "locking", "remarks", "end"
     return "\n".join(line for name in order for line in lines[name])

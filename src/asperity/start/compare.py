@@ -21,6 +21,7 @@ COMPARED = ("rate", "block", "slide")
 _SAME = 1e-9
 _SHAKEN = "screw.torque_ratio"
 _LEFT_OUT = "-"
+_SUMP, _HOTTEST = "iso14521.theta_S_degC", "iso14521.theta_S_max_degC"
 
 
 class Comparison(Result):
@@ -69,7 +70,9 @@ class Comparison(Result):
         results = [(what or key, *map(text_of, values)) for key, what, values in shown]
         remarks = list(self.said)
         if len(shown) < len(self.numbers):
-            remarks.append(f"{len(self.numbers) - len(shown)} more numbers differ: --json")
+            more = len(self.numbers) - len(shown)
+            words = "number differs" if more == 1 else "numbers differ"
+            remarks.append(f"{more} more {words}: --json")
         settled = self.settled or (None,) * len(self.cases)
         cases = [
             f"{case} {MARK}" if stays is False else case
@@ -106,6 +109,12 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         names = [f"{place}: {name}" for place, name in enumerate(names, 1)]
     flat = [dict(_numbers(result.to_json())) for result in answers]
     meanings = {key: what for result in answers for key, what in _meanings(result)}
+    if any(_HOTTEST in numbers for numbers in flat):
+        for numbers in flat:
+            if _SUMP in numbers:
+                numbers.setdefault(_HOTTEST, numbers[_SUMP])
+        meanings.pop(_SUMP, None)
+        meanings[_HOTTEST] = "sump, in the hottest part of a duty cycle (degC)"
     gains = [_gain(case, numbers) for case, numbers in zip(cases, flat, strict=True)]
     for numbers, gained in zip(flat, gains, strict=True):
         if gained is not None:
@@ -144,7 +153,8 @@ def _inputs(cases: Sequence[Case]) -> Iterator[tuple[str, tuple[str | None, ...]
     for table, model in cases[0].known.items():
         for key in model.model_fields if any(table in case for case in cases) else ():
             texts = tuple(_text(case, table, key) for case in cases)
-            if len(set(texts)) > 1:
+            held = [getattr(case.tables[table], key) if table in case else None for case in cases]
+            if len(set(texts)) > 1 or (key == "duty_cycle" and len(set(map(str, held))) > 1):
                 yield f"{table}.{key}", texts
 
 
@@ -155,6 +165,8 @@ def _text(case: Case, table: str, key: str) -> str | None:
     value, quantity = getattr(held, key), quantity_of(type(held), key)
     if value is None:
         return None
+    if key == "duty_cycle":
+        return f"{len(value)} part{'s' if len(value) > 1 else ''}"
     if isinstance(value, float) and quantity is not None:
         return quantity.text(value) if quantity.unit else f"{value:.12g}"
     return str(getattr(value, "name", "") or value)

@@ -121,7 +121,8 @@ class Proposals(Result):
         best = self.found[0]
         first = " ".join(f'--set "{setting}"' for setting in best.settings)
         remarks = [
-            f"{self.rated} gearsets rated, {self.holding} hold by every standard; shown are those "
+            f"{self.rated} gearset{'s' * (self.rated != 1)} rated, {self.holding} "
+            f"hold{'s' * (self.holding == 1)} by every standard; shown are those "
             f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
             # One that breaks is nobody's first one.
             *([f"the first one: {first}"] if best.holds else []),
