@@ -130,3 +130,73 @@ def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio
     assert answer.settled
     assert answer.ratio == pytest.approx(1.0, abs=1e-9)
     assert not answer.notes
+
+
+DUCTILE = """
+[slider]
+drive_velocity = "0.1 mm/s"
+normal_force = "10 N"
+[friction]
+model = "dahl"
+mu = 0.1
+max_deflection = "1 um"
+law = "vector"
+exponent = 3.0
+[vibration]
+frequency = "100 Hz"
+velocity_ratio = 0.5
+[solve]
+duration = "10 s"
+"""
+
+
+@pytest.mark.parametrize("exponent", [2.0, 3.0, 4.0])
+def test_ductile_asperities_on_a_rigid_drive_keep_a_march_from_having_settled(tmp_path, exponent):
+    """Their limit, the ratio 1, is left by what the way x makes of it, as x^(-1/(i - 1))."""
+    path = tmp_path / "ductile.toml"
+    path.write_text(DUCTILE)
+    settings = [f"friction.exponent={exponent}"]
+    answer = solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
+    left = 1.0 - answer.ratio
+    if exponent == 2.0:
+        assert left < 2e-3
+        assert answer.settled
+    else:
+        assert answer.residual < 1e-3
+        assert left > 2e-3
+        assert not answer.settled
+        told = float(answer.settled_by.split(", ")[1].split(" ")[0])
+        assert told == pytest.approx(left, rel=0.1)
+
+
+CHATTER = """
+[slider]
+drive_velocity = "3.701941630494637e-05 m/s"
+normal_force = "11.126738928136051 N"
+mass = "0.00014117222203054557 kg"
+lateral = "free"
+[friction]
+model = "dahl"
+mu = 0.11050709490807627
+max_deflection = "1.6246282916041796e-07 m"
+law = "vector"
+exponent = 0.0
+[vibration]
+frequency = "2054.4505080804597 Hz"
+velocity_ratio = 1e-6
+direction = "0.3754659847124026 rad"
+[solve]
+duration = "0.03 s"
+"""
+
+
+def test_the_chatter_of_a_step_is_no_less_than_what_is_said_of_its_error(tmp_path):
+    """Next to nothing shakes it: the ratio is 1."""
+    path = tmp_path / "chatter.toml"
+    path.write_text(CHATTER)
+    answer = solve(Model.from_case(read_case(path, TABLES, ())), history=False)
+    assert answer.step_error is not None
+    assert abs(answer.ratio - 1.0) <= 1.5 * answer.step_error
+    assert abs(answer.ratio - 1.0) <= 1e-3 or any(
+        "the step makes an error" in n for n in answer.notes
+    )
