@@ -30,6 +30,31 @@ start = "0 s"
 method = "periodic"
 """
 
+NEAR_RESONANCE = """
+[slider]
+drive_velocity = "0.0013437144815812312 m/s"
+normal_force = "3.6994120207503283 N"
+mass = "9.514405960202404e-06 kg"
+lateral = "free"
+drive_stiffness = "262504.0734132653 N/m"
+drive_damping = "0.09692045613968164 N s/m"
+[friction]
+model = "dahl"
+mu = 0.13438389209027443
+max_deflection = "2.6836663601096456e-07 m"
+law = "split"
+exponent = 3.0
+transfer = 0.0
+[vibration]
+waveform = "sine"
+frequency = "28380.700943344495 Hz"
+velocity_ratio = 0.7922622494768063
+direction = "3.141592653589793 rad"
+applied_to = "body"
+[solve]
+method = "periodic"
+"""
+
 
 def pin(*settings):
     return solve(Model.from_case(read_case("normal-pin", TABLES, settings)), history=False)
@@ -75,3 +100,33 @@ def test_a_drive_that_rings_undamped_does_not_make_a_state_one_of_many():
     answer = solve(Model.from_case(read_case("table-4.3", TABLES, settings)), history=False)
     assert answer.settled, answer.settled_by
     assert np.isclose(answer.ratio, 1.0, atol=1e-6)
+
+
+def near_resonance(folder, *settings):
+    path = folder / "near_resonance.toml"
+    path.write_text(NEAR_RESONANCE)
+    return solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
+
+
+@pytest.mark.parametrize("law", ["split", "vector", "unsplit"])
+def test_of_two_states_the_one_is_shown_that_a_march_from_rest_comes_to(tmp_path, law):
+    settings = f"friction.law={law}", "friction.transfer=1"
+    state = near_resonance(tmp_path, *settings)
+    marched = near_resonance(tmp_path, *settings, "solve.method=march", "solve.duration=0.06 s")
+    assert marched.settled
+    assert state.settled
+    assert state.ratio == pytest.approx(marched.ratio, abs=1e-4)
+    assert state.ratio < 0.9
+    assert any("with the ratio 1, repeats itself as well" in note for note in state.notes)
+
+
+@pytest.mark.parametrize(("ratio", "exponent"), [(0.5, 1.0), (0.98, 1.0), (0.9, 2.0)])
+def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio, exponent):
+    settings = (
+        f"vibration.velocity_ratio={ratio}", "vibration.direction=0 deg", "friction.law=vector",
+        f"friction.exponent={exponent}", "solve.method=periodic",
+    )  # fmt: skip
+    answer = solve(Model.from_case(read_case("table-4.3", TABLES, settings)), history=False)
+    assert answer.settled
+    assert answer.ratio == pytest.approx(1.0, abs=1e-9)
+    assert not answer.notes

@@ -70,6 +70,11 @@ class Cycle:
                 self.rises = cycle_of_wave(model.wave(step, lead=lead), steps)
             self.body.place(1.0, ramped=False)
 
+    @property
+    def at_the_limit(self) -> bool:
+        """Whether friction at its limit was found to repeat itself: in a cycle, before a search."""
+        return self.run <= 2
+
     def copied(self) -> "Cycle":
         """Return the same map, for the body to go elsewhere."""
         other = _like(self)
