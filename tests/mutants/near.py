@@ -59,6 +59,9 @@ def nearest(mutant) -> list[str]:
                 others.update({test: _MOST - n for n, test in enumerate(tests)})
         counts.update(dict.fromkeys(others.keys() - counts.keys(), 0))
     chosen = [kept["tests"][n] for n, _ in counts.most_common(_MOST)]
+    if not mutant.function:
+        # A number of a module: who names that may look at it without calling anything.
+        chosen = _naming(mutant.module)[:1] + chosen
     return chosen if len(chosen) >= _FEW else chosen + _naming(mutant.module)
 
 

@@ -44,7 +44,7 @@ def test_frames_grow_with_torque_and_every_number_has_a_source():
     for name in ("torque", "mass", "diameter", "length"):
         values = [getattr(motor, name) for motor in motors]
         assert values == sorted(values), name
-    assert all(motor.source("mass").confidence == "from memory" for motor in motors)
+    assert all(motor.source("mass").confidence == "one source" for motor in motors)
     for motor in motors:
         assert motor.cost == pytest.approx(PRICE_PER_MASS * motor.mass)
 

@@ -59,16 +59,16 @@ def dense_normal(bearing, other):
     return float(other.gap(beta, phase, near)[:, 0].min())
 
 
-def holds(seed):
+def holds(seed, within=RESOLVED):
     """Return by how much the least of 32 places lies above the least, in mm."""
     coarse, dense = meshes(seed), meshes(seed, DENSE)
     found = play(coarse)
     worm = dense[1].search.pair.worm
     least = worm.reduced_lead * float((dense[1].lead + dense[-1].lead).min())
-    assert -NEAR < found.axial - least < RESOLVED
+    assert -NEAR < found.axial - least < within
     for side in (1, -1):
         least = dense_normal(dense[side], dense[-side].search)
-        assert -NEAR < found.normal[side] - least < RESOLVED
+        assert -NEAR < found.normal[side] - least < within
     return dense_normal(coarse[1], coarse[-1].search) - found.normal[1]
 
 
@@ -82,7 +82,8 @@ def test_play_is_the_least_of_many_places(seed):
 @pytest.mark.campaign(tried_by="test_play_is_the_least_of_many_places")
 @pytest.mark.parametrize("seed", range(10, 34))
 def test_play_of_random_hobs_is_the_least_of_many_places(seed):
-    holds(seed)
+    # Two dips within one step, at a corner where teeth change, are looked into as one.
+    holds(seed, within=1e-7)
 
 
 @pytest.mark.slow

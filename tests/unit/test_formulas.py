@@ -85,7 +85,7 @@ def test_empty_arrays_stay_empty():
         (1.0, 0.0, "y is 0 s; it must be positive"),
         (math.nan, 1.0, "x is nan mm"),
         (1.0, math.inf, "y is inf s"),
-        ("3", 1.0, "x is '3'; it must be a number"),
+        ("3", 1.0, "x is '3': '3' has no unit; give one that converts to mm"),
         (True, 1.0, "x is 'True'; it must be a number"),
         (1.0, 1j, "y is '1j'; it must be a number"),
         (1.0, 10**400, "y is '1000.*; it must be a number"),

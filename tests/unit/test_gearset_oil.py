@@ -59,7 +59,7 @@ def test_numbers_and_arrays_give_the_same():
         ((40.0, math.nan, 19.0), "viscosity_40 is nan"),
         ((40.0, 220.0, 0.1), "viscosity_100 is 0.1 mm²/s; it must be from 0.5"),
         ((-60.0, 1e7, 0.5), "the oil is solid at this temperature"),
-        (("warm", 220.0, 19.0), "oil_temperature is 'warm'; it must be a number"),
+        (("warm", 220.0, 19.0), "oil_temperature is 'warm': 'warm' is not a number with a unit"),
         (([1.0, 2.0], [220.0] * 3, 19.0), "do not go together"),
     ],
 )

@@ -12,7 +12,7 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.results.ledger import guard
 from asperity.runs import Interrupted, Run
 from asperity.runs.tree import read_tree, write_tree
-from asperity.slider import TABLES, Model, Stopped, solve, solve_many
+from asperity.slider import TABLES, Model, Solve, Stopped, solve, solve_many
 from asperity.slider.kernels import condense
 from asperity.slider.march import March, march, march_key
 
@@ -465,6 +465,33 @@ def test_ctrl_c_keeps_a_march_and_the_same_call_goes_on_from_there(tmp_path, mon
     assert min(seen) > 0.4 * whole.steps
     assert again.to_json() | {"seconds": 0.0} == whole.to_json() | {"seconds": 0.0}
     assert np.array_equal(again.history.friction, whole.history.friction)
+
+
+def test_a_march_left_in_its_finer_step_goes_on_from_there(tmp_path, monkeypatch):
+    monkeypatch.setattr("asperity.slider.march._STRETCH", 20_000)
+    monkeypatch.setattr("asperity.slider.step_error.WANTED", 1e-4)
+    settings = "friction.exponent=0", "vibration.direction=70 deg", "vibration.velocity_ratio=3"
+    model = body("table-4.3", "friction.law=unsplit", *settings)
+    model = dataclasses.replace(model, solve=Solve(duration="0.2 s"))
+    totals = []
+    whole = march(model, run=Run(progress=lambda _, total: totals.append(total)))
+    assert whole.model.finer > 1
+    first, *_, last = totals
+    assert last > first
+
+    def press(done, total):
+        if total == last and done > 0.5 * total:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Interrupted, match="the same command goes on from"):
+        march(model, run=Run(progress=press, folder=tmp_path, stem="slide"))
+    seen = []
+    again = march(
+        model, run=Run(progress=lambda *at: seen.append(at), folder=tmp_path, stem="slide")
+    )
+    assert {total for _, total in seen} == {last}
+    assert min(done for done, _ in seen) > 0.5 * last
+    assert again.to_json() | {"seconds": 0.0} == whole.to_json() | {"seconds": 0.0}
 
 
 def test_a_batch_whose_powers_do_not_balance_leaves_the_error_in_its_place(monkeypatch):

@@ -110,9 +110,24 @@ def _written(found: Proposals, values: Values, out: Path) -> str:
     return f"written to {folder}: {', '.join(names)}"
 
 
+_FORMS = {
+    "output_torque": ("output_torque", "input_power", "input_torque"),
+    "worm_speed": ("worm_speed",),
+}
+"""What of the operation has an option, and what would take its place."""
+
+
 def _given(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
     """Apply what is asked of the operation, and settings; returns their keys."""
     keys = set()
+    for setting in settings:
+        table, _, name = setting.partition("=")[0].strip().partition(".")
+        for key, forms in _FORMS.items():
+            if table == "operation" and name in forms and asked.get(key) is not None:
+                raise InputError(
+                    f"--set {setting}: --{key.replace('_', '-')} {asked[key]} says the same; "
+                    "keep one of them"
+                )
     for key, text in asked.items():
         if text is not None:
             setting, option = f"operation.{key}={text}", f"--{key.replace('_', '-')} {text}"

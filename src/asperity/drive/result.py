@@ -13,7 +13,7 @@ from asperity.results.ledger import Ledger
 from asperity.results.quantity import Number, Sentence
 from asperity.slider.result import table_inputs
 
-_EQUAL = 5e-3  # of a power, as of what makes a state settled
+EQUAL = 5e-3  # of a power, as of what makes a state settled
 _OVER_TIME, _CYCLES = ("time",), ("cycle",)
 
 
@@ -245,14 +245,14 @@ def _energy(answer: DriveResult) -> str:
     efficiency = answer.system_efficiency
     if efficiency is not None:
         before = answer.efficiency_static
-        word = "saves energy" if efficiency > before else "saves no energy"
+        word = "saves energy" if efficiency > before * (1.0 + EQUAL) else "saves no energy"
         return Sentence(
             said, ", efficiency with the actuator's electrical side ",
             Number.of(efficiency, ".3g", "system_efficiency"), ", without vibration ",
             Number.of(before, ".3g", "efficiency_static"),
             f": it {word}" if answer.settled else "",
         )  # fmt: skip
-    word = ": it saves power" if ratio < 1.0 - _EQUAL else ": it saves no power"
+    word = ": it saves power" if ratio < 1.0 - EQUAL else ": it saves no power"
     return Sentence(
         said, word if answer.settled else "",
         ", the actuator's electrical side ([actuator]) not counted",

@@ -74,7 +74,8 @@ class Standing(NamedTuple):
             word = "undecided"
         outside = [_what(sentence) for sentence in rating.violations]
         # A worm that the speed tables of BS 721 do not reach, while its wheel is rated.
-        outside += ["the worm is not rated"] if rating.gaps and not missing else []
+        said = (gap.partition(":")[0] for gap in rating.gaps)
+        outside += said if not missing else ()
         return cls(name, word, missing if rated else (), tuple(dict.fromkeys(outside)), rating.gaps)
 
     @property

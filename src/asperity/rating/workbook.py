@@ -6,6 +6,7 @@ material's family, the way of lubrication, the flank's type) is chosen as in the
 """
 
 import dataclasses
+import functools
 import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -99,7 +100,14 @@ def _traced(given: Inputs, cells: "_Cells") -> Inputs:
         for name in _FREE
     }
     operation = given.operation
-    if operation.through_travel_torque is None and operation.duty_cycle is None:
+    if given.duty:
+        # What BS 721 refers equivalent times of wear to: the greatest of the parts, as they are.
+        of_parts = (
+            cells.input(f"duty_cycle_{number}_output_torque", part.torque, "N m")
+            for number, part in enumerate(given.duty, 1)
+        )
+        free["through_travel_torque"] = functools.reduce(np.maximum, of_parts)
+    elif operation.through_travel_torque is None:
         free["through_travel_torque"] = operation.travel_share * free["output_torque"]
     z1, z2, m, q, x = (free[name] for name in _FREE[:5])
     numbers = {

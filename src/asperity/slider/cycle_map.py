@@ -1,8 +1,8 @@
 """The map of a body's state over a cycle of the vibration, whose fixed point repeats itself."""
 
-import copy
 import math
 from collections.abc import Iterator
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from asperity.slider.unknowns import (
     write_unknowns,
 )
 from asperity.waveform import cycle_of_wave
+
+_Kind = TypeVar("_Kind")
 
 UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
@@ -75,8 +77,8 @@ class Cycle:
 
     def copied(self) -> "Cycle":
         """Return the same map, for the body to go elsewhere."""
-        other = copy.copy(self)
-        body = other.body = copy.copy(self.body)
+        other = _like(self)
+        body = other.body = _like(self.body)
         body.kept = {"state": body.kept["state"].copy(), "sums": body.no_sums()}
         body.sums["breakaway"] = -1.0
         other.springs = body.kept["springs"] = self.springs.copy()
@@ -129,7 +131,7 @@ class Cycle:
                 self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
                 self.rises, self.body.no_sums()[0], len(self.jacobian),
             )  # fmt: skip
-        growth, self.mode = _growth(self.jacobian)
+        growth = _growth(self.jacobian)
         return self._marched(growth) if growth > UNSTABLE else growth
 
     def one_of_many(self, growth: float) -> bool:
@@ -138,22 +140,23 @@ class Cycle:
             return False
         ratio = float(self.body.sums["drive_force"] / self.body.sums["steps"])
         # A ring of the drive comes and goes with its sign: what both sides share is what it does.
+        mode = _mode(self.jacobian)
         means = [
             mean
             for push in (_FAR_PUSH, -_FAR_PUSH)
-            for _, mean in self.pushed(push * self.mode, _WATCHED)
+            for _, mean in self.pushed(push * mode, _WATCHED)
         ]
         most = _SAME_RATIO if self.q is not None else _SAME_IN_PLANE
         return not abs(float(np.mean(means)) - ratio) <= most
 
     def _marched(self, growth: float) -> float:
         """Return how much a push grows a cycle in a march, to the worse side, for what it may."""
-        worst = 0.0
+        worst, mode = 0.0, _mode(self.jacobian)
         half = round(0.5 * min(max(math.log(_GONE) / math.log(growth), _WATCHED), _MOST_WATCHED))
         for push in (_PUSH, -_PUSH):
             # The mode may turn round slowly: the most of a time tells more than its end.
             most = [_PUSH, 0.0]
-            for n, (size, _) in enumerate(self.pushed(push * self.mode, 2 * half)):
+            for n, (size, _) in enumerate(self.pushed(push * mode, 2 * half)):
                 if not size <= _GONE * _PUSH:
                     worst = max(worst, _GONE ** (1.0 / (n + 1)))
                     break
@@ -209,25 +212,35 @@ class Cycle:
             self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
 
 
+def _like(one: _Kind) -> _Kind:
+    """Return a shallow copy, in a third of the time that `copy.copy` takes."""
+    other = object.__new__(type(one))
+    other.__dict__.update(one.__dict__)
+    return other
+
+
 def _in_pairs(increments: FloatArray) -> FloatArray:
-    pairs = increments[:-1].reshape(-1, 2).sum(axis=1)
-    return np.append(pairs, pairs[0])
+    pairs = np.empty(increments.size // 2 + 1)
+    np.add(increments[:-1:2], increments[1::2], out=pairs[:-1])
+    pairs[-1] = pairs[0]
+    return pairs
 
 
 def _repeated(increments: FloatArray, times: int) -> FloatArray:
     return np.append(np.tile(increments[:-1], times), increments[0])
 
 
-def _growth(jacobian: FloatArray) -> tuple[float, FloatArray]:
-    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken.
-
-    And the mode that it is of, its largest number 1.
-    """
+def _growth(jacobian: FloatArray) -> float:
+    """Largest multiplier of the cycle's map, whose Jacobian less one is given; 0 if not taken."""
     if not jacobian.any():
-        return 0.0, np.zeros(len(jacobian))
+        return 0.0
+    return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
+
+
+def _mode(jacobian: FloatArray) -> FloatArray:
+    """Return what has the largest multiplier, its largest number 1."""
     growths, modes = np.linalg.eig(jacobian + np.eye(len(jacobian)))
-    place = int(np.argmax(np.abs(growths)))
-    mode = modes[:, place]
+    mode = modes[:, int(np.argmax(np.abs(growths)))]
     # Turned so that its real part is its most.
-    mode = (mode / mode[np.argmax(np.abs(mode))]).real
-    return float(np.abs(growths[place])), mode
+    found: FloatArray = (mode / mode[np.argmax(np.abs(mode))]).real
+    return found

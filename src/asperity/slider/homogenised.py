@@ -21,6 +21,7 @@ from asperity.slider import homogenised_law as hl
 from asperity.slider.history import History
 from asperity.slider.homogenised_law import HomogenisedLaw, homogenise
 from asperity.slider.homogenised_normal import gain_notes, mean_motion
+from asperity.slider.longer import advice, needed
 from asperity.slider.march import March
 from asperity.slider.model import Model
 from asperity.slider.pieces import interpolate, value_and_slope
@@ -141,12 +142,14 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         walk.to(table.steps, _BLOCK)
         broke = walk.breakaway
         answer = _steady(model, law, began, broke, table.steps, history=history)
-        notes = march_notes(model, table, 0.0, broke=broke is not None)
+        if broke is None:
+            late = f"within {model.duration:g} s, the solve.duration, the body has not broken away"
+            answer = dataclasses.replace(answer, notes=(*answer.notes, f"{late}: no time of it"))
         if (rate := growth_rate(model)) > 0.0:
             why = sticks_and_slips(rate)
-            answer = dataclasses.replace(answer, settled=False, settled_by=why)
-            notes = (why, *notes)
-        return dataclasses.replace(answer, notes=(*answer.notes, *notes))
+            notes = (*answer.notes, why)
+            answer = dataclasses.replace(answer, settled=False, settled_by=why, notes=notes)
+        return answer
     begin = min(round(model.start / table.step), table.window_start)
     walk.to(begin, _BLOCK)
     breakaway = walk.breakaway
@@ -185,17 +188,22 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         rows = np.concatenate(parts[1:])
         record = _history(model, law, rows, _pull(model, rows))
     answer = _marched(model, law, window, began, breakaway, taken)
+    means = [
+        float(np.mean(_pull(model, part))) / law.full_friction for part in np.array_split(window, 4)
+    ]
     first, second = (
         np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
     )
     unsteady = abs(float(second - first))
     broke = breakaway is not None
-    marched = march_standing(model, table, unsteady, broke=broke)
+    marched = march_standing(model, table, unsteady, broke=broke, means=means)
     standing = Standing(
         answer.settled and marched.settled,
         f"{marched.settled_by}; {answer.settled_by}",
     )
     notes = march_notes(model, table, unsteady, broke=broke)
+    if not marched.settled:
+        notes += (advice(needed(model, table, means, unsteady, broke=broke)),)
     return dataclasses.replace(
         answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes),
         **standing._asdict(),

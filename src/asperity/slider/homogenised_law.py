@@ -27,6 +27,7 @@ from asperity.slider.shooting import ACCEPTED
 
 _POINTS_BELOW = 64
 _POINTS_ABOVE = 56
+_LEAST_PEAK = 1e-2  # of the drive velocity
 _HIGHEST = 50.0
 _LOWEST = 1e-4
 _MOST_MISSING = 0.2
@@ -265,7 +266,9 @@ def _reach_to_rest(rows: dict[float, FloatArray], missing: list[float]) -> None:
 
 
 def _grid(model: Model) -> FloatArray:
-    peak, drive = model.peak_velocity, model.slider.drive_velocity
+    drive = model.slider.drive_velocity
+    # Of next to no vibration, the law near rest is of no drive that it is asked for.
+    peak = max(model.peak_velocity, _LEAST_PEAK * drive)
     # Rigid friction goes as asin(v/v_a): even spacing in the angle follows its steep end.
     below = peak * np.sin(0.5 * math.pi * np.arange(1, _POINTS_BELOW + 1) / _POINTS_BELOW)
     highest = max(_HIGHEST * peak, 4.0 * drive, 4.0 * model.friction.stribeck_velocity)

@@ -18,7 +18,7 @@ def told_by(answer: SlideResult) -> dict[str, float]:
     if answer.normal is None or not isinstance(answer.ledger, PressedLedger):
         return {}
     told = {name: value for name, value in vars(answer.normal).items() if value is not None}
-    del told["ratio_mean_load"]  # follows from the others
+    told.pop("ratio_mean_load", None)  # follows from the others
     return told | {
         "normal": answer.ledger.normal,
         "contact_damping": answer.ledger.contact_damping,
@@ -64,7 +64,8 @@ def mean_motion(
         means["period"] = round(float(steady["period"][0]))
         means["multiplier"] = float(steady["multiplier"][0])
     full = model.friction.mu * means["normal_mean"]
-    return NormalMotion(ratio_mean_load=drive_force / full, **means)
+    ratio = drive_force / full if full > 0.0 else None
+    return NormalMotion(ratio_mean_load=ratio, **means)
 
 
 def gain_notes(model: Model, motion: NormalMotion, lost: float) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from asperity.slider.timetable import (
     Timetable,
     bending,
     still_grows,
+    still_loads,
     still_to_bend,
 )
 
@@ -47,7 +48,8 @@ def needed(
     if still_grows(model, table):
         least.append(max(model.start + model.ramp + model.window, model.start + window))
     loaded = model.start + _loading(model) + window
-    if not (broke or model.vibrates or slider.rigid):
+    lags = residual <= UNSTEADY and still_loads(model, table, residual)
+    if lags or not (broke or model.vibrates or slider.rigid):
         least.append(loaded)
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(model, table, means, residual)

@@ -1,5 +1,6 @@
 """Marching a body through time, stretch by stretch: kept, interrupted and gone on with."""
 
+import contextlib
 import dataclasses
 import time
 
@@ -206,6 +207,7 @@ class March:
     def tree(self) -> Tree:
         """Return all that changes on the way, as a tree of arrays."""
         return {
+            "finer": self.model.finer,
             "done": self.done,
             "seconds": self.seconds,
             "body": self._body.kept,
@@ -302,20 +304,25 @@ def march(
         Ctrl-C was pressed.
     """
     run = run if run is not None else Run()
-    return refined(model, lambda finer: _marched(finer, history=history, stop=stop, run=run))
+    kept = None if run.folder is None else run.resume(march_key(model, history=history))
 
-
-def _marched(
-    model: Model, *, history: bool, stop: npt.NDArray[np.int64] | None, run: Run
-) -> SlideResult:
-    """March with the step that a model has."""
-    body = March(model, record=history, stop=stop, run=run)
-    if run.folder is not None:
-        kept = run.resume(march_key(model, history=history))
-        if kept is not None:
+    def once(finer: Model) -> SlideResult:
+        nonlocal kept
+        body = March(finer, record=history, stop=stop, run=run)
+        if kept is not None and kept["finer"] == finer.finer:
             body.restore(kept)
-    with run.going_on():
-        return body.run()
+            kept = None
+        with run.going_on():
+            return body.run()
+
+    first = None
+    if kept is not None and kept["finer"] != model.finer:
+        # It was left in a march with a finer step, which may have come to nothing.
+        with contextlib.suppress(ConvergenceError):
+            first = once(dataclasses.replace(model, finer=kept["finer"]))
+        if first is not None and first.step_error is None:
+            first = None
+    return refined(model, once, first)
 
 
 def march_key(model: Model, *, history: bool) -> str:
@@ -324,6 +331,4 @@ def march_key(model: Model, *, history: bool) -> str:
     texts = ["" if table is None else table.model_dump_json() for table in tables]
     # A sampled wave's table, and the frequency of its file where the case says none.
     wave = AT_REST.table if model.shape is None else model.shape.table
-    return key(
-        code_key(__name__), str(history), *texts, repr(model.frequency), repr(model.finer), wave
-    )
+    return key(code_key(__name__), str(history), *texts, repr(model.frequency), wave)

@@ -26,7 +26,8 @@ _OF_MANY = (
     "one of many: nothing damps a disturbance, and the ratio follows it; shown is the one without "
     "a ringing of its own"
 )
-_REST = "give a damping (normal.damping_ratio), or march it from rest with solve.method 'march'"
+_MARCH = "march it from rest with solve.method 'march'"
+_REST = f"give a damping (normal.damping_ratio), or {_MARCH}"
 
 
 @in_proportion()
@@ -149,7 +150,8 @@ def answer_of(
     end = cycle.body.energies()
     standing = standing_of(cycle, growth)
     if _OF_MANY in standing.settled_by:
-        notes += (f"this periodic state is {_OF_MANY}; {_REST}",)
+        rest = _MARCH if cycle.q is None else _REST
+        notes += (f"this periodic state is {_OF_MANY}; {rest}",)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
         standing=standing,

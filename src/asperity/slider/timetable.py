@@ -17,6 +17,7 @@ _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
 UNSTEADY = 1e-3
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
+LAGS = 0.02  # of its velocity, that a body may be slower than its drive
 WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
 
@@ -103,6 +104,8 @@ def march_standing(
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
         missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
+    if residual <= UNSTEADY and still_loads(model, table, residual):
+        missing.append("the drive is still being stretched: the body lags behind it")
     shown = f"the halves of the window agree to {UNSTEADY:g} of mu F_N"
     return Standing.of(missing, shown)
 
@@ -126,6 +129,18 @@ def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
         return 0.0
     change = residual * (model.duration - model.start) / (0.5 * table.window * table.step)
     return (model.friction.exponent - 1.0) * change
+
+
+def still_loads(model: Model, table: Timetable, residual: float) -> bool:
+    """Whether the drive is stretched in the window by more than a share of its way.
+
+    A soft or slow drive gains less than is looked at in a window in which the body hardly moves.
+    """
+    slider = model.slider
+    if slider.drive_stiffness is None:
+        return False
+    way = 0.5 * table.window * table.step * slider.drive_velocity
+    return residual * model.full_friction > LAGS * way * slider.drive_stiffness
 
 
 def still_grows(model: Model, table: Timetable) -> bool:

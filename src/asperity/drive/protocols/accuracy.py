@@ -21,7 +21,7 @@ _OF_POWERS = 2.5e-3  # of the largest power: the same of each of them
 _SHARE = 4
 _COARSER = 2.0
 # What a shorter step aims at, the shortest, and what is to be left of the error after each.
-_AIM, _FINEST, _GAINS = 0.7, 1.0 / 16.0, 0.75
+_AIM, _FINEST, _GAINS = 0.7, 1.0 / 32.0, 0.75
 # Of the wheel's speed, and what a motion parts by after it, of what a step may make wrong.
 _NUDGE, _PARTED = 1e-8, 0.1
 _POWERS = ("drive", "actuator", "friction", "contact_damping", "shaft_damping")

@@ -39,7 +39,7 @@ class Judgement:
         In the blocks together.
     nearer : float
         Time until it would have settled if it came nearer as it last did, s; infinite where it did
-        not, 0 where that was not asked.
+        not, NaN where it was too short to tell, 0 where that was not asked.
     """
 
     settled: bool
@@ -90,6 +90,8 @@ class Judgement:
             missing.append(f"the wheel turns {_percent(abs(self.turned))} {how} than with the worm")
         if math.isfinite(self.nearer) and self.nearer > 0.0:
             missing.append(f"a solve.duration longer by {1e3 * self.nearer:.2g} ms would do")
+        elif math.isnan(self.nearer):
+            missing.append("it was too short to tell whether it comes nearer: give a longer one")
         elif self.nearer > 0.0:
             missing.append("it came no nearer on its way: a longer solve.duration may not do")
         return "; ".join(missing)

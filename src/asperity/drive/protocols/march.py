@@ -261,7 +261,7 @@ class March:
         found = self.judged(*asked, end=end)
         apart = block * max(1, (end - ramp) // (2 * block))
         if found.settled or end - apart - _BLOCKS * block < ramp:
-            return dataclasses.replace(found, nearer=0.0 if found.settled else math.inf)
+            return dataclasses.replace(found, nearer=0.0 if found.settled else math.nan)
         before = self.judged(*asked, end=end - apart)
         nearer = math.inf
         if found.off < _NEARER * before.off:
@@ -329,8 +329,9 @@ class March:
         """Go back to where a march of the same drive stood when it gave its tree."""
         self.rows, self.states = tree["rows"], tree["states"]
         self.committed, self.seconds = tree["committed"], tree["seconds"]
-        steps = {name: float(tree[name]) for name in ("longest", "landing")}
-        self.system = self.system._replace(**steps)
+        self.system = self.system._replace(
+            longest=float(tree["longest"]), landing=float(tree["landing"])
+        )
         self.finer, self.off = float(tree["finer"]), float(tree["off"])
         self.marked = Marked(int(tree["marked"]), tree["marked_states"], tree["marked_committed"])
 

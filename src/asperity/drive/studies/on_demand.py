@@ -18,7 +18,7 @@ from asperity.drive.life import Life, life
 from asperity.drive.motor import Exchange, Service, exchange, of_another_speed
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
-from asperity.drive.result import DriveResult
+from asperity.drive.result import EQUAL, DriveResult
 from asperity.errors import InputError
 from asperity.rating.demands import DEMANDS
 from asperity.rating.verdict import Safety
@@ -66,8 +66,9 @@ class OnDemand(DriveResult):
         torque, energy, *_ = super().headline()
         known = self.actuator_electrical is not None
         least, most = ("", "") if known else ("at least ", "at most ")
-        word = ", less" if self.energy_shaken < self.energy_plain else ", no less"
-        if not known and self.energy_shaken < self.energy_plain:
+        less = self.energy_shaken < (1.0 - EQUAL) * self.energy_plain
+        word = ", less" if less else ", no less"
+        if not known and less:
             word = ""
         stroke = (
             f"a stroke takes {least}{self.energy_shaken:.3g} J for {self.energy_plain:.3g}{word}"
@@ -77,7 +78,7 @@ class OnDemand(DriveResult):
             motor = f"the same motor, {self.motor_plain}"
         lighter = self.saved_mass > 0.0
         light = f"{abs(self.saved_mass):.2g} kg {'lighter' if lighter else 'heavier'}"
-        light = f"{most if lighter else least}{light}"
+        light = f"{most if lighter else least}{light}" if self.saved_mass else "as heavy"
         holds = "holds" if self.held_after else "does NOT hold"
         said = [f"{stroke}; {motor}, {light} with the actuator", f"it {holds} after"]
         if self.safety_wear is not None:

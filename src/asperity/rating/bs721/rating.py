@@ -6,7 +6,7 @@ application factor, for the whole running time; of a valve strength for a tenth 
 one.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -43,7 +43,7 @@ def rate(given: Inputs, tables: Tables) -> Rating:
         entries(given, "bs721", values, _sources(given, tables), _equations(given, values)),
         _violations(given, values),
         (*notes, *_notes(given, values)),
-        notes,
+        (*notes, *_parts_unrated(given, tables)),
     )
 
 
@@ -93,6 +93,20 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     lower_strength, strength_note = _with_worm(v, "M_b", worm_strength)
     _torques(given, v, lower_wear, lower_strength)
     return v, tuple(note for note in (wear_note, strength_note) if note)
+
+
+def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
+    """Say which parts of a duty cycle run at speeds that no table reaches."""
+    for place, part in enumerate(given.parted(), 1):
+        for member, speed in (("wheel", part.wheel_speed), ("worm", part.worm_speed)):
+            try:
+                torque.strength_speed_factor(speed, member=member, tables=tables)
+                torque.wear_speed_factor(
+                    sliding_velocity(given.worm_pitch_diameter, part.worm_speed, given.lead_angle),
+                    speed, member=member, tables=tables,
+                )  # fmt: skip
+            except TableRangeError as error:
+                yield f"the {member} is not rated: part {place} of the duty cycle: {error}"
 
 
 def by_normal_section(given: Inputs) -> bool:

@@ -265,12 +265,12 @@ def _patent() -> Finding:
         {"at 2500 Hz the worm's speed swings by more than its mean": ratios[_PATENT] > 1.0},
         f"the worm's speed swings by {ratios[_PATENT]:.3f} of its mean at 2500 Hz",
         f"For gearset 3 at 1440 rpm, its motor ({motor.name}) swinging its torque by all of its "
-        f"rated {motor.torque:.0f} N m. The rotor's inertia, {1e3 * _ROTOR:g} g m2 (one catalogue), "
-        "hardly moves; the worm on its shaft does more the nearer it is to its resonance of "
-        f"{resonance:.0f} Hz, {ratios[resonance]:.2f} there, with a damping ratio of {_DAMPING:g}, "
-        f"and {ratios[50.0]:.2f} at 50 Hz. Friction reverses above 1 only: {needed:.0f} times the "
-        "torque would do. What the patent's own machine is, slower or with a lighter rotor, the "
-        "thesis does not say.",
+        f"rated {motor.torque:.0f} N m. The rotor's inertia, {1e3 * _ROTOR:g} g m2 (of one "
+        "catalogue), hardly moves; the worm on its shaft does more the nearer it is to its "
+        f"resonance of {resonance:.0f} Hz, {ratios[resonance]:.2f} there, with a damping ratio of "
+        f"{_DAMPING:g}, and {ratios[50.0]:.2f} at 50 Hz. Friction reverses above 1 only: "
+        f"{needed:.0f} times the torque would do. What the patent's own machine is, slower "
+        "or with a lighter rotor, the thesis does not say.",
         {
             "resonance_Hz": resonance,
             "speed_ratio_at_2500_Hz": ratios[_PATENT],
