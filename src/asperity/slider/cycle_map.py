@@ -158,7 +158,8 @@ class Cycle:
             most = [_PUSH, 0.0]
             for n, (size, _) in enumerate(self.pushed(push * mode, 2 * half)):
                 if not size <= _GONE * _PUSH:
-                    worst = max(worst, _GONE ** (1.0 / (n + 1)))
+                    grown = size / _PUSH if math.isfinite(size) else _GONE
+                    worst = max(worst, grown ** (1.0 / (n + 1)))
                     break
                 most[n >= half] = max(most[n >= half], size)
             else:
