@@ -152,3 +152,7 @@ def _by_parts(gears, run, options, rng, seed):
     ]
     cycle = rate(*tables(gears, {**run, "duty_cycle": steps}, options))
     same(safeties(life), safeties(cycle), seed, "duty cycle")
+    # The same, said of parts with a speed of their own beside another speed of the operation.
+    own = [step | {"worm_speed": run["worm_speed"]} for step in steps]
+    other = {**run, "worm_speed": run["worm_speed"] * rng.uniform(0.5, 1.5), "duty_cycle": own}
+    same(safeties(life), safeties(rate(*tables(gears, other, options))), seed, "speeds of parts")

@@ -32,7 +32,7 @@ FUNCTIONS = {"sqrt", "atan", "tan", "cos", "sin", "asin", "exp", "ln", "lg", "mi
 # says around them, or the name of a table or of a step that is explained there.
 PLAIN = {
     "A", "C", "I", "K", "K_R", "K_V", "L", "L_i", "N", "P", "P_Vi", "S_b1", "S_c1", "T", "T_i",
-    "U_i", "W_n",
+    "U_i", "W_n", "n_m",
     "X_b1", "X_c1", "Z_0", "a", "and", "at", "b_e", "by", "c", "c_0", "c_1", "c_2", "c_k",
     "casting", "cycle", "duty", "else", "fan", "flanks", "for", "form", "h_a1", "h_f1", "h_f2",
     "if", "in", "input", "linear", "n_i", "of", "or", "over", "polynomial", "required", "rho", "s",
@@ -238,9 +238,10 @@ def test_duty_cycle_is_worth_the_equivalent_hours_of_bs_721():
         {"duration": "2 h", "output_torque": "300 N m", "worm_speed": "750 rpm"},
     ]
     rated = rate(*minimal(run={"duty_cycle": steps}))
-    # The torque to the power of 3 for wear and of 7 for strength, at the greatest of the parts.
-    assert rated.bs721["U_w_h"] == pytest.approx(10.0 / 3.0**3 + 0.5 * 2.0, rel=1e-13)
-    assert rated.bs721["U_s_h"] == pytest.approx(10.0 / 3.0**7 + 0.5 * 2.0, rel=1e-13)
+    # The torque to the power of 3 for wear and of 7 for strength, at torque and speed of the part
+    # with the greatest torque, which runs half as fast as the other.
+    assert rated.bs721["U_w_h"] == pytest.approx(2.0 * 10.0 / 3.0**3 + 2.0, rel=1e-13)
+    assert rated.bs721["U_s_h"] == pytest.approx(2.0 * 10.0 / 3.0**7 + 2.0, rel=1e-13)
     assert rated.iso14521["life_h"] == pytest.approx(11.0, rel=1e-13)
 
 

@@ -157,3 +157,57 @@ def test_two_forms_of_the_load_are_refused_and_so_is_less_than_idling():
         Operation(**run)
     with pytest.raises(InputError, match=r"input_power is 20 W; without load the gearbox takes"):
         rated(run=run, input_power="20 W")
+
+
+SLOW = {**RUN, "output_torque": "300 N m", "worm_speed": "590 rpm"}
+PAIR = A100.model_copy(
+    update={"starts": 2, "wheel_teeth": 40, "axial_module": "4 mm", "diameter_factor": 10.0}
+)
+
+
+@pytest.mark.parametrize("speed", [30, 250, 590, 1400])
+def test_one_part_with_a_speed_of_its_own_is_that_load_alone_in_every_safety(speed):
+    alone = rated(PAIR, SLOW, worm_speed=f"{speed} rpm", life="5000 h")
+    cycle = rated(PAIR, SLOW, duty_cycle=steps((300, speed, 5000)))
+    assert len(safeties(alone)) == 8
+    assert safeties(cycle) == pytest.approx(safeties(alone), rel=1e-13)
+
+
+def test_hours_and_speed_factors_of_bs_721_are_at_the_speed_of_the_greatest_torque():
+    bins = (300, 30, 5000), (300, 60, 10), (80, 900, 100)
+    cycle = rated(PAIR, SLOW, duty_cycle=steps(*bins)).bs721
+    alone = rated(PAIR, SLOW, worm_speed="60 rpm").bs721
+    assert (cycle["X_c"], cycle["X_b"]) == (alone["X_c"], alone["X_b"])
+    hours = 5000 * 30 / 60 + 10 + 100 * 900 / 60 * (80 / 300) ** 3
+    assert cycle["U_w_h"] == pytest.approx(hours, rel=1e-13)
+
+
+def test_order_does_not_count_where_parts_have_the_greatest_torque_at_several_speeds():
+    bins = (300, 30, 5000), (300, 900, 10), (80, 590, 100)
+    first = safeties(rated(PAIR, SLOW, duty_cycle=steps(*bins)))
+    for order in itertools.permutations(bins):
+        found = safeties(rated(PAIR, SLOW, duty_cycle=steps(*order)))
+        assert found == pytest.approx(first, rel=1e-13)
+
+
+def test_speed_of_the_operation_says_nothing_where_every_part_has_its_own():
+    one, other = (
+        rated(PAIR, SLOW, worm_speed=f"{n} rpm", duty_cycle=steps((300, 30, 500), (99, 900, 9)))
+        for n in (20, 1400)
+    )
+    assert safeties(one) == pytest.approx(safeties(other), rel=1e-13)
+
+
+def test_a_part_whose_wheel_is_beyond_the_speeds_of_bs_721_leaves_it_without_an_answer():
+    # 5 rpm at the worm are 0.25 rpm at the wheel, whose tables start at 0.5 rpm.
+    found = rated(PAIR, SLOW, duty_cycle=steps((300, 590, 5000), (80, 5, 100)))
+    alone = rated(PAIR, SLOW, worm_speed="5 rpm", output_torque="80 N m", life="100 h")
+    assert alone.bs721 is None
+    assert found.bs721 is None
+    many = variants(
+        PAIR,
+        Operation(**SLOW, duty_cycle=steps((300, 590, 5000), (80, 5, 100))),
+        diameter_factor=[10.0],
+    )
+    assert np.isnan(many["bs721.safety_wear"]).all()
+    assert np.isnan(many["bs721.safety_strength"]).all()

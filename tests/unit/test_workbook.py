@@ -127,6 +127,16 @@ CASES = {
             ],
         }
     },
+    "duty cycle, the hardest part at its own speed": {
+        "values": {
+            "operation.wheel_revolutions": None,
+            "operation.duty_cycle": [
+                {"duration": 3.6e4, "output_torque": 366.0, "worm_speed": 20.0},
+                {"duration": 7.2e4, "output_torque": 366.0, "worm_speed": 75.0},
+                {"duration": 1.8e5, "output_torque": 122.0},
+            ],
+        }
+    },
     "small, with a fan": {
         "settings": [
             "gearset.starts=1",

@@ -5,8 +5,12 @@ arrays of one shape where variants of a gearset are rated.
 """
 
 import dataclasses
+import functools
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
+
+import numpy as np
 
 from asperity.arrays import Real, smaller
 from asperity.gearset import relations
@@ -131,6 +135,22 @@ class Inputs:
             for part in self.duty
         )
 
+    def most_of_hardest(self, values: Sequence[Real]) -> Real:
+        """Return the greatest of the parts' values, of those with the greatest torque."""
+        most = functools.reduce(np.maximum, [part.torque for part in self.duty])
+        known = (
+            np.where(part.torque >= most, value, 0.0)
+            for part, value in zip(self.duty, values, strict=True)
+        )
+        return functools.reduce(np.maximum, known)
+
+    @property
+    def hardest_speed(self) -> Real:
+        """The worm's with the greatest torque of the duty cycle (the fastest such part), rpm."""
+        if not self.duty:
+            return self.worm_speed
+        return self.most_of_hardest([part.speed for part in self.duty])
+
     @property
     def wheel_speed(self) -> Real:
         """Speed of the wheel, rpm."""
@@ -170,7 +190,7 @@ class Inputs:
         if self.hours is not None:
             return self.hours
         if self.duty:
-            return self._equivalent_hours(0, 1.0)
+            return self._equivalent_hours(0, 1.0, self.worm_speed)
         if self.operation.wheel_revolutions is not None:
             return self.operation.wheel_revolutions / (60.0 * self.wheel_speed)
         return scaled(self.operation.life or DEFAULT_LIFE, 1.0 / _HOUR)
@@ -178,20 +198,22 @@ class Inputs:
     @property
     def wear_hours(self) -> Real:
         """Running time in hours for which BS 721 judges wear, at the through-travel torque."""
-        return self._equivalent_hours(3, self.through_travel_torque) if self.duty else self.life
+        if self.duty:
+            return self._equivalent_hours(3, self.through_travel_torque, self.hardest_speed)
+        return self.life
 
     @property
     def strength_hours(self) -> Real:
         """Running time in hours for which BS 721 judges strength, at the rated torque."""
         if self.duty:
-            return self._equivalent_hours(7, self.output_torque)
+            return self._equivalent_hours(7, self.output_torque, self.hardest_speed)
         return self.life * _STRENGTH_SHARE if self.operation.service == "valve" else self.life
 
-    def _equivalent_hours(self, exponent: int, torque: Real) -> Real:
+    def _equivalent_hours(self, exponent: int, torque: Real, speed: Real) -> Real:
         # asperity.rating.bs721.equivalent_hours, for arrays of speeds and torques.
         total: Real = 0.0
         for part in self.duty:
-            turns = part.hours * (part.speed / self.worm_speed)
+            turns = part.hours * (part.speed / speed)
             total += turns * (part.torque / torque) ** exponent
         return total
 

@@ -3,7 +3,7 @@
 Wear is judged by the torque through the travel and strength by the rated torque, both times the
 application factor, for the whole running time; of a valve strength for a tenth of it (thesis
 3.3.1), of a duty cycle for equivalent times at the greatest torque of its parts and at the rated
-one.
+one, both at the speed of the part with the greatest torque (the fastest of such).
 """
 
 from collections.abc import Callable, Iterator
@@ -27,6 +27,11 @@ from asperity.rating.iso14521.friction import sliding_velocity
 from asperity.rating.iso14521.strength import safety
 from asperity.rating.result import Rating
 from asperity.sources import Source, weakest
+
+_OF_DUTY = (
+    "the duty cycle: hours are referred to n_m, the worm's speed in the part with the greatest "
+    "torque, at which the speed factors are looked up too"
+)
 
 
 def rate(given: Inputs, tables: Tables) -> Rating:
@@ -65,11 +70,14 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, angle)
     geometry = given.axial_module, given.diameter_factor, given.lead_angle
     m, q, lead = geometry
-    at, d_2 = v["sliding_velocity_m_s"], given.wheel_reference_diameter
-    v["X_c"] = torque.wear_speed_factor(at, given.wheel_speed, tables=tables)
+    d_2, n_1 = given.wheel_reference_diameter, given.hardest_speed
+    n_2 = n_1 / given.gear_ratio
+    at = sliding_velocity(given.worm_pitch_diameter, n_1, given.lead_angle)
+    v["X_c"] = torque.wear_speed_factor(at, n_2, tables=tables)
     v["Z"] = torque.zone_factor(given.starts, q, given.wheel_face_width, m, tables=tables)
     v["S_c_MPa"] = tables.surface_stress_factor(wheel, worm)
-    v["X_b"] = torque.strength_speed_factor(given.wheel_speed, tables=tables)
+    v["X_b"] = torque.strength_speed_factor(n_2, tables=tables)
+    _as_far_as_parts_reach(given, tables, v)
     v["S_b_MPa"] = tables.bending_stress_factor("wheel", wheel)
     v["l_r_mm"] = torque.root_arc(given.wheel_face_width, given.worm_tip_diameter, *geometry)
 
@@ -80,11 +88,11 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
         return torque.strength_torque(speed_factor, stress_factor, m, v["l_r_mm"], d_2, lead)
 
     def worm_wear() -> Real:
-        speed = torque.wear_speed_factor(at, given.worm_speed, member="worm", tables=tables)
+        speed = torque.wear_speed_factor(at, n_1, member="worm", tables=tables)
         return wear(speed, tables.worm_surface_stress_factor(worm, wheel))
 
     def worm_strength() -> Real:
-        speed = torque.strength_speed_factor(given.worm_speed, member="worm", tables=tables)
+        speed = torque.strength_speed_factor(n_1, member="worm", tables=tables)
         return strength(speed, tables.bending_stress_factor("worm", worm))
 
     v["M_c_wheel_Nm"] = wear(v["X_c"], v["S_c_MPa"])
@@ -93,6 +101,21 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     lower_strength, strength_note = _with_worm(v, "M_b", worm_strength)
     _torques(given, v, lower_wear, lower_strength)
     return v, tuple(note for note in (wear_note, strength_note) if note)
+
+
+def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
+    """Leave the speed factors of the wheel without a value where a part is beyond its tables.
+
+    Of one gearset that raises TableRangeError, as it does of a load that is all the same.
+    """
+    for part in given.parted():
+        at = sliding_velocity(given.worm_pitch_diameter, part.worm_speed, given.lead_angle)
+        own = {
+            "X_c": torque.wear_speed_factor(at, part.wheel_speed, tables=tables),
+            "X_b": torque.strength_speed_factor(part.wheel_speed, tables=tables),
+        }
+        if current_mask() is not None:
+            v |= {key: np.where(np.isnan(one), one, v[key]) for key, one in own.items()}
 
 
 def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
@@ -141,7 +164,7 @@ def _equations(given: Inputs, values: Values) -> dict[str, str]:
     }
     if given.duty:
         for key, exponent, torque in (("U_w_h", 3, "T_2"), ("U_s_h", 7, "T_R")):
-            by_case[key] = f"sum of U_i n_i/n_1 (T_i/{torque})^{exponent} over the duty cycle"
+            by_case[key] = f"sum of U_i n_i/n_m (T_i/{torque})^{exponent} over the duty cycle"
     if by_normal_section(given):
         by_case["eta"] = "tan(gamma_m1)/tan(gamma_m1 + atan(mu/cos(alpha_n)))"
         by_case["eta_back"] = "tan(gamma_m1 - atan(mu/cos(alpha_n)))/tan(gamma_m1)"
@@ -167,18 +190,20 @@ def _sources(given: Inputs, tables: Tables) -> dict[str, Source]:
 
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
+    fastest = max(part.worm_speed for part in given.parted() or (given,))
     at = {
         "axial_module": given.axial_module,
         "wheel_diameter": given.wheel_reference_diameter,
-        "sliding_velocity": values["sliding_velocity_m_s"],
-        "wheel_speed": given.wheel_speed,
+        "sliding_velocity": values["sliding_velocity_m_s"] * (fastest / given.worm_speed),
+        "wheel_speed": fastest / given.gear_ratio,
     }
     found = (span.violation(at[name]) for name, span in VALIDITY.items())
     return tuple(sentence for sentence in found if sentence)
 
 
 def _notes(given: Inputs, values: Values) -> list[str]:
-    notes = [
+    notes = [_OF_DUTY] if given.duty else []
+    notes += [
         f"{part}: {note}"
         for part in ("wheel", "worm")
         if (note := getattr(given.gearset, f"{part}_material").source("bs721").note)

@@ -6,7 +6,7 @@ and temperatures.
 
 Of a duty cycle, wear, pitting and temperature go by its parts, each at its own torque, speed and
 temperature, see `_over_the_parts`; deflection and root by the rated torque, which none of them
-exceeds, the root with the wear of all.
+exceeds, with the friction at the speed of the part that has the greatest and the wear of all.
 """
 
 import functools
@@ -154,14 +154,15 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
         hertz.contact_modulus(*elastic),
     )
     _forces(given, v, rated)
-    parts = parts_of(given, v)
+    parts, friction_of_bending = parts_of(given, v), v["mu_zm"]
     if parts:
         _over_the_parts(parts, v)
+        friction_of_bending = given.most_of_hardest([own["mu_zm"] for own in parts])
     else:
         _temperatures(given, v)
         _wear(given, v)
     _pitting(given, v)
-    _deflection(given, v)
+    _deflection(given, v, friction_of_bending)
     _root(given, v)
     hottest = v.get("theta_S_max_degC", v["theta_S_degC"])
     v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], hottest)
@@ -346,11 +347,11 @@ def _pitting_life(given: Inputs, v: Values) -> None:
     v["Z_h"] = pitting.pitting_life_factor_of_parts(v["L_He_h"], v["relief"])
 
 
-def _deflection(given: Inputs, v: Values) -> None:
+def _deflection(given: Inputs, v: Values, mean_friction: Real) -> None:
     v["delta_m_mm"] = strength.worm_deflection(
         v["F_tm2_N"],
         given.lead_angle,
-        v["mu_zm"],
+        mean_friction,
         given.pressure_angle,
         given.worm_root_diameter,
         0.5 * given.bearing_span,

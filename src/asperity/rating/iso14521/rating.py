@@ -94,7 +94,8 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             "the duty cycle: wear adds up over its parts, each with the sump at rest at its own "
             "temperature, and film and wear factors are those of the part that wears most; pitting "
             "goes by its parts' damage, with the exponent of Z_h (our own rule); deflection and "
-            "root go by the rated torque"
+            "root go by the rated torque, the friction there by the speed of the part with the "
+            "greatest torque"
         )
         if given.operation.through_travel_torque is not None:
             notes.append(
