@@ -154,3 +154,17 @@ def test_a_wheel_that_is_best_listed_tells_what_it_changes(asperity, here):
         for name, word in words.items():
             told = any(f"{word} -> {now[name]}" in text for text in other["changes"])
             assert told == (word != now[name])
+
+
+def test_size_does_not_say_by_every_standard_over_one_that_has_no_answer(asperity, here):
+    answer = sized(asperity, "--set", "gearset.wheel_material=EN-GJL-250")
+    assert any("AGMA 6034 covers" in note for note in answer["notes"])
+    assert answer["holding"] == 0
+    assert answer["notes"][-1].startswith("none holds by every standard, since one or another")
+    assert all(one["holds"] for one in answer["proposals"])
+
+
+def test_size_refuses_tables_that_are_not_there_as_rate_does(asperity, here):
+    code, _, errors = asperity(*SIZE, "--set", "rating.bs721_tables=nope.toml")
+    assert code == 2
+    assert "nope.toml cannot be read: no such file or directory; name a file of tables" in errors

@@ -107,3 +107,30 @@ def test_a_gearset_has_no_branches():
     case, _ = grid(TORQUES)
     with pytest.raises(InputError, match="this is a case of a worm gearset that is rated"):
         branches.prepare(case, over=[TORQUES])
+
+
+SMALL = """
+[gearset]
+starts = 1
+wheel_teeth = 30
+centre_distance = "26.6 mm"
+diameter_factor = 10
+worm_material = "case-hardened steel"
+wheel_material = "CuSn12-C-GZ"
+[operation]
+worm_speed = "1440 rpm"
+output_torque = "2 N m"
+lubricant = "ISO VG 220 polyglycol"
+fan = true
+"""
+
+
+def test_a_standard_that_leaves_a_safety_without_an_answer_has_no_margin(tmp_path):
+    case = tmp_path / "small.toml"
+    case.write_text(SMALL)
+    over = ["gearset.centre_distance=26.6,50 mm"]
+    found = run(*read_grid(str(case), case_tables(), [], over), cache=False).arrays
+    first = rate_case(read_case(str(case), case_tables()))
+    assert first.verdict.standing[0].word == "undecided"
+    assert np.isnan(found["iso14521_margin"]).tolist() == [True, False]
+    assert not np.isnan(found["bs721_margin"]).any()

@@ -152,6 +152,8 @@ def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
     judged = (
         "the smallest that holds by every standard"
         if found.holding
+        else "the smallest that holds by the standards that can rate it"
+        if best.holds
         else "which does not hold by every standard, but comes nearest"
     )
     return [

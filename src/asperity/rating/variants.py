@@ -14,6 +14,7 @@ from asperity.formulas import Mask, Reasons, masking
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rated as rated_agma6034
 from asperity.rating.bs721.rating import rated as rated_bs721
+from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
@@ -138,10 +139,11 @@ def variants(
     wanted = known_standards(standards)
     found: dict[str, Any] = {}
     masks, notes = {}, []
+    tables = tables_of(options, folder) if "bs721" in wanted else None
     for name in wanted:
         mask = impossible.copy()
         try:
-            numbers = _calculate(name, given, mask, capacity, folder)
+            numbers = _calculate(name, given, mask, capacity, tables)
         except InputError as error:
             if len(wanted) == 1:
                 raise
@@ -152,9 +154,10 @@ def variants(
     return Variants(shape, given, tuple(notes), impossible.reason != 0, found, masks)
 
 
-def _calculate(name: str, given: Inputs, mask: Mask, capacity: bool, folder: Path | None) -> Values:
+def _calculate(
+    name: str, given: Inputs, mask: Mask, capacity: bool, tables: Tables | None
+) -> Values:
     """Return the numbers of a standard, block by block."""
-    tables = tables_of(given.options, folder) if name == "bs721" else None
     found: Values = {}
     count = mask.reason.size
     fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
@@ -166,7 +169,7 @@ def _calculate(name: str, given: Inputs, mask: Mask, capacity: bool, folder: Pat
             if name == "iso14521":
                 numbers = rated_efficiency(here)
                 numbers = rated_capacity(here, numbers) if capacity else numbers
-            elif tables is not None:
+            elif name == "bs721" and tables is not None:
                 numbers = rated_bs721(here, tables)[0]
             else:
                 numbers = rated_agma6034(here)

@@ -17,9 +17,10 @@ from asperity.errors import InputError, choices, suggestion
 from asperity.formulas import masking
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.threads import thread_room
+from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS
+from asperity.rating.rate import STANDARDS, tables_of
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.variants import Variants, variants
 from asperity.results import Result, quantity
@@ -209,7 +210,7 @@ def propose(
     margins, least, rated_by_all = _margins(rated)
     efficiency = np.asarray(rated["iso14521.eta_ges"])
     known = np.isfinite(margins) & np.isfinite(efficiency) & (efficiency > 0.0)
-    locking = _locking(rated)
+    locking = _locking(rated, tables_of(options or RatingOptions(), None))
     if locks:
         known &= np.all([margin >= 0.0 for margin in locking[locks].values()], axis=0)
     holding = known & (margins >= 1.0) & rated_by_all
@@ -307,7 +308,8 @@ def _that_can_be_cut(
 def _margins(rated: Variants) -> tuple[FloatArray, Any, Any]:
     """Return of each design the least safety over what is asked, and which demand has it.
 
-    And whether every standard has an answer: the tables of BS 721 do not reach everywhere.
+    And whether every standard has an answer: AGMA 6034 knows bronzes only, and the tables of
+    BS 721 do not reach everywhere.
     """
     rows = [
         np.broadcast_to(np.asarray(rated[demand.path]) / demand.asked, rated.shape)
@@ -316,18 +318,17 @@ def _margins(rated: Variants) -> tuple[FloatArray, Any, Any]:
         for demand in DEMANDS
     ]
     stacked = np.stack(rows)
-    asked = np.array([demand.path in rated for demand in DEMANDS])
     least = np.argmin(np.where(np.isnan(stacked), math.inf, stacked), axis=0)
     margins = np.take_along_axis(stacked, least[None], axis=0)[0]
     # What ISO/TR 14521 cannot rate has no efficiency either.
-    return margins, least, ~np.any(np.isnan(stacked[asked]), axis=0)
+    return margins, least, ~np.any(np.isnan(stacked), axis=0)
 
 
-def _locking(rated: Variants) -> dict[str, dict[str, FloatArray]]:
+def _locking(rated: Variants, tables: Tables) -> dict[str, dict[str, FloatArray]]:
     """Return by state and standard by how much friction is above what locks; NaN without one."""
     found: dict[str, dict[str, FloatArray]] = {"rest": {}, "motion": {}}
     with masking(rated.shape):
-        margins = locking_margins(rated.given, rated)
+        margins = locking_margins(rated.given, rated, tables)
     for (standard, state), margin in margins.items():
         everywhere = np.broadcast_to(np.asarray(margin, dtype=float), rated.shape)
         # A standard without an answer has no say.

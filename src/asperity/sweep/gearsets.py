@@ -103,9 +103,12 @@ class Gearsets(Subject):
             for standard, rating in answer.found.items()
             for entry in rating
         }
+        open_ = {one.standard for one in answer.verdict.standing if one.word == "undecided"}
         for standard in answer.found:
             own = [s.margin for s in safeties if s.demand.standard == standard]
-            found[f"{standard}_margin"] = min(own, default=None)
+            # Of one that leaves a safety without an answer, the least of the others is no margin.
+            if standard not in open_:
+                found[f"{standard}_margin"] = min(own, default=None)
         found["margin"] = min((safety.margin for safety in safeties), default=None)
         for verdict in answer.self_locking:
             found[f"{verdict.standard}_locks_{verdict.state}"] = float(verdict.locks)
