@@ -346,11 +346,15 @@ def test_without_cutting_the_threads_are_looked_at_and_the_wheels_are_not(asperi
         ),
         (
             "300 N m", ("--set", "operation.output_torque=200"),
-            "--set operation.output_torque=200: operation.output_torque is 200 without a unit",
+            "--set operation.output_torque=200: --output-torque 300 N m says the same; keep one",
+        ),
+        (
+            "300 N m", ("--set", "operation.input_power=1 kW"),
+            "--set operation.input_power=1 kW: --output-torque 300 N m says the same; keep one",
         ),
     ],
 )  # fmt: skip
-def test_a_torque_without_its_unit_is_refused(asperity, torque, settings, said):
+def test_a_torque_without_its_unit_or_given_twice_is_refused(asperity, torque, settings, said):
     asked = ("--ratio", "40", "--output-torque", torque, "--worm-speed", "1500 rpm")
     code, output, errors = asperity("size", *asked, *settings)
     assert (code, output, errors.count("\n")) == (2, "", 1)

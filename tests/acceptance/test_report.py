@@ -63,7 +63,8 @@ def check_numbers(page, answer):
 
 
 NAMED = (
-    r"(ISO/TR|ISO/TS|ANSI/AGMA|AGMA|BS|ISO|DIN) [\d.]+(-[A-Z]?\d+)?(:\d+)?(, series \d+)?",
+    r"(ISO/TR|ISO/TS|ANSI/AGMA|AGMA|BS|ISO|DIN) "
+    r"[\d.]+(-[A-Z]?\d+)?(:\d+)?(, table \d+)?(, series \d+)?",
     r"\b[A-Za-z]+_\w+",
 )
 """Digits that are no numbers: names of standards, and symbols."""

@@ -30,6 +30,31 @@ start = "0 s"
 method = "periodic"
 """
 
+NEAR_RESONANCE = """
+[slider]
+drive_velocity = "0.0013437144815812312 m/s"
+normal_force = "3.6994120207503283 N"
+mass = "9.514405960202404e-06 kg"
+lateral = "free"
+drive_stiffness = "262504.0734132653 N/m"
+drive_damping = "0.09692045613968164 N s/m"
+[friction]
+model = "dahl"
+mu = 0.13438389209027443
+max_deflection = "2.6836663601096456e-07 m"
+law = "split"
+exponent = 3.0
+transfer = 0.0
+[vibration]
+waveform = "sine"
+frequency = "28380.700943344495 Hz"
+velocity_ratio = 0.7922622494768063
+direction = "3.141592653589793 rad"
+applied_to = "body"
+[solve]
+method = "periodic"
+"""
+
 
 def pin(*settings):
     return solve(Model.from_case(read_case("normal-pin", TABLES, settings)), history=False)
@@ -75,3 +100,103 @@ def test_a_drive_that_rings_undamped_does_not_make_a_state_one_of_many():
     answer = solve(Model.from_case(read_case("table-4.3", TABLES, settings)), history=False)
     assert answer.settled, answer.settled_by
     assert np.isclose(answer.ratio, 1.0, atol=1e-6)
+
+
+def near_resonance(folder, *settings):
+    path = folder / "near_resonance.toml"
+    path.write_text(NEAR_RESONANCE)
+    return solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
+
+
+@pytest.mark.parametrize("law", ["split", "vector", "unsplit"])
+def test_of_two_states_the_one_is_shown_that_a_march_from_rest_comes_to(tmp_path, law):
+    settings = f"friction.law={law}", "friction.transfer=1"
+    state = near_resonance(tmp_path, *settings)
+    marched = near_resonance(tmp_path, *settings, "solve.method=march", "solve.duration=0.06 s")
+    assert marched.settled
+    assert state.settled
+    assert state.ratio == pytest.approx(marched.ratio, abs=1e-4)
+    assert state.ratio < 0.9
+    assert any("with the ratio 1, repeats itself as well" in note for note in state.notes)
+
+
+@pytest.mark.parametrize(("ratio", "exponent"), [(0.5, 1.0), (0.98, 1.0), (0.9, 2.0)])
+def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio, exponent):
+    settings = (
+        f"vibration.velocity_ratio={ratio}", "vibration.direction=0 deg", "friction.law=vector",
+        f"friction.exponent={exponent}", "solve.method=periodic",
+    )  # fmt: skip
+    answer = solve(Model.from_case(read_case("table-4.3", TABLES, settings)), history=False)
+    assert answer.settled
+    assert answer.ratio == pytest.approx(1.0, abs=1e-9)
+    assert not answer.notes
+
+
+DUCTILE = """
+[slider]
+drive_velocity = "0.1 mm/s"
+normal_force = "10 N"
+[friction]
+model = "dahl"
+mu = 0.1
+max_deflection = "1 um"
+law = "vector"
+exponent = 3.0
+[vibration]
+frequency = "100 Hz"
+velocity_ratio = 0.5
+[solve]
+duration = "10 s"
+"""
+
+
+@pytest.mark.parametrize("exponent", [2.0, 3.0, 4.0])
+def test_ductile_asperities_on_a_rigid_drive_keep_a_march_from_having_settled(tmp_path, exponent):
+    """Their limit, the ratio 1, is left by what the way x makes of it, as x^(-1/(i - 1))."""
+    path = tmp_path / "ductile.toml"
+    path.write_text(DUCTILE)
+    settings = [f"friction.exponent={exponent}"]
+    answer = solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
+    left = 1.0 - answer.ratio
+    if exponent == 2.0:
+        assert left < 2e-3
+        assert answer.settled
+    else:
+        assert answer.residual < 1e-3
+        assert left > 2e-3
+        assert not answer.settled
+        told = float(answer.settled_by.split(", ")[1].split(" ")[0])
+        assert told == pytest.approx(left, rel=0.1)
+
+
+CHATTER = """
+[slider]
+drive_velocity = "3.701941630494637e-05 m/s"
+normal_force = "11.126738928136051 N"
+mass = "0.00014117222203054557 kg"
+lateral = "free"
+[friction]
+model = "dahl"
+mu = 0.11050709490807627
+max_deflection = "1.6246282916041796e-07 m"
+law = "vector"
+exponent = 0.0
+[vibration]
+frequency = "2054.4505080804597 Hz"
+velocity_ratio = 1e-6
+direction = "0.3754659847124026 rad"
+[solve]
+duration = "0.03 s"
+"""
+
+
+def test_the_chatter_of_a_step_is_no_less_than_what_is_said_of_its_error(tmp_path):
+    """Next to nothing shakes it: the ratio is 1."""
+    path = tmp_path / "chatter.toml"
+    path.write_text(CHATTER)
+    answer = solve(Model.from_case(read_case(path, TABLES, ())), history=False)
+    assert answer.step_error is not None
+    assert abs(answer.ratio - 1.0) <= 1.5 * answer.step_error
+    assert abs(answer.ratio - 1.0) <= 1e-3 or any(
+        "the step makes an error" in n for n in answer.notes
+    )

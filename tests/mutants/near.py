@@ -61,7 +61,9 @@ def nearest(mutant) -> list[str]:
     chosen = [kept["tests"][n] for n, _ in counts.most_common(_MOST)]
     if not mutant.function:
         # A number of a module: who names that may look at it without calling anything.
-        chosen = _naming(mutant.module)[:1] + chosen
+        named = _naming(mutant.module)
+        own = [name for name in named if Path(mutant.module).stem in name]
+        chosen = list(dict.fromkeys(own[:1] + named[:1])) + chosen
     return chosen if len(chosen) >= _FEW else chosen + _naming(mutant.module)
 
 

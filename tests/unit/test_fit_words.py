@@ -142,7 +142,7 @@ def test_an_exact_table_without_deviations_has_narrow_intervals(tmp_path, monkey
 def test_ratios_above_one_that_no_law_can_give_are_told(tmp_path, monkeypatch, settings, told):
     values = [1.12, 1.03, 1.25, 0.9, 0.8, 0.7]
     result = solved(tmp_path, monkeypatch, values, sd=0.02, free=LIMIT, settings=settings)
-    assert ("the ratio of rows 2, 4 lie above 1" in said(result)) is told
+    assert ("the ratios of rows 2, 4 lie above 1" in said(result)) is told
 
 
 def test_as_many_parameters_as_measurements_are_warned_of(tmp_path, monkeypatch):
@@ -200,3 +200,39 @@ def test_what_has_not_settled_is_no_prediction_and_its_row_is_named(tmp_path, mo
 def test_a_table_without_deviations_and_without_residuals_is_refused(tmp_path, monkeypatch):
     with pytest.raises(InputError, match="no column sd, and 2 measurements for 2 free"):
         solved(tmp_path, monkeypatch, TRUE[:2], sd=None)
+
+
+def test_a_long_reason_stands_below_the_table_and_its_value_in_the_table_s_unit(
+    tmp_path, monkeypatch
+):
+    class Short(Smooth):
+        def __call__(self, conditions, given):
+            if given[LIMIT] > 75e-9:
+                why = "the model has not settled there: the state is one of many: " + 9 * "and on "
+                return np.full(len(conditions), math.nan), {0: why.strip()}
+            return super().__call__(conditions, given)
+
+    monkeypatch.setattr(study, "Predictor", lambda *_: Short())
+    rows = [f"{k},{v:.6g},0.2" for k, v in zip(K, TRUE, strict=True)]
+    (tmp_path / "data.csv").write_text("\n".join([f"{AMPLITUDE},ratio,sd", *rows]), "utf-8")
+    settings = ["friction.mu=0.21", "friction.max_deflection=0.07 um"]
+    case = read_case("table-4.3", case_tables(), settings)
+    result = answer(prepare(case, data=str(tmp_path / "data.csv"), free=LIMIT), Run())
+    lines = rendered(result.tables(), 80).splitlines()
+    place = next(n for n, line in enumerate(lines) if line.startswith(LIMIT))
+    shown = lines[place]
+    assert "the model answers no further than 0.07" in shown
+    assert shown.endswith(" um")
+    assert f"- {LIMIT}: the model has not settled there" in "\n".join(lines[place:])
+    (one,) = result.parameters
+    assert "one of many" in one.why
+
+
+def test_what_a_fit_would_be_without_a_row_is_told_in_the_unit_of_the_table(tmp_path, monkeypatch):
+    values = TRUE.copy()
+    values[4] += 0.25
+    settings = ["friction.max_deflection=0.08 um"]
+    result = solved(tmp_path, monkeypatch, values, free=LIMIT, settings=settings)
+    assert result.parameters[0].written == "um"
+    assert "max_deflection 0.0" in said(result)
+    assert " nm" not in said(result)

@@ -289,6 +289,25 @@ REFUSED = {
     "a short row": ("vibration.velocity_ratio,ratio,sd\n2,0.5\n", ["row 2", "2 cells"]),
     "too few": ("vibration.velocity_ratio,ratio,sd\n2,0.5,0.01\n", ["fewer than the 2 free"]),
     "empty": ("", ["is empty", "headings"]),
+    "sd too small": (
+        "vibration.velocity_ratio,ratio,sd\n2,0.5,0.01\n3,0.5,1e-300\n",
+        ["row 3: sd is 1e-300 beside ratio 0.5", "at least 1e-15"],
+    ),
+    "sd too small a part": (
+        "vibration.velocity_ratio,force [N],sd\n2,5e6,1e-12\n",
+        ["row 2: sd is 1e-12 N beside force 5e+06 N", "at least 5e-09 N"],
+    ),
+    "sd too large": ("vibration.velocity_ratio,ratio,sd\n2,0.5,1e300\n", ["row 2: sd is 1e+300"]),
+    "a ratio too large": (
+        "vibration.velocity_ratio,ratio,sd\n2,1e300,0.01\n", ["row 2: ratio is 1e+300", "1e+09"]
+    ),
+    "a force too large": (
+        "vibration.velocity_ratio,force [N]\n2,3\n3,-1e300\n", ["row 3: force is -1e+300 N"]
+    ),
+    "sd of a condition too large": (
+        "vibration.velocity_ratio,ratio,sd,sd vibration.velocity_ratio\n2,0.5,0.1,1e300\n",
+        ["row 2: 'sd vibration.velocity_ratio' is 1e+300"],
+    ),
     "twice": ("ratio,ratio,sd\n1,1,1\n", ["twice"]),
 }  # fmt: skip
 

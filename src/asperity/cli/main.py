@@ -16,7 +16,11 @@ def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
     interrupt.at_once()
     hear_again()
-    if len(os.environ.get("COLUMNS", "")) > _DIGITS:
+    columns = os.environ.get("COLUMNS", "")
+    if columns and not columns.strip("0"):
+        # No width at all, in which nothing would be printed: as if it were not set.
+        del os.environ["COLUMNS"]
+    elif len(columns) > _DIGITS:
         # Wider than any terminal, and than what prints the help can count to.
         os.environ["COLUMNS"] = "9" * _DIGITS
     try:

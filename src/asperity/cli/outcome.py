@@ -11,7 +11,7 @@ from typing import ParamSpec
 import typer
 
 from asperity.cli import interrupt
-from asperity.errors import AsperityError, ConvergenceError, plain
+from asperity.errors import AsperityError, ConvergenceError, plain, shown
 from asperity.store import reason
 
 BROKEN_PIPE = 141
@@ -108,6 +108,9 @@ def _stand_in(number: int, mode: int) -> io.TextIOWrapper:
 
 def unwritten(error: OSError) -> str:
     """Return what is to be said of a standard output that cannot be written to."""
+    if error.filename is not None:
+        # Not of a standard output, which has no name.
+        return f"{shown(str(error.filename))} cannot be read or written: {reason(error)}"
     why = "it is closed" if error.errno == errno.EBADF else reason(error)
     return f"standard output cannot be written: {why}"
 

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from asperity.casefile import told
 from asperity.commands.command import Command
-from asperity.errors import ConvergenceError, InputError, plain
+from asperity.errors import ConvergenceError, InputError, StorageError, plain, shown
 from asperity.results.files import picture_format
 from asperity.runs import Run
-from asperity.store import output_folder, write_text
+from asperity.store import output_folder, reason, write_text
 
 if TYPE_CHECKING:
     from asperity.casefile import Case
@@ -144,7 +144,13 @@ def _folder(out: Path | None) -> Iterator[Path | None]:
     if out is None:
         yield None
         return
-    made = [folder for folder in (out, *out.parents) if not folder.exists()]
+    try:
+        made = [folder for folder in (out, *out.parents) if not folder.exists()]
+    except OSError as error:
+        raise StorageError(
+            f"--out {plain(shown(str(out)))} cannot be used as output folder: {reason(error)}; "
+            "choose another"
+        ) from None
     folder = output_folder(out)
     try:
         yield folder

@@ -134,6 +134,7 @@ class _Made:
         self.body, self.undefined, self.error = body, undefined, error
         self.symbols: dict[str, Symbol] = {}
         self.words: dict[str, tuple[str, ...]] = {}
+        self.needed: list[str] = []
         for name, annotation in inspect.get_annotations(body, eval_str=True).items():
             if name == "return":
                 continue
@@ -142,6 +143,8 @@ class _Made:
                 for about in getattr(part, "__metadata__", ()):
                     if isinstance(about, Symbol):
                         self.symbols[name] = about
+            if name in self.symbols and type(None) not in get_args(annotation):
+                self.needed.append(name)
             origin: Any = get_origin(annotation)
             if origin is Literal:
                 self.words[name] = get_args(annotation)
@@ -220,7 +223,11 @@ class _Made:
             given[name] = value
         lowest, highest = self.result.bounds.ends
         with np.errstate(all="ignore"):
-            values = self.body(**given)
+            try:
+                values = self.body(**given)
+            except TypeError:
+                self._refuse_none(given)
+                raise
             if isinstance(values, Traced):
                 return values if self.scales[system] == 1.0 else values * self.scales[system]
             if not shape:
@@ -237,6 +244,11 @@ class _Made:
                 values = self._refuse(values, given)
             scale = self.scales[system]
         return values if scale == 1.0 else values * scale
+
+    def _refuse_none(self, given: dict[str, Any]) -> None:
+        for name in self.needed:
+            if name in given and given[name] is None:
+                raise InputError(f"{name} is None; it must be a number") from None
 
     def _refuse(self, values: FloatArray, given: dict[str, Any]) -> Any:
         """Return NaN in place of what is no result, or raise."""

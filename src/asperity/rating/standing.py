@@ -24,6 +24,10 @@ WORDS: tuple[Word, ...] = ("does not hold", "holds", "undecided", "no answer")
 
 # What the efficiencies of ISO/TR 14521 rest on, as its limits of validity name it.
 _OF_EFFICIENCY = ("(Y_S)", "(h*, p_m*)", "Y_G", "(eta_ges)")
+# A part ends at a semicolon or a full stop, which abbreviations have none of here.
+_PART = re.compile(r"(?:;|(?<!\b[a-z])\.)\s")
+_CUT = " ..."
+_MOST = 2 * WIDTH - 12  # two lines of a text, which break before a word
 _SYMBOL = re.compile(r" \([^)]*\)$")
 
 
@@ -93,8 +97,9 @@ class Standing(NamedTuple):
         }
 
     @staticmethod
-    def sentences(standing: "Sequence[Standing]") -> Iterator[str]:
+    def sentences(standing: "Sequence[Standing]", whole: bool = False) -> Iterator[str]:
         """Yield what standards come to, which answers are missing and why, and what is outside."""
+        cut = str if whole else _shortened
         parts = []
         for word in WORDS:
             names = [NAMES[one.standard] for one in standing if one.word == word]
@@ -104,9 +109,9 @@ class Standing(NamedTuple):
         for one in standing:
             name, why = NAMES[one.standard], one.reasons[0] if one.reasons else ""
             if one.unrated:
-                yield _shortened(f"{name} has no answer for {listed(one.unrated)}: {why}")
+                yield cut(f"{name} has no answer for {listed(one.unrated)}: {why}")
             elif one.word == "no answer" and why:
-                yield _shortened(f"{name}: {why}")
+                yield cut(f"{name}: {why}")
         outside = [f"{NAMES[one.standard]} ({', '.join(one.outside)})"
                    for one in standing if one.outside]  # fmt: skip
         if outside:
@@ -155,5 +160,17 @@ def _what(violation: str) -> str:
 
 
 def _shortened(text: str) -> str:
-    """Return at most two lines of a text."""
-    return textwrap.shorten(text, 2 * WIDTH - 12, placeholder=" ...")
+    """Return at most two lines of a text, ended where a part of it ends.
+
+    Examples
+    --------
+    >>> _shortened("ISO/TR 14521: h* is 0.05; it must be above 0.07. " + "any one of these, " * 9)
+    'ISO/TR 14521: h* is 0.05; it must be above 0.07 ...'
+    """
+    if len(text) <= _MOST:
+        return text
+    room = text[: _MOST - len(_CUT) + 1]
+    ends = [found.start() for found in _PART.finditer(room)]
+    if ends:
+        return room[: ends[-1]] + _CUT
+    return textwrap.shorten(text, _MOST, placeholder=_CUT)

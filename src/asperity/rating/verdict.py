@@ -143,13 +143,13 @@ class Verdict(NamedTuple):
             "film": None if self.film is None else self.film.to_json(),
         }
 
-    def stands(self) -> Iterator[str]:
+    def stands(self, whole: bool = False) -> Iterator[str]:
         """Yield by which standards it holds, which have no answer, and which rate outside."""
-        yield from Standing.sentences(self.standing)
+        yield from Standing.sentences(self.standing, whole)
 
     def sentences(self) -> Iterator[str]:
         """Yield whether it holds, and what fails first."""
-        yield from self.stands()
+        yield from self.stands(whole=True)
         yield from self.nearest()
         yield from self.best()
 

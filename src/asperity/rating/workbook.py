@@ -92,6 +92,10 @@ def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], pat
     return write_workbook(sheets, path)
 
 
+def _greater(one: Any, other: Any) -> Any:
+    return np.maximum(one, other)
+
+
 def _traced(given: Inputs, cells: "_Cells") -> Inputs:
     """Return the inputs with cells in place of numbers, the geometry found from five of them."""
     gearset: Any = _Part(given.gearset, "gearset", cells)
@@ -106,7 +110,7 @@ def _traced(given: Inputs, cells: "_Cells") -> Inputs:
             cells.input(f"duty_cycle_{number}_output_torque", part.torque, "N m")
             for number, part in enumerate(given.duty, 1)
         )
-        free["through_travel_torque"] = functools.reduce(np.maximum, of_parts)
+        free["through_travel_torque"] = functools.reduce(_greater, of_parts)
     elif operation.through_travel_torque is None:
         free["through_travel_torque"] = operation.travel_share * free["output_torque"]
     z1, z2, m, q, x = (free[name] for name in _FREE[:5])

@@ -22,7 +22,7 @@ from asperity.slider.integrators import integrator
 from asperity.slider.longer import advice, needed
 from asperity.slider.march import march
 from asperity.slider.methods import solve
-from asperity.slider.model import Model
+from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import (
     PRESSED_STATE,
@@ -122,7 +122,7 @@ def solve_many(
     answers: list[SlideResult | AsperityError | None] = [None] * len(models)
     groups: dict[tuple[object, ...], list[tuple[int, Timetable]]] = {}
     alone: list[int] = []
-    for index, model in enumerate(models):
+    for index, model in enumerate(require_models(models)):
         try:
             table = Timetable(model) if fits_batch(model) else None
         except AsperityError as error:

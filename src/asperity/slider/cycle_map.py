@@ -70,6 +70,11 @@ class Cycle:
                 self.rises = cycle_of_wave(model.wave(step, lead=lead), steps)
             self.body.place(1.0, ramped=False)
 
+    @property
+    def at_the_limit(self) -> bool:
+        """Whether friction at its limit was found to repeat itself: in a cycle, before a search."""
+        return self.run <= 2
+
     def copied(self) -> "Cycle":
         """Return the same map, for the body to go elsewhere."""
         other = _like(self)
@@ -153,7 +158,8 @@ class Cycle:
             most = [_PUSH, 0.0]
             for n, (size, _) in enumerate(self.pushed(push * mode, 2 * half)):
                 if not size <= _GONE * _PUSH:
-                    worst = max(worst, _GONE ** (1.0 / (n + 1)))
+                    grown = size / _PUSH if math.isfinite(size) else _GONE
+                    worst = max(worst, grown ** (1.0 / (n + 1)))
                     break
                 most[n >= half] = max(most[n >= half], size)
             else:

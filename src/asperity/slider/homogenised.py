@@ -142,6 +142,9 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         walk.to(table.steps, _BLOCK)
         broke = walk.breakaway
         answer = _steady(model, law, began, broke, table.steps, history=history)
+        if broke is None:
+            late = f"within {model.duration:g} s, the solve.duration, the body has not broken away"
+            answer = dataclasses.replace(answer, notes=(*answer.notes, f"{late}: no time of it"))
         if (rate := growth_rate(model)) > 0.0:
             why = sticks_and_slips(rate)
             notes = (*answer.notes, why)

@@ -15,6 +15,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
+from asperity.formulas import real
 from asperity.friction.lugre import stribeck_share
 from asperity.results.settled import Standing
 from asperity.slider.homogenised_normal import remarks_of, told_by
@@ -122,7 +123,7 @@ class HomogenisedLaw:
     def __call__(self, velocity: FloatArray) -> FloatArray: ...
     def __call__(self, velocity: float | FloatArray) -> float | FloatArray:
         """Mean friction force in N at mean velocities in m/s."""
-        values = np.atleast_1d(np.asarray(velocity, dtype=float))
+        values = np.atleast_1d(real("the velocity", velocity))
         if not np.all(np.isfinite(values)):
             raise InputError("the velocity is not finite; give finite velocities in m/s")
         force = self.full_friction * each(values.ravel(), *self.arguments)

@@ -18,6 +18,7 @@ from asperity.slider.timetable import (
 
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
+_MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
 _NEXT, _MOST_TRIED = 1.02, 400
 
 
@@ -59,7 +60,10 @@ def needed(
         elif len(least) == 1:
             return None
     if (far := still_to_bend(model, table, residual)) > FAR:
-        least.append(model.start + (model.duration - model.start) * far / (_LEFT * FAR))
+        times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
+        if times > _MOST_TIMES:
+            return None
+        least.append(model.start + (model.duration - model.start) * times)
     longest = max(least)
     return longest if longest > model.duration else None
 

@@ -50,7 +50,7 @@ def solve(
     _check_method(model)
     if model.solve.method == "periodic":
         try:
-            return solve_periodic(model, history=history)
+            return solve_periodic(model, history=history, rested=True)
         except AperiodicError as error:
             none = error
         answer = march(_to_march(model, none), history=history, stop=stop, run=run)

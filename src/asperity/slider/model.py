@@ -3,12 +3,13 @@
 import dataclasses
 import functools
 import math
+from collections.abc import Sequence
 from typing import Self
 
 import numpy as np
 
 from asperity.casefile import Case, Table
-from asperity.errors import InputError, require_fields
+from asperity.errors import InputError, require_fields, shown
 from asperity.friction import Friction
 from asperity.friction.springs import REFERENCE_INDENTATION, spring_profile
 from asperity.normal import Normal
@@ -349,3 +350,16 @@ class Model:
         if not all(map(math.isfinite, scaled[:6])):
             raise InputError(FAR_APART)
         return scaled
+
+
+def require_models(models: Sequence[object]) -> "Sequence[Model]":
+    """Return models as they are; InputError where there is anything else among them."""
+    found = []
+    for place, model in enumerate(models):
+        if not isinstance(model, Model):
+            raise InputError(
+                f"models[{place}] is {shown(model)}; it must be a Model, as Model.from_case makes "
+                "one"
+            )
+        found.append(model)
+    return found

@@ -100,9 +100,11 @@ class Solve(Table):
         Exponential midpoint (default), or the thesis's explicit scheme (with ``march`` and law
         ``split`` only).
     step : float or str, optional
-        Time step, s. Left out: 1/500 of a vibration period, at most 1 us where there is none.
+        Time step, s. Left out: 1/500 of a vibration period, at most 1 us where there is none, or
+        so much finer that it makes an error below a thousandth of the ratio.
     duration : float or str, optional
-        Simulated time, s. Left out: enough for two windows after the start of the vibration.
+        Simulated time, s. Left out: enough for two windows after the start of the vibration, and
+        on until the march has settled, to sixteen times as much.
     """
 
     table: ClassVar[str] = "solve"

@@ -1,5 +1,6 @@
 """The periodic state of a sliding body, without marching through the transient."""
 
+import dataclasses
 import math
 import time
 
@@ -8,6 +9,7 @@ import numpy as np
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import UNSTABLE, Cycle
+from asperity.slider.from_rest import from_rest, ratio_of
 from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
@@ -73,7 +75,9 @@ class AperiodicError(ConvergenceError):
         return error
 
 
-def solve_periodic(model: Model, *, history: bool = True, judged: bool = True) -> SlideResult:
+def solve_periodic(
+    model: Model, *, history: bool = True, judged: bool = True, rested: bool = False
+) -> SlideResult:
     """Find the state that repeats itself every vibration cycle; of a pressed body, 1, 2 or 4.
 
     Parameters
@@ -84,6 +88,9 @@ def solve_periodic(model: Model, *, history: bool = True, judged: bool = True) -
         Whether to keep motion and forces over one period.
     judged : bool
         Whether the error of the step is estimated, and the step chosen by it if none is given.
+    rested : bool
+        Whether a body on an elastic drive for which friction at its limit repeats itself is marched
+        from rest too, and the state that it comes to is shown.
 
     Raises
     ------
@@ -93,11 +100,11 @@ def solve_periodic(model: Model, *, history: bool = True, judged: bool = True) -
         The powers of the state do not balance, or friction gives energy.
     """
     if not judged:
-        return _found(model, history=history, judged=False)
-    return refined(model, lambda finer: _found(finer, history=history, judged=True))
+        return _found(model, history=history, judged=False, rested=rested)
+    return refined(model, lambda finer: _found(finer, history=history, judged=True, rested=rested))
 
 
-def _found(model: Model, *, history: bool, judged: bool) -> SlideResult:
+def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideResult:
     """Find the state with the step that a model has."""
     began = time.perf_counter()
     steps = cycle_steps(model)
@@ -108,7 +115,24 @@ def _found(model: Model, *, history: bool, judged: bool) -> SlideResult:
         found, notes = False, (sticks_and_slips(rate),)
     if not found:
         raise AperiodicError.of(cycle, notes)
-    return answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)
+    other = from_rest(cycle) if rested and cycle.at_the_limit else None
+    if other is not None and other.state is not None:
+        limit = ratio_of(cycle)
+        cycle, growth = other.state, other.growth
+        notes = (
+            f"friction at its limit, with the ratio {limit:.5g}, repeats itself as well: which "
+            "state a body is in follows from where it comes from, shown is the one from rest",
+        )
+    elif other is not None:
+        notes = (
+            f"a march from rest has not come to this state after {other.cycles} cycles: it has a "
+            f"ratio of {other.ratio:.5g} there, see solve.method 'march'",
+        )
+    answer = answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)
+    if other is None or other.state is not None:
+        return answer
+    standing = f"{answer.settled_by}, but a body from rest stays at a ratio of {other.ratio:.5g}"
+    return dataclasses.replace(answer, settled=False, settled_by=standing, step_error=None)
 
 
 def answer_of(

@@ -278,7 +278,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         Room for that of the map less one.
     settle : int
         0 for the first call; else cycles to run beforehand, the drive damped critically, which
-        calms the lateral motion too.
+        calms the lateral motion too; on its own drive if below zero.
 
     Returns
     -------
@@ -300,9 +300,10 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
             start, springs, p, q, increments, rises, sums, scales, count, end, end_springs
         )
     else:
-        for _ in range(settle):
-            run(start[0], springs, damped(p), q, increments, rises, sums)
-        used = settle
+        drive = damped(p) if settle > 0 else p
+        for _ in range(abs(settle)):
+            run(start[0], springs, drive, q, increments, rises, sums)
+        used = abs(settle)
     if worst > 1e-12:
         worst, cycles = _newton(
             start, springs, p, q, increments, rises, sums, scales, count, jacobian, end,

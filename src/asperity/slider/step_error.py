@@ -4,7 +4,8 @@ Of a state that repeats itself, the state on twice the step is found with the Ja
 in a few cycles. A march is at its end next to such a state, and both are found from there; where
 there is none, some of its last cycles are marched again on twice the step. Of order two the error
 is a third of the difference, of order one all of it: with low exponents, and at the corners of a
-wave with LuGre friction or under a load that changes.
+wave with LuGre friction or under a load that changes. An exponent of nothing and a slip that turns
+make it more than all of it.
 """
 
 import dataclasses
@@ -34,7 +35,10 @@ _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 _FINEST = 16  # times finer than by the bounds
 _LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
+_LEAST_TO_FOLLOW = 0.1  # exponent, below which friction turns at once
+_ALONG = 1e-9
 # What the difference is of the error, by the order.
+_ORDER_HALF = 0.41
 _ORDER_ONE = 1.0
 _ORDER_TWO = 3.0
 
@@ -164,9 +168,14 @@ def _of_the_error(model: Model) -> float:
     """Return what the difference to a solution on twice the step is of the error of the first."""
     smooth = model.shape is None or not model.shape.cornered
     friction = model.friction
-    stiff = friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT
-    if stiff and not (smooth and friction.law == "vector"):
-        return _ORDER_ONE
+    if friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT:
+        # A body free sideways answers to a slip that turns; where friction turns with it at once
+        # the step makes them chatter.
+        turns = model.slider.free and abs(model.unit_direction[1]) > _ALONG
+        if turns and friction.exponent < _LEAST_TO_FOLLOW:
+            return _ORDER_HALF
+        if turns or not (smooth and friction.law == "vector"):
+            return _ORDER_ONE
     follows = friction.model == "lugre" or model.normal is not None
     return _ORDER_ONE if follows and not smooth else _ORDER_TWO
 

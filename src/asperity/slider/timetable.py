@@ -120,13 +120,15 @@ def bending(model: Model) -> float:
 
 
 def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
-    """How far the mean is from where Dahl's asperities come to, over mu F_N.
+    r"""How far the mean is from where Dahl's asperities come to, over mu F_N.
 
-    Those with an exponent above 1 come to their limit as the inverse of time, or more slowly.
+    Those with an exponent :math:`i` above 1 come to their limit as :math:`t^{-1/(i - 1)}`: what is
+    left is :math:`i - 1` times the change in as long a time as has passed.
     """
-    if model.friction.model != "dahl" or model.friction.exponent <= 1.0 or model.slider.rigid:
+    if model.friction.model != "dahl" or model.friction.exponent <= 1.0:
         return 0.0
-    return residual * (model.duration - model.start) / (0.5 * table.window * table.step)
+    change = residual * (model.duration - model.start) / (0.5 * table.window * table.step)
+    return (model.friction.exponent - 1.0) * change
 
 
 def still_loads(model: Model, table: Timetable, residual: float) -> bool:

@@ -2,6 +2,7 @@
 
 import contextlib
 import dataclasses
+import functools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -14,6 +15,7 @@ from asperity.casefile import Case, Table, bare_unit, names_file, read_case, sam
 from asperity.casefile.columns import HEADING, KEY, read_rows
 from asperity.errors import InputError, choices, nearest, shown
 from asperity.shipped import case_file, points_file
+from asperity.sweep.first import Reader, read_elsewhere
 from asperity.sweep.subject import Subject, subject_of
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
@@ -133,7 +135,7 @@ def read_grid(
     """Read a case and the axes of a grid over it.
 
     The case returned is the first point of the grid, so that an axis may give what the file does
-    not, such as its amplitude.
+    not, such as its amplitude; where points may be gaps, one that can be.
 
     Parameters
     ----------
@@ -159,11 +161,24 @@ def read_grid(
         message = str(error)
         for setting, axis in zip(first, written, strict=True):
             message = message.replace(f"--set {setting}:", f"{axis.text}:")
-        raise InputError(message) from None
+        read = functools.partial(read_case, name_or_path, tables)
+        case = _elsewhere(subject, written, settings, read, InputError(message))
     axes = {axis.path for axis in written}
     own = {path: setting for path, setting in case.settings.items() if path not in axes}
     case = dataclasses.replace(case, settings=own)
     return case, _within_bounds([_axis(axis) for axis in written])
+
+
+def _elsewhere(
+    subject: Subject, written: Sequence[_Written], settings: Sequence[str], read: Reader,
+    refusal: InputError,
+) -> Case:  # fmt: skip
+    """Return the case at another point than the first, where points may be gaps."""
+    with contextlib.suppress(InputError):
+        if subject.gaps and all(axis.quantity for axis in written):
+            axes = _within_bounds([_axis(axis) for axis in written])
+            return read_elsewhere(read, settings, axes, *spanned(axes))
+    raise refusal from None
 
 
 def read_first(

@@ -91,7 +91,9 @@ class Judgement:
         if math.isfinite(self.nearer) and self.nearer > 0.0:
             missing.append(f"a solve.duration longer by {1e3 * self.nearer:.2g} ms would do")
         elif math.isnan(self.nearer):
-            missing.append("it was too short to tell whether it comes nearer: give a longer one")
+            missing.append(
+                "too short to tell whether it comes nearer: give a longer solve.duration"
+            )
         elif self.nearer > 0.0:
             missing.append("it came no nearer on its way: a longer solve.duration may not do")
         return "; ".join(missing)

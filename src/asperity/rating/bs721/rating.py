@@ -7,7 +7,7 @@ one, both at the speed of the part with the greatest torque (the fastest of such
 """
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -121,7 +121,11 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
 def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
     """Say which parts of a duty cycle run at speeds that no table reaches."""
     for place, part in enumerate(given.parted(), 1):
-        for member, speed in (("wheel", part.wheel_speed), ("worm", part.worm_speed)):
+        members: tuple[tuple[Literal["wheel", "worm"], Real], ...] = (
+            ("wheel", part.wheel_speed),
+            ("worm", part.worm_speed),
+        )
+        for member, speed in members:
             try:
                 torque.strength_speed_factor(speed, member=member, tables=tables)
                 torque.wear_speed_factor(

@@ -20,6 +20,12 @@ _HEAD = re.compile(rf"\s*(?:(sd)\s+)?({KEY}|[A-Za-z_][\w-]*){UNIT}")
 
 Value = float | str
 
+_UNITS = {RATIO: "", FORCE: "N"}
+# What anything measured lies far within; beyond, squares of it over its deviation overflow.
+_MOST = {RATIO: 1e9, FORCE: 1e15}
+_LEAST_SD = {RATIO: 1e-15, FORCE: 1e-30}
+_MOST_SDS = 1e15
+_MOST_OF_CONDITION = 1e30
 _SHARE = 0.01  # of the largest value, for a deviation that is not known
 
 
@@ -137,6 +143,7 @@ def read_measurements(path: Path, case: Case) -> Measurements:
                 f"{name}: 'sd {key}' is there without 'sd', the deviation of what is measured; "
                 "give both, or neither"
             )
+    _see_sizes(table, measured[0], name, [number for number, _ in lines[1:]])
     deviations = np.full(len(table), _SHARE * float(np.abs(values).max()) or _SHARE)
     if weighed:
         deviations = np.array([row[DEVIATION, False] for row in table], dtype=float)
@@ -144,6 +151,33 @@ def read_measurements(path: Path, case: Case) -> Measurements:
         name, measured[0].key == FORCE, values, deviations, tuple(conditions), uncertain,
         tuple(number for number, _ in lines[1:]), weighed,
     )  # fmt: skip
+
+
+def _see_sizes(
+    table: list[dict[tuple[str, bool], Value]], measured: _Column, name: str, rows: list[int]
+) -> None:
+    """Refuse numbers of which the squares, weighed, would leave what a computer holds."""
+    what = f" {_UNITS[measured.key]}".rstrip()
+    for number, row in zip(rows, table, strict=True):
+        value = abs(float(row[measured.key, False]))
+        deviation = float(row.get((DEVIATION, False), 1.0))
+        where = f"{name}: row {number}:"
+        if value > _MOST[measured.key]:
+            raise InputError(
+                f"{where} {measured.key} is {float(row[measured.key, False]):g}{what}; it must be "
+                f"at most {_MOST[measured.key]:g}{what} either way: look at the column's unit"
+            )
+        if deviation > _MOST[measured.key]:
+            raise InputError(
+                f"{where} sd is {deviation:g}{what}; it must be at most "
+                f"{_MOST[measured.key]:g}{what}: look at the column's unit"
+            )
+        if deviation < _LEAST_SD[measured.key] or value / deviation > _MOST_SDS:
+            least = max(_LEAST_SD[measured.key], value / _MOST_SDS)
+            raise InputError(
+                f"{where} sd is {deviation:g}{what} beside {measured.key} {value:g}{what}, more "
+                f"closely than anything is measured; it must be at least {least:.3g}{what}"
+            )
 
 
 def _as(measured: _Column, deviation: _Column) -> _Column:
@@ -161,6 +195,11 @@ def _row(
             raise InputError(f"{name}: row {number}: sd is {value:g}; it must be above zero")
         if deviation and not (isinstance(value, float) and value >= 0.0):
             raise InputError(f"{name}: row {number}: 'sd {key}' must be zero or above")
+        if deviation and isinstance(value, float) and value > _MOST_OF_CONDITION:
+            raise InputError(
+                f"{name}: row {number}: 'sd {key}' is {value:g}; it must be at most "
+                f"{_MOST_OF_CONDITION:g}: look at the column's unit"
+            )
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(f"{name}: row {number}: {key} is not finite")
     return row

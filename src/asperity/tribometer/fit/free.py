@@ -8,7 +8,7 @@ from asperity.casefile import Case, told
 from asperity.errors import InputError, nearest
 from asperity.tribometer.fit.data import Measurements
 from asperity.tribometer.fit.estimate import WIDEST
-from asperity.units import Quantity, quantity_of, split_unit
+from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 
 @dataclasses.dataclass(frozen=True)
@@ -60,6 +60,11 @@ class Free:
         return cls(
             key, quantity, float(start), _written(case.raw.get(table, {}).get(own), quantity)
         )
+
+    def told(self, value: float) -> str:
+        """Return a value in SI as text in the unit of the tables, to four digits."""
+        zero, one = (to_si(f"{n} {self.written}".strip(), self.quantity.unit) for n in (0, 1))
+        return f"{float(f'{(value - zero) / (one - zero):.4g}'):.12g} {self.written}".rstrip()
 
     @property
     def bounds(self) -> tuple[float, float]:

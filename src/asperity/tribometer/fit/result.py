@@ -52,11 +52,24 @@ class Parameter:
         return told
 
     def row(self) -> tuple[str | float, ...]:
-        """Return key, value, ends, unit and why, in the case's unit."""
+        """Return key, value, ends, unit and why in short, in the case's unit."""
         zero, one = (to_si(f"{n} {self.written}", self.units) for n in (0, 1))
         low, high = ("open" if end is None else (end - zero) / (one - zero) for end in self.ci95)
         value = (self.value - zero) / (one - zero)
-        return self.key, value, low, high, self.written, self.why
+        return self.key, value, low, high, self.written, self._parted[0]
+
+    @property
+    def rest(self) -> str:
+        """What the row has no room for."""
+        return self._parted[1]
+
+    @property
+    def _parted(self) -> tuple[str, str]:
+        """The first clause of a long reason, and what follows it."""
+        if len(self.why) <= _ROOM:
+            return self.why, ""
+        head, _, rest = self.why.partition(": ")
+        return head, rest
 
 
 @dataclasses.dataclass(frozen=True)
@@ -146,7 +159,9 @@ class FitResult(Result):
         """Return parameters, laws, and what to measure next."""
         rows = [one.row() for one in self.parameters]
         headings = "parameter", "value", "from", "to", "unit", ""
-        found = Table.of(headings, rows, title=f"Law {self.law}", remarks=self.notes)
+        rest = [f"{one.key}: {one.rest}" for one in self.parameters if one.rest]
+        remarks = *rest, *self.notes
+        found = Table.of(headings, rows, title=f"Law {self.law}", remarks=remarks)
         laws = Table.of(
             ("law", "chi2", "degrees of freedom", "more than the best"),
             [(one.law, one.chi2, str(one.dof), one.delta_chi2) for one in self.laws],
@@ -180,6 +195,7 @@ class FitResult(Result):
         return (Table.of(heads, rows, left=2),) if rows else ()
 
 
+_ROOM = 96  # characters of a reason, in a row
 _STRONG = 0.9  # correlation
 _WIDE = 3.0  # relative deviation that tells nothing
 

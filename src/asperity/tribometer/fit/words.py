@@ -41,8 +41,7 @@ def parameter_of(
         why = f"only together with {problem.free[partner].key}: the data see one number of both"
     elif stopped := [walls[place, side] for side in (-1, 1) if (place, side) in walls]:
         (reached, reason), *_ = stopped
-        value = one.quantity.text(float(f"{math.exp(reached):.4g}"))
-        why = f"the model answers no further than {value}: {reason}"
+        why = f"the model answers no further than {one.told(math.exp(reached))}: {reason}"
     elif low is None and high is None:
         why = "chi-square does not rise by 3.84 on either side"
     elif low is None or high is None:
@@ -102,12 +101,12 @@ def notes(
     if ruined is not None:
         them = "them" if len(ruined.outliers) > 1 else "it"
         values = ", ".join(
-            f"{one.key} {one.quantity.text(float(f'{math.exp(value):.4g}'))}"
+            f"{one.key} {one.told(math.exp(value))}"
             for one, value in zip(problem.free, ruined.point, strict=True)
         )
         found.append(
-            f"without {them} chi-square is {ruined.chi2:.3g} with {ruined.freedom} degrees of "
-            f"freedom, and {values}"
+            f"without {them} chi-square is {ruined.chi2:.3g} with {_degrees(ruined.freedom)} "
+            f"of freedom, and {values}"
         )
     found += _beyond(problem, answered, deviations)
     found += _improbable(problem, best, ruined)
@@ -158,7 +157,8 @@ def _improbable(problem: FitProblem, best: Estimate, ruined: Spoilt | None) -> l
     if not problem.data.weighed:
         return [
             "without sd all measurements weigh the same, and their deviation is what the "
-            f"residuals show with {freedom} degrees of freedom: chi-square says nothing of the law"
+            f"residuals show with {_degrees(freedom)} of freedom: chi-square says nothing of the "
+            "law"
         ]
     if freedom == 0:
         told = "as many parameters as measurements leave nothing that would show a wrong law"
@@ -172,7 +172,7 @@ def _improbable(problem: FitProblem, best: Estimate, ruined: Spoilt | None) -> l
     if not improbable(best.chi2, freedom):
         return []
     told = (
-        f"chi-square is {best.chi2:.3g} with {freedom} degrees of freedom, or more in "
+        f"chi-square is {best.chi2:.3g} with {_degrees(freedom)} of freedom, or more in "
         f"{chance(best.chi2, freedom):.1g} of cases if the law and the deviations are right: one "
         "of them may not be, and the intervals too narrow"
     )
@@ -182,6 +182,10 @@ def _improbable(problem: FitProblem, best: Estimate, ruined: Spoilt | None) -> l
             f"; no few rows account for it, the largest residual is {best.residuals[worst]:+.3g}"
         )
     return [told]
+
+
+def _degrees(count: int) -> str:
+    return f"{count} degree{'' if count == 1 else 's'}"
 
 
 def _beyond(problem: FitProblem, answered: Sequence[int], deviations: FloatArray) -> list[str]:
@@ -203,9 +207,9 @@ def _beyond(problem: FitProblem, answered: Sequence[int], deviations: FloatArray
         return []
     names = ", ".join(str(data.rows[place]) for place in above[:_MANY])
     more = f" and {len(above) - _MANY} more" if len(above) > _MANY else ""
-    rows, lie = ("rows", "lie") if len(above) > 1 else ("row", "lies")
+    one, lie = ("ratios of rows", "lie") if len(above) > 1 else ("ratio of row", "lies")
     return [
-        f"the ratio of {rows} {names}{more} {lie} above 1 by more than {_ABOVE:g} deviations: no "
+        f"the {one} {names}{more} {lie} above 1 by more than {_ABOVE:g} deviations: no "
         "law here gives that, under which vibration in the plane of the contact cannot raise "
         "friction; look at what was measured, or at what the ratio refers to"
     ]

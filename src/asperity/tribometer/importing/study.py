@@ -48,6 +48,8 @@ def prepare(case: Case, *, file: str) -> Importable:
     try:
         if not path.is_file():
             reason = "it is a folder; give a file" if path.is_dir() else "no such file"
+            if path.exists() and not path.is_dir():
+                reason = "it is no regular file; save what it holds to a file"
             raise InputError(f"{name} cannot be read: {reason}")
         with path.open("rb") as opened:
             head = opened.read(128)
