@@ -329,6 +329,7 @@ def _notes(contact: _Contact, rows: Sequence[Compared]) -> tuple[str, ...]:
         "a vibration is taken to reach the contact whole and in its plane; what teeth, shaft and "
         "mounting yield is missing there"
     )
+    notes.append("locks is said of the worm in motion; of the worm at rest asperity rate tells it")
     freed = sum(not row.locks for row in rows)
     if rows[0].locks and freed:
         notes.append(
