@@ -50,6 +50,12 @@ def stroke():
     return stroked(*ACTUATOR)
 
 
+def test_a_stroke_without_vibration_saves_nothing():
+    energy = stroked(*ACTUATOR, "vibration.velocity_ratio=0").headline()
+    assert "saves no energy" in str(energy[1])
+    assert ", no less" in str(energy[2])
+
+
 def test_a_stroke_s_times_turns_and_energies_follow_from_its_torques(stroke):
     assert stroke.settled
     assert abs(stroke.torque_balance) < 5e-3
