@@ -5,6 +5,7 @@ import math
 import random
 
 import pytest
+from apparatus.rated_cases import SMALL_FAN
 
 CATALOGUE_100 = """
 [gearset]
@@ -37,20 +38,6 @@ life = "12000 h"
 lubricant = "ISO VG 320 polyglycol"
 output_torque = "13 N m"
 worm_speed = "1400 rpm"
-"""
-SMALL_FAN = """
-[gearset]
-starts = 1
-wheel_teeth = 30
-centre_distance = "26.6 mm"
-diameter_factor = 10
-worm_material = "case-hardened steel"
-wheel_material = "CuSn12-C-GZ"
-[operation]
-worm_speed = "1440 rpm"
-output_torque = "2 N m"
-lubricant = "ISO VG 220 polyglycol"
-fan = true
 """
 SLOW_WHEEL = """
 [gearset]

@@ -5,6 +5,7 @@ import json
 import random
 
 import pytest
+from apparatus.rated_cases import ACTUATOR
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -18,21 +19,6 @@ KEYS = {
     "starts": "1", "wheel_teeth": "41", "centre_distance": "137 mm", "axial_module": "5 mm",
     "diameter_factor": "9.7", "worm_pitch_diameter": "45 mm", "profile_shift": "0.1",
 }  # fmt: skip
-ACTUATOR = """
-[gearset]
-starts = 1
-wheel_teeth = 50
-centre_distance = "100 mm"
-axial_module = "3.15 mm"
-diameter_factor = 12.5
-worm_material = "case-hardened steel"
-wheel_material = "CuSn12Ni2-C-GZ"
-[operation]
-lubricant = "ISO VG 220 polyglycol"
-output_torque = "250 N m"
-worm_speed = "1400 rpm"
-life = "5000 h"
-"""
 
 
 @pytest.fixture

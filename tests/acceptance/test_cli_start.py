@@ -7,6 +7,7 @@ import pty
 import tomllib
 
 import pytest
+from apparatus.rated_cases import OF_AN_ACTUATOR
 
 from asperity.casefile.case import apply
 from asperity.commands import COMMANDS, case_tables
@@ -432,8 +433,8 @@ def test_duty_cycles_beside_each_other_are_counted_and_the_sump_is_of_the_hottes
             f'{{ duration = "{h} h", output_torque = "{t} N m", worm_speed = "{n} rpm" }}'
             for t, n, h in own
         )
-        (tmp_path / f"{name}.toml").write_text(f"{DUTY}duty_cycle = [{steps}]\n")
-    (tmp_path / "life.toml").write_text(f'{DUTY}life = "5000 h"\n')
+        (tmp_path / f"{name}.toml").write_text(f"{OF_AN_ACTUATOR}duty_cycle = [{steps}]\n")
+    (tmp_path / "life.toml").write_text(f'{OF_AN_ACTUATOR}life = "5000 h"\n')
     files = [tmp_path / f"{name}.toml" for name in ("three", "one", "life")]
     code, output, errors = asperity("compare", *files)
     assert code == 0, errors
@@ -444,19 +445,3 @@ def test_duty_cycles_beside_each_other_are_counted_and_the_sump_is_of_the_hottes
     sumps = [one.get("theta_S_max_degC", one["theta_S_degC"]) for one in answers]
     results = json.loads(asperity("compare", *files, "--json")[1])["results"]
     assert results["iso14521.theta_S_max_degC"] == sumps
-
-
-DUTY = """
-[gearset]
-starts = 1
-wheel_teeth = 50
-centre_distance = "100 mm"
-axial_module = "3.15 mm"
-diameter_factor = 12.5
-worm_material = "case-hardened steel"
-wheel_material = "CuSn12Ni2-C-GZ"
-[operation]
-lubricant = "ISO VG 220 polyglycol"
-output_torque = "250 N m"
-worm_speed = "1400 rpm"
-"""

@@ -23,6 +23,7 @@ def _is_noticed(copy, mutant):
     if why := run.equivalents().get(mutant.key):
         pytest.skip(why)
     line = run.tried(copy, mutant)
+    # What makes a test endless is noticed by whoever runs it; `run.py --share` counts it apart.
     assert line["outcome"] != "survived", (
         f"{line['of']} tests let this through, {mutant.key}:\n{line['diff']}\n"
         "write one that does not, or say in tests/mutants/known.toml why none can"

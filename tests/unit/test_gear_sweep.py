@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from apparatus.rated_cases import SMALL_FAN
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -109,25 +110,9 @@ def test_a_gearset_has_no_branches():
         branches.prepare(case, over=[TORQUES])
 
 
-SMALL = """
-[gearset]
-starts = 1
-wheel_teeth = 30
-centre_distance = "26.6 mm"
-diameter_factor = 10
-worm_material = "case-hardened steel"
-wheel_material = "CuSn12-C-GZ"
-[operation]
-worm_speed = "1440 rpm"
-output_torque = "2 N m"
-lubricant = "ISO VG 220 polyglycol"
-fan = true
-"""
-
-
 def test_a_standard_that_leaves_a_safety_without_an_answer_has_no_margin(tmp_path):
     case = tmp_path / "small.toml"
-    case.write_text(SMALL)
+    case.write_text(SMALL_FAN)
     over = ["gearset.centre_distance=26.6,50 mm"]
     found = run(*read_grid(str(case), case_tables(), [], over), cache=False).arrays
     first = rate_case(read_case(str(case), case_tables()))
