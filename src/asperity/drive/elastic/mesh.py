@@ -280,8 +280,9 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
     _act(mesh, mesh.vectors, q, mesh.damped)
     mesh.wrench[:] = 0.0
     wrench(mesh.body, own, answer, mesh.wrench)
-    mesh.vectors[0] = mesh.wrench[:3]
-    mesh.vectors[1] = mesh.wrench[3:]
+    for c in range(3):
+        mesh.vectors[0, c] = mesh.wrench[c]
+        mesh.vectors[1, c] = mesh.wrench[3 + c]
     to_space(angle, side, mesh.vectors)
     _act(mesh, mesh.vectors, q, out[:POSES])
 
