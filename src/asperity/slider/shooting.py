@@ -10,12 +10,9 @@ them is left out when a kernel is compiled.
 """
 
 import math
-from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.dense import copy
 from asperity.elimination import eliminate
@@ -26,15 +23,12 @@ from asperity.slider.kernels import clear, march_block
 from asperity.slider.other_drives import carried, damped
 from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed, node_load
 from asperity.slider.scaled import COULOMB, NODE, PRESSED_NODE, SPRINGS
+from asperity.slider.search_room import room_for
 from asperity.slider.unknowns import (
-    most_unknowns,
     read_unknowns,
     unknown_scales,
     write_unknowns,
 )
-
-StateArray: TypeAlias = npt.NDArray[Any]
-"""An array of records, see `asperity.slider.scaled`."""
 
 TOLERANCE = 1e-11
 ACCEPTED = 1e-9
@@ -68,37 +62,6 @@ def _forces(state, springs, p, q, rises):
         state.friction_x = share * state.deflection_x
         state.friction_y = share * state.deflection_y
     state.drive_force = p.stiffness * state.stretch + p.damping * (p.drive - state.velocity_x)
-
-
-class Room(NamedTuple):
-    """What a search works with: states, springs, and as many numbers as there are unknowns."""
-
-    trial: StateArray
-    trial_springs: FloatArray
-    trial_end: StateArray
-    trial_end_springs: FloatArray
-    scales: FloatArray
-    before: FloatArray
-    after: FloatArray
-    here: FloatArray
-    there: FloatArray
-    defect: FloatArray
-    trial_defect: FloatArray
-    step: FloatArray
-    matrix: FloatArray
-    nodes: tuple[StateArray, StateArray]  #: None, in the plane and in space: nothing is recorded
-
-
-@kernel
-def _room(start, springs):
-    """Room for a search."""
-    most = most_unknowns(springs)
-    return Room(
-        np.empty_like(start), np.empty_like(springs), np.empty_like(start), np.empty_like(springs),
-        np.empty(most), np.empty(most), np.empty(most), np.empty(most), np.empty(most),
-        np.empty(most), np.empty(most), np.empty(most), np.empty((most, most)),
-        (np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)),
-    )  # fmt: skip
 
 
 @kernel
@@ -327,7 +290,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     unknowns : int
         Size of the Jacobian.
     """
-    room = _room(start, springs)
+    room = room_for(start, springs)
     count = unknown_scales(start, springs, p, q, room.scales)
     used = 0
     worst = np.inf
@@ -362,7 +325,7 @@ def differentiated(start, springs, p, q, increments, rises, sums, jacobian):
 
     It is a row and a column an unknown; ``sums`` are overwritten.
     """
-    room = _room(start, springs)
+    room = room_for(start, springs)
     unknown_scales(start, springs, p, q, room.scales)
     count = jacobian.shape[0]
     _defect(
@@ -380,7 +343,7 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
 
     Returns the defect that is left and the cycles run, at most ``most``.
     """
-    room = _room(start, springs)
+    room = room_for(start, springs)
     count = unknown_scales(start, springs, p, q, room.scales)
     here, defect, step, matrix = room.here, room.defect, room.step, room.matrix
     end, end_springs = room.trial_end, room.trial_end_springs
