@@ -82,6 +82,7 @@ def _grid(name: str, columns: Columns) -> tuple[float, float, NDArray[np.intp]]:
     return interval, float(times[0]), np.rint((times - times[0]) / interval).astype(np.intp)
 
 
+@np.errstate(all="ignore")  # as numbers that signal when they are touched
 def _spread(values: NDArray[np.generic], places: NDArray[np.intp], length: int) -> FloatArray:
     made = np.full(length, np.nan)
     made[places[: len(values)]] = values

@@ -80,6 +80,8 @@ def prepare(
     return name, read_joined(files, told_of(rate, columns, units))
 
 
+# Bytes that were changed may be numbers that signal when they are touched.
+@np.errstate(all="ignore")
 def answer(problem: tuple[str, Columns], run: Run) -> Looked:
     """Tell what was understood."""
     name, columns = problem

@@ -19,6 +19,7 @@ _HEAD_BYTES = 1 << 20
 _FULL = {"i": lambda kind: -float(np.iinfo(kind).min), "f": lambda kind: 1.0}
 
 
+@np.errstate(all="ignore")  # a damaged file may hold numbers that signal when they are touched
 def read_wav(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
     """Read a WAV file of 8 to 32 bits or of floats: a recorder's or a sound card's.
 
