@@ -1,8 +1,9 @@
 """Files of recordings that are wrong in every way that could be thought of.
 
 Each is a good file with bytes changed, cut or repeated at random: text of several instruments,
-MATLAB, TDMS, WAV, netCDF, a session of sigrok, a table of measurements and a configuration. Whatever
-it is, the command answers or says in one line what is wrong. The files are the same ones every time.
+MATLAB, TDMS, WAV, netCDF, a session of sigrok, a table of measurements and a configuration.
+Whatever it is, the command answers or says in one line what is wrong. The files are the same ones
+every time.
 """
 
 import importlib.util
