@@ -25,16 +25,20 @@ from apparatus.laboratory_files import (
     lecroy,
     rigol_ds1054z,
     sigrok,
+    tektronix_mso64,
     time_of_day,
     triples,
 )
 from hypothesis import given
 from hypothesis import strategies as st
 
+from asperity.cli.main import main
 from asperity.errors import InputError
+from asperity.results import read
 from asperity.tribometer.importing.cells import is_number, marks_of
 from asperity.tribometer.importing.files import read_export, read_joined, told_of
 from asperity.tribometer.importing.text import read_text
+from asperity.tribometer.recording import Recording
 
 
 def spacing(found):
@@ -239,3 +243,42 @@ def test_a_number_is_read_as_it_was_written(value, marks):
     found = marks_of([[text]], ";")
     plain = text.replace(found[1], "") if found[1] else text
     assert float(plain.replace(found[0], ".")) == float(f"{value:.3f}")
+
+
+def test_a_look_tells_columns_values_and_gaps_and_draws_them(tmp_path, capsys):
+    rows = tektronix_mso64()
+    del rows[30]
+    (tmp_path / "run.csv").write_text("\n".join(rows), "utf-8")
+    with pytest.raises(SystemExit, match="0"):
+        main(["rig", "look", str(tmp_path / "run.csv"), "--out", str(tmp_path / "out")])
+    told = capsys.readouterr().out
+    assert "Tektronix" in told
+    found = read(tmp_path / "out" / "look.nc")
+    assert [*found["name"].values] == ["CH1 (V)", "CH2 (V)"]
+    assert float(found["gaps"]) == 1
+    assert float(found["start"]) == pytest.approx(TIMES[0])
+    left = np.delete(A, 30 - 17)
+    assert float(found["least"][0]) == pytest.approx(left.min(), abs=1e-4)
+    assert float(found["mean"][0]) == pytest.approx(left.mean(), abs=1e-4)
+    assert found["high"].values[0].max() == pytest.approx(left.max(), abs=1e-4)
+    assert (tmp_path / "out" / "look.png").stat().st_size > 1000
+
+
+def test_a_file_a_channel_becomes_a_recording(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = {"torque_steel": 1, "speed_steel": 2, "speed_bronze": 3, "drive_voltage": 4}
+    sets = []
+    for signal, number in names.items():
+        rows = lecroy()[:5] + joined(zip(TIMES, number * A, strict=True))
+        (tmp_path / f"C{number}run.txt").write_text("\n".join(rows), "utf-8")
+        points = '[["0 V","0 N m"],["5 V","2 N m"]]' if "torque" in signal else None
+        points = '[["0 V","0 rpm"],["5 V","500 rpm"]]' if "speed" in signal else points
+        more = f", points={points}" if points else ""
+        sets += ["--set", f'channels.{signal}={{channel="C{number}"{more}}}']
+    joins = [word for n in (2, 3, 4) for word in ("--join", f"C{n}run.txt")]
+    with pytest.raises(SystemExit, match="0"):
+        main(["rig", "import", "C1run.txt", "rig-final", *joins, *sets, "--out", "run.nc"])
+    recording = Recording.open(tmp_path / "run.nc")
+    # Counts of 16 bits.
+    assert recording.values("drive_voltage") == pytest.approx(4.0 * A, abs=1e-3)
+    assert "C1run.txt and C2run.txt" in capsys.readouterr().out

@@ -251,7 +251,7 @@ COMMANDS = (
     Command(
         "rig look",
         "Tell what is understood of a file before it is imported: columns, units, times.",
-        "Writes nothing.",
+        "With --out also look.json, look.nc and look.png.",
         module="asperity.tribometer.importing.look",
         read="asperity.tribometer.importing.look:read",
         arguments=(Argument("files", "FILE...", "Of one recording.", many=True),),
@@ -261,7 +261,6 @@ COMMANDS = (
             Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
             Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
         ),
-        draws=False,
     ),
     Command(
         "rig import",

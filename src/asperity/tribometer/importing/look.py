@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from asperity.tribometer.importing.columns import Columns, placed
 from asperity.tribometer.importing.files import read_joined, told_of
 
 _FIRST = 3  # values shown
+_PARTS = 600  # of a picture's width
 
 
 class Looked(Result):
@@ -29,6 +30,10 @@ class Looked(Result):
 
     title = "A file, looked at"
     stem = "look"
+
+    drawings: ClassVar[Mapping[str, str]] = {
+        "look": "asperity.tribometer.importing.plots:plot_columns"
+    }
 
     headings: tuple[str, ...]
     units: tuple[str, ...]
@@ -44,6 +49,10 @@ class Looked(Result):
     mean: FloatArray = quantity("", "", "mean of each column", dims=("column",))
     missing: FloatArray = quantity("", "", "values missing in each column", dims=("column",))
     first: FloatArray = quantity("", "", "first values", dims=("column", "row"))
+    time: FloatArray = quantity("t", "s", "begin of each part of the picture", dims=("part",))
+    low: FloatArray = quantity("", "", "least of each part", dims=("column", "part"))
+    high: FloatArray = quantity("", "", "largest of each part", dims=("column", "part"))
+    name: Any = quantity("", "", "heading and unit", dims=("column",))
 
     def to_json(self) -> dict[str, Any]:
         """Return what was understood, with the columns' names and units."""
@@ -93,6 +102,7 @@ def answer(problem: tuple[str, Columns], run: Run) -> Looked:
     for place, one in enumerate(columns.values):
         values = np.nan_to_num(np.asarray(one[:_FIRST], dtype=float))
         first[place, : len(values)] = values
+    low, high, edges = _courses(columns, rows)
     return Looked(
         headings=columns.headings, units=columns.units, source=name, program=columns.program,
         samples=rows, sample_interval=interval, start=columns.start, duration=length * interval,
@@ -100,5 +110,25 @@ def answer(problem: tuple[str, Columns], run: Run) -> Looked:
         largest=np.array([one.max() for one in shown]),
         mean=np.array([float(one.mean()) for one in shown]),
         missing=np.array([float(rows - one.size) for one in finite]),
-        first=first, notes=columns.notes,
+        first=first, time=columns.start + interval * edges, low=low, high=high,
+        name=np.array(
+            [f"{a} ({b or 'V'})" for a, b in zip(columns.headings, columns.units, strict=True)]
+        ),
+        notes=columns.notes,
     )  # fmt: skip
+
+
+def _courses(columns: Columns, rows: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return least and largest of each column in parts of equal length, and where parts begin."""
+    edges = np.unique(np.linspace(0, rows, min(_PARTS, rows) + 1).astype(int)[:-1])
+    low, high = (np.zeros((len(columns.values), edges.size)) for _ in range(2))
+    for place, one in enumerate(columns.values):
+        values = np.full(rows, np.nan)
+        values[: len(one)] = one
+        values[~np.isfinite(values)] = np.nan
+        known = np.isfinite(values)
+        middle = values[known].mean() if known.any() else 0.0
+        values[~known] = middle
+        low[place] = np.minimum.reduceat(values, edges)
+        high[place] = np.maximum.reduceat(values, edges)
+    return low, high, edges.astype(float)
