@@ -13,7 +13,7 @@ FUNCTIONS = {
     "square": (lambda x: x * x - 2.0, 0.0, 2.0),
     "cosine": (lambda x: math.cos(x) - x, 0.0, 1.0),
     "steep": (lambda x: math.expm1(30.0 * (x - 0.9)), 0.0, 1.0),
-    "flat": (lambda x: (x - 0.3) ** 3, -1.0, 2.0),
+    "flat": (lambda x: (x - 0.3) ** 3 + 1e-3 * (x - 0.3), -1.0, 2.0),
     "step": (lambda x: -1.0 if x < 0.123 else 1.0, 0.0, 1.0),
     "falling": (lambda x: 1.0 / x - 3.0, 5.0, 0.1),
     "tiny": (lambda x: 1e-300 * (x**3 - x - 2.0), 1.0, 2.0),
