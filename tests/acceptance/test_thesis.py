@@ -13,9 +13,9 @@ from unittest import mock
 
 import numpy as np
 import pytest
-import typer
 
 from asperity.cli.application import app
+from asperity.cli.made import made as command_line
 from asperity.store import read_dataset
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything
@@ -430,7 +430,7 @@ def test_every_command_named_is_a_command(result):
     how += [figure.plain["how"] for figure in result.figures]
     how += [table.plain["how"] for table in result.tables]
     named = {line.split()[1] for lines in how for line in lines if line.startswith("asperity ")}
-    known = set(typer.main.get_command(app).commands)
+    known = set(command_line(app).commands)
     assert {"rate", "methods", "sensitivity", "optimise", "slide", "sweep"} <= named <= known
 
 
