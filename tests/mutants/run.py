@@ -4,9 +4,9 @@
 where it was stopped: what is known stands in ``out/mutants/results.jsonl``. ``--list`` shows the
 list, ``--only NAME`` tries those whose name or key holds NAME, ``--survivors`` those again that
 nothing had noticed, ``--count N`` the first N; ``--share`` tries nothing and tells what is known.
-``--jobs N`` tries N at a time, ``--compiled`` those of compiled modules first, ``--minutes M`` begins
-none after that time, ``--results FILE`` keeps what is known elsewhere: lines of JSON, of which the
-last on a mutant holds.
+``--jobs N`` tries N at a time, ``--compiled`` those of compiled modules first, ``--minutes M``
+begins none after that time, ``--results FILE`` keeps what is known elsewhere: lines of JSON, of
+which the last on a mutant holds.
 """
 
 import argparse
