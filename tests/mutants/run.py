@@ -6,7 +6,7 @@ list, ``--only NAME`` tries those whose name or key holds NAME, ``--survivors`` 
 nothing had noticed, ``--count N`` the first N; ``--share`` tries nothing and tells what is known.
 ``--jobs N`` tries N at a time, ``--compiled`` those of compiled modules first, ``--minutes M``
 begins none after that time, ``--results FILE`` keeps what is known elsewhere: lines of JSON, of
-which the last on a mutant holds.
+which the last on a mutant holds as long as its line is what it was.
 """
 
 import argparse
@@ -187,6 +187,27 @@ def results(file: Path = RESULTS) -> dict:
     return {line["key"]: line for line in lines}
 
 
+def standing(mutants, file: Path = RESULTS) -> dict:
+    """What is known of mutants whose line is still what it was, by key."""
+    found = results(file)
+    texts = {name: _source(name) for name in {mutant.module for mutant in mutants}}
+
+    def is_standing(mutant):
+        line = found.get(mutant.key)
+        return line and _lines(line["diff"]) == _lines(mutant.diff(texts[mutant.module]))
+
+    return {mutant.key: found[mutant.key] for mutant in mutants if is_standing(mutant)}
+
+
+def _lines(diff):
+    """Lines of a difference, wherever they stand."""
+    return [line for line in diff.splitlines() if not line.startswith("@@")]
+
+
+def _source(module):
+    return (sites.SOURCE / "asperity" / module).read_text("utf-8")
+
+
 def equivalents() -> dict:
     """Mutants that change nothing observable, by key, with the reason."""
     return {entry["key"]: entry["why"] for entry in sites.known()["equivalent"]}
@@ -194,15 +215,16 @@ def equivalents() -> dict:
 
 def share(mutants, file: Path = RESULTS) -> str:
     """The share that was caught, of those that were tried and change something."""
-    found, same = results(file), equivalents()
-    known = [found[mutant.key] for mutant in mutants if mutant.key in found]
-    outcomes = [line["outcome"] for line in known if line["key"] not in same]
+    same = equivalents()
+    change = [mutant for mutant in mutants if mutant.key not in same]
+    outcomes = [line["outcome"] for line in standing(change, file).values()]
+    unchanging = len(mutants) - len(change)
     caught, out_of_time = outcomes.count("caught"), outcomes.count("timeout")
     per_cent = f", {100.0 * caught / len(outcomes):.1f} %" if outcomes else ""
     return (
         f"{caught} of {len(outcomes)} caught{per_cent}; {outcomes.count('survived')} survived, "
-        f"{out_of_time} ran out of time; {len(known) - len(outcomes)} more change nothing; "
-        f"{len(known)} of {len(mutants)} tried"
+        f"{out_of_time} ran out of time; {unchanging} more change nothing; "
+        f"{len(outcomes) + unchanging} of {len(mutants)} are known"
     )
 
 
@@ -225,11 +247,11 @@ def main() -> None:
     chosen = every
     if asked.only:
         chosen = [m for m in every if any(o in m.name or o in m.key for o in asked.only)]
-    found, same = results(asked.results), equivalents()
+    found, same = standing(every, asked.results), equivalents()
     if asked.list:
         for mutant in chosen:
             outcome = found.get(mutant.key, {}).get("outcome", "not tried")
-            text = (sites.SOURCE / "asperity" / mutant.module).read_text("utf-8")
+            text = _source(mutant.module)
             print(f"{mutant.name} ({outcome}): {mutant.key}\n{mutant.diff(text)}\n")
     if asked.survivors:
         chosen = [
