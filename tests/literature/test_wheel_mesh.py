@@ -209,6 +209,11 @@ def test_what_cannot_be_meshed_is_refused_in_a_line(wheel, changed, message):
     assert "\n" not in str(error.value)
 
 
+def test_a_whole_wheel_that_takes_more_than_two_gibibytes_is_not_begun(wheel):
+    with pytest.raises(InputError, match=r"would .* take [23]\.\d* GiB; .* or fewer teeth"):
+        mesh.tooth(wheel, 0.18, teeth=60)
+
+
 @pytest.mark.parametrize(
     ("thickness", "message"),
     [("500 mm", "has room for at most 5"), ("0.01 mm", "turned inside out")],
@@ -226,7 +231,9 @@ def test_inner_nodes_of_a_section_stand_where_those_of_a_known_map_do():
     Such are x and y + 0.4 x y, of which the lines are neither straight nor at right angles.
     """
     xi, eta = np.meshgrid(np.linspace(0.0, 1.0, 5), np.linspace(0.5, 1.5, 5), indexing="ij")
-    x, y = xi, 10.0 + eta / (1.0 + 0.4 * xi)
+    # Turned, so that no direction is a line's.
+    way, across = xi, eta / (1.0 + 0.4 * xi)
+    x, y = 0.8 * way - 0.6 * across, 10.0 + 0.6 * way + 0.8 * across
     exact = np.stack([np.hypot(x, y), np.arctan2(x, y)], axis=-1)
     share = np.linspace(0.0, 1.0, 5)[:, None, None]
     straight = exact.copy()
