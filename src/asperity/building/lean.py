@@ -20,8 +20,8 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import nrtdynmod, rtsys
 
 from asperity import compiled
-from asperity.native import runtime
-from asperity.native.specs import Spec, Unknown, numba_type, spec
+from asperity.building import runtime
+from asperity.building.specs import Spec, Unknown, numba_type, spec
 from asperity.native.target import PROCESSOR
 
 
@@ -38,7 +38,7 @@ class Made:
     code : bytes
         The object file, which exports the symbol alone.
     returns : list
-        What it returns, as `asperity.native.specs.spec` says it.
+        What it returns, as `asperity.building.specs.spec` says it.
     words : tuple of int
         So many 64-bit words come back, and so many go in.
     """
@@ -109,7 +109,7 @@ def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
     kernel : callable
         From `asperity.compiled.kernel`.
     arguments : list
-        What it is called with, as `asperity.native.specs.spec` says it.
+        What it is called with, as `asperity.building.specs.spec` says it.
     symbol : str
         The name that it is called by.
 
