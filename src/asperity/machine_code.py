@@ -19,6 +19,7 @@ from typing import Any
 
 import numba
 from numba.core import caching
+from numba.core.runtime import rtsys
 
 from asperity.folders import cache_folder
 
@@ -141,7 +142,10 @@ class _ForgivingCache(caching.FunctionCache):
 
     def load_overload(self, sig: object, target_context: object) -> Any:
         try:
-            return super().load_overload(sig, target_context)
+            # Numba's own way first loads all that compiling may need: half a second of modules.
+            rtsys.initialize(target_context)
+            with self._guard_against_spurious_io_errors():
+                return self._load_overload(sig, target_context)
         except Exception:
             # What a damaged file raises depends on the byte: unpickling can raise anything.
             with contextlib.suppress(OSError):
