@@ -2,12 +2,13 @@
 
 Declaring one costs nothing. A call goes to a library of machine code (`native`) where there is one
 that has the kernel for such arguments, made from the sources as they are; else to Numba, which is
-loaded at the first such call of any. With the environment variable ``ASPERITY_NATIVE=0`` all go to
-Numba. What Numba compiles is kept on disk under a name made from the sources it follows from. Numba recompiles a function when the file
-it stands in changes, but not when a function it calls from another file does: it would answer with
-yesterday's code. Here a change to a kernel's module or to any that it imports, to Numba or to NumPy
-leads to another cache folder, and nothing else does: not a change elsewhere, nor another place on
-the disk.
+loaded at the first such call of any. With ``ASPERITY_NATIVE=0`` in the environment all go to Numba.
+
+What Numba compiles is kept on disk under a name made from the sources it follows from. Numba
+recompiles a function when the file it stands in changes, but not when a function it calls from
+another file does: it would answer with yesterday's code. Here a change to a kernel's module or to
+any that it imports, to Numba or to NumPy leads to another cache folder, and nothing else does: not
+a change elsewhere, nor another place on the disk.
 """
 
 import contextlib
@@ -52,6 +53,8 @@ class _Lazy:
         self._function = function
         self._options = options
         self._compiled: Any = None
+        # Answers from a library of machine code, NotImplemented where that has no such call.
+        self._native: Callable[[tuple[Any, ...]], Any] = self._first
 
     def __call__(self, *arguments: Any) -> Any:
         answer = self._native(arguments)
@@ -59,14 +62,12 @@ class _Lazy:
             return (self._compiled or self._dispatcher)(*arguments)
         return answer
 
-    def _native(self, arguments: tuple[Any, ...]) -> Any:
-        """Answer from a library of machine code, NotImplemented where that has no such call."""
+    def _first(self, arguments: tuple[Any, ...]) -> Any:
         from asperity.native import load
 
-        # The instance's own stands before this method from now on.
-        found = load.entry(f"{self.__module__}.{self.__qualname__}") or _not_here
-        self._native = found  # type: ignore[method-assign]
-        return found(arguments)
+        name = f"{self.__module__}.{self.__qualname__}"
+        self._native = load.entry(name) or _not_here
+        return self._native(arguments)
 
     def __getattr__(self, name: str) -> Any:
         # To Numba, which asks for its type and options, it is what it stands for.

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity.native.plan import Spec, UnknownType, named
+from asperity.native.plan import Spec, UnknownTypeError, named
 
 # Words of a returned value and the arguments of the call -> a Python value.
 Maker = Callable[[tuple[Any, ...], tuple[Any, ...]], Any]
@@ -48,7 +48,7 @@ def _format(spec: Spec) -> str:
     if kind in ("T", "N"):
         return "".join(_format(member) for member in spec[-1])
     if kind not in _FORMATS:
-        raise UnknownType(f"a returned {kind!r}")
+        raise UnknownTypeError(f"a returned {kind!r}")
     return _FORMATS[kind]
 
 
@@ -78,7 +78,7 @@ def _maker(spec: Spec, start: int, release: Release) -> tuple[Maker, int]:
 def _array_maker(spec: Spec, start: int, release: Release) -> Maker:
     _, dtype, ndim, _, is_writable, _ = spec
     if not isinstance(dtype, str):
-        raise UnknownType("a returned array of records")
+        raise UnknownTypeError("a returned array of records")
     shape_at, strides_at = start + 5, start + 5 + ndim
 
     def make(words: tuple[Any, ...], arguments: tuple[Any, ...]) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 
 from asperity.native import gather
 from asperity.native.back import reader, words_of
-from asperity.native.plan import Plan, Spec, UnknownType
+from asperity.native.plan import Plan, Spec, UnknownTypeError
 
 # Answers NotImplemented where no signature fits: the call is Numba's then.
 Native = Callable[[tuple[Any, ...]], Any]
@@ -66,7 +66,7 @@ class Caller:
             back = words_of(returns)
             plan = Plan(row["arguments"], back)
             read = reader(returns, self._release)
-        except UnknownType:
+        except UnknownTypeError:
             return None
         if [back, plan.words] != row["words"]:
             return None
@@ -83,9 +83,8 @@ class Caller:
                     strange = gathered(rows, arguments, room)
                 if strange:
                     return NotImplemented
-            if status := run(room):
-                if status not in _GOOD:
-                    raise trouble(name, status, room[0])
+            if (status := run(room)) and status not in _GOOD:
+                raise trouble(name, status, room[0])
             return read(room, arguments)
 
         return native

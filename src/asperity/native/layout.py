@@ -69,9 +69,9 @@ def _sizes() -> bool:
     return least and int.__itemsize__ == 4 and all(t.__basicsize__ == n for t, n in sizes.items())
 
 
-def read(thing: object, offset: int, format: str = "q") -> tuple[Any, ...]:
+def read(thing: object, offset: int, form: str = "q") -> tuple[Any, ...]:
     """Return what stands so many bytes behind an object's address."""
-    return struct.unpack(format, ctypes.stringread(id(thing) + offset, struct.calcsize(format)))
+    return struct.unpack(form, ctypes.string_at(id(thing) + offset, struct.calcsize(form)))
 
 
 def _scalars() -> bool:
@@ -86,7 +86,7 @@ def _array() -> bool:
     if not head or read(array, ARRAY_DTYPE) != (id(array.dtype),):
         return False
     shape, strides = (
-        struct.unpack("2q", ctypes.stringread(*read(array, where), 16))
+        struct.unpack("2q", ctypes.string_at(*read(array, where), 16))
         for where in (ARRAY_SHAPE, ARRAY_STRIDES)
     )
     kind, number = read(array.dtype, DTYPE_KIND, "c3xi")

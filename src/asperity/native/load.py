@@ -8,6 +8,7 @@ import contextlib
 import ctypes
 import functools
 import hashlib
+import importlib
 import logging
 import os
 import platform
@@ -83,8 +84,8 @@ def from_folder(folder: Path) -> Library | None:
             return None
         file = folder / table.LIBRARY
         if hashlib.sha256(file.read_bytes()).hexdigest() != rows["library"]:
-            raise table.Damaged(f"{file} is damaged")
-    except (table.Damaged, OSError) as trouble:
+            raise table.DamagedError(f"{file} is damaged")
+    except (table.DamagedError, OSError) as trouble:
         _log.warning("%s: kernels are compiled instead; install asperity anew", trouble)
         return None
     # What it is linked with may be missing or too old here.
@@ -118,10 +119,11 @@ def _shipped() -> Library | None:
 
 def _kept(name: str) -> Library | None:
     try:
-        from asperity.native import kept
-    except ImportError:
+        kept = importlib.import_module("asperity.native.kept")
+    except ModuleNotFoundError:
         return None
-    return kept.library(name)
+    library: Library | None = kept.library(name)
+    return library
 
 
 def _is_for_here(rows: dict[str, Any]) -> bool:

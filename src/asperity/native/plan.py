@@ -14,7 +14,7 @@ _CONTIGUOUS = {"C": layout.C, "F": layout.F, "A": 0}
 _PLAIN = "fiu"
 
 
-class UnknownType(ValueError):
+class UnknownTypeError(ValueError):
     """A table names a type of argument that is not called from here."""
 
 
@@ -44,7 +44,7 @@ class Plan:
         self.words = 0
         given = [spec for spec in specs if spec[0] != "O"]
         if specs[: len(given)] != given:
-            raise UnknownType("an argument left out before one that is given")
+            raise UnknownTypeError("an argument left out before one that is given")
         for index, spec in enumerate(given):
             self._add(spec, 0, (index,))
         types = layout.types()
@@ -66,7 +66,7 @@ class Plan:
         elif kind == "A":
             _, dtype, ndim, order, is_writable, is_aligned = spec
             if not is_aligned:
-                raise UnknownType("arrays out of line")
+                raise UnknownTypeError("arrays out of line")
             mask = layout.C | layout.F | layout.ALIGNED | layout.WRITEABLE
             flags = _CONTIGUOUS[order] | layout.ALIGNED | (layout.WRITEABLE if is_writable else 0)
             if order == "C":
@@ -87,7 +87,7 @@ class Plan:
             for index, inner in enumerate(spec[-1]):
                 self._add(inner, own, (*path, index))
         else:
-            raise UnknownType(f"an argument {kind!r}")
+            raise UnknownTypeError(f"an argument {kind!r}")
 
     def _knows(self, dtype: Any) -> int:
         """Return the address of the words that tell a data type."""
@@ -131,7 +131,7 @@ def named(spec: Spec) -> type:
     for part in name.split("."):
         found = getattr(found, part)
     if not (isinstance(found, type) and issubclass(found, tuple)):
-        raise UnknownType(f"{module}.{name} is no named tuple")
+        raise UnknownTypeError(f"{module}.{name} is no named tuple")
     if len(getattr(found, "_fields", ())) != len(members):
-        raise UnknownType(f"{module}.{name} has other fields")
+        raise UnknownTypeError(f"{module}.{name} has other fields")
     return found

@@ -13,7 +13,7 @@ TABLE = "kernels.table"
 FORMAT = 1
 
 
-class Damaged(ValueError):
+class DamagedError(ValueError):
     """A table or library that is not what was written."""
 
 
@@ -29,7 +29,7 @@ def read(folder: Path) -> dict[str, Any] | None:
 
     Raises
     ------
-    Damaged
+    DamagedError
         It is not what was written.
     """
     try:
@@ -37,6 +37,6 @@ def read(folder: Path) -> dict[str, Any] | None:
     except OSError:
         return None
     if hashlib.sha256(text).hexdigest().encode() != digest:
-        raise Damaged(f"{folder / TABLE} is damaged")
+        raise DamagedError(f"{folder / TABLE} is damaged")
     table: dict[str, Any] = json.loads(text)
     return table if table.get("format") == FORMAT else None
