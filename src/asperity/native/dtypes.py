@@ -16,8 +16,8 @@ def described(dtype: np.dtype[Any]) -> Any:
         return ["rows", described(base), list(shape)]
     if dtype.fields is None:
         return dtype.str
-    fields = [[name, offset, described(kind)] for name, (kind, offset, *_) in dtype.fields.items()]
-    return ["record", dtype.itemsize, dtype.isalignedstruct, fields]
+    fields = [[offset, name, described(kind)] for name, (kind, offset, *_) in dtype.fields.items()]
+    return ["record", dtype.itemsize, dtype.isalignedstruct, sorted(fields, key=lambda f: f[:2])]
 
 
 def read(description: Any) -> np.dtype[Any]:
@@ -28,7 +28,7 @@ def read(description: Any) -> np.dtype[Any]:
         _, base, shape = description
         return np.dtype((read(base), tuple(shape)))
     _, itemsize, is_aligned, fields = description
-    names, offsets, kinds = zip(*fields, strict=True)
+    offsets, names, kinds = zip(*fields, strict=True)
     return np.dtype(
         {
             "names": list(names),
