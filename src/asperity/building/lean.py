@@ -82,7 +82,7 @@ def begin() -> None:
     context.create_cpython_wrapper = _nothing
     context.create_cfunc_wrapper = _nothing
     context.get_executable = _stand_in
-    compiled._Lazy._dispatcher = property(_dispatcher)  # type: ignore[assignment, method-assign]
+    compiled.made = _compiled
 
 
 def _nothing(*_arguments: object, **_options: object) -> None:
@@ -94,11 +94,9 @@ def _stand_in(*_arguments: object) -> Any:
     return [].append
 
 
-def _dispatcher(lazy: Any) -> Any:
-    if lazy._compiled is None:
-        options = lazy._options
-        lazy._compiled = numba.njit(nogil=True, error_model="numpy", **options)(lazy._function)
-    return lazy._compiled
+def _compiled(function: Any, options: dict[str, Any], _key: object) -> Any:
+    """What `asperity.compiled.made` is here: nothing is looked for on the disk."""
+    return numba.njit(nogil=True, error_model="numpy", **options)(function)
 
 
 def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
@@ -138,9 +136,11 @@ def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
     return Made(_machine().emit_object(module), returns, words)
 
 
-def support(text: str) -> bytes:
+def support(*texts: str) -> bytes:
     """Return an object file of code that is given as text, optimised."""
-    module = _parsed(text)
+    module, *others = map(_parsed, texts)
+    for other in others:
+        module.link_in(other)
     for function in module.functions:
         if function.linkage == ll.Linkage.linkonce_odr:
             function.linkage = "internal"

@@ -12,10 +12,7 @@ Spec = list[Any]
 
 _PLAIN: dict[str, Any] = {
     "d": types.float64,
-    "f": types.float32,
     "q": types.int64,
-    "Q": types.uint64,
-    "i": types.int32,
     "b": types.boolean,
     "0": types.none,
 }
@@ -47,8 +44,6 @@ def spec(of: Any) -> Spec:
             return ["N", made.__module__, made.__qualname__, [spec(inner) for inner in of.types]]
         case types.BaseTuple():
             return ["T", [spec(inner) for inner in of.types]]
-        case types.Omitted():
-            return ["O", of.value]
     raise Unknown(f"{of}")
 
 
@@ -75,6 +70,4 @@ def numba_type(given: Spec) -> Any:
         return types.NamedTuple(members, made)
     if word == "T":
         return types.BaseTuple.from_types([numba_type(one) for one in rest[0]])
-    if word == "O":
-        return types.Omitted(rest[0])
     raise Unknown(word)

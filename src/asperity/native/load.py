@@ -13,6 +13,7 @@ import logging
 import os
 import platform
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +81,7 @@ def from_folder(folder: Path) -> Library | None:
     """
     try:
         rows = table.read(folder)
-        if rows is None or not _is_for_here(rows):
+        if rows is None or not is_for_here(rows["target"], rows["features"]):
             return None
         file = folder / table.LIBRARY
         if hashlib.sha256(file.read_bytes()).hexdigest() != rows["library"]:
@@ -126,9 +127,10 @@ def _kept(name: str) -> Library | None:
     return library
 
 
-def _is_for_here(rows: dict[str, Any]) -> bool:
+def is_for_here(target: str, features: Iterable[str]) -> bool:
+    """Return whether machine code for a platform and a processor's features runs here."""
     here = f"{platform.machine().lower()}-{sys.platform}"
-    return rows["target"] == here and set(rows["features"]) <= _features() and bool(layout.types())
+    return target == here and set(features) <= _features() and bool(layout.types())
 
 
 @functools.cache
