@@ -1,11 +1,14 @@
 """Compiled kernels: functions of floats and arrays that Numba compiles where they are called.
 
-Declaring one costs nothing; Numba is loaded at the first call of any. What is compiled is kept on
-disk under a name made from the sources it follows from. Numba recompiles a function when the file
-it stands in changes, but not when a function it calls from another file does: it would answer with
-yesterday's code. Here a change to a kernel's module or to any that it imports, to Numba or to NumPy
-leads to another cache folder, and nothing else does: not a change elsewhere, nor another place on
-the disk.
+Declaring one costs nothing. A call goes to a library of machine code (`native`) where there is one
+that has the kernel for such arguments, made from the sources as they are; else to Numba, which is
+loaded at the first such call of any. With ``ASPERITY_NATIVE=0`` in the environment all go to Numba.
+
+What Numba compiles is kept on disk under a name made from the sources it follows from. Numba
+recompiles a function when the file it stands in changes, but not when a function it calls from
+another file does: it would answer with yesterday's code. Here a change to a kernel's module or to
+any that it imports, to Numba or to NumPy leads to another cache folder, and nothing else does: not
+a change elsewhere, nor another place on the disk.
 """
 
 import contextlib
@@ -50,9 +53,21 @@ class _Lazy:
         self._function = function
         self._options = options
         self._compiled: Any = None
+        # Answers from a library of machine code, NotImplemented where that has no such call.
+        self._native: Callable[[tuple[Any, ...]], Any] = self._first
 
     def __call__(self, *arguments: Any) -> Any:
-        return (self._compiled or self._dispatcher)(*arguments)
+        answer = self._native(arguments)
+        if answer is NotImplemented:
+            return (self._compiled or self._dispatcher)(*arguments)
+        return answer
+
+    def _first(self, arguments: tuple[Any, ...]) -> Any:
+        from asperity.native import load
+
+        name = f"{self.__module__}.{self.__qualname__}"
+        self._native = load.entry(name) or _not_here
+        return self._native(arguments)
 
     def __getattr__(self, name: str) -> Any:
         # To Numba, which asks for its type and options, it is what it stands for.
@@ -72,19 +87,26 @@ class _Lazy:
     def _dispatcher(self) -> Any:
         with _LOCK:
             if self._compiled is None:
-                import numba
-
-                from asperity import machine_code
-
-                compiled = numba.njit(nogil=True, error_model="numpy", **self._options)(
-                    self._function
-                )
-                if not numba.config.DISABLE_JIT:
-                    # OSError: a function without a source file, as one typed at a prompt.
-                    with contextlib.suppress(OSError):
-                        machine_code.keep(compiled, self._key())
-                self._compiled = compiled
+                self._compiled = made(self._function, self._options, self._key)
         return self._compiled
+
+
+def _not_here(arguments: tuple[Any, ...]) -> Any:
+    return NotImplemented
+
+
+def made(function: Kernel, options: dict[str, Any], key: Callable[[], str]) -> Any:
+    """Return a function that Numba compiles where it is called, kept on disk under a key."""
+    import numba
+
+    from asperity import machine_code
+
+    compiled = numba.njit(nogil=True, error_model="numpy", **options)(function)
+    if not numba.config.DISABLE_JIT:
+        # OSError: a function without a source file, as one typed at a prompt.
+        with contextlib.suppress(OSError):
+            machine_code.keep(compiled, key())
+    return compiled
 
 
 @overload

@@ -1,8 +1,11 @@
 """Where the user's caches stand."""
 
+import logging
 import os
 import secrets
 from pathlib import Path
+
+_log = logging.getLogger(__name__)
 
 
 def cache_folder(name: str) -> Path | None:
@@ -23,3 +26,26 @@ def cache_folder(name: str) -> Path | None:
     except (OSError, RuntimeError, ValueError):
         return None
     return folder.absolute()
+
+
+def is_ours_alone(folder: Path, instead: str) -> bool:
+    """Return whether nobody else can have put a file there; say so where somebody can.
+
+    Parameters
+    ----------
+    folder : path
+        A folder that exists.
+    instead : str
+        What is done instead of reading files there, for the message.
+    """
+    if os.name != "posix":
+        return True
+    status = folder.stat()
+    if status.st_uid != os.geteuid():
+        trouble = "belongs to another user"
+    elif status.st_mode & 0o022:
+        trouble = "can be written to by others"
+    else:
+        return True
+    _log.warning("%s %s; %s instead of read from it: remove it", folder, trouble, instead)
+    return False

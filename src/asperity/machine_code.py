@@ -1,18 +1,8 @@
-"""Machine code kept on disk: Numba's cache, in folders of ours, digested and for nobody else.
-
-Its files are pickles, which run what they hold: they are read from a folder only that belongs to
-the user and that nobody else may write to.
-"""
+"""Machine code kept on disk: Numba's cache, in folders of ours, digested and for nobody else."""
 
 import contextlib
-import functools
 import hashlib
-import logging
-import os
 import pickle
-import re
-import shutil
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -21,12 +11,9 @@ import numba
 from numba.core import caching
 from numba.core.runtime import rtsys
 
-from asperity.folders import cache_folder
+from asperity.kernel_folder import is_kept, kernels
 
-_KEPT_DAYS = 30
 _DIGEST_BYTES = 32
-
-_log = logging.getLogger(__name__)
 
 
 def keep(dispatcher: Any, key: str) -> None:
@@ -47,53 +34,15 @@ def keep(dispatcher: Any, key: str) -> None:
 
 
 def _kernel_folder(key: str) -> Path | None:
-    environment = os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME")
-    kernels = _kernels(*environment)
-    if kernels is None:
+    folder = kernels()
+    if folder is None:
         return None
-    folder = kernels / key
+    made = folder / key
     try:
-        folder.mkdir(mode=0o700, exist_ok=True)
-        os.utime(folder)
-        return folder if _is_ours_alone(folder) else None
+        made.mkdir(mode=0o700, exist_ok=True)
     except OSError:
         return None
-
-
-@functools.cache
-def _kernels(base: str | None, xdg: str | None) -> Path | None:
-    # The arguments are what the answer depends on; they make it once per process and setting.
-    folder = cache_folder("kernels")
-    if folder is None or not _is_ours_alone(folder):
-        return None
-    with contextlib.suppress(OSError):
-        _remove_old(folder)
-    return folder
-
-
-def _is_ours_alone(folder: Path) -> bool:
-    """Whether nobody else can have put a file there; says so where somebody can."""
-    if os.name != "posix":
-        return True
-    status = folder.stat()
-    if status.st_uid != os.geteuid():
-        trouble = "belongs to another user"
-    elif status.st_mode & 0o022:
-        trouble = "can be written to by others"
-    else:
-        return True
-    _log.warning(
-        "%s %s; kernels are compiled anew instead of read from it: remove it", folder, trouble
-    )
-    return False
-
-
-def _remove_old(kernels: Path) -> None:
-    oldest = time.time() - _KEPT_DAYS * 86400
-    for folder in kernels.iterdir():
-        is_ours = re.fullmatch(r"[0-9a-f]{16}", folder.name)
-        if is_ours and folder.stat().st_mtime < oldest:
-            shutil.rmtree(folder, ignore_errors=True)
+    return made if is_kept(made) else None
 
 
 class _DigestedFile(caching.IndexDataCacheFile):

@@ -13,7 +13,7 @@ import numba
 import numpy as np
 import pytest
 
-from asperity import machine_code
+from asperity import kernel_folder
 from asperity.compiled import kernel, kernel_key
 from asperity.folders import cache_folder
 from asperity.friction.tangent import update
@@ -72,7 +72,7 @@ def run(package, monkeypatch, tmp_path):
 
     def call(cache=tmp_path / "cache", package=package):
         monkeypatch.setenv("ASPERITY_CACHE", str(cache))
-        machine_code._kernels.cache_clear()
+        kernel_folder._kernels.cache_clear()
         for name in ("fake", "fake.inner", "fake.outer"):
             sys.modules.pop(name, None)
         with monkeypatch.context() as patched:
@@ -82,7 +82,7 @@ def run(package, monkeypatch, tmp_path):
         return [value, sum(outer.stats.cache_hits.values()), outer.stats.cache_path]
 
     yield call
-    machine_code._kernels.cache_clear()
+    kernel_folder._kernels.cache_clear()
 
 
 @pytest.mark.slow

@@ -1,0 +1,117 @@
+"""The kernels that Python calls, with the types it calls them with, and which command calls which.
+
+The list stands beside this file. ``python tests/harvest.py`` makes it anew from the command lines
+whose answers are recorded.
+"""
+
+import dataclasses
+import functools
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+LIST = Path(__file__).parent / "entries.json"
+
+
+@dataclasses.dataclass(frozen=True)
+class Entry:
+    """A kernel that Python calls with arguments of certain types.
+
+    Attributes
+    ----------
+    number : int
+        Its place in the list.
+    name : str
+        Full name of the kernel.
+    arguments : list
+        What it is called with, as the table of a library says it.
+    seconds : float
+        About how long it is compiled, s, beside others of its kind.
+    """
+
+    number: int
+    name: str
+    arguments: list[Any] = dataclasses.field(hash=False)
+    seconds: float
+
+    @property
+    def module(self) -> str:
+        """Full name of the module that the kernel stands in."""
+        return self.name.rpartition(".")[0]
+
+
+@dataclasses.dataclass(frozen=True)
+class Listed:
+    """What the list holds.
+
+    Attributes
+    ----------
+    entries : tuple of Entry
+        All of them.
+    lines : dict
+        Command line -> numbers of its entries, in the order of their first calls.
+    """
+
+    entries: tuple[Entry, ...]
+    lines: Mapping[str, tuple[int, ...]]
+
+    def named(self, name: str) -> list[Entry]:
+        """Return the entries of a kernel."""
+        return [entry for entry in self.entries if entry.name == name]
+
+
+@functools.cache
+def listed() -> Listed:
+    """Return the list as it stands."""
+    held = json.loads(LIST.read_text("utf-8"))
+    types = held["types"]
+    entries = (
+        Entry(number, name, [types[each] for each in arguments], seconds)
+        for number, (name, arguments, seconds) in enumerate(held["entries"])
+    )
+    lines = {line: tuple(numbers) for line, numbers in held["lines"].items()}
+    return Listed(tuple(entries), lines)
+
+
+def write(
+    entries: Iterable[tuple[str, list[Any], float]], lines: Mapping[str, Sequence[int]]
+) -> None:
+    """Write the list: names with types of arguments and seconds; numbers of entries by line."""
+    types: dict[str, int] = {}
+    rows = []
+    for name, arguments, seconds in entries:
+        texts = [json.dumps(each) for each in arguments]
+        numbers = [types.setdefault(text, len(types)) for text in texts]
+        rows.append(json.dumps([name, numbers, seconds]))
+    told = [f"{json.dumps(line)}: {json.dumps(list(numbers))}" for line, numbers in lines.items()]
+    parts = (
+        '"types": [\n' + ",\n".join(types) + "\n]",
+        '"entries": [\n' + ",\n".join(rows) + "\n]",
+        '"lines": {\n' + ",\n".join(told) + "\n}",
+    )
+    LIST.write_text("{\n" + ",\n".join(parts) + "\n}\n", "utf-8")
+
+
+def likely(asked: Iterable[int]) -> list[Entry]:
+    """Return what a process that has asked for some entries most likely asks for next.
+
+    Those come first that are called by more of the commands that call all that were asked for;
+    among equals the dearest.
+
+    Parameters
+    ----------
+    asked : iterable of int
+        Numbers of entries; they are not among what is returned.
+    """
+    held, known = listed(), set(asked)
+    alike = [numbers for numbers in held.lines.values() if known.issubset(numbers)]
+    share = dict.fromkeys((number for numbers in alike for number in numbers), 0.0)
+    for numbers in alike:
+        for number in numbers:
+            share[number] += 1.0 / len(alike)
+    found = [held.entries[number] for number in share if share[number] >= 0.5]
+    return sorted(
+        (entry for entry in found if entry.number not in known),
+        key=lambda entry: (-round(share[entry.number], 1), -entry.seconds),
+    )
