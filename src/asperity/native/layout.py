@@ -18,14 +18,8 @@ TYPE = 8
 SIZE = 16
 SCALAR = 16
 DIGITS = 24
-ARRAY_DATA, ARRAY_NDIM, ARRAY_SHAPE, ARRAY_STRIDES, ARRAY_DTYPE, ARRAY_FLAGS = (
-    16,
-    24,
-    32,
-    40,
-    56,
-    64,
-)
+ARRAY_DATA, ARRAY_NDIM, ARRAY_SHAPE, ARRAY_STRIDES = 16, 24, 32, 40
+ARRAY_DTYPE, ARRAY_FLAGS = 56, 64
 RECORD_DATA, RECORD_DTYPE = 24, 32
 DTYPE_KIND = 24
 
@@ -86,7 +80,7 @@ def _array() -> bool:
     if not head or read(array, ARRAY_DTYPE) != (id(array.dtype),):
         return False
     shape, strides = (
-        struct.unpack("2q", ctypes.string_at(*read(array, where), 16))
+        struct.unpack("2q", ctypes.string_at(read(array, where)[0], 16))
         for where in (ARRAY_SHAPE, ARRAY_STRIDES)
     )
     kind, number = read(array.dtype, DTYPE_KIND, "c3xi")
