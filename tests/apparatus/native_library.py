@@ -4,7 +4,6 @@ What a function does is told by the words that come back: which of the arguments
 """
 
 import functools
-import itertools
 
 from asperity.native import gather
 from asperity.native.back import words_of
@@ -59,9 +58,6 @@ def function(row, words=None, status=0):
     return "\n".join([*lines, f"  ret i32 {status}", "}"])
 
 
-_MODULES = itertools.count()
-
-
 @functools.cache
 def _target():
     import llvmlite.binding as llvm
@@ -71,27 +67,32 @@ def _target():
     return llvm.Target.from_default_triple()
 
 
-def text_of(*functions):
-    """Return a library's text: functions, and what every library has."""
-    return [gather.ir(), RELEASE + "\n".join(functions)]
+def _engine(text):
+    import llvmlite.binding as llvm
+
+    module = llvm.parse_assembly(text)
+    module.verify()
+    engine = llvm.create_mcjit_compiler(module, _target().create_target_machine(opt=1))
+    engine.finalize_object()
+    return engine
+
+
+@functools.cache
+def _gather():
+    return _engine(gather.ir())
 
 
 def addresses(*functions):
     """Return the function of a symbol's address, for a library of some functions."""
-    import llvmlite.binding as llvm
-
-    engine = llvm.create_mcjit_compiler(
-        llvm.parse_assembly(""), _target().create_target_machine(opt=1)
-    )
-    for text in text_of(*functions):
-        module = llvm.parse_assembly(text)
-        module.verify()
-        engine.add_module(module)
-    engine.finalize_object()
+    engines = _gather(), _engine(RELEASE + "\n".join(functions))
 
     def address(symbol):
-        found = engine.get_function_address(symbol)
-        return found or engine.get_global_value_address(symbol)
+        return next(
+            found
+            for engine in engines
+            for find in (engine.get_function_address, engine.get_global_value_address)
+            if (found := find(symbol))
+        )
 
     return address
 
@@ -102,7 +103,7 @@ def object_files(folder, *functions):
 
     machine = _target().create_target_machine(opt=1, reloc="pic")
     files = []
-    for number, text in enumerate(text_of(*functions)):
+    for number, text in enumerate([gather.ir(), RELEASE + "\n".join(functions)]):
         files.append(folder / f"{number}.o")
         files[-1].write_bytes(machine.emit_object(llvm.parse_assembly(text)))
     return files

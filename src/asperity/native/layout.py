@@ -76,8 +76,9 @@ def _scalars() -> bool:
 
 def _array() -> bool:
     array = np.asfortranarray(np.arange(6.0).reshape(2, 3))[:, ::2]
-    head = read(array, ARRAY_DATA, "qi") == (array.__array_interface__["data"][0], 2)
-    if not head or read(array, ARRAY_DTYPE) != (id(array.dtype),):
+    data = array.__array_interface__["data"][0]
+    head = *read(array, ARRAY_DATA), *read(array, ARRAY_NDIM, "i"), *read(array, ARRAY_DTYPE)
+    if head != (data, 2, id(array.dtype)):
         return False
     shape, strides = (
         struct.unpack("2q", ctypes.string_at(read(array, where)[0], 16))
@@ -107,7 +108,7 @@ def _flags() -> bool:
 def _record() -> bool:
     record = np.zeros(2, [("x", "f8"), ("n", "i8")])[1]
     data = record.__array_interface__["data"][0]
-    return read(record, RECORD_DATA, "qq") == (data, id(record.dtype))
+    return (*read(record, RECORD_DATA), *read(record, RECORD_DTYPE)) == (data, id(record.dtype))
 
 
 def _tuple(items: int) -> bool:
