@@ -10,8 +10,8 @@ from apparatus.fake_picoscope import FakeDriver
 
 from asperity.errors import InputError, MissingExtraError
 from asperity.tribometer.instruments import manual, picoscope, pymeasure_supply, serial_vibration
-from asperity.tribometer.instruments.parameters import Controller, Supplies
 from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.parameters import Controller, Supplies
 from asperity.tribometer.instruments.protocols import (
     Input,
     Instrument,

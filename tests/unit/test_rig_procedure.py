@@ -16,10 +16,10 @@ from apparatus.grid import slow
 from asperity.errors import InputError
 from asperity.processes import alone
 from asperity.runs import Run
-from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.guardian import journal as journals
-from asperity.tribometer.procedure import study
 from asperity.tribometer.guardian.journal import Journal
+from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure import study
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.study import Reducible, reduce_recording
 

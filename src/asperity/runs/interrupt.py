@@ -60,7 +60,7 @@ class Ears:
 
 
 class Signals:
-    """Notes every signal that ends a work, however often it comes, and raises where that is allowed.
+    """Notes every signal that ends a work, however often it comes, and raises where it may.
 
     What is not to be heard, as Ctrl-C in the background or the end of a terminal under nohup, is
     left so.

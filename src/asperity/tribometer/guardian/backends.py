@@ -14,6 +14,7 @@ from asperity.tribometer.guardian import asked
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
+from asperity.tribometer.guardian.in_time import ScopeInTime
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.inputs import inputs_of
@@ -25,11 +26,10 @@ from asperity.tribometer.instruments.manual import (
     Operator,
 )
 from asperity.tribometer.instruments.off import said
+from asperity.tribometer.instruments.parameters import Guard as Table
 from asperity.tribometer.instruments.protocols import (
     Input,
-    InstrumentError,
     Person,
-    Poll,
     Scope,
     Supply,
     VibrationDrive,
@@ -66,49 +66,10 @@ class _ByHand(ManualVibration):
         self._guard.beat()
 
 
-class _ScopeAtUse:
-    """A PicoScope that is opened when it is needed, so that its absence keeps nothing on."""
+def _picoscope(inputs: tuple[Input, ...]) -> Scope:
+    from asperity.tribometer.instruments.picoscope import PicoScope
 
-    by_hand = False
-    name = "PicoScope"
-
-    def __init__(self, inputs: tuple[Input, ...]) -> None:
-        self.inputs = inputs
-        self._open: Scope | None = None
-
-    def _opened(self) -> Scope:
-        from asperity.tribometer.instruments.picoscope import PicoScope
-
-        if self._open is None:
-            self._open = PicoScope(self.inputs)
-        return self._open
-
-    def identify(self) -> str:
-        """Return model and serial number."""
-        return self._opened().identify()
-
-    def start(self, interval: float) -> float:
-        """Begin to stream."""
-        return self._opened().start(interval)
-
-    def poll(self) -> Poll:
-        """Return what has come since the last poll."""
-        return self._opened().poll()
-
-    def stop(self) -> None:
-        """End the stream."""
-        if self._open is not None:
-            self._open.stop()
-
-    def safe(self) -> None:
-        """End the stream."""
-        self.stop()
-
-    def close(self) -> None:
-        """Let go of the device."""
-        if self._open is not None:
-            self._open.close()
-            self._open = None
+    return PicoScope(inputs)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -129,11 +90,10 @@ class GuardedBench(Bench):
     def safe(self) -> tuple[str, ...]:
         """Have everything switched off and read back; returns what was not, and why."""
         found = self.guard.off("the procedure asks", listen=False)
-        found_off = self._scope_let_go()
-        if found_off is None:
-            # Nobody else uses it now.
+        # Then nobody else uses it, and its samples tell whether the drive is still.
+        if self._scope_let_go():
             found = self.guard.off("the procedure asks, and the drive signal is heard", listen=True)
-        return (*found.get("still_on", ()), *self._by_hand(), *filter(None, (found_off,)))
+        return (*found.get("still_on", ()), *self._by_hand())
 
     def begun(self) -> tuple[str, ...]:
         """Return what was not read back to be off when the guardian began, and why."""
@@ -141,13 +101,13 @@ class GuardedBench(Bench):
         trouble = [found["trouble"]] if "trouble" in found else []
         return (*found.get("still_on", ()), *trouble, *self._by_hand())
 
-    def _scope_let_go(self) -> str | None:
+    def _scope_let_go(self) -> bool:
         try:
             self.scope.safe()
             self.scope.close()
-        except Exception as error:
-            return f"{self.scope.name}: {said(error)}"
-        return None
+        except Exception:  # of a driver; it is no output, and keeps nothing on
+            return False
+        return True
 
     def _by_hand(self) -> list[str]:
         failures = []
@@ -184,6 +144,7 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     person = Operator()
     guard = Guard(case, backend, None)
     owned, _ = owned_by(case, backend)
+    due = case.get(Table, Table()).due(simulated=False)
     vibration: VibrationDrive = (
         _Vibration(guard) if "vibration" in owned else _ByHand(person, guard)
     )
@@ -193,7 +154,7 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     }
     amplifier = outputs.pop("amplifier")
     return GuardedBench(
-        scope=_ScopeAtUse(inputs),
+        scope=ScopeInTime("PicoScope", inputs, lambda: _picoscope(inputs), due),
         vibration=vibration,
         motors=outputs,
         tachometer=ManualTachometer(person),
@@ -213,9 +174,12 @@ def _simulated(case: Case, inputs: tuple[Input, ...]) -> GuardedBench:
         line.close()
         raise
     clock = asked.AskedClock(line)
+    name = "simulated oscilloscope"
+    scope = asked.AskedScope(line, "scope", name, inputs)
+    due = case.get(Table, Table()).due(simulated=True)
     outputs = {key: asked.AskedSupply(guard, key, name) for key, name in OUTPUTS.items()}
     return GuardedBench(
-        scope=asked.AskedScope(line, "scope", "simulated oscilloscope", inputs),
+        scope=ScopeInTime(name, inputs, lambda: scope, due),
         vibration=_Vibration(guard),
         motors={key: outputs[key] for key in ("steel", "bronze")},
         tachometer=asked.AskedTachometer(line, "tachometer", "simulated tachometer"),

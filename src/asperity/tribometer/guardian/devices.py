@@ -56,7 +56,13 @@ def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
 def _simulated(key: str, name: str, rig: Address) -> Device:
     kinds: Mapping[str, Any] = {"vibration": AskedVibration, LISTENER: AskedListener}
     made = kinds.get(key, AskedSupply)
-    return Device(name, {key: name}, lambda: {key: made(RigLine(rig), key, name)})
+
+    def opened() -> dict[str, Any]:
+        one = made(RigLine(rig), key, name)
+        one.identify()
+        return {key: one}
+
+    return Device(name, {key: name}, opened)
 
 
 def _controller(case: Case) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.guardian import BEAT
 from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.guardian.rig import Address
+from asperity.tribometer.guardian.switching import longest
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.instruments.parameters import Guard as Table
 from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError
@@ -25,7 +26,7 @@ from asperity.tribometer.journal_lines import NAME, Line
 
 LOST = "guardian lost"  #: Kind of the error where the guardian is there no more.
 _STARTING = 60.0  # s that it may take to begin
-_BUSY = 2.0  # s that switching off may keep it from telling that it is there
+_SLACK = 1.0  # s that a busy computer may need
 _ENDING = 15.0  # s that it may take to end
 
 
@@ -49,7 +50,11 @@ class Guard:
 
     def __init__(self, case: Case, backend: str, rig: Address | None) -> None:
         self._told = {"case": packed(case), "backend": backend, "rig": rig}
-        self._limit = _BUSY + case.get(Table, Table()).patient(backend == "sim")
+        table, simulated = case.get(Table, Table()), backend == "sim"
+        busy = 2.0 * longest(
+            table.due(simulated=simulated)
+        )  # two attempts, the second as the end comes
+        self._limit = _SLACK + busy + table.patient(simulated=simulated)
         self.generation = 0
         self._heard, self._signals = os.pipe() if os.name == "posix" else (-1, -1)
         if self._signals >= 0:

@@ -6,6 +6,7 @@ next heartbeat is due.
 """
 
 import concurrent.futures as cf
+import contextlib
 import dataclasses
 import queue
 import time
@@ -15,12 +16,13 @@ from typing import Any
 
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.hand import Hand
+from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.guardian.owned import Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
-from asperity.tribometer.guardian.switching import LIMIT, Switching
+from asperity.tribometer.guardian.switching import Switching, longest
 from asperity.tribometer.guardian.wire import Head, Wire
+from asperity.tribometer.instruments.off import said
 from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError
-from asperity.tribometer.guardian.journal import Journal
 
 BEAT = 0.1  #: s
 _OPENING = 20.0  # s that a device may take at the start
@@ -83,7 +85,7 @@ class Guardian:
         self._relay, self._trouble = relay, trouble
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
-        self._switching = Switching(devices, by_hand, now)
+        self._switching = Switching(devices, by_hand, limit=longest(deadline), now=now)
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._awaited: dict[cf.Future[Any], _Asked] = {}
         self._on: set[str] = set()
@@ -114,12 +116,21 @@ class Guardian:
         self._unwritten.append(self._last)
         while self._left is None:
             try:
-                self._events.get(timeout=0.5 * BEAT)()
-            except queue.Empty:
-                pass
-            self._look()
+                self._next()
+                self._look()
+            except Exception as error:
+                # Of ours: whatever it is, nothing is to stay on.
+                self._trip(f"a fault of the guardian: {said(error)}")
         self._close()
         return self._left
+
+    def _next(self) -> None:
+        """Take what has come."""
+        try:
+            event = self._events.get(timeout=0.5 * BEAT)
+        except queue.Empty:
+            return
+        event()
 
     def _look(self) -> None:
         """See that nothing is late."""
@@ -329,10 +340,9 @@ class Guardian:
         return self._of[key].keys[key] if key in self._of else key
 
     def _send(self, head: Head) -> None:
-        try:
+        # Its end is read, and told, elsewhere.
+        with contextlib.suppress(OSError, ValueError):
             self._wire.send(head)
-        except (OSError, ValueError):  # its end is read, and told, elsewhere
-            pass
 
 
 _ENDED = frozenset(("finished", "latched", "interrupted"))

@@ -96,7 +96,7 @@ def main() -> int:
     simulated = backend == "sim"
     guardian = Guardian(
         devices_of(case, backend, rig), owned_by(case, backend)[1], wire,
-        patience=table.patient(simulated), deadline=table.due(simulated), say=words.say,
+        patience=table.patient(simulated=simulated), deadline=table.due(simulated=simulated), say=words.say,
         relay=relay, now=_clock, trouble=trouble,
     )  # fmt: skip
     for number in ears.early:

@@ -1,7 +1,7 @@
 """What cuts the power when nobody is left: a relay on a serial port, or a watchdog on its line.
 
-A line that is held falls when the port is closed, and the system closes it with the process, however
-that ends. A relay that takes commands stays as it was told.
+A line that is held falls when the port is closed, and the system closes it with the process,
+however that ends. A relay that takes commands stays as it was told.
 """
 
 import contextlib

@@ -1,7 +1,7 @@
 """The simulated rig as a process of its own, which stands on when who ran it is gone.
 
-Procedure and guardian are connected to it as to devices: by lines that break with the process at the
-other end. It ends when nobody is connected any more.
+Procedure and guardian are connected to it as to devices: by lines that break with the process at
+the other end. It ends when nobody is connected any more.
 """
 
 import contextlib

@@ -9,11 +9,16 @@ from asperity.tribometer.guardian.owned import LISTENER, STAGES, Device, Verdict
 from asperity.tribometer.instruments import off
 from asperity.tribometer.instruments.off import Off
 
-LIMIT = 0.9  #: s, after which what was not read back is named.
+_LIMIT = 0.9  # s, after which what was not read back is named
 _STAGE = 0.1  # s that an output may keep those of the next stage waiting.
 _AGAIN = 0.02  # s until what was not found off is told and asked again.
 
 Clock = Callable[[], float]
+
+
+def longest(deadline: float) -> float:
+    """Return how long switching off may take, s, where an answer may take a deadline."""
+    return max(_LIMIT, deadline)
 
 
 class Switching:
@@ -25,20 +30,34 @@ class Switching:
         All that is owned.
     by_hand : sequence of str
         Names of outputs that only a person can switch off.
+    limit : float
+        How long it is tried, s; what is not off by then is named.
     now : callable
         The computer's clock, s.
     """
 
     def __init__(
-        self, devices: Sequence[Device], by_hand: Sequence[str] = (), now: Clock = time.monotonic
+        self,
+        devices: Sequence[Device],
+        by_hand: Sequence[str] = (),
+        *,
+        limit: float = _LIMIT,
+        now: Clock = time.monotonic,
     ) -> None:
+        self._limit = limit
         self._devices = devices
         self._by_hand = by_hand
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
 
     def off(
-        self, why: str, event: float, *, limit: float = LIMIT, listen: bool, alone: bool = False
+        self,
+        why: str,
+        event: float,
+        *,
+        limit: float | None = None,
+        listen: bool,
+        alone: bool = False,
     ) -> Verdict:
         """Switch everything off, and read back that it is.
 
@@ -48,14 +67,14 @@ class Switching:
             The reason.
         event : float
             When it was noticed, s.
-        limit : float
-            How long it is tried, s; what is not off by then is named.
+        limit : float, optional
+            Another time than usual, s.
         listen : bool
             Whether the drive signal may be listened to: nobody else uses the oscilloscope.
         alone : bool
             Whether nobody is there who would ask a person.
         """
-        end = self._now() + limit
+        end = self._now() + (self._limit if limit is None else limit)
         safes: dict[str, cf.Future[Any]] = {}
         for stage in STAGES:
             begun = {key: self._safe(key) for key in stage if key in self._of}

@@ -200,10 +200,10 @@ class Guard(Table):
             raise InputError("guardian.relay_pulses needs relay_line, the line that changes")
         return self
 
-    def patient(self, simulated: bool) -> float:
+    def patient(self, *, simulated: bool) -> float:
         """Return how long the procedure may say nothing, s."""
         return self.patience or (_SIMULATED if simulated else _PATIENCE)
 
-    def due(self, simulated: bool) -> float:
+    def due(self, *, simulated: bool) -> float:
         """Return how long an answer may take, s."""
         return self.deadline or (_SIMULATED if simulated else _DEADLINE)

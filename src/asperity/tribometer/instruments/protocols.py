@@ -6,7 +6,6 @@ their safe state at any time, as often as one likes.
 
 import dataclasses
 import time
-from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np

@@ -7,8 +7,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.tribometer.calibration import Line
-from asperity.tribometer.instruments.inputs import volts_a_count
 from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.inputs import volts_a_count
 from asperity.tribometer.instruments.protocols import (
     FULL_SCALE,
     Counts,

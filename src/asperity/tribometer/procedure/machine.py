@@ -18,8 +18,9 @@ from asperity.errors import AsperityError, StorageError
 from asperity.runs import Run
 from asperity.runs.interrupt import Interrupted, Signals
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
+from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.instruments.bench import Bench, MadeSafe
+from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
 from asperity.tribometer.instruments.protocols import (
     SWITCHED_OFF,
     InstrumentError,
@@ -32,7 +33,6 @@ from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.interlock import Expected, Interlock
-from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.procedure.logger import Logger
 from asperity.tribometer.procedure.packer import Packer
 from asperity.tribometer.procedure.steps import Action

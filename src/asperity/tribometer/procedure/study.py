@@ -14,9 +14,11 @@ from asperity.runs.interrupt import Signals
 from asperity.runs.key import key
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian.backends import BACKENDS, REPLAY, GuardedBench, open_bench
+from asperity.tribometer.guardian.guard import GuardedJournal
+from asperity.tribometer.guardian.journal import Journal, Lines
+from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
-from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import StillOnError
 from asperity.tribometer.instruments.replay import replay_bench
 from asperity.tribometer.journal_lines import NAME
@@ -25,8 +27,6 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.study import warnings
-from asperity.tribometer.guardian.guard import GuardedJournal
-from asperity.tribometer.guardian.journal import Journal, Lines
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
@@ -175,8 +175,9 @@ def _listening(
         files = (folder / f"{one.name}.nc" for one in problem.files)
         if there := next(filter(Path.exists, files), None):
             raise InputError(f"{there} is there already, of another run; choose another --out")
-    guarded = isinstance(bench, GuardedBench)
-    journal = GuardedJournal(bench.guard, folder) if guarded else Journal(folder)
+    journal: Lines = (
+        GuardedJournal(bench.guard, folder) if isinstance(bench, GuardedBench) else Journal(folder)
+    )
     latch: AsperityError | None = None
     try:
         _opened(problem, journal)
