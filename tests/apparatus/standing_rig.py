@@ -9,7 +9,6 @@ import threading
 import time
 
 from apparatus import rigs
-
 from asperity.errors import AsperityError
 from asperity.runs import Run
 from asperity.tribometer.guardian import backends
@@ -41,6 +40,7 @@ class _Server(RigServer):
         super().__init__(objects_of(bench))
         self._rig = rig
         self._faults, self._pace, self._seen, self._heard = {}, 0.0, set(rig.on), []
+        self._doing = set()
 
     def fault(self, key, kind, seconds=0.0):
         self._faults[key] = kind, seconds
@@ -57,10 +57,23 @@ class _Server(RigServer):
     def on(self):
         return sorted(self._rig.on)
 
+    def doing(self):
+        return sorted(self._doing)
+
+    def quiet(self):
+        self._rig.on.clear()
+
     def _done(self, head):
         key, verb = head["to"], head["do"]
         if key == "test":
             return getattr(self, verb)(*head["with"])
+        self._doing |= {f"{key}.{verb}"}
+        try:
+            return self._as_it_is(key, verb, head)
+        finally:
+            self._doing -= {f"{key}.{verb}"}
+
+    def _as_it_is(self, key, verb, head):
         kind, seconds = self._faults.get(key, ("", 0.0))
         if kind in ("absent", "garbling"):
             raise InstrumentError(f"{key} is {kind}", kind="line lost")
@@ -75,7 +88,7 @@ class _Server(RigServer):
         if kind == "stuck at a value" and verb == "reading":
             return Reading(1.0, 2.4)
         if (key, verb) == ("clock", "sleep"):
-            time.sleep(self._pace * head["with"][0])
+            time.sleep(self._pace * head["with"][0] if "vibration" in self._rig.on else 0.0)
         gave = super()._done(head)
         if self._rig.on != self._seen:
             self._heard.append([time.monotonic(), sorted(self._rig.on)])
@@ -87,7 +100,8 @@ class StandingRig:
     """A rig of a case in a process of its own.
 
     ``fault(key, kind)`` is one of absent, silent, garbling, late (by seconds), stuck on, welded
-    (off by its state, on by its current) and stuck at a value; ``pace`` slows its time.
+    (off by its state, on by its current) and stuck at a value; ``pace`` slows its time while it
+    vibrates.
     """
 
     def __init__(self, case):
@@ -139,14 +153,24 @@ def _warm(bench, rig, case):
 class Procedure:
     """``asperity rig run`` in a process of its own, on a rig that stands."""
 
-    def __init__(self, case, folder, rig, *, resume=False, acknowledge=""):
+    def __init__(self, case, folder, rig, *, resume=False, acknowledge="", before=None):
         folder.mkdir(exist_ok=True)
         self.folder = folder
+        noted = folder / "guardian"
+        noted.unlink(missing_ok=True)
+
+        class Noted(backends.Guard):
+            def _start(self):
+                super()._start()
+                noted.write_text(str(self.process))
 
         def work():
             errors = os.open(folder / "errors", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
             os.dup2(errors, 2)
             backends.begun_rig = lambda case: rig.address
+            backends.Guard = Noted
+            if before is not None:
+                before()
             problem = study.prepare(case, "sim", "", resume, acknowledge)
             try:
                 answer = study.answer(problem, Run(folder=folder, stem="rig-run"))
@@ -167,6 +191,11 @@ class Procedure:
     def kill(self, number):
         os.kill(self.number, number)
         return time.monotonic()
+
+    @property
+    def guardian(self):
+        """Number of the guardian's process."""
+        return int((self.folder / "guardian").read_text())
 
     def ended(self):
         """Wait for its end; returns its exit code, negative if a signal ended it."""

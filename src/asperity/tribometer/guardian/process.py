@@ -96,8 +96,8 @@ def main() -> int:
     simulated = backend == "sim"
     guardian = Guardian(
         devices_of(case, backend, rig), owned_by(case, backend)[1], wire,
-        patience=table.patient(simulated=simulated), deadline=table.due(simulated=simulated), say=words.say,
-        relay=relay, now=_clock, trouble=trouble,
+        patience=table.patient(simulated=simulated), deadline=table.due(simulated=simulated),
+        say=words.say, relay=relay, now=_clock, trouble=trouble,
     )  # fmt: skip
     for number in ears.early:
         guardian.signal(number)
