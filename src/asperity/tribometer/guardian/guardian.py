@@ -29,7 +29,7 @@ _OPENING = 20.0  # s that a device may take at the start
 _POLLED = 0.5  # s between two looks at a supply that is on
 _AGAIN = 1.0  # s between two attempts at what was not read back
 _ATTEMPTS = 10  # of these, when the procedure has ended
-_WRITTEN = 2.0  # s that the end waits for the journal
+_WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
 
 
@@ -301,6 +301,7 @@ class Guardian:
         self._tripped = why
         found = self._off(why, self._now(), listen=True, alone=True)
         self._writing.begin(lambda: self._write_end(why, found))
+        self._writing.begin(self._join)
         for _ in range(_ATTEMPTS if any(self._of) else 0):
             if self._last is None or not self._last.still_on:
                 break
@@ -322,6 +323,14 @@ class Guardian:
             journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)
         else:
             journal.write("interrupted", reason=why)
+
+    def _join(self) -> None:
+        """Make files of what the procedure had recorded."""
+        if self._journal is None:
+            return
+        from asperity.tribometer.recording.recorder import joined_all
+
+        joined_all(self._journal.path.parent)
 
     def _close(self) -> None:
         """Let go of everything; what does not let go is left."""

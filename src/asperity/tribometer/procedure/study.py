@@ -27,9 +27,11 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.study import warnings
+from asperity.tribometer.procedure.kept import check_kept
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
+from asperity.tribometer.recording.recorder import joined_all
 from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
 
@@ -172,6 +174,7 @@ def _listening(
     if not (folder / NAME).exists():
         if problem.resume:
             raise InputError(f"{folder} holds no run to go on with; leave --resume out")
+        joined_all(folder)
         files = (folder / f"{one.name}.nc" for one in problem.files)
         if there := next(filter(Path.exists, files), None):
             raise InputError(f"{there} is there already, of another run; choose another --out")
@@ -221,15 +224,7 @@ def _opened(problem: RunProblem, journal: Lines) -> None:
         raise InputError("--acknowledge is given and nothing has latched; leave it out")
     if latched is not None:
         journal.write("acknowledged", text=problem.acknowledge, of=latched["line"])
-    lost = [
-        line["recording"] for line in journal.of("done")
-        if "cell" in line and not (journal.path.parent / line["recording"]).is_file()
-    ]  # fmt: skip
-    if lost:
-        raise InputError(
-            f"{journal.path} says that {lost[0]} holds {lost.count(lost[0])} cells, and it is "
-            "gone; put it back, or begin the plan in another --out"
-        )
+    check_kept(journal)
     journal.write("resumed")
 
 
