@@ -1,4 +1,4 @@
-"""The guardian switches off in order, reads back, names what is not proven, and waits for nobody."""
+"""The guardian switches off in order, reads back, names what is not proven, waits for nobody."""
 
 import os
 import queue

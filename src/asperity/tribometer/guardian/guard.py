@@ -18,7 +18,7 @@ from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.guardian import BEAT
 from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.guardian.rig import Address
-from asperity.tribometer.guardian.switching import longest
+from asperity.tribometer.guardian.switching import LISTENING, longest
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.instruments.parameters import Guard as Table
 from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError
@@ -177,7 +177,7 @@ class Guard:
     def off(self, why: str, *, listen: bool) -> Mapping[str, Any]:
         """Have everything switched off and read back; by another guardian where one is lost."""
         try:
-            return dict(self._ask(self._limit, "guardian", "off", (why, listen)))
+            return dict(self._ask(self._limit + LISTENING, "guardian", "off", (why, listen)))
         except InstrumentError as error:
             if error.kind != LOST:
                 raise

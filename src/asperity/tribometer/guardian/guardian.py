@@ -17,7 +17,7 @@ from typing import Any
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.hand import Hand
 from asperity.tribometer.guardian.journal import Journal
-from asperity.tribometer.guardian.owned import Device, Verdict
+from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.switching import Switching, longest
 from asperity.tribometer.guardian.wire import Head, Wire
@@ -189,7 +189,7 @@ class Guardian:
             self._send({"n": number, "gave": told})
         elif verb == "off":
             why, listen = given
-            found = self._off(why, self._now(), listen=listen)
+            found = self._off(why, self._now(), listen=listen, last=listen)
             self._send({"n": number, "gave": found.line()})
         elif verb == "goodbye":
             self._orderly = True
@@ -247,32 +247,34 @@ class Guardian:
         found = self._off(why, self._now() if event is None else event, listen=False)
         self._send({"tripped": why, "still_on": found.still_on})
 
-    def _off(self, why: str, event: float, *, listen: bool, alone: bool = False) -> Verdict:
+    def _off(
+        self, why: str, event: float, *, listen: bool, alone: bool = False, last: bool = True
+    ) -> Verdict:
+        """Switch everything off; ``last``: nobody will listen afterwards."""
         for future, asked in list(self._awaited.items()):
             if asked.number and not future.done():
                 del self._awaited[future]
                 self._send(wires.failed(asked.number, self._off_already()))
         self._awaited.clear()
         found = self._switching.off(why, event, listen=listen, alone=alone)
-        self._told(found)
+        self._told(found, last=last)
         self._on.clear()
         return found
 
-    def _told(self, found: Verdict) -> None:
+    def _told(self, found: Verdict, *, last: bool) -> None:
         """Write down what was found, and tell a person what has to be switched off by hand."""
         self._last, self._tried = found, self._now()
         self._unwritten.append(found)
         if self._journal is not None:
             self._writing.begin(self._write_down)
-        if found.still_on:
+        named = [str(one) for one in found.found if not one.proven and (last or not one.unheard)]
+        if named:
             if self._relay is not None:
                 try:
                     self._relay.open()
                 except Exception as error:
                     self._say(f"{self._relay.name} could not be told to cut the power: {error}")
-            self._say(
-                f"NOT READ BACK TO BE OFF: {'; '.join(found.still_on)}. SWITCH IT OFF BY HAND."
-            )
+            self._say(f"NOT READ BACK TO BE OFF: {'; '.join(named)}. SWITCH IT OFF BY HAND.")
 
     def _write_down(self) -> None:
         while self._unwritten and self._journal is not None:
@@ -299,7 +301,11 @@ class Guardian:
             return
         why = self._tripped or "the procedure has ended without a word"
         self._tripped = why
-        found = self._off(why, self._now(), listen=True, alone=True)
+        found = self._off(why, self._now(), listen=False, alone=True, last=LISTENER not in self._of)
+        seconds = found.seconds
+        if LISTENER in self._of:
+            heard = f"{why}, and the drive signal is heard"
+            found = self._off(heard, self._now(), listen=True, alone=True)
         self._writing.begin(lambda: self._write_end(why, found))
         self._writing.begin(self._join)
         for _ in range(_ATTEMPTS if any(self._of) else 0):
@@ -310,7 +316,7 @@ class Guardian:
         still = self._last.still_on if self._last is not None else []
         if not still:
             names = ", ".join(one.name for one in found.found)
-            self._say(f"{why}; read back to be off within {found.seconds:.2g} s: {names}")
+            self._say(f"{why}; read back to be off within {seconds:.2g} s: {names}")
         self._left = 4 if still else 0
 
     def _write_end(self, why: str, found: Verdict) -> None:

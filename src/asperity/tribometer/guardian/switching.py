@@ -8,8 +8,10 @@ from typing import Any
 from asperity.tribometer.guardian.owned import LISTENER, STAGES, Device, Verdict
 from asperity.tribometer.instruments import off
 from asperity.tribometer.instruments.off import Off
+from asperity.tribometer.instruments.protocols import InstrumentError
 
 _LIMIT = 0.9  # s, after which what was not read back is named
+LISTENING = 5.0  #: s that an oscilloscope may take to be opened and to hear.
 _STAGE = 0.1  # s that an output may keep those of the next stage waiting.
 _AGAIN = 0.02  # s until what was not found off is told and asked again.
 
@@ -81,18 +83,26 @@ class Switching:
             safes |= begun
             cf.wait(begun.values(), timeout=min(_STAGE, max(0.0, end - self._now())))
         asked = {key: self._read(key) for key in safes}
-        if listen and LISTENER in self._of:
-            asked[LISTENER] = self._read(LISTENER)
-        found = self._found(asked)
-        while not all(one.proven for one in found) and self._now() < end:
-            self._ask_again(asked, found)
+        known: dict[str, Any] = {}
+        listens = listen and LISTENER in self._of and "vibration" in self._of
+        if listens:
+            end = max(end, self._now() + LISTENING)
+        while True:
+            # Heard before its command was taken, a drive that is still may yet begin.
+            if listens and LISTENER not in asked and asked["vibration"].done():
+                asked[LISTENER] = self._read(LISTENER)
+            found = self._found(asked, known)
+            proven = all(one.proven for one in found)
+            if proven and (not listens or LISTENER in known):
+                break
+            if self._now() >= end or self._hopeless(found):
+                break
+            if not proven:
+                self._ask_again(asked, found)
             cf.wait(
                 [one for one in asked.values() if not one.done()],
                 timeout=max(0.0, min(_AGAIN, end - self._now())),
             )
-            found = self._found(asked)
-            if self._hopeless(found):
-                break
         if alone:
             found += [
                 Off(name, False, "nobody was asked to switch it off") for name in self._by_hand
@@ -125,15 +135,20 @@ class Switching:
     def _of_vibration(self) -> str:
         return self._of["vibration"].keys["vibration"] if "vibration" in self._of else ""
 
-    def _found(self, asked: dict[str, "cf.Future[Any]"]) -> list[Off]:
+    def _found(self, asked: dict[str, "cf.Future[Any]"], known: dict[str, Any]) -> list[Off]:
+        # Of what was asked again, what it answered last.
+        known |= {key: _told(future) for key, future in asked.items() if future.done()}
+        found = {key: known.get(key, _SILENT) for key in asked}
         made: dict[str, Off] = {}
         for key in asked:
             if key not in ("vibration", LISTENER):
-                made[key] = off.supply_off(self._of[key].keys[key], _told(asked[key]))
-        if "vibration" in asked:
-            moves = _told(asked[LISTENER]) if LISTENER in asked else None
+                made[key] = off.supply_off(self._of[key].keys[key], found[key])
+        if "vibration" in asked and "vibration" not in known:
+            made["vibration"] = Off(self._of_vibration(), False, str(_SILENT))
+        elif "vibration" in asked:
+            moves = found.get(LISTENER)
             made["vibration"] = off.drive_off(
-                self._of_vibration(), _told(asked["vibration"]), moves, made.get("amplifier")
+                self._of_vibration(), found["vibration"], moves, made.get("amplifier")
             )
         return [made[key] for stage in STAGES for key in stage if key in made]
 
@@ -147,8 +162,9 @@ class Switching:
         )  # fmt: skip
 
 
+_SILENT = InstrumentError("it has not answered", kind="late")
+
+
 def _told(future: "cf.Future[Any]") -> Any:
-    if not future.done():
-        return TimeoutError("it has not answered")
     error = future.exception()
     return error if error is not None else future.result()

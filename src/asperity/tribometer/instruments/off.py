@@ -25,11 +25,14 @@ class Off:
         Whether it was read back that it is off.
     evidence : str
         What was read back, or why nothing was.
+    unheard : bool
+        Whether nothing speaks against it, and it has yet to be listened to.
     """
 
     name: str
     proven: bool
     evidence: str
+    unheard: bool = False
 
     def __str__(self) -> str:
         return f"{self.name}: {self.evidence}"
@@ -107,7 +110,9 @@ def drive_off(
         return Off(name, True, ", ".join(told))
     if state is None and amplifier is not None and amplifier.proven:
         return Off(name, True, ", ".join([*told, "its amplifier has no power"]))
-    return Off(name, False, ", ".join(told) or "its state cannot be asked, and nobody listens")
+    if not told:
+        return Off(name, False, "its state cannot be asked, and nobody listens", unheard=True)
+    return Off(name, False, ", ".join(told))
 
 
 def by_hand(name: str) -> Off:
