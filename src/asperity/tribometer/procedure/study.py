@@ -166,6 +166,9 @@ def _listening(
     # A process that was killed has left the instruments as they were.
     failures = bench.begun()
     if failures:
+        if isinstance(bench, GuardedBench):
+            # Opened, it takes what the guardian found.
+            GuardedJournal(bench.guard, folder).close()
         raise StillOnError(
             f"not everything was read back to be off: {'; '.join(failures)}; switch it off by hand "
             "and look at the instruments",
