@@ -253,7 +253,7 @@ def test_a_look_tells_columns_values_and_gaps_and_draws_them(tmp_path, capsys):
         main(["rig", "look", str(tmp_path / "run.csv"), "--out", str(tmp_path / "out")])
     told = capsys.readouterr().out
     assert "Tektronix" in told
-    found = read(tmp_path / "out" / "look.nc")
+    found = read(tmp_path / "out" / "look.nc").dataset
     assert [*found["name"].values] == ["CH1 (V)", "CH2 (V)"]
     assert float(found["gaps"]) == 1
     assert float(found["start"]) == pytest.approx(TIMES[0])
