@@ -62,9 +62,11 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
         return False
     # The resonance of what softens as it is moved further leans to lower frequencies.
     highest = _LEANS * math.sqrt(1.0 / slider.mass) / (2.0 * math.pi)
+    pressed = 0.0
     if normal is not None and normal.control == "force" and model.unit_direction[2] != 0.0:
-        if model.frequency <= highest * math.sqrt(normal.slope(slider.normal_force)):
-            return True
+        pressed = normal.slope(slider.normal_force)
+    if model.frequency <= highest * math.sqrt(pressed):
+        return True
     if friction.model in ("coulomb", "springs") or not (elastic or slider.free):
         return False
     if elastic and (friction.static_mu or 0.0) > friction.mu:
