@@ -9,6 +9,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
+from asperity.slider.periodic import solve_periodic
 
 OBLIQUE = """
 [slider]
@@ -232,3 +233,52 @@ def test_the_duration_that_would_do_lets_ductile_asperities_come_to_their_limit(
     would_do = float(said.removeprefix("a solve.duration of ").partition(" s ")[0])
     assert marched(would_do).settled
     assert not marched(would_do / 4.0).settled
+
+
+# By lot: asperities that bend further back and forth in one state than in the other, below the
+# resonance on them.
+LEANING = """
+[slider]
+drive_velocity = "0.15112146219 mm/s"
+normal_force = "0.81306363785 N"
+mass = "1.06133323864 g"
+lateral = "guided"
+drive_stiffness = "77524.909447 N/m"
+drive_damping = "0.21279653158 N s/m"
+[friction]
+model = "lugre"
+mu = 0.54854019285
+max_deflection = "1.15272266154 um"
+contact_damping = "4.62020540945 N s/m"
+[vibration]
+waveform = "triangle"
+frequency = "1050.73793577 Hz"
+velocity_ratio = 2.0
+applied_to = "body"
+"""
+
+
+@pytest.mark.parametrize("step", ["2.3795 us", "0.5 us"])
+def test_below_a_resonance_the_state_is_shown_that_a_march_from_rest_comes_to(tmp_path, step):
+    path = tmp_path / "leaning.toml"
+    path.write_text(LEANING)
+
+    def answer(*settings):
+        return solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
+
+    state = answer("solve.method=periodic", f"solve.step={step}")
+    marched = answer("solve.method=march", "solve.duration=1.5 s")
+    assert marched.settled
+    assert state.settled
+    assert state.ratio == pytest.approx(marched.ratio, abs=1e-3)
+    assert state.ratio < 0.5
+
+
+def test_of_two_states_below_a_resonance_a_note_tells_of_the_other(tmp_path):
+    path = tmp_path / "leaning.toml"
+    path.write_text(LEANING)
+    model = Model.from_case(read_case(path, TABLES, ["solve.method=periodic", "solve.step=1 us"]))
+    alone = solve_periodic(model, history=False)
+    assert alone.ratio == pytest.approx(0.874, abs=1e-3)
+    (note,) = solve_periodic(model, history=False, rested=True).notes
+    assert f"with the ratio {alone.ratio:.5g}, repeats itself as well" in note

@@ -1,8 +1,9 @@
 """Where a body from rest comes to, beside a state that was not sought from there.
 
-Friction at its limit repeats itself wherever the slip does not reverse, and is tried first. A body
-on an elastic drive that is taken up from rest may come to another state: shaken near a resonance on
-its asperities it slides back and forth there, though the vibration alone would not reverse it.
+Friction at its limit repeats itself wherever the slip does not reverse, and is tried first; and a
+search ends in whatever state is next to its first guess. A body that is taken up from rest may come
+to another: shaken near a resonance on its asperities, which bend the softer the further they bend,
+it slides back and forth there or it does not, by where it comes from.
 """
 
 import math
@@ -12,12 +13,15 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.slider.cycle_map import UNSTABLE, Cycle
+from asperity.slider.model import Model
 from asperity.slider.shooting import run
 
 _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
+_COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
 _NEAR = 0.02  # of mu F_N, that a march may be from the state that it comes to
 _NEARER = 0.9  # of how far it was, where a march is on its way
 _TAKEN_UP = 1.2
+_LEANS = 1.5  # times a resonance, up to which there may be two states
 _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
 _MOST_TAKEN_UP = 4000.0
 _TOLD = 32  # last cycles that are looked at
@@ -39,23 +43,56 @@ def ratio_of(cycle: Cycle) -> float:
     return float(cycle.body.sums["drive_force"] / cycle.body.sums["steps"])
 
 
+def may_come_elsewhere(cycle: Cycle) -> bool:
+    """Whether a body from rest may come to another state than that of a cycle.
+
+    Where friction at its limit was found; where friction falls with the speed; and up to a
+    resonance on contact or asperities. What moves as it is told has one state, for its asperities
+    forget; so has what friction holds to a limit that is told (Coulomb's, and springs that are cut
+    off): two motions of it only come nearer.
+    """
+    model = cycle.body.model
+    slider, friction, normal = model.slider, model.friction, model.normal
+    elastic = slider.drive_stiffness is not None
+    if not model.vibrates:
+        return False
+    if cycle.at_the_limit:
+        return elastic and friction.model != "coulomb"
+    if cycle.period > 1 or slider.mass is None:
+        return False
+    # The resonance of what softens as it is moved further leans to lower frequencies.
+    highest = _LEANS * math.sqrt(1.0 / slider.mass) / (2.0 * math.pi)
+    pressed = 0.0
+    if normal is not None and normal.control == "force" and model.unit_direction[2] != 0.0:
+        pressed = normal.slope(slider.normal_force)
+    if model.frequency <= highest * math.sqrt(pressed):
+        return True
+    if friction.model in ("coulomb", "springs") or not (elastic or slider.free):
+        return False
+    if elastic and (friction.static_mu or 0.0) > friction.mu:
+        return True
+    turning = max(1.0, friction.exponent) * model.full_friction
+    stiffness = turning / friction.deflection_limit(slider.normal_force)
+    return model.frequency <= highest * math.sqrt(stiffness + (slider.drive_stiffness or 0.0))
+
+
 def from_rest(cycle: Cycle) -> Elsewhere | None:
     """March a body from rest; None where it comes to the state of a cycle, or is not taken up."""
     model = cycle.body.model
-    slider = model.slider
-    if slider.drive_stiffness is None or not model.vibrates or model.friction.model == "coulomb":
-        return None
-    reach = model.full_friction / slider.drive_stiffness
-    loading = _TAKEN_UP * reach / slider.drive_velocity * model.frequency
-    if not loading <= _MOST_TAKEN_UP:
+    loading = _loading(model)
+    if not may_come_elsewhere(cycle) or not loading <= _MOST_TAKEN_UP:
         return None
     there = ratio_of(cycle)
     body = Cycle(model, len(cycle.increments) - 1, cycle.step)
+    if body.body.p.rigid:
+        body.body.state["velocity_x"] = body.body.p.drive
     mean = before = 0.0
     for n, cycles in enumerate(_CYCLES):
         before = mean
         mean, last, least = _marched(body, cycles + (0 if n else math.ceil(loading)))
-        if _at_the_limit(body, cycle, least):
+        if cycle.at_the_limit and _at_the_limit(body, cycle, least):
+            return None
+        if not cycle.at_the_limit and max(abs(mean - there), abs(last - there)) <= _COME:
             return None
         found = body.copied()
         if not found.find(-1) or abs(ratio_of(found) - last) > _NEAR:
@@ -68,6 +105,18 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     if abs(mean - there) <= _NEARER * abs(before - there):
         return None
     return Elsewhere(None, math.inf, mean, body.run)
+
+
+def _loading(model: Model) -> float:
+    """Cycles in which a body is taken up: its drive stretched, its asperities bent."""
+    slider, friction = model.slider, model.friction
+    way = 0.0
+    if slider.drive_stiffness is not None:
+        held = (friction.static_mu or friction.mu) * slider.normal_force
+        way += held / slider.drive_stiffness
+    if friction.model != "coulomb":
+        way += friction.deflection_limit(slider.normal_force)
+    return _TAKEN_UP * way / slider.drive_velocity * model.frequency
 
 
 def _marched(body: Cycle, cycles: int) -> tuple[float, float, FloatArray]:

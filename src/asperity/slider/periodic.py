@@ -89,8 +89,8 @@ def solve_periodic(
     judged : bool
         Whether the error of the step is estimated, and the step chosen by it if none is given.
     rested : bool
-        Whether a body on an elastic drive for which friction at its limit repeats itself is marched
-        from rest too, and the state that it comes to is shown.
+        Whether a body that may have two states is marched from rest too, and the state that it
+        comes to is shown.
 
     Raises
     ------
@@ -115,14 +115,14 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
         found, notes = False, (sticks_and_slips(rate),)
     if not found:
         raise AperiodicError.of(cycle, notes)
-    other = from_rest(cycle) if rested and cycle.at_the_limit else None
+    other = from_rest(cycle) if rested and standing_of(cycle, growth).settled else None
     if other is not None and other.state is not None:
-        limit = ratio_of(cycle)
-        cycle, growth = other.state, other.growth
+        left = "friction at its limit" if cycle.at_the_limit else "a state"
         notes = (
-            f"friction at its limit, with the ratio {limit:.5g}, repeats itself as well: which "
-            "state a body is in follows from where it comes from, shown is the one from rest",
+            f"{left}, with the ratio {ratio_of(cycle):.5g}, repeats itself as well: which state a "
+            "body is in follows from where it comes from, shown is the one from rest",
         )
+        cycle, growth = other.state, other.growth
     elif other is not None:
         notes = (
             f"a march from rest has not come to this state after {other.cycles} cycles: it has a "
