@@ -238,7 +238,10 @@ def test_the_browser_is_not_called_with_the_token(tmp_path, monkeypatch):
 
 def test_a_small_file_that_unpacks_to_gigabytes_is_refused_before_it_does(tmp_path):
     path = tmp_path / "zeros.mat"
-    values = {"Tinterval": 1e-5, "A": np.zeros((20_000_000, 1))}
+    # Small numbers count as what they are read as: 8 bytes each.
+    samples = np.zeros((20_000_000, 1), np.int8)
+    samples[::100, 0] = np.arange(200_000) % 101
+    values = {"Tinterval": 1e-5, "A": samples}
     scipy.io.savemat(path, values, do_compression=True)
     assert path.stat().st_size < 1_000_000
     with pytest.raises(InputError, match="unpacks to 160 MB, as no measured samples do"):
@@ -266,10 +269,10 @@ def test_a_pipe_is_refused_where_a_file_is_wanted(tmp_path, read):
 
 
 @pytest.mark.parametrize("columns", ["99999999999999999999", "9" * 5000, "-1", "x", "0"])
-def test_a_width_that_no_terminal_has_ends_nothing(asperity_process, environment, columns):
+def test_a_width_that_no_terminal_has_ends_nothing(asperity, environment, columns):
     env = {**environment, "COLUMNS": columns}
     for words in (["check", "table-4.3"], ["slide", "--help"], ["static", "table-4.3"]):
-        code, output, errors = asperity_process(*words, env=env)
+        code, output, errors = asperity(*words, env=env)
         assert code == 0
         assert "Traceback" not in errors
         assert output

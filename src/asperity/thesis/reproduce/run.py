@@ -126,7 +126,7 @@ def run(
             "command goes on from there"
         ) from None
     finally:
-        work.show()
+        work.catch_up()
     asked = [work.shown[exhibit.name] for exhibit in wanted if exhibit.name in work.shown]
     ledger = [claim.name for claim in contents.CLAIMS.values() if claim.name in work.shown]
     return ThesisResult(
@@ -173,10 +173,10 @@ class _Reproduction:
         self._written = time.monotonic()
         self._is_behind = False
 
-    def _catch_up(self) -> None:
-        """Write the page if something was made or failed since."""
+    def catch_up(self, after: float = 0.0) -> None:
+        """Write the page if something was made or failed since, as `show` does."""
         if self._is_behind:
-            self.show(_REFRESH)
+            self.show(after)
 
     def make(self, processes: int) -> None:
         """Make what is missing."""
@@ -190,7 +190,8 @@ class _Reproduction:
             for exhibit in list(self.missing.values()):
                 self._take(exhibit.name, self._task(exhibit).do)
             return
-        with contextlib.closing(done(tasks, processes, self._catch_up)) as ended:
+        working = done(tasks, processes, lambda: self.catch_up(_REFRESH))
+        with contextlib.closing(working) as ended:
             for task, future in ended:
                 if task.name in self.missing:
                     self._take(task.name, future.result)
