@@ -111,7 +111,7 @@ def test_any_signal_however_often_switches_off_and_the_next_start_goes_on(
     for number in numbers:
         procedure.kill(number)
         time.sleep(0.02)
-    assert procedure.ended() == 130
+    assert procedure.ended() == 130, procedure.said
     all_off(rig)
     (line,) = lines_of(tmp_path / "run", "interrupted")
     assert line["reason"].startswith(word)
@@ -130,7 +130,7 @@ def test_a_signal_in_the_middle_of_a_switch_switches_off(begun, rig, tmp_path, v
     waited_for(lambda: verb in rig.doing())
     procedure.kill(signal.SIGTERM)
     procedure.kill(signal.SIGTERM)
-    assert procedure.ended() == 130
+    assert procedure.ended() == 130, procedure.said
     all_off(rig)
     gone_on_with(begun, rig, tmp_path / "run")
 
@@ -258,10 +258,11 @@ def test_a_procedure_that_hangs_is_switched_off_by_the_missing_heartbeat(begun, 
     vibrating(rig)
     procedure.kill(signal.SIGSTOP)
     all_off(rig)
-    (found,) = (
-        line for line in waited_for(lambda: lines_of(tmp_path / "run", "off"))
-        if "has said nothing" in line["why"]
-    )  # fmt: skip
+    (found,) = waited_for(
+        lambda: [
+            line for line in lines_of(tmp_path / "run", "off") if "has said nothing" in line["why"]
+        ]
+    )
     assert found["took_s"] >= 2.0
     procedure.kill(signal.SIGCONT)
     assert procedure.ended() == 3

@@ -213,6 +213,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "twin",
                 "controller",
                 "supplies",
+                "guardian",
             ),
             ("rig plan", "rig run"),
             case="rig-final",
