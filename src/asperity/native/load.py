@@ -119,10 +119,8 @@ def _shipped() -> Library | None:
 
 
 def _kept(name: str) -> Library | None:
-    try:
-        kept = importlib.import_module("asperity.native.kept")
-    except ModuleNotFoundError:
-        return None
+    # By its name, since what is kept is loaded from here.
+    kept = importlib.import_module("asperity.native.kept")
     library: Library | None = kept.library(name)
     return library
 

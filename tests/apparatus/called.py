@@ -1,0 +1,76 @@
+"""Calls of kernels as a command makes them, and others like them."""
+
+import contextlib
+import copy
+
+import numpy as np
+
+from asperity.compiled import _Lazy
+
+# How far a number is moved, of itself.
+SHARE = 1e-3
+
+
+@contextlib.contextmanager
+def recorded(most=20):
+    """Give a list of (kernel, arguments as they were before the call), some of each kernel."""
+    calls, counts, before = [], {}, _Lazy.__call__
+
+    def call(self, *arguments):
+        counts[id(self)] = counts.get(id(self), 0) + 1
+        if counts[id(self)] <= most:
+            calls.append((self, copied(arguments)))
+        return before(self, *arguments)
+
+    _Lazy.__call__ = call
+    try:
+        yield calls
+    finally:
+        _Lazy.__call__ = before
+
+
+def copied(value):
+    """Return a value with arrays and records of its own, of the same types."""
+    return _each(value, lambda numbers: numbers)
+
+
+def moved(value, rng):
+    """Return a value whose floats are a little others: what it is called with stays sensible."""
+    return _each(value, lambda numbers: numbers * (1.0 + SHARE * rng.uniform(-1.0, 1.0)))
+
+
+def _each(value, change):
+    if isinstance(value, tuple):
+        members = [_each(member, change) for member in value]
+        return type(value)._make(members) if hasattr(value, "_make") else tuple(members)
+    if isinstance(value, np.ndarray):
+        other = value.copy(order="K")
+        _change(other, change)
+        other.flags.writeable = value.flags.writeable
+        return other
+    if isinstance(value, np.void):
+        other = np.array([value], value.dtype)
+        _change(other, change)
+        return other[0]
+    return type(value)(change(value)) if isinstance(value, float) else copy.copy(value)
+
+
+def _change(numbers, change):
+    if numbers.dtype.names:
+        for name in numbers.dtype.names:
+            _change(numbers[name], change)
+    elif numbers.dtype.kind == "f":
+        numbers[...] = change(numbers)
+
+
+def words(value):
+    """Return a value's bits, so that two are the same where their words are."""
+    if isinstance(value, tuple):
+        return type(value).__name__, *map(words, value)
+    if isinstance(value, np.ndarray):
+        return str(value.dtype), value.shape, value.strides, value.tobytes()
+    if isinstance(value, np.void):
+        return str(value.dtype), value.tobytes()
+    if isinstance(value, float):
+        return type(value).__name__, np.float64(value).tobytes()
+    return type(value).__name__, value
