@@ -1,8 +1,9 @@
 """Files of recordings that are wrong in every way that could be thought of.
 
-Each is a good file with bytes changed, cut or repeated at random: CSV, MATLAB, TDMS, netCDF, a
-table of measurements and a configuration. Whatever it is, the command answers or says in one line
-what is wrong. The files are the same ones every time.
+Each is a good file with bytes changed, cut or repeated at random: text of several instruments,
+MATLAB, TDMS, WAV, netCDF, a session of sigrok, a table of measurements and a configuration.
+Whatever it is, the command answers or says in one line what is wrong. The files are the same ones
+every time.
 """
 
 import importlib.util
@@ -14,7 +15,9 @@ import h5py
 import numpy as np
 import pytest
 import scipy.io
+from apparatus import laboratory_files as formats
 from apparatus.rig_signals import record, run_of
+from scipy.io import wavfile
 
 from asperity.cli.main import main
 from asperity.shipped import shipped_cases
@@ -23,6 +26,7 @@ pytestmark = pytest.mark.slow
 
 FILES = 200  # of each test
 TESTS = 50
+LOOKED_AT = {"run.wav", "run.lvm", "tds.csv", "rigol.csv", "clock.csv", "run.sr"}
 MOST_MEMORY = 1_500_000_000  # bytes above what the process has, for files of less than 1 MB
 OK, USAGE, NOT_CONVERGED = 0, 2, 3
 
@@ -70,6 +74,12 @@ def good(tmp_path_factory):
     )
     (folder / "rig.toml").write_bytes(shipped_cases()["rig-final"].read_bytes())
     shutil.copy(folder / "run.nc", folder / "whole.nc")
+    wavfile.write(folder / "run.wav", 1000, rows[:, 1:].astype(np.float32))
+    (folder / "run.lvm").write_text("\n".join(formats.labview()), "utf-8")
+    (folder / "tds.csv").write_text("\n".join(formats.tektronix_tds2000()), "utf-8")
+    (folder / "rigol.csv").write_text("\n".join(formats.rigol_ds1054z()), "utf-8")
+    (folder / "clock.csv").write_text("\n".join(formats.iso()), "utf-8")
+    formats.sigrok(folder / "run.sr")
     if importlib.util.find_spec("nptdms") is not None:
         from nptdms import ChannelObject, TdmsWriter
 
@@ -89,6 +99,8 @@ def arguments(folder, name):
         return ["rig", "reduce", str(folder / "whole.nc"), "--config", name]
     if name.endswith(".nc"):
         return ["rig", "reduce", name]
+    if name in LOOKED_AT:
+        return ["rig", "look", name]
     return ["rig", "import", name, "rig-final"]
 
 

@@ -13,9 +13,10 @@ from unittest import mock
 
 import numpy as np
 import pytest
-import typer
 
+from asperity import compiled
 from asperity.cli.application import app
+from asperity.cli.made import made as command_line
 from asperity.store import read_dataset
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything
@@ -54,6 +55,25 @@ def made(tmp_path_factory):
 
 
 DRAWN = [number for number in FIGURES if number not in SLOW]
+
+
+def test_what_is_said_to_call_no_kernel_calls_none(tmp_path, monkeypatch):
+    # They stand on the page while kernels are compiled.
+    class CalledError(BaseException):
+        pass
+
+    def refuse(kernel, *arguments):
+        raise CalledError(kernel.__qualname__)
+
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(compiled._Lazy, "__call__", refuse)
+    free = [exhibit for exhibit in everything() if not exhibit.calls_kernels]
+    assert len(free) > 40
+    for exhibit in free:
+        assert not exhibit.parts(False)
+        assert exhibit.make()
+    with pytest.raises(CalledError):
+        FIGURES["2.14"].make()
 
 
 def test_every_figure_has_its_numbers(result):
@@ -430,7 +450,7 @@ def test_every_command_named_is_a_command(result):
     how += [figure.plain["how"] for figure in result.figures]
     how += [table.plain["how"] for table in result.tables]
     named = {line.split()[1] for lines in how for line in lines if line.startswith("asperity ")}
-    known = set(typer.main.get_command(app).commands)
+    known = set(command_line(app).commands)
     assert {"rate", "methods", "sensitivity", "optimise", "slide", "sweep"} <= named <= known
 
 

@@ -132,6 +132,21 @@ def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio
     assert not answer.notes
 
 
+def test_nor_where_the_drive_still_rings_when_it_is_looked_at_first():
+    """What is left of the ringing after the body is taken up makes the least friction wander."""
+    settings = (
+        "slider.mass=40 g", "slider.normal_force=1 N", "slider.drive_velocity=0.6 mm/s",
+        "slider.drive_stiffness=3 kN/m", "slider.drive_damping=0.1 N s/m",
+        "friction.exponent=0.5", "friction.mu=0.25", "friction.max_deflection=1 um",
+        "vibration.frequency=2 kHz", "vibration.velocity_ratio=0.95",
+        "vibration.direction=0 deg", "solve.method=periodic",
+    )  # fmt: skip
+    answer = solve(Model.from_case(read_case("table-4.3", TABLES, settings)), history=False)
+    assert answer.settled
+    assert answer.ratio == pytest.approx(1.0, abs=1e-9)
+    assert not answer.notes
+
+
 DUCTILE = """
 [slider]
 drive_velocity = "0.1 mm/s"
@@ -200,3 +215,20 @@ def test_the_chatter_of_a_step_is_no_less_than_what_is_said_of_its_error(tmp_pat
     assert abs(answer.ratio - 1.0) <= 1e-3 or any(
         "the step makes an error" in n for n in answer.notes
     )
+
+
+def test_the_duration_that_would_do_lets_ductile_asperities_come_to_their_limit(tmp_path):
+    """After a way x they are (1 + x/s)^-1 from it: four times the time leaves a quarter."""
+    path = tmp_path / "ductile.toml"
+    path.write_text(DUCTILE)
+
+    def marched(duration):
+        settings = "friction.exponent=2", f"solve.duration={duration} s"
+        return solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
+
+    short = marched(2.0)
+    assert not short.settled
+    (said,) = [note for note in short.notes if note.endswith("would do, by the means")]
+    would_do = float(said.removeprefix("a solve.duration of ").partition(" s ")[0])
+    assert marched(would_do).settled
+    assert not marched(would_do / 4.0).settled

@@ -10,6 +10,7 @@ from apparatus.meshes import is_watertight
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.flanks.mesh import section
 from asperity.flanks.mesh import tooth as mesh
 from asperity.flanks.parameters import Hob
 from asperity.flanks.wheel.enveloped import Wheel
@@ -208,6 +209,11 @@ def test_what_cannot_be_meshed_is_refused_in_a_line(wheel, changed, message):
     assert "\n" not in str(error.value)
 
 
+def test_a_whole_wheel_that_takes_more_than_two_gibibytes_is_not_begun(wheel):
+    with pytest.raises(InputError, match=r"would .* take [23]\.\d* GiB; .* or fewer teeth"):
+        mesh.tooth(wheel, 0.18, teeth=60)
+
+
 @pytest.mark.parametrize(
     ("thickness", "message"),
     [("500 mm", "has room for at most 5"), ("0.01 mm", "turned inside out")],
@@ -217,6 +223,23 @@ def test_a_rim_that_cannot_be_meshed_is_refused(thickness, message):
     wheel = Wheel.cut(Pair.of(case.require(Gearset), case.require(Hob)))
     with pytest.raises(InputError, match=message):
         mesh.tooth(wheel, "coarse")
+
+
+def test_inner_nodes_of_a_section_stand_where_those_of_a_known_map_do():
+    r"""Winslow's equations: the numbers of the lines are harmonic functions of the place.
+
+    Such are x and y + 0.4 x y, of which the lines are neither straight nor at right angles.
+    """
+    xi, eta = np.meshgrid(np.linspace(0.0, 1.0, 5), np.linspace(0.5, 1.5, 5), indexing="ij")
+    # Turned, so that no direction is a line's.
+    way, across = xi, eta / (1.0 + 0.4 * xi)
+    x, y = 0.8 * way - 0.6 * across, 10.0 + 0.6 * way + 0.8 * across
+    exact = np.stack([np.hypot(x, y), np.arctan2(x, y)], axis=-1)
+    share = np.linspace(0.0, 1.0, 5)[:, None, None]
+    straight = exact.copy()
+    straight[:, 1:-1] = exact[:1, 1:-1] + share * (exact[-1:, 1:-1] - exact[:1, 1:-1])
+    smoothed = section._smoothed(straight)
+    assert np.abs(smoothed - exact).max() < 3e-3 * np.abs(straight - exact).max()
 
 
 def test_an_element_larger_than_the_module_is_refused(wheel):

@@ -1,10 +1,9 @@
 """The tests nearest to a line: those that call the function it stands in, and little else.
 
 ``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
-calls (``reach.py``) and writes ``near.json.gz``; with files of tests it runs those, and keeps what
-it noted of others in ``out/mutants``. A function that is not in it, since it has come
-later, has the tests of its module's others; a module that is not, the files of tests that name it
-or its room.
+calls (``reach.py``) and writes ``near.json.gz``; with files or names of tests it runs those, and
+keeps what stands there of others. A function that is not in it, since it has come later, has the
+tests of its module's others; a module that is not, the files of tests that name it or its room.
 """
 
 import ast
@@ -15,6 +14,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from collections import Counter, defaultdict
 from pathlib import Path
 
@@ -137,13 +137,13 @@ def _naming(module):
 
 
 def make(reached) -> dict:
-    """Make the map of what :mod:`reach` noted, lines of JSON."""
+    """Make the map of what :mod:`reach` noted of each test."""
     modules = set(computing_modules())
-    lines = {line["test"]: line for line in map(json.loads, reached)}
+    lines = {line["test"]: line for line in reached}
     callers, size = defaultdict(set), {}
     for test, line in lines.items():
         called = {_plain(name) for name in line["called"] if name.partition(":")[0] in modules}
-        size[test] = len(called)
+        size[test] = line.get("size", len(called))
         for name in called:
             callers[name].add(test)
     near = {name: _nearest(tests, size, lines) for name, tests in sorted(callers.items())}
@@ -151,8 +151,23 @@ def make(reached) -> dict:
     number = {test: n for n, test in enumerate(used)}
     return {
         "tests": used,
+        "sizes": [size[test] for test in used],
+        "seconds": [round(lines[test]["seconds"], 3) for test in used],
         "near": {name: [number[test] for test in tests] for name, tests in near.items()},
     }
+
+
+def _noted(kept, names):
+    """What a map tells of other tests than these, or those in these files, as it was noted."""
+    called = defaultdict(list)
+    for name, tests in kept["near"].items():
+        for test in tests:
+            called[test].append(name)
+    for n, test in enumerate(kept["tests"]):
+        if not {test, test.partition("[")[0], test.partition("::")[0]} & set(names):
+            size = kept["sizes"][n] if "sizes" in kept else len(called[n])
+            seconds = kept["seconds"][n] if "seconds" in kept else 0.0
+            yield {"test": test, "seconds": seconds, "called": called[n], "size": size}
 
 
 def _plain(name):
@@ -193,10 +208,8 @@ def _few_of_each(tests, of_a_file, most):
 
 
 def measure(reached: Path, names=()) -> None:
-    """Run the ordinary tests, or files of them, and note what they reach."""
-    reached.parent.mkdir(parents=True, exist_ok=True)
+    """Run the ordinary tests, or those named, and note what they reach."""
     if not names:
-        reached.unlink(missing_ok=True)
         names = [
             path.relative_to(ROOT).as_posix()
             for folder in ("unit", "literature", "property")
@@ -216,14 +229,16 @@ def measure(reached: Path, names=()) -> None:
     )  # fmt: skip
 
 
-def write(reached: Path) -> None:
-    """Write the map, the same bytes for the same tests."""
-    found = make(reached.read_text("utf-8").splitlines())
+def write(reached: Path, names=()) -> None:
+    """Write the map, the same bytes for the same tests; of others than these as it stands."""
+    lines = [json.loads(line) for line in reached.read_text("utf-8").splitlines()]
+    found = make([*(_noted(_kept(), names) if names else ()), *lines])
     KEPT.write_bytes(gzip.compress(json.dumps(found, separators=(",", ":")).encode(), mtime=0))
     print(f"{KEPT}: {len(found['near'])} functions, {len(found['tests'])} tests")
 
 
 if __name__ == "__main__":
-    noted = ROOT / "out" / "mutants" / "reached.jsonl"
-    measure(noted, sys.argv[1:])
-    write(noted)
+    with tempfile.TemporaryDirectory() as folder:
+        noted = Path(folder) / "reached.jsonl"
+        measure(noted, sys.argv[1:])
+        write(noted, sys.argv[1:])

@@ -4,18 +4,24 @@
 where it was stopped: what is known stands in ``out/mutants/results.jsonl``. ``--list`` shows the
 list, ``--only NAME`` tries those whose name or key holds NAME, ``--survivors`` those again that
 nothing had noticed, ``--count N`` the first N; ``--share`` tries nothing and tells what is known.
+``--jobs N`` tries N at a time, ``--compiled`` those of compiled modules first, ``--minutes M``
+begins none after that time, ``--results FILE`` keeps what is known elsewhere: lines of JSON, of
+which the last on a mutant holds as long as its line is what it was.
 """
 
 import argparse
 import contextlib
 import json
+import math
 import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -47,7 +53,9 @@ class Copy:
         (folder / "cases").symlink_to(near.ROOT / "cases")
         self._cache = cache or folder / "cache"
         self._environment = os.environ | {
-            "PYTHONPATH": str(self.package.parent),
+            "PYTHONPATH": os.pathsep.join(
+                [str(self.package.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
+            ),
             "ASPERITY_CACHE": str(self._cache),
             "OPENBLAS_NUM_THREADS": "1",
         }
@@ -82,7 +90,10 @@ class Copy:
             shutil.copy2(whole, path)
 
     def fails(self, tests, longest=LONGEST):
-        """Run tests until one fails; return its name, "" for none, None where time was up."""
+        """Run tests until one fails; return its name, "" for none, None where time was up.
+
+        The name is that of a file where it cannot be read at all.
+        """
         tests = list(tests)
         while tests:
             code, output = self._pytest(tests, longest)
@@ -133,12 +144,21 @@ class Copy:
         if (compiled := cache_folder("kernels")) is not None:
             for folder in compiled.iterdir():
                 if folder.is_dir() and not (kernels / folder.name).exists():
-                    (kernels / folder.name).symlink_to(folder)
+                    _linked(folder, kernels / folder.name)
+
+
+def _linked(folder, copy):
+    """Take over what was compiled; what is added stays here: Numba writes files anew."""
+    try:
+        shutil.copytree(folder, copy, copy_function=os.link)
+    except (shutil.Error, OSError):
+        shutil.rmtree(copy, ignore_errors=True)
+        shutil.copytree(folder, copy)
 
 
 def tried(copy: Copy, mutant, longest: float = LONGEST, without=frozenset()) -> dict:
     """Break a line and tell whether it was noticed, by other tests than those named."""
-    tests = [test for test in near.nearest(mutant) if test not in without]
+    tests = _others(mutant, without)
     began = time.perf_counter()
     with copy.broken(mutant):
         # Most are caught by the first: the files of the others are not read then.
@@ -153,12 +173,39 @@ def tried(copy: Copy, mutant, longest: float = LONGEST, without=frozenset()) -> 
     }  # fmt: skip
 
 
-def results() -> dict:
+def _others(mutant, without):
+    """Tests nearest to a mutant, but for those named by themselves or by their file."""
+    nearest = near.nearest(mutant)
+    return [test for test in nearest if without.isdisjoint({test, test.partition("::")[0]})]
+
+
+def results(file: Path = RESULTS) -> dict:
     """What is known, by key: the last of each."""
-    if not RESULTS.exists():
+    if not file.exists():
         return {}
-    lines = map(json.loads, RESULTS.read_text("utf-8").splitlines())
+    lines = map(json.loads, file.read_text("utf-8").splitlines())
     return {line["key"]: line for line in lines}
+
+
+def standing(mutants, file: Path = RESULTS) -> dict:
+    """What is known of mutants whose line is still what it was, by key."""
+    found = results(file)
+    texts = {name: _source(name) for name in {mutant.module for mutant in mutants}}
+
+    def is_standing(mutant):
+        line = found.get(mutant.key)
+        return line and _lines(line["diff"]) == _lines(mutant.diff(texts[mutant.module]))
+
+    return {mutant.key: found[mutant.key] for mutant in mutants if is_standing(mutant)}
+
+
+def _lines(diff):
+    """Lines of a difference, wherever they stand."""
+    return [line for line in diff.splitlines() if not line.startswith("@@")]
+
+
+def _source(module):
+    return (sites.SOURCE / "asperity" / module).read_text("utf-8")
 
 
 def equivalents() -> dict:
@@ -166,17 +213,18 @@ def equivalents() -> dict:
     return {entry["key"]: entry["why"] for entry in sites.known()["equivalent"]}
 
 
-def share(mutants) -> str:
+def share(mutants, file: Path = RESULTS) -> str:
     """The share that was caught, of those that were tried and change something."""
-    found, same = results(), equivalents()
-    known = [found[mutant.key] for mutant in mutants if mutant.key in found]
-    outcomes = [line["outcome"] for line in known if line["key"] not in same]
+    same = equivalents()
+    change = [mutant for mutant in mutants if mutant.key not in same]
+    outcomes = [line["outcome"] for line in standing(change, file).values()]
+    unchanging = len(mutants) - len(change)
     caught, out_of_time = outcomes.count("caught"), outcomes.count("timeout")
     per_cent = f", {100.0 * caught / len(outcomes):.1f} %" if outcomes else ""
     return (
         f"{caught} of {len(outcomes)} caught{per_cent}; {outcomes.count('survived')} survived, "
-        f"{out_of_time} ran out of time; {len(known) - len(outcomes)} more change nothing; "
-        f"{len(known)} of {len(mutants)} tried"
+        f"{out_of_time} ran out of time; {unchanging} more change nothing; "
+        f"{len(outcomes) + unchanging} of {len(mutants)} are known"
     )
 
 
@@ -189,16 +237,21 @@ def main() -> None:
     parser.add_argument("--list", action="store_true", help="show them and try none")
     parser.add_argument("--share", action="store_true", help="tell what is known and try none")
     parser.add_argument("--seconds", type=float, default=LONGEST, help="for one mutant")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="begin none after these")
+    parser.add_argument("--jobs", type=int, default=1, help="so many at a time")
+    parser.add_argument("--compiled", action="store_true", help="compiled modules first, not last")
+    parser.add_argument("--results", type=Path, default=RESULTS, help="file of what is known")
     asked = parser.parse_args()
+    ends = time.monotonic() + 60.0 * asked.minutes
     every = sites.listed()
     chosen = every
     if asked.only:
         chosen = [m for m in every if any(o in m.name or o in m.key for o in asked.only)]
-    found, same = results(), equivalents()
+    found, same = standing(every, asked.results), equivalents()
     if asked.list:
         for mutant in chosen:
             outcome = found.get(mutant.key, {}).get("outcome", "not tried")
-            text = (sites.SOURCE / "asperity" / mutant.module).read_text("utf-8")
+            text = _source(mutant.module)
             print(f"{mutant.name} ({outcome}): {mutant.key}\n{mutant.diff(text)}\n")
     if asked.survivors:
         chosen = [
@@ -208,38 +261,99 @@ def main() -> None:
         chosen = [mutant for mutant in chosen if mutant.key not in found]
     chosen = [mutant for mutant in chosen if mutant.key not in same]
     if not asked.list and not asked.share:
-        # Those of plain Python first: for a kernel all that calls it is compiled anew.
-        _try(sorted(chosen, key=_is_compiled)[: asked.count], asked.seconds)
-    print(share(every))
+        # The quickest first: for a kernel all that calls it is compiled anew.
+        anew = _compiled_anew({mutant.module for mutant in chosen})
+        chosen.sort(key=lambda m: (asked.compiled and not anew[m.module], anew[m.module]))
+        Trial(asked.results, asked.seconds, ends).of(chosen[: asked.count], asked.jobs)
+    print(share(every, asked.results))
 
 
-def _is_compiled(mutant):
-    return "@kernel" in (sites.SOURCE / "asperity" / mutant.module).read_text("utf-8")
+def _compiled_anew(modules):
+    """Bytes of the modules with kernels that follow from each of these modules, or 0."""
+    from asperity.closure import closure
+
+    package = sites.SOURCE / "asperity"
+    sizes = dict.fromkeys(modules, 0)
+    for path in sorted(package.rglob("*.py")):
+        if "@kernel" in path.read_text("utf-8"):
+            name = ".".join(path.relative_to(sites.SOURCE).with_suffix("").parts)
+            for part in closure(name, file=path):
+                module = part.relative_to(package).as_posix()
+                if module in sizes:
+                    sizes[module] += path.stat().st_size
+    return sizes
 
 
-def _try(mutants, longest):
-    RESULTS.parent.mkdir(parents=True, exist_ok=True)
-    passed, failing = {line["by"] for line in results().values()}, set()
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Copy(Path(folder), RESULTS.parent / "cache")
-        for mutant in mutants:
-            line = tried(copy, mutant, longest, failing)
-            # A test that fails of itself has noticed nothing.
-            while line["by"].startswith("tests/") and line["by"] not in passed:
-                if copy.fails([line["by"]], 10 * longest) == "":
-                    passed.add(line["by"])
-                else:
-                    print(f"fails where nothing is broken: {line['by']}")
-                    failing.add(line["by"])
-                    line = tried(copy, mutant, longest, failing)
-            if line["by"].startswith("exit") and copy.fails(near.nearest(mutant)[:1]) != "":
-                sys.exit(f"tests do not run where nothing is broken: {line['by']}")
-            with RESULTS.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(line) + "\n")
-            print(f"{line['outcome']:9}{line['seconds']:6.1f} s  {line['name']}  {line['by']}")
-            if line["outcome"] != "caught":
-                print(f"{mutant.key}\n{line['diff']}")
-            sys.stdout.flush()
+class Trial:
+    """Mutants that are tried one after another, or several at a time, each in a copy of its own."""
+
+    def __init__(self, file: Path, longest: float, ends: float) -> None:
+        self._file, self._longest, self._ends = file, longest, ends
+        file.parent.mkdir(parents=True, exist_ok=True)
+        self._lock = threading.Lock()
+        self._passed = {line["by"] for line in results(file).values()}
+        self._failing = set()
+
+    def of(self, mutants, jobs: int) -> None:
+        """Try mutants, so many at a time."""
+        if jobs > 1:
+            import warm
+
+            # Once, not by each.
+            warm.compile_kernels(jobs)
+        left = iter(mutants)
+        caches = RESULTS.parent / "cache"
+        with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
+            doing = []
+            for n in range(jobs):
+                (own := Path(folder) / str(n)).mkdir()
+                doing.append(pool.submit(self._job, left, own, caches / str(n)))
+            for job in doing:
+                job.result()
+
+    def _job(self, left, folder, cache):
+        copy = Copy(folder, cache)
+        try:
+            while (mutant := self._next(left)) is not None:
+                line = self._tried(copy, mutant)
+                with self._lock:
+                    self._keep(mutant, line)
+        except BaseException:
+            self._ends = -math.inf  # the others begin no more
+            raise
+        finally:
+            copy.close()
+
+    def _next(self, left):
+        with self._lock:
+            return next(left, None) if time.monotonic() < self._ends else None
+
+    def _tried(self, copy, mutant):
+        line = tried(copy, mutant, self._longest, self._failing.copy())
+        # A test that fails of itself has noticed nothing.
+        while line["by"].startswith("tests/") and line["by"] not in self._passed:
+            failed = line["by"]
+            # Of a file that could not be read any test tells whether it can be.
+            of_it = [t for t in near.nearest(mutant) if t.startswith(f"{failed}::")]
+            if copy.fails([*of_it, failed][:1], 10 * self._longest) == "":
+                self._passed.add(failed)
+            else:
+                print(f"fails where nothing is broken: {failed}", flush=True)
+                self._failing.add(failed)
+                line = tried(copy, mutant, self._longest, self._failing.copy())
+        if line["by"].startswith("exit"):
+            whole = _others(mutant, self._failing)[:1]
+            if whole and copy.fails(whole) != "":
+                raise SystemExit(f"tests do not run where nothing is broken: {line['by']}")
+        return line
+
+    def _keep(self, mutant, line):
+        with self._file.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(line) + "\n")
+        print(f"{line['outcome']:9}{line['seconds']:6.1f} s  {line['name']}  {line['by']}")
+        if line["outcome"] != "caught":
+            print(f"{mutant.key}\n{line['diff']}")
+        sys.stdout.flush()
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from asperity.block.problem import BlockProblem
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.increment import ContactState, IncrementSolver
+from asperity.contact.increment.iterations import CONVERGED, SLOW, _terminate
 from asperity.contact.increment.tangents import factored
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
@@ -70,3 +71,15 @@ def test_an_inverse_tells_how_many_digits_a_far_stiffer_contact_leaves():
         lost.append(factored(problem, touching, at_points).rounding)
     assert lost[0] < 1e-12
     assert lost[0] < lost[1] < lost[2]
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize(("lost", "ends"), [(1e3, CONVERGED), (1e5, SLOW)])
+def test_whether_digits_are_too_few_does_not_depend_on_the_unit_of_force(unit, lost, ends):
+    """Of 12 digits those are lost by which what is asked of the tangent exceeds the forces."""
+    norm, whole, asked = (1e-10 * unit) ** 2, unit**2, (lost * unit) ** 2
+    status, residual, _ = _terminate(
+        norm, whole, asked, False, 1e-12, 1e-8, 1e-20 * unit, np.inf, 0
+    )
+    assert status == ends
+    assert residual == pytest.approx(1e-10)

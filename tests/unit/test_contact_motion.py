@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from apparatus.implicit import completed, predicted
 
 from asperity.contact.interface.normal import NormalLaw, pressure
 from asperity.contact.motion import hht, ledger
@@ -28,7 +29,7 @@ def swing(steps, *, alpha, period=1.0, spring=None, damping=0.0):
     state = state._replace(force=resisting, acceleration=-resisting / 2.0)
     force, lost, work = np.zeros(1), np.zeros(2), 0.0
     for _ in range(steps):
-        place, _ = hht.predict(operator, state, np.zeros(1))
+        place = predicted(operator, state)
         last = force.copy()
         if spring is not None:
             last[0] = spring(state.place[0])
@@ -37,7 +38,7 @@ def swing(steps, *, alpha, period=1.0, spring=None, damping=0.0):
                 place[0] = free + operator.compliance[0, 0] * spring(place[0])
             force = np.array([spring(place[0])])
         before = state
-        state, *taken = hht.complete(operator, before, place, force)
+        state, *taken = completed(operator, before, place, force)
         lost += np.array(taken)
         work += 0.5 * (last + force) @ (state.place - before.place)
     kinetic = 1.0 * state.velocity[0] ** 2
@@ -97,8 +98,8 @@ def test_a_held_coordinate_goes_on_whatever_pushes_it():
     operator = hht.step_operator(mass, none, 0.1, held=np.array([True, False]))
     state = hht.Coordinates.at_rest(2, velocity=np.array([4.0, 0.0]))
     force = np.array([7.0, 0.0])
-    place = hht.predict(operator, state, np.zeros(2))[0] + operator.compliance @ force
-    end, *taken = hht.complete(operator, state, place, force)
+    place = predicted(operator, state) + operator.compliance @ force
+    end, *taken = completed(operator, state, place, force)
     assert (end.place[0], end.velocity[0], end.place[1]) == pytest.approx((0.4, 4.0, 0.0))
     assert end.reaction[0] == -7.0
     assert taken == [0.0, 0.0]
@@ -137,9 +138,10 @@ def one_step(mechanism, step, springs, state, drive_state, far, speed):
     """Take a step on linear springs under the contact nodes; also what it takes from the energy."""
     moving = motion.motion_step(mechanism, step)
     imposed = motion.Imposed(far, speed, 1.0)
-    start = motion.approach(moving, state, drive_state, imposed)
+    start = motion.approached(moving, state, drive_state, imposed)
     u = np.linalg.solve(np.eye(len(springs)) + moving.compliance * springs, start.free)
-    return u, *motion.settle(moving, state, drive_state, imposed, start, -springs * u)
+    end, now = motion.settled(moving, state, drive_state, imposed, start, -springs * u)
+    return u, end, now.drive, (now.lost, now.damped)
 
 
 def test_a_step_solves_motion_deformation_drive_and_contact_at_once():

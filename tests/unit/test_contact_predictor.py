@@ -16,17 +16,19 @@ def followed(path, count, mark=MARK):
     return predictor
 
 
+@pytest.mark.parametrize("unit", [1.0, 1e-9])
 @pytest.mark.parametrize(
     ("path", "order"),
     [(lambda t: 3.0, 0), (lambda t: 3.0 - t, 1), (lambda t: 3.0 - t + t * t, 2)],
     ids=["constant", "linear", "quadratic"],
 )
-def test_a_path_is_continued_to_the_order_it_has(path, order):
-    predictor = followed(path, 5)
+def test_a_path_is_continued_to_the_order_it_has(path, order, unit):
+    """Which order it has does not depend on the unit: forces of light loads are tiny."""
+    predictor = followed(lambda t: unit * path(t), 5)
     assert predictor.order == order
     force, displacement = predictor.predicted(MARK)
-    np.testing.assert_allclose(force, path(5) * VECTORS, rtol=1e-13)
-    np.testing.assert_allclose(displacement, -path(5) * VECTORS, rtol=1e-13)
+    np.testing.assert_allclose(force, unit * path(5) * VECTORS, rtol=1e-13)
+    np.testing.assert_allclose(displacement, -unit * path(5) * VECTORS, rtol=1e-13)
 
 
 def test_a_path_is_continued_no_further_than_its_past_allows():

@@ -379,10 +379,10 @@ def test_a_step_that_no_tooth_can_be_solved_for_ends_in_one_line(monkeypatch):
 def test_a_small_matrix_is_inverted_and_one_without_inverse_refused():
     matrix = np.random.default_rng(3).normal(size=(7, 7))
     matrix[0, 0] = 0.0
-    inverse, order, out = matrix.copy(), np.zeros(7, np.int64), np.zeros(7)
-    assert invert(inverse, order)
+    inverse, order, out = matrix.ravel().copy(), np.zeros(7, np.int64), np.zeros(7)
+    assert invert(inverse, 7, order)
     apply(inverse, matrix[:, 2].copy(), out)
     np.testing.assert_allclose(out, np.eye(7)[2], atol=1e-13)
     matrix[3] = 2.0 * matrix[5]
-    assert not invert(matrix, order)
-    assert not invert(np.full((2, 2), np.nan), order)
+    assert not invert(matrix.ravel(), 7, order)
+    assert not invert(np.full(4, np.nan), 2, order)

@@ -116,3 +116,15 @@ def test_the_least_between_places_is_found_wherever_it_lies(shift):
 
 def test_what_is_the_same_everywhere_is_looked_at_nowhere_else():
     assert least_between(np.full(SAMPLES, 0.3), 0.1, None) == 0.3
+
+
+@pytest.mark.parametrize("thinner", [0.0, 0.3])
+def test_a_thinner_thread_turns_further_by_as_much_wherever_it_touches(thinner):
+    """Turned by the angle that it is thinner, a helicoid's flank is where it was."""
+    mesh = meshes(1)[1]
+    thick = mesh.search.pair.worm
+    thin = mesh.with_worm(thick.half_space + thinner)
+    further = thinner / thick.reduced_lead
+    for k in range(0, SAMPLES, 8):
+        found = thin.search.least_lead(mesh.wheel_angle[k])
+        assert found == pytest.approx(mesh.lead[k] + further, abs=RESOLVED / thick.reduced_lead)

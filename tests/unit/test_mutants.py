@@ -1,6 +1,7 @@
 """The list of mutants stays what it is while others edit the package, and each breaks one line."""
 
 import ast
+import json
 
 import pytest
 from mutants import near, run, sites
@@ -63,6 +64,26 @@ def test_an_edit_elsewhere_leaves_what_is_chosen():
     assert [m.key for m in sites.seeded(list(keys(edited).values()), 12)] == [m.key for m in before]
     without = [mutant for mutant in whole if mutant != before[0]]
     assert set(before[1:]) <= set(sites.seeded(without, 12))
+
+
+def test_what_is_known_holds_while_the_line_is_what_it_was(tmp_path, monkeypatch):
+    file, module = tmp_path / "results.jsonl", tmp_path / "asperity" / "a.py"
+    module.parent.mkdir()
+    monkeypatch.setattr(sites, "SOURCE", tmp_path)
+    mutant = keys(MODULE)["a.py|half|exponent|2|0"]
+    noted = {"key": mutant.key, "outcome": "caught", "diff": mutant.diff(MODULE)}
+    file.write_text(json.dumps(noted) + "\n")
+    for edited, holds in (
+        (MODULE, True),
+        (MODULE.replace("_MOST = 50", "_MOST = 60\n_LEAST = 1"), True),
+        (MODULE.replace("x < 0.0", "x <= 0.0"), True),
+        (MODULE.replace("return 0.5 * x + y**2", "return 0.6 * x + y**2"), False),
+        (MODULE.replace("y**2", "y"), False),
+    ):
+        module.write_text(edited)
+        assert bool(run.standing(list(keys(edited).values()), file)) is holds
+    module.write_text(MODULE)
+    assert run.share([mutant], file).startswith("1 of 1 caught, 100.0 %")
 
 
 @pytest.mark.slow

@@ -10,12 +10,13 @@ from apparatus.fake_picoscope import FakeDriver
 
 from asperity.errors import InputError, MissingExtraError
 from asperity.tribometer.instruments import manual, picoscope, pymeasure_supply, serial_vibration
+from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.parameters import Controller, Supplies
 from asperity.tribometer.instruments.protocols import (
-    Bench,
     Input,
     Instrument,
     InstrumentError,
+    Reading,
     Scope,
     Supply,
     Tachometer,
@@ -308,6 +309,15 @@ class Switch:
     def __init__(self, name, order, broken=False):
         self.name, self.order, self.broken = name, order, broken
         self.inputs = ()
+        self.on = broken
+
+    def vibrates(self):
+        return self.on
+
+    output = vibrates
+
+    def reading(self):
+        return Reading(0.0, 0.0)
 
     def safe(self):
         self.order.append(self.name)
@@ -328,6 +338,12 @@ def test_a_bench_stops_the_vibration_before_the_motors_whatever_fails():
     )  # fmt: skip
     assert bench.safe() == ("vibration: is deaf", "steel: is deaf")
     assert tuple(order) == names
+    # What was read back counts, not what was answered.
+    made["vibration"].on = False
+    assert bench.safe() == ("steel: is deaf",)
+    made["bronze"].on = True
+    said = "bronze: its output's state is on, 0 A measured"
+    assert bench.safe() == ("steel: is deaf", said)
 
 
 class Wrong(Switch):
@@ -335,13 +351,14 @@ class Wrong(Switch):
 
     def __init__(self, name, order, error):
         super().__init__(name, order)
-        self.error = error
+        self.error, self.on = error, True
 
     def safe(self):
         self.order.append(self.name)
         error, self.error = self.error, None
         if error is not None:
             raise error
+        self.on = False
 
 
 def _pressed(order):

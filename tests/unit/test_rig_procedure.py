@@ -16,10 +16,10 @@ from apparatus.grid import slow
 from asperity.errors import InputError
 from asperity.processes import alone
 from asperity.runs import Run
+from asperity.tribometer.guardian import journal as journals
+from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.instruments.protocols import InstrumentError
-from asperity.tribometer.procedure import journal as journals
 from asperity.tribometer.procedure import study
-from asperity.tribometer.procedure.journal import Journal
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.study import Reducible, reduce_recording
 
@@ -233,7 +233,8 @@ def test_a_controller_that_is_gone_costs_the_amplifier_its_power(kind, tmp_path)
     deaf = rigs.Deaf(bench.vibration, rig, kind)
     answer = rigs.run(case, tmp_path, bench=dataclasses.replace(bench, vibration=deaf))
     assert answer.failure.kind == kind
-    assert "NOT SWITCHED OFF" in str(answer.failure)
+    assert "NOT READ BACK TO BE OFF" in str(answer.failure)
+    assert answer.failure.exit_code == 4
     assert not rig.vibrates
     assert not rig.on & {"steel", "bronze", "amplifier"}
     assert rig.now - deaf.since <= rigs.BLOCK
@@ -328,12 +329,27 @@ def test_half_a_line_is_taken_off_and_a_damaged_one_refused(tmp_path):
     whole = path.read_bytes()
     path.write_bytes(whole + b'{"line": 3, "ki')
     book = Journal(tmp_path)
-    assert [line["kind"] for line in book.lines] == ["started", "begun"]
+    assert [line["kind"] for line in book.lines] == ["started", "begun", "torn"]
+    assert book.lines[-1]["dropped"] == '{"line": 3, "ki'
     book.close()
-    assert path.read_bytes() == whole
+    assert path.read_bytes().startswith(whole)
+    assert rigs.journal(tmp_path) == book.lines
     path.write_bytes(whole.replace(b'"started"', b'"star'))
     with pytest.raises(InputError, match="line 1 is damaged"):
         Journal(tmp_path)
+
+
+def test_a_last_line_that_is_torn_in_its_middle_is_taken_off(tmp_path):
+    book = Journal(tmp_path)
+    book.write("started")
+    book.write("begun", action="a")
+    book.close()
+    path = tmp_path / "journal.jsonl"
+    path.write_bytes(path.read_bytes().replace(b'"begun"', b"\0\0\0\0\0\0\0"))
+    book = Journal(tmp_path)
+    assert [line["kind"] for line in book.lines] == ["started", "torn"]
+    assert [line["line"] for line in book.lines] == [1, 2]
+    book.close()
 
 
 def test_a_run_is_not_begun_over_another_nor_gone_on_with_as_another(undisturbed, tmp_path):
@@ -370,7 +386,7 @@ def test_a_request_to_end_makes_everything_safe(tmp_path):
     scope = rigs.FaultyScope(
         bench.scope, rig, lambda *_: os.kill(os.getpid(), signal.SIGTERM), VIBRATES
     )
-    with pytest.raises(KeyboardInterrupt, match="terminated; --resume goes on"):
+    with pytest.raises(KeyboardInterrupt, match="terminated after 0 of 2 cells; --resume goes on"):
         rigs.run(case, tmp_path, bench=dataclasses.replace(bench, scope=scope))
     assert not rig.on & {"steel", "bronze", "vibration"}
     assert rigs.journal(tmp_path)[-1]["kind"] == "interrupted"
@@ -401,6 +417,7 @@ def test_a_plan_that_cannot_be_run_is_refused_before_anything_moves(setting, sai
 def test_a_second_run_into_the_same_folder_touches_no_instrument(tmp_path, monkeypatch):
     monkeypatch.setattr(study, "open_bench", lambda *_: pytest.fail("an instrument was opened"))
     held = alone(tmp_path / study._HELD, "is written by a run that goes on; choose another --out")
+    problem = study.prepare(rigs.small_case())
     with held, pytest.raises(InputError, match="is written by a run that goes on; choose"):
-        rigs.run(rigs.small_case(), tmp_path)
+        study.answer(problem, Run(folder=tmp_path, stem="rig-run"))
     assert not list(tmp_path.iterdir())

@@ -2,9 +2,13 @@
 
 import functools
 import json
+import math
 import os
 import shutil
 import sys
+import tempfile
+import time
+from concurrent.futures import Future
 from pathlib import Path
 
 import pytest
@@ -289,6 +293,60 @@ def test_the_dearest_begins_first_and_nothing_before_what_it_needs():
     tasks = [part("late", after=("small",)), part("small"), part("dear", seconds=9.0)]
     ended = [(task.name, future.result()) for task, future in done(tasks, 1)]
     assert ended == [("dear", "dear"), ("small", "small"), ("late", "late")]
+
+
+def order_of(tasks, processes=1):
+    return [task.name for task, _ in done(tasks, processes)]
+
+
+def test_what_calls_no_compiled_code_begins_first_then_one_of_each_room():
+    def of(name, room, seconds):
+        return Task(name, functools.partial(str, name), room, seconds)
+
+    tasks = [of("a1", "a", 3.0), of("a2", "a", 9.0), of("b", "b", 1.0), of("free", "", 0.5)]
+    assert order_of(tasks) == ["free", "a2", "b", "a1"]
+
+
+def test_tasks_without_compiled_code_do_not_wait_for_one_another():
+    with tempfile.TemporaryDirectory() as folder:
+        each = functools.partial(meet, folder)
+        tasks = [Task(name, functools.partial(each, name), "") for name in ("one", "other")]
+        assert all(future.result() for _, future in done(tasks, 2))
+
+
+def meet(folder, name):
+    """Whether two of a folder are there at the same time, within a minute."""
+    Path(folder, name).touch()
+    for _ in range(600):
+        if len(os.listdir(folder)) == 2:
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def test_what_ended_is_shown_while_nothing_else_does(tmp_path, made, monkeypatch):
+    # The page is not written for each exhibit of many that end at once.
+    page = []
+    monkeypatch.setattr(reproduction, "_REFRESH", 0.0)
+    monkeypatch.setattr(
+        reproduction, "render", lambda shown, *rest: page.append(len(shown)) or "page"
+    )
+
+    def hesitant(tasks, processes, meanwhile):
+        monkeypatch.setattr(reproduction, "_REFRESH", math.inf)
+        for task in [task for task in tasks if task.name in ALL]:
+            future = Future()
+            future.set_result(task.do())
+            yield task, future
+        assert page == [0]
+        monkeypatch.setattr(reproduction, "_REFRESH", 0.0)
+        meanwhile()
+        meanwhile()
+        assert page == [0, len(ALL)]
+
+    monkeypatch.setattr(reproduction, "done", hesitant)
+    run(tmp_path, processes=2)
+    assert made()
 
 
 def test_a_process_that_dies_is_told_in_one_line():

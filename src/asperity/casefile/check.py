@@ -140,6 +140,7 @@ def _errors(model: type[Table], entries: Mapping[str, Any]) -> list[tuple[str, s
     """Return key and sentence of what is refused, and whether the table as a whole was."""
     try:
         # Not the table's own, which tells one mistake.
+        model.built()
         model.__pydantic_validator__.validate_python(entries, context={"text_only": True})
     except pydantic.ValidationError as error:
         found = []

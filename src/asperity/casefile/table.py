@@ -2,6 +2,7 @@
 
 import json
 import re
+import threading
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Self, get_args
@@ -13,6 +14,7 @@ from asperity.errors import InputError, choices, is_plain, nearest, shown, sugge
 from asperity.units import Held, Named, quantity_of
 
 _MOST_BITS = 1024  # of a whole number, as large as floats are
+_BUILDING = threading.Lock()
 
 
 def _held(value: Any) -> Any:
@@ -41,7 +43,7 @@ class Table(pydantic.BaseModel):
         The keys of the table.
     """
 
-    model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
+    model_config = pydantic.ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     table: ClassVar[str] = ""
     counts: ClassVar[bool] = True
@@ -56,6 +58,7 @@ class Table(pydantic.BaseModel):
                 f"{name} is given {shown(arguments[0])} without a key; name each, as in "
                 f"{name}({first}=...)"
             )
+        self.built()
         try:
             self.__pydantic_validator__.validate_python(
                 data, self_instance=self, context={"units": Named(units)}
@@ -68,8 +71,16 @@ class Table(pydantic.BaseModel):
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     @classmethod
+    def built(cls) -> None:
+        """Make what validates the table, which takes its time and is left until it is wanted."""
+        if not cls.__pydantic_complete__:
+            with _BUILDING:
+                cls.model_rebuild()
+
+    @classmethod
     def model_validate(cls, obj: Any, **options: Any) -> Self:
         """Validate a mapping of keys to values, bare numbers in SI; raises InputError."""
+        cls.built()
         try:
             return super().model_validate(obj, **options)
         except pydantic.ValidationError as error:

@@ -3,8 +3,8 @@
 Everything heavy is imported inside the commands, so that the help is there at once.
 """
 
+import os
 import sys
-import types
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,6 +12,7 @@ import typer
 
 from asperity.cli import outcome
 from asperity.cli.helped import as_written
+from asperity.cli.made import made
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.cli.registered import (
     CaseArgument,
@@ -19,7 +20,6 @@ from asperity.cli.registered import (
     OutOption,
     SetOption,
     folder_of,
-    register,
 )
 
 app = typer.Typer(
@@ -61,9 +61,6 @@ def asperity(
     # With its rich help typer prints by itself and returns nothing.
     if context.invoked_subcommand is None and (text := context.get_help()):
         print_text(text)
-
-
-register(app)
 
 
 @app.command()
@@ -319,18 +316,15 @@ def lubricants(as_json: JsonOption = False) -> None:
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line; returns its exit code."""
     outcome.hold_streams()
-    command: Any = typer.main.get_command(app)
+    # What makes the tables of case files looks through all installed packages for its plugins.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
+    command: Any = made(app, sys.argv[1:] if arguments is None else arguments)
     as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}
     for name, one in command.commands.items():
         within = {each: {"help": False} for each in getattr(one, "commands", {})}
         no_help[name] = {"help": False, **within}
-    # Nor is text converted, of what needs nothing else.
-    as_given = types.SimpleNamespace(coerce=lambda value, **_: value)
-    for parameter in (*command.params, *command.commands["cases"].params):
-        if parameter.name in ("files", "name"):
-            parameter._runtime_param = as_given
     try:
         code: int | None = command.main(
             arguments, prog_name="asperity", standalone_mode=False, default_map=no_help

@@ -113,10 +113,12 @@ def _typed(option: Option) -> tuple[Any, Any]:
     return Annotated[kind, said], default
 
 
-def register(app: typer.Typer) -> None:
-    """Give an application the commands of the registry."""
-    groups = {name: typer.Typer(help=about) for name, about in GROUPS.items()}
+def register(app: typer.Typer, only: str = "") -> None:
+    """Give an application the commands of the registry, or only one command or group of them."""
+    groups = {n: typer.Typer(help=about) for n, about in GROUPS.items() if only in ("", n)}
     for name, group in groups.items():
         app.add_typer(group, name=name, no_args_is_help=True)
     for command in COMMANDS:
-        _command(command, groups.get(command.name.rpartition(" ")[0], app))
+        group_name = command.name.rpartition(" ")[0]
+        if only in ("", command.name, group_name or command.name):
+            _command(command, groups.get(group_name, app))

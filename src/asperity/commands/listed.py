@@ -249,11 +249,33 @@ COMMANDS = (
         ),
     ),
     Command(
+        "rig look",
+        "Tell what is understood of a file before it is imported: columns, units, times.",
+        "With --out also look.json, look.nc and look.png.",
+        module="asperity.tribometer.importing.look",
+        read="asperity.tribometer.importing.look:read",
+        arguments=(Argument("files", "FILE...", "Of one recording.", many=True),),
+        case="",
+        options=(
+            Option("rate", "Samples a second, where the file tells no times: 20 kHz.", "RATE"),
+            Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
+            Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
+        ),
+    ),
+    Command(
         "rig import",
-        "Make a recording of an oscilloscope program's file: CSV, text, .mat, TDMS.",
+        "Make a recording of an oscilloscope's or logger's file: text, .mat, TDMS, WAV and more.",
         "Without --out the file is looked at only.",
         module="asperity.tribometer.importing.study",
-        arguments=(Argument("file", "FILE", "What the oscilloscope's program exported."),),
+        arguments=(Argument("file", "FILE", "What the instrument or its program exported."),),
+        options=(
+            Option(
+                "join", "Another file of the same recording; again for each.", "FILE", many=True
+            ),
+            Option("rate", "Samples a second, where the file tells no times: 20 kHz.", "RATE"),
+            Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
+            Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
+        ),
         needs=("rig", "steel_disc", "bronze_disc", "drives", "channels"),
         case="CONFIG",
         draws=False,

@@ -40,6 +40,7 @@ _TABLES = {
     "reduction": "asperity.tribometer.options:Reduction",
     "controller": "asperity.tribometer.instruments.parameters:Controller",
     "supplies": "asperity.tribometer.instruments.parameters:Supplies",
+    "guardian": "asperity.tribometer.instruments.parameters:Guard",
     "drive": "asperity.drive.parameters:Drive",
     "shaft": "asperity.drive.parameters:Shaft",
     "actuator": "asperity.drive.parameters:Actuator",

@@ -5,9 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import KDTree
 
 from asperity.errors import InputError
 from asperity.mesh.hexmesh import Unit
@@ -64,6 +61,10 @@ class Surface:
 
     def welded(self, tolerance: float) -> "Surface":
         """Return the surface with points nearer than a tolerance as one, in their first place."""
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+        from scipy.spatial import KDTree
+
         pairs = KDTree(self.points).query_pairs(tolerance, output_type="ndarray")
         count = len(self.points)
         graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))

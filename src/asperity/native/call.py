@@ -73,6 +73,8 @@ class Caller:
         gathered, rows = self._gather, plan.address
         # Machine code runs without the lock, as under Numba.
         run = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)(self._address(row["symbol"]))
+        # The machine code stays loaded as long as somebody may call it.
+        run.loaded = self._address  # type: ignore[attr-defined]
         new_room = ctypes.c_int64 * plan.room
 
         def native(arguments: tuple[Any, ...]) -> Any:

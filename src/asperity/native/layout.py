@@ -18,14 +18,8 @@ TYPE = 8
 SIZE = 16
 SCALAR = 16
 DIGITS = 24
-ARRAY_DATA, ARRAY_NDIM, ARRAY_SHAPE, ARRAY_STRIDES, ARRAY_DTYPE, ARRAY_FLAGS = (
-    16,
-    24,
-    32,
-    40,
-    56,
-    64,
-)
+ARRAY_DATA, ARRAY_NDIM, ARRAY_SHAPE, ARRAY_STRIDES = 16, 24, 32, 40
+ARRAY_DTYPE, ARRAY_FLAGS = 56, 64
 RECORD_DATA, RECORD_DTYPE = 24, 32
 DTYPE_KIND = 24
 
@@ -82,11 +76,12 @@ def _scalars() -> bool:
 
 def _array() -> bool:
     array = np.asfortranarray(np.arange(6.0).reshape(2, 3))[:, ::2]
-    head = read(array, ARRAY_DATA, "qi") == (array.__array_interface__["data"][0], 2)
-    if not head or read(array, ARRAY_DTYPE) != (id(array.dtype),):
+    data = array.__array_interface__["data"][0]
+    head = *read(array, ARRAY_DATA), *read(array, ARRAY_NDIM, "i"), *read(array, ARRAY_DTYPE)
+    if head != (data, 2, id(array.dtype)):
         return False
     shape, strides = (
-        struct.unpack("2q", ctypes.string_at(*read(array, where), 16))
+        struct.unpack("2q", ctypes.string_at(read(array, where)[0], 16))
         for where in (ARRAY_SHAPE, ARRAY_STRIDES)
     )
     kind, number = read(array.dtype, DTYPE_KIND, "c3xi")
@@ -113,7 +108,7 @@ def _flags() -> bool:
 def _record() -> bool:
     record = np.zeros(2, [("x", "f8"), ("n", "i8")])[1]
     data = record.__array_interface__["data"][0]
-    return read(record, RECORD_DATA, "qq") == (data, id(record.dtype))
+    return (*read(record, RECORD_DATA), *read(record, RECORD_DTYPE)) == (data, id(record.dtype))
 
 
 def _tuple(items: int) -> bool:

@@ -146,8 +146,8 @@ def _features() -> frozenset[str]:
 
 
 @functools.cache
-def _digest(source: str) -> str:
+def _digest(source: str) -> str | None:
     try:
         return hashlib.sha256((_ROOT / source).read_bytes()).hexdigest()
     except OSError:
-        return ""
+        return None

@@ -65,7 +65,8 @@ class Plan:
             self.words += 1
         elif kind == "A":
             _, dtype, ndim, order, is_writable, is_aligned = spec
-            if not is_aligned:
+            # Numba says so of all records that are packed; their numbers stand where they stand.
+            if not is_aligned and isinstance(dtype, str):
                 raise UnknownTypeError("arrays out of line")
             mask = layout.C | layout.F | layout.ALIGNED | layout.WRITEABLE
             flags = _CONTIGUOUS[order] | layout.ALIGNED | (layout.WRITEABLE if is_writable else 0)

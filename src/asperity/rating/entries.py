@@ -95,6 +95,7 @@ def _read() -> dict[str, Any]:
     return store.read_toml(_FILE)
 
 
+@functools.lru_cache(maxsize=1024)
 def words(equation: str) -> tuple[str, ...]:
     """Return the words of an equation, the symbols of what it rests on among them."""
     return tuple(dict.fromkeys(_SYMBOL.findall(equation)))

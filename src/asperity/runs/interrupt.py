@@ -59,21 +59,80 @@ class Ears:
             signal.signal(signal.SIGINT, before)
 
 
-@contextlib.contextmanager
-def terminable() -> Iterator[None]:
-    """Let a request to end, as at a shutdown, raise `Interrupted` until the end of the block."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
+class Signals:
+    """Notes every signal that ends a work, however often it comes, and raises where it may.
 
-    def end(_number: int, _frame: object) -> None:
-        raise Interrupted("terminated")
+    What is not to be heard, as Ctrl-C in the background or the end of a terminal under nohup, is
+    left so.
 
-    before = signal.signal(signal.SIGTERM, end)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    Attributes
+    ----------
+    heard : str
+        What the first of them means; empty where none has come.
+    """
+
+    def __init__(self) -> None:
+        self.heard = ""
+        self._raises = False
+
+    def _hear(self, number: int, _frame: object) -> None:
+        self.heard = self.heard or _MEANING[signal.Signals(number).name]
+        if self._raises:
+            self._raises = False
+            raise Interrupted(self.heard)
+
+    @contextlib.contextmanager
+    def listening(self) -> Iterator[None]:
+        """Hear them until the end of the block."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = {}
+        for name in _MEANING:
+            number = getattr(signal, name, None)
+            if number is not None and signal.getsignal(number) not in (signal.SIG_IGN, None):
+                before[number] = signal.signal(number, self._hear)
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    @contextlib.contextmanager
+    def told_to(self, pipe: int) -> Iterator[None]:
+        """Have their numbers written to a pipe the moment they come; to none if it is negative."""
+        if pipe < 0 or threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = signal.set_wakeup_fd(pipe, warn_on_full_buffer=False)
+        try:
+            yield
+        finally:
+            signal.set_wakeup_fd(before)
+
+    @contextlib.contextmanager
+    def raising(self) -> Iterator[None]:
+        """Let one that comes, or has come, raise `Interrupted`: nothing here needs an end."""
+        self._raises = True
+        try:
+            self.check()
+            yield
+        finally:
+            self._raises = False
+
+    def check(self, how_far: str = "") -> None:
+        """Raise `Interrupted` if one has come."""
+        if self.heard:
+            raise Interrupted(f"{self.heard}{how_far}")
+
+
+_MEANING = {
+    "SIGINT": "interrupted",
+    "SIGTERM": "terminated",
+    "SIGHUP": "ended with its terminal",
+    "SIGQUIT": "quit",
+    "SIGBREAK": "interrupted",
+}
 
 
 def stop_of(error: BaseException) -> KeyboardInterrupt | None:

@@ -16,6 +16,9 @@ from asperity.errors import StorageError
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
+# Seconds between two times that what is done meanwhile is done.
+_PAUSE = 1.0
+
 
 @dataclasses.dataclass(frozen=True)
 class Task:
@@ -29,9 +32,9 @@ class Task:
         A function of a module, and what it takes if it is a partial one.
     room : str
         Tasks of one room share compiled code: the first of them is done before others begin, so
-        that it is compiled once.
+        that it is compiled once. Empty for what calls no compiled code.
     seconds : float
-        About how long it takes, s; what takes longest begins first.
+        About how long it takes, s.
     after : tuple of str
         Names of tasks that must be done before, if they are among those that are done.
     """
@@ -53,8 +56,14 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
-def done(tasks: Sequence[Task], processes: int) -> Generator[Done, None, None]:
+def done(
+    tasks: Sequence[Task], processes: int, meanwhile: Callable[[], object] = lambda: None
+) -> Generator[Done, None, None]:
     """Yield tasks with what they gave or raised, as they end.
+
+    First begins what needs no compiled code, then one task of each room, since to compile takes
+    longest where it has not been done; what takes longest begins first among equals. ``meanwhile``
+    is called now and then while nothing ends.
 
     Left early, as by Ctrl-C, it ends the processes at once, whatever they are at. So does the end
     of this process, however it ends.
@@ -72,7 +81,7 @@ def done(tasks: Sequence[Task], processes: int) -> Generator[Done, None, None]:
             processes, mp_context=context, initializer=_begin, initargs=(ear,)
         )
         try:
-            yield from _fed(pool, processes, tasks)
+            yield from _fed(pool, processes, tasks, meanwhile)
         except BrokenProcessPool:
             raise StorageError(
                 "a process ended: killed, perhaps for memory, or begun by a script without "
@@ -85,21 +94,30 @@ def done(tasks: Sequence[Task], processes: int) -> Generator[Done, None, None]:
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _fed(pool: cf.Executor, processes: int, tasks: Sequence[Task]) -> Generator[Done, None, None]:
-    waiting = sorted(tasks, key=lambda task: -task.seconds)
+def _fed(
+    pool: cf.Executor, processes: int, tasks: Sequence[Task], meanwhile: Callable[[], object]
+) -> Generator[Done, None, None]:
+    waiting = list(tasks)
     to_do = {task.name for task in tasks}
     running: dict[cf.Future[Any], Task] = {}
     compiled: set[str] = set()
 
     def may_begin(task: Task) -> bool:
-        alone = task.room in compiled or all(task.room != other.room for other in running.values())
+        alone = not task.room or task.room in compiled
+        alone = alone or all(task.room != other.room for other in running.values())
         return alone and to_do.isdisjoint(task.after)
 
+    def order(task: Task) -> tuple[bool, bool, float]:
+        return bool(task.room), task.room in compiled, -task.seconds
+
     while waiting or running:
-        while len(running) < processes and (task := next(filter(may_begin, waiting), None)):
+        while len(running) < processes and (ready := [*filter(may_begin, waiting)]):
+            task = min(ready, key=order)
             waiting.remove(task)
             running[pool.submit(task.do)] = task
-        ended, _ = cf.wait(running, return_when=cf.FIRST_COMPLETED)
+        ended, _ = cf.wait(running, timeout=_PAUSE, return_when=cf.FIRST_COMPLETED)
+        if not ended:
+            meanwhile()
         for future in ended:
             if isinstance(future.exception(), BrokenProcessPool):
                 future.result()

@@ -127,9 +127,10 @@ class Cycle:
         that what seems to grow is marched, pushed to either side.
         """
         if self.q is not None:
-            self.jacobian = differentiated(
+            self.jacobian = np.empty_like(self.jacobian, order="C")
+            differentiated(
                 self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
-                self.rises, self.body.no_sums()[0], len(self.jacobian),
+                self.rises, self.body.no_sums()[0], self.jacobian,
             )  # fmt: skip
         growth = _growth(self.jacobian)
         return self._marched(growth) if growth > UNSTABLE else growth

@@ -11,5 +11,6 @@ def carry(state, springs, p, q, increments, rises, sums, shares):
     """March a cycle for each share of the vibration in the plane; sums are those of the last."""
     shaken = np.empty_like(increments)
     for share in shares:
-        shaken[:] = share * increments
+        for n in range(increments.size):
+            shaken[n] = share * increments[n]
         run_cycle(state, springs, p, q, shaken, rises, sums)

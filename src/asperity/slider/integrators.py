@@ -3,6 +3,7 @@
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.runs.tree import Tree
@@ -89,8 +90,8 @@ class Integrator:
         room = np.empty(length + 1)
         wave = self.wave, cycles, self.rate
         if record:
-            nodes = np.empty(length, self.node_type)
-            k.march_recorded(self.state, self.sums, self.p, *wave, room, nodes, *rows)
+            nodes = _nodes(length, self.node_type)
+            k.march_recorded(self.state, self.sums, self.p, *wave, room, *nodes, *rows)
         else:
             k.march_stretches(self.state, self.sums, self.p, *wave, rows.shape[1], room)
 
@@ -113,7 +114,7 @@ class TwoPhase(Integrator):
         march_two_phase(
             self.state, self.kept["memory"][0], self.sums, self.p, self.wave, cycles, self.rate,
             np.empty(length + 1), self.model.on_body,
-            np.empty(length if record else 0, NODE), *rows,
+            *_nodes(length if record else 0, NODE), *rows,
         )  # fmt: skip
 
 
@@ -161,8 +162,14 @@ class Pressed(Integrator):
         pressed.march_pressed_stretches(
             self.state, self.kept["springs"], self.sums, self.p, self.q, self.wave,
             self.normal_wave, cycles, self.rate, np.empty(length + 1), np.empty(length + 1),
-            np.empty(length if record else 0, PRESSED_NODE), *rows,
+            *_nodes(length if record else 0, PRESSED_NODE), *rows,
         )  # fmt: skip
+
+
+def _nodes(count: int, kind: np.dtype[np.void]) -> tuple[npt.NDArray[np.void], FloatArray]:
+    """Room for so many nodes, and the numbers of these, a row each."""
+    nodes = np.empty(count, kind)
+    return nodes, nodes.view(np.float64).reshape(count, kind.itemsize // 8)
 
 
 def integrator(model: Model, step: float) -> Integrator:

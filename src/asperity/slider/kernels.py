@@ -327,14 +327,14 @@ def march_stretches(
 @kernel
 def march_recorded(
     state, sums, p, wave, first_cycles, cycles_per_step, increments,
-    nodes, mean, least, greatest,
+    nodes, values, mean, least, greatest,
 ):  # fmt: skip
     """March as many stretches as ``mean`` has rows, recording each in one.
 
-    Room for one stretch: ``increments`` for one step more, ``nodes`` for its steps.
+    Room for one stretch: ``increments`` for one step more, ``nodes`` for its steps; ``values`` are
+    the numbers of these, a row a node.
     """
     steps = nodes.size
-    values = nodes.view(np.float64).reshape((steps, -1))
     for r in range(mean.shape[0]):
         first = first_cycles + r * steps * cycles_per_step
         fill_increments(wave, first, cycles_per_step, increments)

@@ -11,9 +11,8 @@ Heights are in units of the penetration's length (`asperity.normal`), loads in u
 
 import math
 
-import numpy as np
-
 from asperity.compiled import kernel
+from asperity.dense import copy
 from asperity.friction.coulomb import mean_share
 from asperity.friction.dahl import TINY
 from asperity.friction.loaded import STIFFNESS, advance_loaded, friction_loss
@@ -294,20 +293,20 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
 @kernel
 def march_pressed_stretches(
     state, springs, sums, p, q, wave, normal_wave, first_cycles, cycles_per_step,
-    increments, rises, nodes, mean, least, greatest,
+    increments, rises, nodes, values, mean, least, greatest,
 ):  # fmt: skip
     """March as many stretches as ``mean`` has rows, recording each in one.
 
     Room for one stretch: ``increments`` and ``rises`` for one step more, ``nodes`` for its steps;
-    without room for nodes the rows are left as they are.
+    without room for nodes the rows are left as they are. ``values`` are the numbers of the nodes, a
+    row each.
     """
     steps = increments.size - 1
-    values = nodes.view(np.float64).reshape((nodes.size, mean.shape[1]))
     for r in range(mean.shape[0]):
         first = first_cycles + r * steps * cycles_per_step
         fill_increments(wave, first, cycles_per_step, increments)
         if normal_wave.lead == wave.lead:
-            rises[:] = increments  # most cases: it saves a quarter of a step's time
+            copy(increments, rises)  # most cases: it saves a quarter of a step's time
         else:
             fill_increments(normal_wave, first, cycles_per_step, rises)
         march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes)

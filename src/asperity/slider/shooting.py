@@ -14,6 +14,7 @@ import math
 import numpy as np
 
 from asperity.compiled import kernel
+from asperity.dense import copy
 from asperity.elimination import eliminate
 from asperity.friction.loaded import STIFFNESS
 from asperity.friction.lugre import stribeck_share
@@ -22,8 +23,8 @@ from asperity.slider.kernels import clear, march_block
 from asperity.slider.other_drives import carried, damped
 from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed, node_load
 from asperity.slider.scaled import COULOMB, NODE, PRESSED_NODE, SPRINGS
+from asperity.slider.search_room import room_for
 from asperity.slider.unknowns import (
-    most_unknowns,
     read_unknowns,
     unknown_scales,
     write_unknowns,
@@ -49,8 +50,11 @@ def _forces(state, springs, p, q, rises):
         state.load = node_load(elastic, rate, -0.5 * q.mobility, q.damping)
         limit = friction_limit(state.load, q.load_power)
         if p.model == SPRINGS:
-            state.deflection_x = np.sum(q.weights * springs[0])
-            state.deflection_y = np.sum(q.weights * springs[1])
+            state.deflection_x = 0.0
+            state.deflection_y = 0.0
+            for j in range(springs.shape[1]):
+                state.deflection_x += q.weights[j] * springs[0, j]
+                state.deflection_y += q.weights[j] * springs[1, j]
         elif q.keeps == STIFFNESS:
             limit = 1.0
     if p.model != COULOMB:
@@ -61,36 +65,48 @@ def _forces(state, springs, p, q, rises):
 
 
 @kernel
-def run_cycle(state, springs, p, q, increments, rises, sums):
+def _cycle(state, springs, p, q, increments, rises, sums, nodes):
     """One cycle from a state whose forces are set."""
     steps = increments.size - 1
     if q is None:
         clear(sums)
-        march_block(state, sums, p, increments, steps, np.empty(0, dtype=NODE))
+        march_block(state, sums, p, increments, steps, nodes[0])
     else:
-        none = np.empty(0, dtype=PRESSED_NODE)
         clear_pressed(sums)
-        march_pressed(state, springs, sums, p, q, increments, rises, steps, none)
+        march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes[1])
+
+
+@kernel
+def _run(state, springs, p, q, increments, rises, sums, nodes):
+    """Forces that belong to a state, then one cycle from it."""
+    _forces(state, springs, p, q, rises)
+    _cycle(state, springs, p, q, increments, rises, sums, nodes)
+
+
+@kernel
+def run_cycle(state, springs, p, q, increments, rises, sums):
+    """One cycle from a state whose forces are set."""
+    nodes = np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)
+    _cycle(state, springs, p, q, increments, rises, sums, nodes)
 
 
 @kernel
 def run(state, springs, p, q, increments, rises, sums):
     """Forces that belong to a state, then one cycle from it."""
-    _forces(state, springs, p, q, rises)
-    run_cycle(state, springs, p, q, increments, rises, sums)
+    nodes = np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)
+    _run(state, springs, p, q, increments, rises, sums, nodes)
 
 
 @kernel
 def _defect(
-    start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+    start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
 ):  # fmt: skip
     """Scaled change of the unknowns over a cycle from ``start``; returns its largest part."""
-    before = np.empty(count)
-    after = np.empty(count)
+    before, after, scales = room.before, room.after, room.scales
     read_unknowns(start[0], springs, p, q, before)
     end[0] = start[0]
-    end_springs[:] = springs
-    run(end[0], end_springs, p, q, increments, rises, sums)
+    copy(springs, end_springs)
+    _run(end[0], end_springs, p, q, increments, rises, sums, room.nodes)
     read_unknowns(end[0], end_springs, p, q, after)
     worst = 0.0
     for i in range(count):
@@ -104,28 +120,23 @@ def _defect(
 
 @kernel
 def differentiate(
-    start, springs, p, q, increments, rises, sums, scales, count, change, side, defect, jacobian
+    start, springs, p, q, increments, rises, sums, count, change, side, room, jacobian
 ):  # fmt: skip
     """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown."""
-    end = np.empty_like(start)
-    trial = np.empty_like(start)
-    end_springs = np.empty_like(springs)
-    trial_springs = np.empty_like(springs)
-    here = np.empty(count)
-    there = np.empty(count)
-    other = np.empty(count)
+    trial, trial_springs, here, there = room.trial, room.trial_springs, room.here, room.there
+    other, defect = room.trial_defect, room.defect
     read_unknowns(start[0], springs, p, q, here)
     for j in range(count):
         trial[0] = start[0]
-        trial_springs[:] = springs
-        there[:] = here
+        copy(springs, trial_springs)
+        copy(here, there)
         # At first towards the inside: a difference across the limit would be one-sided.
         signed = -change * side if here[j] > 0.0 else change * side
-        there[j] += signed * scales[j]
+        there[j] += signed * room.scales[j]
         write_unknowns(there, p, q, trial[0], trial_springs)
         _defect(
-            trial, trial_springs, p, q, increments, rises, sums, scales, count, end, end_springs,
-            other,
+            trial, trial_springs, p, q, increments, rises, sums, count, room, room.trial_end,
+            room.trial_end_springs, other,
         )  # fmt: skip
         for i in range(count):
             jacobian[i, j] = (other[i] - defect[i]) / signed
@@ -133,25 +144,18 @@ def differentiate(
 
 @kernel
 def _newton(
-    start, springs, p, q, increments, rises, sums, scales, count, jacobian, end, end_springs
+    start, springs, p, q, increments, rises, sums, count, jacobian, room, end, end_springs
 ):  # fmt: skip
     """Newton from ``start``, which ends at the best state found; returns (defect, cycles run).
 
     ``end`` and ``end_springs`` are the state a cycle on.
     """
-    trial = np.empty_like(start)
-    trial_springs = np.empty_like(springs)
-    trial_end = np.empty_like(start)
-    trial_end_springs = np.empty_like(springs)
-    here = np.empty(count)
-    there = np.empty(count)
-    defect = np.empty(count)
-    trial_defect = np.empty(count)
-    matrix = np.empty((count, count))
-    step = np.empty(count)
+    trial, trial_springs, here, there = room.trial, room.trial_springs, room.here, room.there
+    trial_end, trial_end_springs = room.trial_end, room.trial_end_springs
+    defect, matrix, step, scales = room.defect, room.matrix, room.step, room.scales
     cycles = 1
     worst = _defect(
-        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+        start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
     fresh = False
     side = 1.0
@@ -163,9 +167,8 @@ def _newton(
             # Steps that shrink with the defect do not reach a kink the answer is not at.
             change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE))
             differentiate(
-                start, springs, p, q, increments, rises, sums, scales, count, change, side,
-                defect, jacobian,
-            )  # fmt: skip
+                start, springs, p, q, increments, rises, sums, count, change, side, room, jacobian
+            )
             cycles += count
             fresh = True
         for i in range(count):
@@ -178,7 +181,7 @@ def _newton(
         moved = False
         for _ in range(8):
             trial[0] = start[0]
-            trial_springs[:] = springs
+            copy(springs, trial_springs)
             for j in range(count):
                 there[j] = here[j] + length * step[j] * scales[j]
             write_unknowns(there, p, q, trial[0], trial_springs)
@@ -188,8 +191,8 @@ def _newton(
                     trial[0].deflection_x *= p.static_ratio / size
                     trial[0].deflection_y *= p.static_ratio / size
             reached = _defect(
-                trial, trial_springs, p, q, increments, rises, sums, scales, count, trial_end,
-                trial_end_springs, trial_defect,
+                trial, trial_springs, p, q, increments, rises, sums, count, room, trial_end,
+                trial_end_springs, room.trial_defect,
             )  # fmt: skip
             cycles += 1
             if reached < worst * (1.0 - 0.1 * length):
@@ -210,15 +213,14 @@ def _newton(
         read_unknowns(trial[0], trial_springs, p, q, there)
         write_unknowns(there, p, q, start[0], springs)
         end[0] = trial_end[0]
-        end_springs[:] = trial_end_springs
-        for i in range(count):
-            defect[i] = trial_defect[i]
+        copy(trial_end_springs, end_springs)
+        copy(room.trial_defect, defect)
     return worst, cycles
 
 
 @kernel
 def _first_guess(
-    start, springs, p, q, increments, rises, sums, scales, count, end, end_springs
+    start, springs, p, q, increments, rises, sums, count, room, end, end_springs
 ):  # fmt: skip
     """Find a state to start from; returns its defect, if it is periodic already, and cycles run.
 
@@ -239,9 +241,8 @@ def _first_guess(
     if not p.rigid:
         state.stretch = state.friction_x / p.stiffness
     worst = _defect(
-        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs,
-        np.empty(count),
-    )  # fmt: skip
+        start, springs, p, q, increments, rises, sums, count, room, end, end_springs, room.defect
+    )
     if worst <= 1e-12:
         return worst, 1
     state.deflection_x = 1.0
@@ -249,7 +250,7 @@ def _first_guess(
     # Friction under the drive's mean motion alone tells the mean force to start from.
     state.stretch = 0.0
     for _ in range(3):
-        run(state, springs, carried(p), q, increments, rises, sums)
+        _run(state, springs, carried(p), q, increments, rises, sums, room.nodes)
     if not p.rigid:
         state.stretch = sums.friction_x / steps / p.stiffness
     return worst, 4
@@ -289,51 +290,51 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     unknowns : int
         Size of the Jacobian.
     """
-    scales = np.empty(most_unknowns(springs))
-    count = unknown_scales(start, springs, p, q, scales)
+    room = room_for(start, springs)
+    count = unknown_scales(start, springs, p, q, room.scales)
     used = 0
     worst = np.inf
     end = np.empty_like(start)
     end_springs = np.empty_like(springs)
     if settle == 0:
         worst, used = _first_guess(
-            start, springs, p, q, increments, rises, sums, scales, count, end, end_springs
+            start, springs, p, q, increments, rises, sums, count, room, end, end_springs
         )
     else:
         drive = damped(p) if settle > 0 else p
         for _ in range(abs(settle)):
-            run(start[0], springs, drive, q, increments, rises, sums)
+            _run(start[0], springs, drive, q, increments, rises, sums, room.nodes)
         used = abs(settle)
     if worst > 1e-12:
         worst, cycles = _newton(
-            start, springs, p, q, increments, rises, sums, scales, count, jacobian, end,
-            end_springs,
-        )  # fmt: skip
+            start, springs, p, q, increments, rises, sums, count, jacobian, room, end, end_springs
+        )
         used += cycles
     if worst <= ACCEPTED:
         # Once more around for the sums, from the end of a cycle, where the node forces belong.
         start[0] = end[0]
-        springs[:] = end_springs
-        run_cycle(start[0], springs, p, q, increments, rises, sums)
+        copy(end_springs, springs)
+        _cycle(start[0], springs, p, q, increments, rises, sums, room.nodes)
         used += 1
     return worst, used, count
 
 
 @kernel
-def differentiated(start, springs, p, q, increments, rises, sums, count):
-    """Jacobian of the map over a cycle, less one, in scaled unknowns; ``sums`` are overwritten."""
-    scales = np.empty(most_unknowns(springs))
-    unknown_scales(start, springs, p, q, scales)
-    end = np.empty_like(start)
-    end_springs = np.empty_like(springs)
-    defect = np.empty(count)
-    jacobian = np.empty((count, count))
-    _defect(start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect)
-    differentiate(
-        start, springs, p, q, increments, rises, sums, scales, count, _DIFFERENCE, 1.0, defect,
-        jacobian,
+def differentiated(start, springs, p, q, increments, rises, sums, jacobian):
+    """Write the Jacobian of the map over a cycle, less one, in scaled unknowns.
+
+    It is a row and a column an unknown; ``sums`` are overwritten.
+    """
+    room = room_for(start, springs)
+    unknown_scales(start, springs, p, q, room.scales)
+    count = jacobian.shape[0]
+    _defect(
+        start, springs, p, q, increments, rises, sums, count, room, room.trial_end,
+        room.trial_end_springs, room.defect,
     )  # fmt: skip
-    return jacobian
+    differentiate(
+        start, springs, p, q, increments, rises, sums, count, _DIFFERENCE, 1.0, room, jacobian
+    )
 
 
 @kernel
@@ -342,32 +343,30 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
 
     Returns the defect that is left and the cycles run, at most ``most``.
     """
-    scales = np.empty(most_unknowns(springs))
-    count = unknown_scales(start, springs, p, q, scales)
-    end = np.empty_like(start)
-    end_springs = np.empty_like(springs)
-    here = np.empty(count)
-    defect = np.empty(count)
-    step = np.empty(count)
+    room = room_for(start, springs)
+    count = unknown_scales(start, springs, p, q, room.scales)
+    here, defect, step, matrix = room.here, room.defect, room.step, room.matrix
+    end, end_springs = room.trial_end, room.trial_end_springs
     worst = _defect(
-        start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+        start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
     cycles = 1
     while cycles < most and CLOSE < worst <= 1e300:
-        matrix = jacobian.copy()
         for i in range(count):
             step[i] = -defect[i]
+            for j in range(count):
+                matrix[i, j] = jacobian[i, j]
         if eliminate(matrix, step, count, 1e-14):
             read_unknowns(start[0], springs, p, q, here)
             for i in range(count):
-                here[i] += step[i] * scales[i]
+                here[i] += step[i] * room.scales[i]
             write_unknowns(here, p, q, start[0], springs)
         else:
             # Found without Newton's method, in a cycle or some: it is left to itself here too.
             start[0] = end[0]
-            springs[:] = end_springs
+            copy(end_springs, springs)
         worst = _defect(
-            start, springs, p, q, increments, rises, sums, scales, count, end, end_springs, defect
+            start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
         )
         cycles += 1
     # The drive's force at the start is that at the end, which a rigid drive has of its contact.

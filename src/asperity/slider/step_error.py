@@ -138,9 +138,9 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     if unknowns + 1.5 * _CLOSING <= _SHARE * cycles:
         jacobian = np.zeros((unknowns, unknowns))
         if unknowns:
-            jacobian = differentiated(
+            differentiated(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums()[0], unknowns,
+                end.body.no_sums()[0], jacobian,
             )  # fmt: skip
         fine = end.copied()
         one = _closed(fine, jacobian)

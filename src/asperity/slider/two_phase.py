@@ -25,17 +25,16 @@ MEMORY = np.dtype([("cos", float), ("sin", float), ("base_x", float)])
 @kernel
 def march_two_phase(
     state, memory, sums, p, wave, first_cycles, cycles_per_step, increments,
-    on_body, nodes, mean, least, greatest,
+    on_body, nodes, values, mean, least, greatest,
 ):  # fmt: skip
     """March as many stretches as ``mean`` has rows, recording each in one.
 
     Room for one stretch: ``increments`` for one step more, ``nodes`` for its steps; without room
-    for nodes the rows are left as they are.
+    for nodes the rows are left as they are. ``values`` are the numbers of the nodes, a row each.
     """
     rigid = p.rigid
     recording = nodes.size > 0
     steps = increments.size - 1
-    values = nodes.view(np.float64).reshape((nodes.size, mean.shape[1]))
     for r in range(mean.shape[0]):
         first = first_cycles + r * steps * cycles_per_step
         fill_increments(wave, first, cycles_per_step, increments)

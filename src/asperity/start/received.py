@@ -10,7 +10,7 @@ from asperity.commands import case_tables
 from asperity.errors import InputError, StorageError
 from asperity.start.check import check
 
-_CASE, _RECORDING, _BINARY = ".toml", ".nc", (".mat", ".tdms")
+_CASE, _RECORDING, _BINARY = ".toml", ".nc", (".mat", ".tdms", ".wav", ".sr", ".mf4")
 _MOST_READ = 16_000_000
 """Bytes of a table that is read whole; a longer one is told of when it is used."""
 
@@ -47,7 +47,7 @@ def look_at(
         elif path.stat().st_size > _MOST_READ:
             return
         elif recorded or ending in _BINARY:
-            from asperity.tribometer.importing.study import read_export
+            from asperity.tribometer.importing.files import read_export
 
             read_export(path, name)
         else:

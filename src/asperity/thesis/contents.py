@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from asperity.errors import InputError, nearest
 from asperity.thesis.contact import elastic
@@ -93,6 +94,22 @@ _MADE_IN = {
     },
 }
 
+_WITHOUT_KERNELS = {
+    FIGURE: "2.7 3.1 3.2 3.3 3.4 3.5 6.8 6.9 7.7",
+    TABLE: "3.2 3.3 3.4 3.5 3.6 3.7 7.1 7.2 7.3",
+    CLAIM: "1.1 2.5 2.6 3.1 3.2 3.3 3.4 3.5 3.6 3.7 3.8 3.9 3.10 3.11 3.12 3.13 3.14 5.3 6.1 6.5 "
+    "6.7 6.8 6.9 6.10 6.11 6.13 6.14 6.15 7.1 7.4 7.9 7.11 7.12 7.14 7.18",
+}
+"""Those that call no compiled function: they are there while others wait for theirs."""
+
+_SECONDS = {
+    "figure 2.9": 3.0, "figure 2.10": 2.0, "figure 2.11": 2.0, "figure 2.12": 2.0,
+    "figure 4.20": 2.0, "figure 4.23": 2.0, "figure 5.2": 1.5, "figure 5.11": 1.5,
+    "figure 7.1": 2.5, "figure 7.2": 2.0, "figure 7.6": 2.0, "figure 7.11": 2.5,
+    "claim 2.2": 3.0, "claim 2.3": 2.0, "claim 4.3": 2.5, "claim 7.16": 1.5,
+}  # fmt: skip
+"""About how long those take that take long, s."""
+
 _BODIES = (*(f"table-4.1-L{n}" for n in range(1, 7)), "table-4.3", "table-4.4")
 _CASES = {
     "sliding": _BODIES,
@@ -126,11 +143,15 @@ def _order(number: str) -> tuple[int, ...]:
 
 def _shelf(kind: str) -> Mapping[str, Exhibit]:
     found = {}
+    without = _WITHOUT_KERNELS[kind].split()
     for module, numbers in _MADE_IN[kind].items():
         cases = _CASES[module.partition(".")[0]]
         for number in numbers.split():
-            parts = _PARTS.get(f"{kind} {number}")
-            given = {} if parts is None else {"parts": parts}
+            name = f"{kind} {number}"
+            given: dict[str, Any] = {"parts": _PARTS[name]} if name in _PARTS else {}
+            if name in _SECONDS:
+                given["seconds"] = _SECONDS[name]
+            given["calls_kernels"] = number not in without
             place = f"asperity.thesis.{module}"
             found[number] = Exhibit(kind, number, place, cases, **given)
     return {number: found[number] for number in sorted(found, key=_order)}

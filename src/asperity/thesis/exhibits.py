@@ -104,6 +104,8 @@ class Exhibit:
     # What it shares with others, or what takes so long that several processes are to work at it;
     # takes whether it is made in full.
     parts: Callable[[bool], Sequence[Part]] = _no_parts
+    calls_kernels: bool = True  # compiled functions
+    seconds: float = 1.0  # that it takes, about, where its parts are there
 
     @property
     def name(self) -> str:
@@ -112,8 +114,8 @@ class Exhibit:
 
     @property
     def room(self) -> str:
-        """The package its module stands in, which shares compiled code."""
-        return self.module.rpartition(".")[0]
+        """The package its module stands in, which shares compiled code; empty without any."""
+        return self.module.rpartition(".")[0] if self.calls_kernels else ""
 
     @property
     def has_full(self) -> bool:

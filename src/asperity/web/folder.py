@@ -8,7 +8,20 @@ from asperity.shipped import shipped_case
 from asperity.store import portable, require_portable
 
 CASE = ".toml"
-ENDINGS = (CASE, ".csv", ".txt", ".nc", ".mat", ".tdms")
+ENDINGS = (
+    CASE,
+    ".csv",
+    ".txt",
+    ".asc",
+    ".lvm",
+    ".dat",
+    ".nc",
+    ".mat",
+    ".tdms",
+    ".wav",
+    ".sr",
+    ".mf4",
+)
 """Of files that a browser may put there: cases, and what oscilloscopes write."""
 
 MOST_FILE = 256_000_000

@@ -1,8 +1,11 @@
-"""Inverse of a small dense matrix inside compiled loops, on one core whatever a library would take.
+"""Small dense systems inside compiled loops, on one core whatever a library would take.
 
 Libraries share matrices of a hundred rows among cores, and wait for each other longer than they
-work when all cores are at work already.
+work when all cores are at work already. Matrices have n rows one after the other, in so many
+places of an array that may have more.
 """
+
+import math
 
 from asperity.compiled import kernel
 
@@ -10,13 +13,15 @@ _LEAST = 1e-14  # pivot of a matrix that counts as singular, of its largest entr
 
 
 @kernel
-def invert(a, order):
+def invert(a, n, order):
     """Invert a matrix in place by Gauss and Jordan's elimination with pivoting of rows.
 
     Parameters
     ----------
-    a : ndarray, shape (n, n)
+    a : ndarray, shape (nn,) or more
         By rows; becomes the inverse.
+    n : int
+        Number of rows.
     order : ndarray of int64, shape (n,) or more
         Room for the rows' exchanges.
 
@@ -25,24 +30,20 @@ def invert(a, order):
     bool
         False where it is singular or not finite; ``a`` then has no meaning.
     """
-    n = a.shape[0]
     largest = 0.0
-    for r in range(n):
-        for c in range(n):
-            largest = max(largest, abs(a[r, c]))
+    for i in range(n * n):
+        largest = max(largest, abs(a[i]))
     for i in range(n):
         pivot = i
         for r in range(i + 1, n):
-            if abs(a[r, i]) > abs(a[pivot, i]):
+            if abs(a[r * n + i]) > abs(a[pivot * n + i]):
                 pivot = r
         order[i] = pivot
-        if not abs(a[pivot, i]) > _LEAST * largest:
+        if not abs(a[pivot * n + i]) > _LEAST * largest:
             return False
-        row = a[i]
+        row = a[i * n : (i + 1) * n]
         if pivot != i:
-            other = a[pivot]
-            for c in range(n):
-                row[c], other[c] = other[c], row[c]
+            _exchange(row, a[pivot * n : (pivot + 1) * n])
         over = 1.0 / row[i]
         row[i] = 1.0
         for c in range(n):
@@ -50,7 +51,7 @@ def invert(a, order):
         for r in range(n):
             if r == i:
                 continue
-            to = a[r]
+            to = a[r * n : (r + 1) * n]
             factor = to[i]
             to[i] = 0.0
             for c in range(n):
@@ -58,17 +59,82 @@ def invert(a, order):
     for i in range(n - 1, -1, -1):
         pivot = order[i]
         if pivot != i:
-            for r in range(n):
-                a[r, i], a[r, pivot] = a[r, pivot], a[r, i]
+            for r in range(0, n * n, n):
+                a[r + i], a[r + pivot] = a[r + pivot], a[r + i]
     return True
 
 
 @kernel
+def decompose(a, n, order):
+    """Decompose a matrix in place into two triangular ones, with pivoting of rows.
+
+    Parameters
+    ----------
+    a, n, order
+        As in `invert`; the matrix becomes what `substitute` takes.
+
+    Returns
+    -------
+    bool
+        False where it is singular or not finite; ``a`` then has no meaning.
+    """
+    for i in range(n * n):
+        if not abs(a[i]) < math.inf:
+            return False
+    for i in range(n):
+        pivot = i
+        for r in range(i + 1, n):
+            if abs(a[r * n + i]) > abs(a[pivot * n + i]):
+                pivot = r
+        order[i] = pivot
+        if not abs(a[pivot * n + i]) > 0.0:
+            return False
+        row = a[i * n : (i + 1) * n]
+        if pivot != i:
+            _exchange(row, a[pivot * n : (pivot + 1) * n])
+        for r in range(i + 1, n):
+            to = a[r * n : (r + 1) * n]
+            factor = to[i] / row[i]
+            to[i] = factor
+            if factor != 0.0:
+                for c in range(i + 1, n):
+                    to[c] -= factor * row[c]
+    return True
+
+
+@kernel
+def substitute(a, n, order, x):
+    """Solve equations whose matrix is decomposed; the right-hand side ``x`` becomes the answer."""
+    for i in range(n):
+        pivot = order[i]
+        x[i], x[pivot] = x[pivot], x[i]
+    for i in range(n):
+        row = a[i * n : (i + 1) * n]
+        total = x[i]
+        for c in range(i):
+            total -= row[c] * x[c]
+        x[i] = total
+    for i in range(n - 1, -1, -1):
+        row = a[i * n : (i + 1) * n]
+        total = x[i]
+        for c in range(i + 1, n):
+            total -= row[c] * x[c]
+        x[i] = total / row[i]
+
+
+@kernel
 def apply(a, x, out):
-    """Write ``a @ x``."""
-    for r in range(out.shape[0]):
-        row = a[r]
+    """Write ``a @ x`` of a matrix of as many rows as ``out``."""
+    n = out.shape[0]
+    for r in range(n):
+        row = a[r * n : (r + 1) * n]
         total = 0.0
-        for c in range(x.shape[0]):
+        for c in range(n):
             total += row[c] * x[c]
         out[r] = total
+
+
+@kernel
+def _exchange(one, other):
+    for c in range(one.shape[0]):
+        one[c], other[c] = other[c], one[c]

@@ -35,9 +35,8 @@ _LEAST_STEP = 1.0 / 32.0
 _QUICK = 0.2
 # Plain steps after which the augmented ones begin.
 _PLAIN = 12
-# Augmentations that are tried, in parts of the body's own stiffness; merits that are looked back.
+# Augmentations that are tried, in parts of the body's own stiffness.
 _AUGMENTATIONS = (1.0, 0.2, 5.0)
-_REMEMBERED = 3
 # Assumed this well, of the whole, forces are worth a look at the laws themselves.
 _NEAR = 1e-3
 
@@ -229,7 +228,9 @@ def _augmented(body, candidates, laws, motion, history, answer, work, augmentati
     floor = laws.floor * laws.floor
     iterations = 1
     off = look(body, candidates, laws, motion, history, answer, work, True, augmentation)
-    bounds = np.full(_REMEMBERED, off)
+    bounds = work.bounds
+    for i in range(bounds.shape[0]):
+        bounds[i] = off
     residual = np.inf
     for step in range(laws.most):
         scale = 0.0
@@ -250,10 +251,10 @@ def _augmented(body, candidates, laws, motion, history, answer, work, augmentati
             return FULL, iterations
         _missing(candidates, count, answer, work)
         stiffness_of(count, answer, work)
-        matrix = assemble(body, candidates, count, nodes, work)
-        if not solved(body, candidates, count, nodes, matrix, work):
+        assemble(body, candidates, count, nodes, work)
+        if not solved(body, candidates, count, nodes, work):
             break
-        bound = bounds.max()
+        bound = max(bounds[0], bounds[1], bounds[2])
         share = 1.0
         best, best_share = np.inf, 1.0
         while True:
@@ -271,7 +272,7 @@ def _augmented(body, candidates, laws, motion, history, answer, work, augmentati
                 )
                 break
             share *= 0.5
-        bounds[step % _REMEMBERED] = off
+        bounds[step % bounds.shape[0]] = off
     return residual, iterations
 
 

@@ -74,6 +74,10 @@ class Candidates(NamedTuple):
             np.zeros((slots, n), dtype=np.int64),
         )
 
+    def of(self, k: int) -> Candidates:
+        """Return the candidates of one body of several."""
+        return Candidates(*(values[k] for values in self))
+
 
 class History(NamedTuple):
     """What a solve starts from at the candidates' points."""
@@ -118,6 +122,10 @@ class Answer(NamedTuple):
             np.zeros((*at, 3, 3)),
         )  # fmt: skip
 
+    def of(self, k: int) -> Answer:
+        """Return the answer of one body of several."""
+        return Answer(*(values[k] for values in self))
+
 
 class Work(NamedTuple):
     """What solves work with, one after the other."""
@@ -139,6 +147,10 @@ class Work(NamedTuple):
     move: FloatArray  #: (3n,): Newton's change of their displacement, m
     matrix: FloatArray  #: (9nn,): Newton's equations
     right: FloatArray  #: (18m,): Forces at the active points
+    turn: FloatArray  #: (4k, 3): Forces before a turn of several bodies
+    bounds: FloatArray  #: (3,): Merits that a search looks back at
+    none: FloatArray  #: (3,): Zeros
+    nothing: FloatArray  #: (3, 3): Zeros
 
     @classmethod
     def room(cls, body: Body, most: int) -> Work:
@@ -150,7 +162,8 @@ class Work(NamedTuple):
             np.zeros(3 * most), np.zeros(q, np.int64), np.zeros(n, np.int64),
             np.zeros(n, np.int64), np.zeros(3 * n, np.int64), np.zeros((q, 3, 3)),
             np.zeros((12, 12)), np.zeros(12), np.zeros(3 * n), np.zeros(3 * n), np.zeros(3 * n),
-            np.zeros(9 * n * n), np.zeros(18 * most),
+            np.zeros(9 * n * n), np.zeros(18 * most), np.zeros((q, 3)), np.zeros(3), np.zeros(3),
+            np.zeros((3, 3)),
         )  # fmt: skip
 
 

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from asperity.compiled import kernel
 from asperity.contact.candidates.newton import evaluate, solve, spread
 from asperity.contact.candidates.records import answer_of, candidates_of, kept_of
@@ -116,8 +114,7 @@ def solve_all(
         change of the last turn over the forces. Evaluations of the contact.
     """
     rotation, translation, shift, turn = surfaces
-    none = np.zeros(3)
-    nothing = np.zeros((3, 3))
+    none, nothing, turned = work.none, work.nothing, work.turn
     bodies = number.shape[0]
     iterations = 0
     residual = 0.0
@@ -136,7 +133,10 @@ def solve_all(
                 False,
             )  # fmt: skip
             points = body.shapes.shape[0] * candidates.counts[k, 0]
-            before = answer.force[k, :points].copy()
+            force = answer.force[k]
+            for q in range(points):
+                for c in range(3):
+                    turned[q, c] = force[q, c]
             missing, took = solve(
                 body, candidates_of(candidates, k), laws, motion, history, answer_of(answer, k),
                 kept_of(kept, k), work,
@@ -145,9 +145,11 @@ def solve_all(
             if missing < 0.0:
                 return missing, iterations
             residual = max(residual, missing)
-            before -= answer.force[k, :points]
-            changed += _norm(before, points)
-            whole += _norm(answer.force[k], points)
+            for q in range(points):
+                for c in range(3):
+                    turned[q, c] -= force[q, c]
+            changed += _norm(turned, points)
+            whole += _norm(force, points)
         agreed = blocks.shape[0] == 0 or changed <= tolerance * tolerance * whole
         if agreed:
             break

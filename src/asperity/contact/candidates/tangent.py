@@ -9,10 +9,9 @@ nodes move by :math:`\delta u = A \sum_q N_q^T \delta f_q`. Hence
 which has as many equations as there are nodes about the points, three each: fewer than points.
 """
 
-import numpy as np
-
 from asperity.compiled import kernel
-from asperity.contact.candidates.inverse import apply, invert
+from asperity.contact.candidates.inverse import apply, decompose, invert, substitute
+from asperity.dense import copy
 
 
 @kernel
@@ -51,14 +50,14 @@ def stiffness_of(count, answer, work):
 
 @kernel
 def assemble(body, candidates, count, nodes, work):
-    """Return ``1 - A K`` at the nodes, by rows; K is of the stiffness that `work` has."""
-    a, shapes = body.flexibility, body.shapes
+    """Write ``1 - A K`` at the nodes, by rows; K is of the stiffness that `work` has."""
+    a, shapes, matrix = body.flexibility, body.shapes, work.matrix
     rule, width = shapes.shape
     m = 3 * nodes
-    matrix = work.matrix[: m * m].reshape(m, m)
-    matrix[:] = 0.0
+    for i in range(m * m):
+        matrix[i] = 0.0
     for i in range(m):
-        matrix[i, i] = 1.0
+        matrix[i * m + i] = 1.0
     block, part = work.block, work.part
     i = 0
     while i < count:
@@ -89,8 +88,7 @@ def assemble(body, candidates, count, nodes, work):
                     total = 0.0
                     for b in range(3 * width):
                         total += part[b] * block[3 * e + d, b]
-                    matrix[n, to + d] -= total
-    return matrix
+                    matrix[n * m + to + d] -= total
 
 
 @kernel
@@ -156,7 +154,7 @@ def change_by(body, candidates, count, nodes, kept, work):
     """Write the change of the forces by the inverse that was kept, of the same points."""
     m = 3 * nodes
     carry(body, candidates, count, nodes, work.right, work, work.carried)
-    apply(kept.inverse[: m * m].reshape(m, m), work.carried[:m], work.move[:m])
+    apply(kept.inverse, work.carried, work.move[:m])
     expand(body, candidates, count, work.right, kept.stiffness, work.move, work, work.change)
 
 
@@ -165,31 +163,29 @@ def change(body, candidates, count, nodes, answer, kept, work):
     """Write Newton's change of the forces and keep its inverse; False where there is none."""
     m = 3 * nodes
     stiffness_of(count, answer, work)
-    matrix = assemble(body, candidates, count, nodes, work)
+    assemble(body, candidates, count, nodes, work)
     kept.size[0] = 0
     if count > kept.points.shape[0] or m * m > kept.inverse.shape[0]:
-        return solved(body, candidates, count, nodes, matrix, work)
-    inverse = kept.inverse[: m * m].reshape(m, m)
-    inverse[:] = matrix
-    if not invert(inverse, work.order):
+        return solved(body, candidates, count, nodes, work)
+    copy(work.matrix, kept.inverse[: m * m])
+    if not invert(kept.inverse, m, work.order):
         return False
     kept.size[0] = count
     for i in range(count):
         q = work.active[i]
         kept.points[i] = 4 * candidates.face[q // 4] + q % 4
-        kept.stiffness[i] = work.stiffness[i]
+        copy(work.stiffness[i], kept.stiffness[i])
     change_by(body, candidates, count, nodes, kept, work)
     return True
 
 
 @kernel
-def solved(body, candidates, count, nodes, matrix, work):
-    """Write Newton's change by a matrix; False where there is none."""
+def solved(body, candidates, count, nodes, work):
+    """Write Newton's change by the matrix there is; False where there is none."""
     m = 3 * nodes
-    carry(body, candidates, count, nodes, work.right, work, work.carried)
-    try:
-        work.move[:m] = np.linalg.solve(matrix, work.carried[:m])
-    except Exception:  # of a kernel nothing narrower can be caught
+    if not decompose(work.matrix, m, work.order):
         return False
+    carry(body, candidates, count, nodes, work.right, work, work.move)
+    substitute(work.matrix, m, work.order, work.move)
     expand(body, candidates, count, work.right, work.stiffness, work.move, work, work.change)
     return True

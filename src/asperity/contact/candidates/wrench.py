@@ -1,8 +1,7 @@
 """Forces and moments of a solved contact, and how they change as the counter-surface moves."""
 
-import numpy as np
-
 from asperity.compiled import kernel
+from asperity.contact.candidates.inverse import decompose, substitute
 from asperity.contact.candidates.tangent import assemble, carry, expand, gather, stiffness_of
 
 
@@ -31,7 +30,7 @@ def place_of(candidates, shapes, u, q):
 def wrench(body, candidates, answer, out):
     """Add force, N, and moment about the origin, N m, on the body to ``out``, (6,)."""
     for q in range(body.shapes.shape[0] * candidates.counts[0]):
-        fx, fy, fz = answer.force[q]
+        fx, fy, fz = answer.force[q, 0], answer.force[q, 1], answer.force[q, 2]
         if fx == 0.0 and fy == 0.0 and fz == 0.0:
             continue
         x, y, z = place_of(candidates, body.shapes, answer.u, q)
@@ -49,16 +48,18 @@ def wrench_slope(body, candidates, answer, work, out):
     r"""Add the derivative of the wrench by a shift and a turn of the counter-surface, (6, 6).
 
     The surface is shifted by :math:`d` and turned by :math:`\theta` about the origin, so that at a
-    place :math:`x` it moves by :math:`s = d + \theta \times x`. The laws turn with it.
+    place :math:`x` it moves by :math:`s = d + \theta \times x`. The laws turn with it. Returns
+    whether the contact has a stiffness.
     """
     count, nodes = gather(body, candidates, answer, work)
     if count == 0:
-        return
+        return True
     stiffness_of(count, answer, work)
-    matrix = assemble(body, candidates, count, nodes, work)
+    assemble(body, candidates, count, nodes, work)
+    if not decompose(work.matrix, 3 * nodes, work.order):
+        return False
     n = 3 * count
-    right = work.right[: 6 * n].reshape(6, n)
-    move = np.empty(3)
+    rights = work.right
     for i in range(count):
         q = work.active[i]
         x, y, z = place_of(candidates, body.shapes, answer.u, q)
@@ -70,31 +71,29 @@ def wrench_slope(body, candidates, answer, work, out):
             ax = 1.0 if e == 0 else 0.0
             ay = 1.0 if e == 1 else 0.0
             az = 1.0 if e == 2 else 0.0
-            move[0], move[1], move[2] = ax, ay, az
+            sx, sy, sz = ax, ay, az
             bx = by = bz = 0.0
             if c >= 3:
-                move[0], move[1], move[2] = _cross(ax, ay, az, x, y, z)
+                sx, sy, sz = _cross(ax, ay, az, x, y, z)
                 bx, by, bz = _cross(ax, ay, az, t[0], t[1], t[2])
             for r in range(3):
                 turned = bx if r == 0 else (by if r == 1 else bz)
-                right[c, 3 * i + r] = w * (
-                    turned - k[r, 0] * move[0] - k[r, 1] * move[1] - k[r, 2] * move[2]
+                rights[c * n + 3 * i + r] = w * (
+                    turned - k[r, 0] * sx - k[r, 1] * sy - k[r, 2] * sz
                 )
-    carried = np.empty((6, 3 * nodes))
     for c in range(6):
-        carry(body, candidates, count, nodes, right[c], work, carried[c])
-    moves = np.linalg.solve(matrix, carried.T)
-    change = np.empty((6, n))
-    for c in range(6):
-        work.move[: 3 * nodes] = moves[:, c]
-        expand(body, candidates, count, right[c], work.stiffness, work.move, work, change[c])
+        right = rights[c * n : (c + 1) * n]
+        carry(body, candidates, count, nodes, right, work, work.move)
+        substitute(work.matrix, 3 * nodes, work.order, work.move)
+        # Each entry is read before it is written.
+        expand(body, candidates, count, right, work.stiffness, work.move, work, right)
     for i in range(count):
         q = work.active[i]
         x, y, z = place_of(candidates, body.shapes, answer.u, q)
         for c in range(6):
-            fx = change[c, 3 * i]
-            fy = change[c, 3 * i + 1]
-            fz = change[c, 3 * i + 2]
+            fx = rights[c * n + 3 * i]
+            fy = rights[c * n + 3 * i + 1]
+            fz = rights[c * n + 3 * i + 2]
             mx, my, mz = _cross(x, y, z, fx, fy, fz)
             out[0, c] += fx
             out[1, c] += fy
@@ -102,3 +101,4 @@ def wrench_slope(body, candidates, answer, work, out):
             out[3, c] += mx
             out[4, c] += my
             out[5, c] += mz
+    return True

@@ -18,11 +18,11 @@ taken with single precision, for it changes the number of iterations and not wha
 
 import math
 
-import numpy as np
-
 from asperity.compiled import kernel
 from asperity.contact.interface.friction import share_and_tangent
 from asperity.contact.interface.tractions import first_tangent
+from asperity.dense import multiply
+from asperity.elimination import eliminate
 
 # Insertions: with one, a fourth evaluation of the contact in an increment is the rule.
 PASSES = 2
@@ -75,10 +75,10 @@ def mean_tangent(points, committed, interface, motion, out):
     area = 0.0
     p = 0.0
     size = 0.0
-    normal = np.zeros(3)
-    slip_1 = np.zeros(3)
-    slip_2 = np.zeros(3)
-    bent = np.zeros(3)
+    mx = my = mz = 0.0
+    ax = ay = az = 0.0
+    bx = by = bz = 0.0
+    cx = cy = cz = 0.0
     for q in range(pressures.shape[0]):
         if pressures[q] <= 0.0:
             continue
@@ -86,29 +86,36 @@ def mean_tangent(points, committed, interface, motion, out):
         area += weight
         p += weight * pressures[q]
         size += weight * size0[q]
-        for c in range(3):
-            normal[c] += weight * normals[q, c]
-            slip_1[c] += weight * slips_1[q, c]
-            slip_2[c] += weight * slips_2[q, c]
-            bent[c] += weight * deflection0[q, c]
-    length = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+        mx += weight * normals[q, 0]
+        my += weight * normals[q, 1]
+        mz += weight * normals[q, 2]
+        ax += weight * slips_1[q, 0]
+        ay += weight * slips_1[q, 1]
+        az += weight * slips_1[q, 2]
+        bx += weight * slips_2[q, 0]
+        by += weight * slips_2[q, 1]
+        bz += weight * slips_2[q, 2]
+        cx += weight * deflection0[q, 0]
+        cy += weight * deflection0[q, 1]
+        cz += weight * deflection0[q, 2]
+    length = math.sqrt(mx * mx + my * my + mz * mz)
     if friction.mu == 0.0 or length <= 0.5 * area:
         return 1.0
-    nx = normal[0] / length
-    ny = normal[1] / length
-    nz = normal[2] / length
+    nx = mx / length
+    ny = my / length
+    nz = mz / length
     ex, ey, ez = first_tangent(nx, ny, nz)
     fx = ny * ez - nz * ey
     fy = nz * ex - nx * ez
     fz = nx * ey - ny * ex
     _, _, _, wx, wy, t1, _, by_p = share_and_tangent(
-        (bent[0] * ex + bent[1] * ey + bent[2] * ez) / area,
-        (bent[0] * fx + bent[1] * fy + bent[2] * fz) / area,
+        (cx * ex + cy * ey + cz * ez) / area,
+        (cx * fx + cy * fy + cz * fz) / area,
         size / area,
-        (slip_1[0] * ex + slip_1[1] * ey + slip_1[2] * ez) / area,
-        (slip_1[0] * fx + slip_1[1] * fy + slip_1[2] * fz) / area,
-        (slip_2[0] * ex + slip_2[1] * ey + slip_2[2] * ez) / area,
-        (slip_2[0] * fx + slip_2[1] * fy + slip_2[2] * fz) / area,
+        (ax * ex + ay * ey + az * ez) / area,
+        (ax * fx + ay * fy + az * fz) / area,
+        (bx * ex + by * ey + bz * ez) / area,
+        (bx * fx + by * fy + bz * fz) / area,
         motion.one_sided,
         friction,
         p / area,
@@ -126,36 +133,55 @@ def mean_tangent(points, committed, interface, motion, out):
 
 
 @kernel
-def mean_correction(tangent, spread, out):
-    """Write ``T (I - F T)^-1`` for a mean flexibility ``F``; 0 where that has no inverse."""
-    matrix = np.eye(3) - spread @ tangent
-    out[:] = 0.0
-    if abs(np.linalg.det(matrix)) > 1e-3:
-        out[:] = tangent @ np.linalg.inv(matrix)
+def mean_correction(tangent, spread, matrix, out):
+    """Write ``T (I - F T)^-1`` for a mean flexibility ``F``; 0 where that has no inverse.
+
+    ``matrix`` is room for 3 x 3.
+    """
+    for r in range(3):
+        # Of the transposed equations, whose solution for each row of T is one of what is sought.
+        for i in range(3):
+            for j in range(3):
+                total = 1.0 if i == j else 0.0
+                for k in range(3):
+                    total -= spread[j, k] * tangent[k, i]
+                matrix[i, j] = total
+            out[r, i] = tangent[r, i]
+        if r == 0:
+            m = matrix
+            determinant = (
+                m[0, 0] * (m[1, 1] * m[2, 2] - m[1, 2] * m[2, 1])
+                - m[0, 1] * (m[1, 0] * m[2, 2] - m[1, 2] * m[2, 0])
+                + m[0, 2] * (m[1, 0] * m[2, 1] - m[1, 1] * m[2, 0])
+            )
+            if not abs(determinant) > 1e-3:
+                out[:] = 0.0
+                return
+        eliminate(matrix, out[r], 3, 0.0)
 
 
 @kernel
-def couple(rest, shares, pressing, smooth, moving, tangent, correction, load, out):
+def couple(
+    rest, shares, pressing, smooth, moving, tangent, correction, load, single, pressed, moved, out
+):
     """Write the correction of ``h`` for a residual, ``rest`` and ``out`` (3k,), N.
 
     With the ratios (k, 3) and pressures over their mean (k,) of the nodes; D, and E by smooth
-    fields (k, 3k), (r, k), (3r, 3k); T and ``T (I - F T)^-1``, Pa/m.
+    fields, both transposed, (3k, k), (r, k), (3k, 3r); T and ``T (I - F T)^-1``, Pa/m. ``single``,
+    ``pressed`` and ``moved``, (3k,), (k,), (3r,), are room of single precision.
     """
-    single = np.empty(rest.shape[0], dtype=np.float32)
-    pressed = np.empty(shares.shape[0], dtype=np.float32)
-    moved = np.empty(moving.shape[0], dtype=np.float32)
     for c in range(rest.shape[0]):
         out[c] = rest[c]
     for _ in range(PASSES):
         for c in range(rest.shape[0]):
             single[c] = out[c]
-        np.dot(pressing, single, pressed)
+        multiply(pressing, single, pressed)
         for a in range(shares.shape[0]):
             for c in range(3):
                 out[3 * a + c] = rest[3 * a + c] + shares[a, c] * pressed[a]
         for c in range(rest.shape[0]):
             single[c] = out[c]
-        np.dot(moving, single, moved)
+        multiply(moving, single, moved)
         for r in range(smooth.shape[0]):
             for c in range(3):
                 push = 0.0

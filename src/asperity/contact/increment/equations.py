@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.contact.increment.iterations import product, reach_of
+from asperity.contact.increment.iterations import reach_of
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.contact.interface.records import Committed, ContactPoints
@@ -110,8 +110,10 @@ class Increment:
 
     def response(self, force: FloatArray) -> FloatArray:
         """Return what the body answers to nodal forces, ``A f``, m."""
-        out = np.empty_like(force)
-        product(self.problem.flexibility, force, out)
+        flexibility, there = self.problem.flexibility, np.flatnonzero(force)
+        if 2 * len(there) <= len(force):
+            flexibility, force = flexibility[:, there], force[there]
+        out: FloatArray = flexibility @ force
         return out
 
     def nodal(self, tractions: FloatArray) -> FloatArray:

@@ -12,8 +12,10 @@ the difference between the forces of the tractions and those the body answers to
 (`asperity.contact.increment.coupling`), and Anderson's method speeds it up.
 """
 
+from __future__ import annotations
+
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -22,7 +24,11 @@ from asperity.compiled import kernel
 from asperity.contact.increment.coupling import couple, mean_correction, mean_tangent, ratios
 from asperity.contact.interface.active_set import stiffness_forces
 from asperity.contact.interface.tractions import tractions
+from asperity.dense import multiply
 from asperity.elimination import eliminate
+
+if TYPE_CHECKING:
+    from asperity.contact.increment.tangents import SingleArray, Tangent
 
 GOING = 0
 CONVERGED = 1
@@ -42,28 +48,9 @@ _SLOW = 0.5
 
 
 @kernel
-def product(flexibility, force, out):
-    """Write ``A f``; sums over the forces there are when few are."""
-    count = 0
-    for j in range(force.shape[0]):
-        if force[j] != 0.0:
-            count += 1
-    if 2 * count > force.shape[0]:
-        np.dot(flexibility, force, out)
-        return
-    out[:] = 0.0
-    for j in range(force.shape[0]):
-        if force[j] != 0.0:
-            for i in range(out.shape[0]):
-                out[i] += flexibility[i, j] * force[j]
-
-
-@kernel
-def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
+def _accelerate(h, change, last_h, last_change, steps_h, steps_change, gram, right, kept):
     """Anderson's next ``h`` from the changes that the last steps asked for; moves the memory on."""
     size = h.shape[0]
-    gram = np.empty((DEPTH, DEPTH))
-    right = np.empty(DEPTH)
     for i in range(kept):
         for j in range(i + 1):
             total = 0.0
@@ -91,6 +78,7 @@ def _accelerate(h, change, last_h, last_change, steps_h, steps_change, kept):
 class Room(NamedTuple):
     """What the iterations work with, m unknowns of k nodes; of it `_accelerate` has a memory."""
 
+    h: FloatArray
     response: FloatArray
     carried: FloatArray
     rest: FloatArray
@@ -99,21 +87,31 @@ class Room(NamedTuple):
     load: FloatArray
     tangent: FloatArray
     correction: FloatArray
+    matrix: FloatArray
     last_h: FloatArray
     last_change: FloatArray
     steps_h: FloatArray
     steps_change: FloatArray
+    gram: FloatArray
+    right: FloatArray
+    single: SingleArray
+    pressed: SingleArray
+    moved: SingleArray
+    no_stiffness: FloatArray
 
-
-@kernel
-def _init(nodes, unknowns, contact_nodes):
-    """Return the room for iterations."""
-    return Room(
-        np.empty(nodes), np.empty(nodes), np.empty(unknowns), np.empty(unknowns),
-        np.empty((contact_nodes, 3)), np.empty(contact_nodes), np.empty((3, 3)), np.empty((3, 3)),
-        np.empty(unknowns), np.empty(unknowns), np.empty((DEPTH, unknowns)),
-        np.empty((DEPTH, unknowns)),
-    )  # fmt: skip
+    @classmethod
+    def of(cls, tangent: Tangent) -> Room:
+        """Return room for iterations with a tangent."""
+        unknowns, size = tangent.inverse.shape
+        nodes = len(tangent.normals)
+        return cls(
+            np.empty(unknowns), np.empty(size), np.empty(size), np.empty(unknowns),
+            np.empty(unknowns), np.empty((nodes, 3)), np.empty(nodes), np.empty((3, 3)),
+            np.empty((3, 3)), np.empty((3, 3)), np.empty(unknowns), np.empty(unknowns),
+            np.empty((DEPTH, unknowns)), np.empty((DEPTH, unknowns)), np.empty((DEPTH, DEPTH)),
+            np.empty(DEPTH), np.empty(unknowns, np.float32), np.empty(nodes, np.float32),
+            np.empty(tangent.moving.shape[1], np.float32), np.empty((0, 3, 3)),
+        )  # fmt: skip
 
 
 @kernel
@@ -124,10 +122,10 @@ def _evaluate(free, h, tangent, committed, interface, motion, room, u, force, po
     are forces at nodes the tangent does not know.
     """
     response, carried, rest, dofs = room.response, room.carried, room.rest, tangent.dofs
-    np.dot(tangent.inverse, h, response)
+    multiply(tangent.inverse, h, response)
     for i in range(u.shape[0]):
         u[i] = free[i] + response[i]
-    tractions(u, committed, interface, motion, force, points, np.empty((0, 3, 3)), False)
+    tractions(u, committed, interface, motion, force, points, room.no_stiffness, False)
     stiffness_forces(
         tangent.stiffness, interface.faces, interface.shapes, interface.weights, response, carried
     )
@@ -173,7 +171,7 @@ def _terminate(norm, whole, asked, outside, rounding, tolerance, floor, last, sl
 
 @kernel
 def modified_newton(
-    free, h, tangent, committed, interface, motion, tolerance, floor, most, u, force, points
+    free, h, tangent, committed, interface, motion, tolerance, floor, most, room, u, force, points
 ):
     """Solve an increment with one tangent; the last iterate is written to ``u, force, points``.
 
@@ -189,6 +187,8 @@ def modified_newton(
         Relative residual to be reached, and forces that are those of touching alone, N.
     most : int
         Iterations that are made at most.
+    room : Room
+        Of the tangent.
     u, force, points : ndarray
         Displacement, m, shape (3n,), and what `tractions` writes of it.
 
@@ -197,7 +197,6 @@ def modified_newton(
     status, iterations, residual : int, int, float
         `CONVERGED`, `SLOW` or `OUTSIDE`; evaluations of the contact; relative residual.
     """
-    room = _init(u.shape[0], h.shape[0], tangent.normals.shape[0])
     count = h.shape[0]
     kept = 0
     place = 0
@@ -215,12 +214,18 @@ def modified_newton(
         last = min(last, residual)
         if iteration == 1:
             ratios(force, tangent.dofs, tangent.normals, tangent.smooth, room.shares, room.load)
-            room.shares[:] *= mean_tangent(points, committed, interface, motion, room.tangent)
-            room.tangent[:] -= tangent.own
-            mean_correction(room.tangent, tangent.spread, room.correction)
+            followed = mean_tangent(points, committed, interface, motion, room.tangent)
+            for a in range(room.shares.shape[0]):
+                for c in range(3):
+                    room.shares[a, c] *= followed
+            for c in range(3):
+                for e in range(3):
+                    room.tangent[c, e] -= tangent.own[c, e]
+            mean_correction(room.tangent, tangent.spread, room.matrix, room.correction)
         couple(
             room.rest, room.shares, tangent.pressing, tangent.smooth, tangent.moving,
-            room.tangent, room.correction, room.load, room.change,
+            room.tangent, room.correction, room.load, room.single, room.pressed, room.moved,
+            room.change,
         )  # fmt: skip
         if iteration > 1:
             for c in range(count):
@@ -229,24 +234,31 @@ def modified_newton(
             place = (place + 1) % DEPTH
             kept = min(kept + 1, DEPTH)
         _accelerate(
-            h, room.change, room.last_h, room.last_change, room.steps_h, room.steps_change, kept
-        )
+            h, room.change, room.last_h, room.last_change, room.steps_h, room.steps_change,
+            room.gram, room.right, kept,
+        )  # fmt: skip
     return SLOW, most, last
 
 
 @kernel
 def by_tangent(
-    free, assumed, start, tangent, committed, interface, motion, tolerance, floor, most, u, force,
-    points,
+    free, assumed, start, tangent, committed, interface, motion, tolerance, floor, most, room, u,
+    force, points,
 ):  # fmt: skip
     """`modified_newton` from the predicted forces, N, and displacement, m; both (3n,)."""
+    h, response = room.h, room.response
+    for i in range(response.shape[0]):
+        response[i] = start[i] - free[i]
     stiffness_forces(
-        tangent.stiffness, interface.faces, interface.shapes, interface.weights, start - free, force
+        tangent.stiffness, interface.faces, interface.shapes, interface.weights, response, force
     )
-    h = (assumed - force)[tangent.dofs]
+    for c in range(h.shape[0]):
+        i = tangent.dofs[c]
+        h[c] = assumed[i] - force[i]
     return modified_newton(
-        free, h, tangent, committed, interface, motion, tolerance, floor, most, u, force, points
-    )
+        free, h, tangent, committed, interface, motion, tolerance, floor, most, room, u, force,
+        points,
+    )  # fmt: skip
 
 
 @kernel

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.increment.equations import Increment, Trial
-from asperity.contact.increment.iterations import CONVERGED, MANY, by_tangent
+from asperity.contact.increment.iterations import CONVERGED, MANY, Room, by_tangent
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.increment.tangents import Tangent, factored, outer
 from asperity.contact.interface.records import ContactPoints
@@ -246,7 +246,7 @@ def _iterate(
     points = ContactPoints.empty(problem.points)
     status, took, residual = by_tangent(
         free, assumed, start, tangent, increment.committed, problem.interface, increment.motion,
-        problem.tolerance, increment.floor, MOST, u, force, points,
+        problem.tolerance, increment.floor, MOST, Room.of(tangent), u, force, points,
     )  # fmt: skip
     trial = Trial(force, u - free, u, force, points, increment.floor)
     return trial, residual, status, took

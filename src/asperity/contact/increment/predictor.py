@@ -23,12 +23,10 @@ def _ahead(order, latest, second, third):
 
 
 @kernel
-def continued(order, latest, second, third):
-    """Vectors continued by an extrapolation of an order."""
-    out = np.empty_like(latest)
+def continued(order, latest, second, third, out):
+    """Write vectors continued by an extrapolation of an order."""
     for i in range(out.size):
         out[i] = _ahead(order, latest[i], second[i], third[i])
-    return out
 
 
 @kernel
@@ -71,10 +69,10 @@ class Predictor:
         """Forces and displacement of the coming increment; None without a past."""
         if mark != self.mark or not self.forces:
             return None
-        return (
-            continued(self.order, *_last(self.forces)),
-            continued(self.order, *_last(self.displacements)),
-        )
+        force, displacement = np.empty_like(self.forces[0]), np.empty_like(self.displacements[0])
+        continued(self.order, *_last(self.forces), force)
+        continued(self.order, *_last(self.displacements), displacement)
+        return force, displacement
 
 
 def _last(vectors: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray, FloatArray]:

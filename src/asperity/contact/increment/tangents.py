@@ -21,14 +21,14 @@ _NEW = 1e-3
 class Tangent(NamedTuple):
     """A tangent with its inverse, as `asperity.contact.increment.iterations` takes it."""
 
-    inverse: FloatArray  #: (3n, m): G
+    inverse: FloatArray  #: (m, 3n): G, transposed
     stiffness: FloatArray  #: (q, 3, 3): K of the points, Pa/m
     dofs: IntArray  #: (m,): Unknowns of the k nodes about the points in contact; m = 3 k
-    #: (k, m): Normal forces that forces along the surface call up at those nodes
+    #: (m, k): Normal forces that forces along the surface call up at those nodes, transposed
     pressing: SingleArray
     #: (r, k): Smooth fields over those nodes, times the nodes' areas; the first is constant
     smooth: FloatArray
-    #: (3r, m): Share of the smooth fields in the displacement by forces on those nodes
+    #: (m, 3r): Share of the smooth fields in the displacement by forces on those nodes, transposed
     moving: SingleArray
     spread: FloatArray  #: (3, 3): Of the constant one by a traction that is it, m/Pa
     own: FloatArray  #: (3, 3): Mean tangential part of the stiffness, Pa/m
@@ -66,17 +66,22 @@ def factored(
     mean /= np.linalg.norm(mean) or 1.0
     across = np.eye(3) - np.outer(mean, mean)
     return Tangent(
-        np.ascontiguousarray(inverse),
+        np.ascontiguousarray(inverse.T),
         stiffness,
         dofs,
-        pressing.reshape(len(active.nodes), -1).astype(np.float32),
+        _single(pressing.reshape(len(active.nodes), -1)),
         smooth,
-        moving.astype(np.float32),
+        _single(moving),
         moving[:3] @ np.kron(smooth[0][:, None], np.eye(3)),
         across @ own @ across,
         np.ascontiguousarray(normals),
         float(np.linalg.norm(off)),
     )
+
+
+def _single(matrix: FloatArray) -> SingleArray:
+    """Return a matrix transposed, in single precision."""
+    return np.ascontiguousarray(matrix.T, dtype=np.float32)
 
 
 def _smooth_fields(places: FloatArray, areas: FloatArray) -> FloatArray:

@@ -13,6 +13,15 @@ from asperity.contact.interface.records import Interface
 
 
 @kernel
+def _is_zero(k):
+    for c in range(3):
+        for e in range(3):
+            if k[c, e] != 0.0:
+                return False
+    return True
+
+
+@kernel
 def add_stiffness(stiffness, faces, shapes, weights, local, matrix):
     """Assemble the points' stiffness: ``matrix`` += sum of w N_a N_b k, at the nodes' numbers.
 
@@ -22,7 +31,7 @@ def add_stiffness(stiffness, faces, shapes, weights, local, matrix):
     rule = shapes.shape[0]
     for q in range(stiffness.shape[0]):
         k = stiffness[q]
-        if not np.any(k != 0.0):
+        if _is_zero(k):
             continue
         face = q // rule
         at = q - face * rule

@@ -16,8 +16,6 @@ laws do not depend on which two, so the derivative may carry them along without 
 
 import math
 
-import numpy as np
-
 from asperity.compiled import kernel
 from asperity.contact.interface.friction import (
     augmented_slip,
@@ -82,7 +80,7 @@ def tractions(u, committed, interface, motion, force, points, stiffness, with_ta
     """Evaluate the contact for a displacement of its nodes; see `augmented_tractions`."""
     touching, _ = augmented_tractions(
         u, committed, interface, motion, force, points, stiffness, with_tangent,
-        np.empty((0, 3)), 0.0,
+        points.traction, 0.0,
     )  # fmt: skip
     return touching
 
@@ -118,7 +116,7 @@ def augmented_tractions(
     with_tangent : bool
         Whether to write it.
     assumed : ndarray, shape (q, 3)
-        Tractions assumed, Pa.
+        Tractions assumed, Pa; not looked at without an augmentation.
     augmentation : float
         r, Pa/m; 0: at the displacement itself.
 

@@ -49,6 +49,11 @@ class Coordinates(NamedTuple):
         """Return a state at rest, without forces, but for what is given."""
         return cls(**dict.fromkeys(cls._fields, np.zeros(size)) | given)
 
+    @classmethod
+    def room(cls, size: int) -> Coordinates:
+        """Return room for a state, to be written by a kernel."""
+        return cls(*np.empty((len(cls._fields), size)))
+
 
 def coefficients(alpha: float = ALPHA, *, impact: bool = False) -> tuple[float, float]:
     r"""Newmark's :math:`\beta` and :math:`\gamma` that belong to :math:`\alpha`, -1/3 to 0.
@@ -82,28 +87,44 @@ class StepOperator(NamedTuple):
     pace: float  #: Velocity at the end of a step per place there, 1/s
 
 
+ROOM = 2
+"""Rows of m numbers that steps work with."""
+
+
 @kernel
-def _ahead(operator, state):
+def _ahead(operator, state, i):
     """Place by Newmark's formula without an acceleration at the end of the step."""
     step = operator.step
-    acceleration = step * step * (0.5 - operator.beta) * state.acceleration
-    return state.place + step * state.velocity + acceleration
+    acceleration = step * step * (0.5 - operator.beta) * state.acceleration[i]
+    return state.place[i] + step * state.velocity[i] + acceleration
 
 
 @kernel
-def predict(operator, state, known):
-    """Where generalised forces known beforehand, (m,), lead, :math:`q^*`, and its velocity."""
-    ahead = _ahead(operator, state)
-    velocity = state.velocity + operator.step * (1.0 - operator.gamma) * state.acceleration
+def predict(operator, state, load, known, work, place, velocity):
+    """Write where generalised forces known beforehand lead, :math:`q^*`, and its velocity.
+
+    These are ``load`` times ``known``, (m,); ``work`` are two rows of room.
+    """
     share = operator.alpha / (1.0 + operator.alpha)
-    push = known + share * state.force - operator.damping * velocity
-    place = operator.carry @ ahead + operator.compliance @ push
-    return place, velocity + operator.pace * (place - ahead)
+    size = place.shape[0]
+    for i in range(size):
+        work[0, i] = _ahead(operator, state, i)
+        pace = operator.step * (1.0 - operator.gamma) * state.acceleration[i]
+        velocity[i] = state.velocity[i] + pace
+        work[1, i] = load * known[i] + share * state.force[i] - operator.damping[i] * velocity[i]
+    for i in range(size):
+        carried = 0.0
+        pushed = 0.0
+        for j in range(size):
+            carried += operator.carry[i, j] * work[0, j]
+            pushed += operator.compliance[i, j] * work[1, j]
+        place[i] = carried + pushed
+        velocity[i] += operator.pace * (place[i] - work[0, i])
 
 
 @kernel
-def complete(operator, state, place, forces):
-    r"""State at the end of a step, and the energy the method and the damping take.
+def complete(operator, state, forces, end):
+    r"""Write the state at the end of a step; return the energy the method and the damping take.
 
     Parameters
     ----------
@@ -111,15 +132,13 @@ def complete(operator, state, place, forces):
         Of the length of the step.
     state : Coordinates
         Committed, at the start.
-    place : ndarray, shape (m,)
-        Coordinates at the end.
     forces : ndarray, shape (m,)
         All generalised forces :math:`Q_1` at the end.
+    end : Coordinates
+        Has the place at the end; all else of it is written.
 
     Returns
     -------
-    state : Coordinates
-        At the end.
     lost : float
         Energy dissipated numerically in the step, J. With :math:`N = Dv + Kq - Q`, the imbalance
         :math:`e_0 = -N_0 - M a_0` the step began with and
@@ -134,20 +153,36 @@ def complete(operator, state, place, forces):
         Trapezoidal work of the damping, J.
     """
     step, beta, gamma = operator.step, operator.beta, operator.gamma
-    acceleration = (place - _ahead(operator, state)) / (beta * step * step)
-    mean = (1.0 - gamma) * state.acceleration + gamma * acceleration
-    velocity = state.velocity + step * mean
-    resistance = operator.damping * velocity + operator.stiffness @ place - forces
-    reaction = np.where(operator.held, resistance, 0.0)
-    resistance = resistance - reaction
-    imbalance = -resistance - operator.mass @ acceleration
-    moved, change = place - state.place, acceleration - state.acceleration
-    uneven = operator.alpha * (resistance - state.force) + state.imbalance
-    lost = moved @ ((0.5 - gamma) * (operator.mass @ change) + 0.5 * uneven)
-    lost += step * step * (beta - 0.5 * gamma) * (change @ (operator.mass @ mean))
-    damped = 0.5 * ((operator.damping * (state.velocity + velocity)) @ moved)
-    end = Coordinates(place, velocity, acceleration, resistance, imbalance, reaction)
-    return end, lost, damped
+    place, velocity, acceleration = end.place, end.velocity, end.acceleration
+    size = place.shape[0]
+    for i in range(size):
+        acceleration[i] = (place[i] - _ahead(operator, state, i)) / (beta * step * step)
+        mean = (1.0 - gamma) * state.acceleration[i] + gamma * acceleration[i]
+        velocity[i] = state.velocity[i] + step * mean
+    by_change = 0.0
+    by_mean = 0.0
+    damped = 0.0
+    for i in range(size):
+        resistance = 0.0
+        inertia = 0.0
+        changed = 0.0
+        pushed = 0.0
+        for j in range(size):
+            mass, change = operator.mass[i, j], acceleration[j] - state.acceleration[j]
+            resistance += operator.stiffness[i, j] * place[j]
+            inertia += mass * acceleration[j]
+            changed += mass * change
+            pushed += mass * ((1.0 - gamma) * state.acceleration[j] + gamma * acceleration[j])
+        resistance = operator.damping[i] * velocity[i] + resistance - forces[i]
+        end.reaction[i] = resistance if operator.held[i] else 0.0
+        end.force[i] = resistance - end.reaction[i]
+        end.imbalance[i] = -end.force[i] - inertia
+        moved = place[i] - state.place[i]
+        uneven = operator.alpha * (end.force[i] - state.force[i]) + state.imbalance[i]
+        by_change += moved * ((0.5 - gamma) * changed + 0.5 * uneven)
+        by_mean += (acceleration[i] - state.acceleration[i]) * pushed
+        damped += operator.damping[i] * (state.velocity[i] + velocity[i]) * moved
+    return by_change + step * step * (beta - 0.5 * gamma) * by_mean, 0.5 * damped
 
 
 def step_operator(

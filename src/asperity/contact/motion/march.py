@@ -8,22 +8,34 @@ points in contact: that is for `asperity.contact.increment.solver`.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.compiled import kernel
 from asperity.contact.increment.iterations import CONVERGED, MANY, by_tangent, reach_of
-from asperity.contact.increment.predictor import best_order, continued
+from asperity.contact.increment.iterations import Room as IncrementRoom
+from asperity.contact.increment.predictor import DEPTH, best_order, continued
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.contact.interface.friction import TWO_PHASE
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
+from asperity.contact.motion.hht import ROOM as WORK
 from asperity.contact.motion.hht import Coordinates
-from asperity.contact.motion.mechanism import DriveState, Imposed, approach, settle
+from asperity.contact.motion.mechanism import (
+    Approach,
+    DriveState,
+    Imposed,
+    Settled,
+    approach,
+    settle,
+)
 from asperity.contact.motion.sums import gather, over_step
 from asperity.contact.motion.works import Asperities, Resultants, resultants
 from asperity.waveform import Wave, displacement_at
+
+if TYPE_CHECKING:
+    from asperity.contact.increment.tangents import Tangent
 
 _OVERSHOOT = 1.0 + 1e-9
 
@@ -35,6 +47,7 @@ class BaseMotion(NamedTuple):
     y: float = 0.0  #: As far as the contact sees it
     whole_y: float = 0.0
     z: float = 0.0  #: Upwards
+    height: float = 0.0  #: At the end, over where it stands at the start of the wave
 
 
 class ShakingNumbers(NamedTuple):
@@ -87,10 +100,61 @@ class Past(NamedTuple):
     order: int
 
 
+class Room(NamedTuple):
+    """What steps with a tangent work with, and where they lead to."""
+
+    #: bodies, points: Of the steps in turn, at their ends
+    bodies: tuple[Coordinates, Coordinates]
+    points: tuple[ContactPoints, ContactPoints]
+    #: forces, displacements (4, 3n): In turn
+    forces: FloatArray
+    displacements: FloatArray
+    drive: FloatArray  #: (5,): `DriveState` where the last step ends
+    resultants: FloatArray  #: (5,): The same of `Resultants`
+    place: FloatArray  #: (m,): This and the next two as in `Approach`
+    velocity: FloatArray
+    free: FloatArray
+    assumed: FloatArray  #: (3n,): Forces that are predicted, N
+    work: FloatArray  #: (2, m): Of the motion
+    motion: FloatArray  #: (3, 3): Of the base
+    increment: IncrementRoom  #: Of the increments
+
+    @classmethod
+    def of(cls, standing: Standing, tangent: Tangent) -> Room:
+        """Return room for steps from a state."""
+        m, n = standing.coordinates.place.size, standing.force.size
+        q = standing.points.pressure.size
+        return cls(
+            (Coordinates.room(m), Coordinates.room(m)),
+            (ContactPoints.empty(q), ContactPoints.empty(q)),
+            np.empty((DEPTH + 1, n)), np.empty((DEPTH + 1, n)), np.empty(len(DriveState._fields)),
+            np.empty(len(Resultants._fields)), np.empty(m), np.empty(m), np.empty(n), np.empty(n),
+            np.empty((WORK, m)), np.empty((3, 3)), IncrementRoom.of(tangent),
+        )  # fmt: skip
+
+    def reached(self, way: Way, load: float) -> Standing:
+        """Return where steps have led to."""
+        last, at = way.done - 1, (way.done - 1) % len(self.forces)
+        return Standing(
+            way.time, load, self.bodies[last % 2], DriveState(*self.drive.tolist()),
+            self.displacements[at], self.forces[at], self.points[last % 2],
+            Resultants(*self.resultants.tolist()),
+        )  # fmt: skip
+
+    def past(self, way: Way, before: Past) -> Past:
+        """Return what a further step begins with."""
+        steps = [step % len(self.forces) for step in range(way.done)][: -DEPTH - 1 : -1]
+        forces = (*(self.forces[step] for step in steps), *before.forces)
+        displacements = (*(self.displacements[step] for step in steps), *before.displacements)
+        return Past(forces[:DEPTH], displacements[:DEPTH], way.order)
+
+
 class Way(NamedTuple):
     """How steps went."""
 
     done: int  #: How many were taken
+    time: float  #: At which they end, s
+    order: int  #: How they are continued best, as in `Past`
     iterations: int  #: Of the last
     residual: float  #: Of the last
     residual_max: float
@@ -114,7 +178,7 @@ class Row(NamedTuple):
 
 @kernel
 def base_motion(shaking, begin, end):
-    """How the base moves over a step, `BaseMotion`; and how high it stands at the end, m."""
+    """How the base moves over a step, `BaseMotion`."""
     first = (begin - shaking.start) * shaking.frequency
     wave = shaking.wave
     last = displacement_at(wave, first)
@@ -124,15 +188,21 @@ def base_motion(shaking, begin, end):
     if shaking.z != 0.0:
         height = displacement_at(wave, (end - shaking.start) * shaking.frequency) * shaking.z
         height -= displacement_at(wave, 0.0) * shaking.z
-    return BaseMotion(moved * shaking.x, shaking.transfer * y, y, moved * shaking.z), height
+    return BaseMotion(moved * shaking.x, shaking.transfer * y, y, moved * shaking.z, height)
 
 
 @kernel
-def surface_motion(still, shaking, base, height, end):
-    """`MotionNumbers` of a base that moves so over a step."""
+def surface_motion(still, shaking, base, end, work):
+    """`MotionNumbers` of a base that moves so over a step, three of them in ``work``, (3, 3)."""
+    place, shift_1, shift_2 = work[0], work[1], work[2]
+    for c in range(3):
+        place[c] = still.translation[c]
+        shift_1[c] = shift_2[c] = 0.0
+    place[2] += base.height
+    shift_1[0] = base.x
+    shift_2[1] = base.y
     return MotionNumbers(
-        still.rotation, still.translation + np.array([0.0, 0.0, height]),
-        np.array([base.x, 0.0, 0.0]), still.turn_1, np.array([0.0, base.y, 0.0]), still.turn_2,
+        still.rotation, place, shift_1, still.turn_1, shift_2, still.turn_2,
         still.body_1, still.body_2, end <= shaking.start * (1.0 + 1e-12),
     )  # fmt: skip
 
@@ -162,18 +232,19 @@ def row(standing):
 
 
 @kernel
-def at_end(moving, system, before, start, imposed, end, displacement, force, points):
-    """`Standing` at the end of a step, and what method and damping took, J."""
-    body, drive, taken = settle(moving, before.coordinates, before.drive, imposed, start, force)
+def at_end(moving, system, before, start, imposed, force, work, body):
+    """Write the coordinates at the end of a step and return `Settled`, as `settle` does."""
+    end = settle(moving, before.coordinates, before.drive, imposed, start, force, work, body)
     if system.driven:
-        drive = DriveState(body.place[0], body.place[0], body.reaction[0], 0.0, 0.0)
-    forces = resultants(points, system.interface.weights)
-    after = Standing(end, before.load, body, drive, displacement, force, points, forces)
-    return after, taken
+        place = body.place[0]
+        return Settled(place, place, body.reaction[0], 0.0, 0.0, end.lost, end.damped)
+    return end
 
 
 @kernel
-def march(ends, moving, system, tangent, most, standing, multiplier, past, sums, pressure, rows):
+def march(
+    ends, moving, system, tangent, most, standing, multiplier, past, sums, pressure, rows, room
+):
     """Take steps of one length for as long as the tangent serves.
 
     Parameters
@@ -195,13 +266,19 @@ def march(ends, moving, system, tangent, most, standing, multiplier, past, sums,
         those of the steps are added.
     rows : ndarray, shape (n, 9)
         `Row` of each step is written here.
+    room : Room
+        What it works with; where it ends stands there.
 
     Returns
     -------
-    Standing, Past, Way
-        Where it ends, what a further step would begin with, and how it went.
+    Way
+        How it went.
     """
     interface, step = system.interface, moving.operator.step
+    before = standing
+    body, next_body = room.bodies
+    points, next_points = room.points
+    start_place, velocity, free = room.place, room.velocity, room.free
     done = 0
     took = 0
     residual = 0.0
@@ -209,54 +286,56 @@ def march(ends, moving, system, tangent, most, standing, multiplier, past, sums,
     breakaway = np.inf
     other = False
     while done < ends.size and not other and took <= MANY:
-        before, end = standing, ends[done]
-        base, height = base_motion(system.shaking, before.time, end)
-        motion = surface_motion(system.still, system.shaking, base, height, end)
-        velocity = system.drive_velocity
-        imposed = Imposed(before.drive.reach + velocity * step, velocity, before.load)
-        start = approach(moving, before.coordinates, before.drive, imposed)
+        end = ends[done]
+        base = base_motion(system.shaking, before.time, end)
+        motion = surface_motion(system.still, system.shaking, base, end, room.motion)
+        pace = system.drive_velocity
+        imposed = Imposed(before.drive.reach + pace * step, pace, before.load)
+        pull = approach(
+            moving, before.coordinates, before.drive, imposed, room.work, start_place, velocity,
+            free,
+        )  # fmt: skip
+        start = Approach(start_place, velocity, free, pull)
         held = before.points
         committed = Committed(before.displacement, held.deflection, held.size, multiplier)
-        assumed = continued(past.order, past.forces[0], past.forces[1], past.forces[2])
-        displacement = continued(
-            past.order, past.displacements[0], past.displacements[1], past.displacements[2]
-        )
-        force = np.empty(start.free.size)
-        points = _room(interface.weights.size)
-        floor = system.by_digits * reach_of(system.reach, start.free, motion.translation)
+        # Of as many as are looked back at, and one more, the latest takes the place of the oldest.
+        force = room.forces[done % room.forces.shape[0]]
+        displacement = room.displacements[done % room.forces.shape[0]]
+        lasts, ways = past.forces, past.displacements
+        continued(past.order, lasts[0], lasts[1], lasts[2], room.assumed)
+        continued(past.order, ways[0], ways[1], ways[2], displacement)
+        floor = system.by_digits * reach_of(system.reach, free, motion.translation)
         status, tried, left = by_tangent(
-            start.free, assumed, displacement, tangent, committed, interface, motion,
-            system.tolerance, floor, most, displacement, force, points,
+            free, room.assumed, displacement, tangent, committed, interface, motion,
+            system.tolerance, floor, most, room.increment, displacement, force, points,
         )  # fmt: skip
         if status != CONVERGED:
             break
         if interface.friction.model == TWO_PHASE and overshot(held.size, points.size) > 0.0:
             break
         took, residual = tried, left
-        after, taken = at_end(
-            moving, system, before, start, imposed, end, displacement, force, points
-        )
-        gather(sums, over_step(moving, system, before, after, base, taken, took))
+        now = at_end(moving, system, before, start, imposed, force, room.work, body)
+        after = Standing(
+            end, before.load, body, DriveState(now.reach, now.way, now.force, now.strain, now.pull),
+            displacement, force, points, resultants(points, interface.weights),
+        )  # fmt: skip
+        gather(sums, over_step(moving, system, before, after, base, now.lost, now.damped, took))
         for q in range(pressure.size):
             pressure[q] += 0.5 * step * (held.pressure[q] + points.pressure[q])
             other |= (held.pressure[q] > 0.0) != (points.pressure[q] > 0.0)
-        latest = (force, past.forces[0], past.forces[1])
-        order = best_order(force, past.forces[0], past.forces[1], past.forces[2], 3)
-        past = Past(latest, (displacement, past.displacements[0], past.displacements[1]), order)
+        order = best_order(force, lasts[0], lasts[1], lasts[2], 3)
+        past = Past((force, lasts[0], lasts[1]), (displacement, ways[0], ways[1]), order)
         residual_max = max(residual_max, residual)
         if breakaway == np.inf and after.drive.force >= system.full_friction:
             breakaway = end
         for n, value in enumerate(row(after)):
             rows[done, n] = value
-        standing = after
+        before = after
+        body, next_body = next_body, body
+        points, next_points = next_points, points
         done += 1
-    return standing, past, Way(done, took, residual, residual_max, breakaway, other)
-
-
-@kernel
-def _room(count):
-    """Room for so many points."""
-    return ContactPoints(
-        np.empty(count), np.empty(count), np.empty((count, 3)), np.empty((count, 3)),
-        np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3)), np.empty(count),
-    )  # fmt: skip
+    for n, value in enumerate(before.drive):
+        room.drive[n] = value
+    for n, value in enumerate(before.forces):
+        room.resultants[n] = value
+    return Way(done, before.time, past.order, took, residual, residual_max, breakaway, other)

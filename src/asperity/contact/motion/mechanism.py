@@ -30,6 +30,7 @@ from asperity.arrays import BoolArray, FloatArray
 from asperity.compiled import kernel
 from asperity.contact.motion.hht import (
     ALPHA,
+    ROOM,
     Coordinates,
     StepOperator,
     complete,
@@ -116,6 +117,23 @@ class Approach(NamedTuple):
     force: float  #: Drive force, N
 
 
+class Settled(NamedTuple):
+    """What a step ends with, beside the coordinates."""
+
+    reach: float  #: These five as in `DriveState`
+    way: float
+    force: float
+    strain: float
+    pull: float
+    lost: float  #: Energy dissipated by the method, J
+    damped: float  #: Energy dissipated by the damping of the coordinates, J
+
+    @property
+    def drive(self) -> DriveState:
+        """Of what pulls."""
+        return DriveState(*self[: len(DriveState._fields)])
+
+
 class MotionStep(NamedTuple):
     """A mechanism's motion over one length of the step."""
 
@@ -131,38 +149,86 @@ class MotionStep(NamedTuple):
 
 
 @kernel
-def approach(moving, state, drive, imposed):
-    """Where a step leads from committed states without contact forces; an `Approach`."""
+def approach(moving, state, drive, imposed, work, place, velocity, free):
+    """Write where a step leads from committed states without contact forces; the drive force.
+
+    ``work`` are `ROOM` rows as long as ``place``; the others as in `Approach`.
+    """
     load, held = moving.load, moving.drive
-    along = held.port.generalised
-    place, velocity = predict(moving.operator, state, imposed.load * load.generalised)
-    lag = imposed.speed - along @ velocity + drive.strain / moving.operator.step
-    pull = held.stiffness * (imposed.reach - along @ place) + held.damping * lag
+    along, shapes = held.port.generalised, moving.shapes
+    predict(moving.operator, state, imposed.load, load.generalised, work, place, velocity)
+    pace = 0.0
+    way = 0.0
+    for c in range(place.shape[0]):
+        pace += along[c] * velocity[c]
+        way += along[c] * place[c]
+    lag = imposed.speed - pace + drive.strain / moving.operator.step
+    pull = held.stiffness * (imposed.reach - way) + held.damping * lag
     force = pull / moving.yielding
-    free = imposed.load * load.response + force * moving.lift + moving.shapes @ place
-    return Approach(place, velocity, free, force)
+    for i in range(free.shape[0]):
+        moved = 0.0
+        for c in range(place.shape[0]):
+            moved += shapes[i, c] * place[c]
+        free[i] = imposed.load * load.response[i] + force * moving.lift[i] + moved
+    return force
 
 
 @kernel
-def settle(moving, state, drive, imposed, start, forces):
-    """Both states at the end of a step, the contact forces on the body, N, being known.
+def settle(moving, state, drive, imposed, start, forces, work, end):
+    """Write the coordinates at the end of a step, contact forces on the body, N, being known.
 
-    ``start`` is what `approach` returned. Last comes the energy dissipated by the method, and by
-    the coordinates' damping, J.
+    ``start`` is an `Approach`, ``work`` are `ROOM` rows as long as its place. Returns `Settled`.
     """
-    operator, port = moving.operator, moving.drive.port
-    pull = start.force - moving.drop @ forces
-    acting = moving.shapes.T @ forces + pull * port.generalised
-    change = operator.compliance @ acting
-    place = start.place + change
-    loads = imposed.load * moving.load.generalised
-    end, lost, damped = complete(operator, state, place, acting + loads)
-    strain = port.response @ forces + port.own * pull
-    pace = port.generalised @ (start.velocity + operator.pace * change)
+    operator, port, shapes = moving.operator, moving.drive.port, moving.shapes
+    acting, whole = work[0], work[1]
+    size = acting.shape[0]
+    pull = 0.0
+    strain = 0.0
+    for c in range(size):
+        acting[c] = 0.0
+    for i in range(forces.shape[0]):
+        pull += moving.drop[i] * forces[i]
+        strain += port.response[i] * forces[i]
+        for c in range(size):
+            acting[c] += shapes[i, c] * forces[i]
+    pull = start.force - pull
+    strain += port.own * pull
+    for c in range(size):
+        acting[c] += pull * port.generalised[c]
+        whole[c] = acting[c] + imposed.load * moving.load.generalised[c]
+    pace = 0.0
+    way = 0.0
+    for c in range(size):
+        moved = 0.0
+        for e in range(size):
+            moved += operator.compliance[c, e] * acting[e]
+        end.place[c] = start.place[c] + moved
+        pace += port.generalised[c] * (start.velocity[c] + operator.pace * moved)
+        way += port.generalised[c] * end.place[c]
+    lost, damped = complete(operator, state, whole, end)
     lag = imposed.speed - pace - (strain - drive.strain) / operator.step
-    way = port.generalised @ place + strain
-    now = DriveState(imposed.reach, way, pull, strain, moving.drive.damping * lag)
-    return end, now, (lost, damped)
+    return Settled(
+        imposed.reach, way + strain, pull, strain, moving.drive.damping * lag, lost, damped
+    )
+
+
+def approached(
+    moving: MotionStep, state: Coordinates, drive: DriveState, imposed: Imposed
+) -> Approach:
+    """Return where a step leads from committed states without contact forces."""
+    work = np.empty((ROOM, state.place.size))
+    place, velocity, free = work[0].copy(), work[0].copy(), np.empty(len(moving.shapes))
+    force: float = approach(moving, state, drive, imposed, work, place, velocity, free)
+    return Approach(place, velocity, free, force)
+
+
+def settled(
+    moving: MotionStep, state: Coordinates, drive: DriveState, imposed: Imposed, start: Approach,
+    forces: FloatArray,
+) -> tuple[Coordinates, Settled]:  # fmt: skip
+    """Return what a step ends with, the contact forces on the body, N, being known."""
+    end, work = Coordinates.room(state.place.size), np.empty((ROOM, state.place.size))
+    return end, settle(moving, state, drive, imposed, start, forces, work, end)
 
 
 def motion_step(

@@ -12,9 +12,9 @@ from asperity.contact.motion.mechanism import (
     DriveState,
     Imposed,
     Port,
-    approach,
+    approached,
     motion_step,
-    settle,
+    settled,
 )
 from asperity.contact.motion.system import System, SystemState
 from asperity.contact.motion.works import resultants
@@ -50,7 +50,7 @@ def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
     for number, load in enumerate(loads, start=1):
         moving = motion_step(dataclasses.replace(waiting, load=load), long, alpha=0.0)
         for _ in range(_MOST_STATIC):
-            start = approach(moving, coordinates, DriveState(), loaded)
+            start = approached(moving, coordinates, DriveState(), loaded)
             try:
                 result = solver.solve(start.free, still, contact)
             except ConvergenceError as error:
@@ -59,9 +59,7 @@ def rest_under_load(system: System, loads: tuple[Port, ...]) -> SystemState:
                     reached={"load": float(number), **error.reached},
                 ) from error
             contact = result.state
-            coordinates, _, _ = settle(
-                moving, coordinates, DriveState(), loaded, start, result.force
-            )
+            coordinates, _ = settled(moving, coordinates, DriveState(), loaded, start, result.force)
             # What the inertia still bears; each step starts anew without a velocity.
             left = float(np.abs(coordinates.force).max())
             coordinates = Coordinates.at_rest(mechanism.size, place=coordinates.place)

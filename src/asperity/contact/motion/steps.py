@@ -16,8 +16,10 @@ from asperity.contact.increment.predictor import Predictor
 from asperity.contact.increment.problem import IncrementResult
 from asperity.contact.increment.solver import IncrementSolver, SolverMemory
 from asperity.contact.interface.friction import TWO_PHASE
+from asperity.contact.motion.hht import ROOM, Coordinates
 from asperity.contact.motion.march import (
     Past,
+    Room,
     Row,
     Standing,
     SystemNumbers,
@@ -26,9 +28,10 @@ from asperity.contact.motion.march import (
     overshot,
     row,
 )
-from asperity.contact.motion.mechanism import Imposed, MotionStep, approach
+from asperity.contact.motion.mechanism import Imposed, MotionStep, approached
 from asperity.contact.motion.sums import Sums, gather, over_step
 from asperity.contact.motion.system import System, SystemState
+from asperity.contact.motion.works import resultants
 from asperity.errors import ConvergenceError
 
 # Steps of one call at most.
@@ -165,12 +168,15 @@ class Stepper:
         if kept is None:
             return rows[:0]
         sums, pressure, before = np.array(self.sums), self.mean_pressure.copy(), contact.predictor
-        standing, past, way = march(
-            ends, moving, numbers, kept.tangent, MOST, state.standing, contact.multiplier,
-            Past(before.forces, before.displacements, before.order), sums, pressure, rows,
+        began, past = state.standing, Past(before.forces, before.displacements, before.order)
+        room = Room.of(began, kept.tangent)
+        way = march(
+            ends, moving, numbers, kept.tangent, MOST, began, contact.multiplier, past, sums,
+            pressure, rows, room,
         )  # fmt: skip
         if not way.done:
             return rows[:0]
+        standing, past = room.reached(way, state.load), room.past(way, past)
         predictor = Predictor(past.forces, past.displacements, past.order, before.mark)
         result = IncrementResult.of(
             standing.displacement, standing.force, standing.points, contact.multiplier, predictor,
@@ -215,16 +221,24 @@ class Stepper:
         velocity = system.drive_velocity
         imposed = Imposed(state.drive.reach + velocity * step, velocity, state.load)
         before = state.standing
-        start = approach(moving, state.coordinates, state.drive, imposed)
+        start = approached(moving, state.coordinates, state.drive, imposed)
         result = solver.solve(start.free, surface_motion, state.contact.state)
         if system.friction.model == TWO_PHASE:
             _refuse_overshoot(state.contact, result)
-        after, taken = at_end(
-            moving, numbers, before, start, imposed, end, result.displacement, result.force,
-            result.points,
+        body = Coordinates.room(system.mechanism.size)
+        work = np.empty((ROOM, system.mechanism.size))
+        now = at_end(moving, numbers, before, start, imposed, result.force, work, body)
+        after = Standing(
+            end, state.load, body, now.drive, result.displacement, result.force, result.points,
+            resultants(result.points, system.weights),
         )  # fmt: skip
         sums = np.array(self.sums)
-        gather(sums, over_step(moving, numbers, before, after, base, taken, result.iterations))
+        gather(
+            sums,
+            over_step(
+                moving, numbers, before, after, base, now.lost, now.damped, result.iterations
+            ),
+        )
         pressure = self.mean_pressure + 0.5 * step * (state.contact.pressure + result.pressure)
         broke = end if after.drive.force >= system.full_friction else np.inf
         self.unconverged += result.residual > solver.problem.tolerance

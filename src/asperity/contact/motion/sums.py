@@ -66,7 +66,7 @@ def gather(sums, more):
 
 
 @kernel
-def over_step(moving, system, before, after, base, taken, iterations):
+def over_step(moving, system, before, after, base, lost, damped, iterations):
     """Return what one step adds to the sums.
 
     Parameters
@@ -77,7 +77,7 @@ def over_step(moving, system, before, after, base, taken, iterations):
         Both ends of the step.
     base : BaseMotion
         How the base moved in between.
-    taken : tuple of float
+    lost, damped : float
         What the method and the damping of the coordinates took, J.
     iterations : int
         Evaluations of the contact.
@@ -92,8 +92,13 @@ def over_step(moving, system, before, after, base, taken, iterations):
     fy = 0.5 * (first.friction_y + last.friction_y)
     normal = 0.5 * (first.normal + last.normal)
     pull = 0.5 * (start.force + end.force)
-    moved = after.coordinates.place - before.coordinates.place
-    fallen = moving.load.generalised @ moved + moving.load.response @ (after.force - before.force)
+    load, here, there = moving.load, before.coordinates.place, after.coordinates.place
+    fallen = 0.0
+    bent = 0.0
+    for c in range(there.size):
+        fallen += load.generalised[c] * (there[c] - here[c])
+    for i in range(after.force.size):
+        bent += load.response[i] * (after.force[i] - before.force[i])
     transfer = 0.0
     if system.unseen > 0.0:
         for i in range(1, after.force.size, 3):
@@ -108,10 +113,10 @@ def over_step(moving, system, before, after, base, taken, iterations):
         step * normal,
         pull * (end.reach - start.reach),
         normal * base.z - fx * base.x - fy * base.y,
-        0.5 * (before.load + after.load) * fallen,
+        0.5 * (before.load + after.load) * (fallen + bent),
         of_points.slip,
-        0.5 * (start.pull + end.pull) * stretched + taken[1],
-        taken[0],
+        0.5 * (start.pull + end.pull) * stretched + damped,
+        lost,
         of_points.pressure,
         of_points.overclosure,
         of_points.asperities,

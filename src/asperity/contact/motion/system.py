@@ -166,9 +166,9 @@ class System:
 
     def surface_motion(self, begin: float, end: float) -> tuple[SurfaceMotion, BaseMotion]:
         """Return how the base moves over a step."""
-        base, height = base_motion(self.shaken, begin, end)
+        base = base_motion(self.shaken, begin, end)
         return SurfaceMotion(
-            Pose(self.pose.rotation, self.pose.translation + np.array([0.0, 0.0, height])),
+            Pose(self.pose.rotation, self.pose.translation + np.array([0.0, 0.0, base.height])),
             Drift(np.array([base.x, 0.0, 0.0])),
             Drift(np.array([0.0, base.y, 0.0])),
             *(self.shaking.body if self.shaking is not None else (np.eye(3), np.zeros((3, 3)))),

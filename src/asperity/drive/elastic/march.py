@@ -3,6 +3,7 @@
 import numpy as np
 
 from asperity.compiled import kernel
+from asperity.dense import copy
 from asperity.drive.elastic.mesh import advance
 from asperity.drive.elastic.near import forget
 from asperity.drive.interface import AT, OUTS, POSES, SOLVED
@@ -21,8 +22,10 @@ def march(mesh, system, states, committed, stretch, rows, stop):
     q = np.zeros(POSES)
     v = np.zeros(POSES)
     out = np.zeros(OUTS)
-    here = committed.copy()
-    trial = committed.copy()
+    here = np.empty_like(committed)
+    trial = np.empty_like(committed)
+    copy(committed, here)
+    copy(committed, trial)
     began = state.time
     done = 0
     forget(mesh)
@@ -41,7 +44,7 @@ def march(mesh, system, states, committed, stretch, rows, stop):
                 advance(mesh, here, trial, q, v, dt, out)
             arrive(system, state, dt, q, v, out, sums)
             if not out[AT.residual] <= SOLVED:
-                committed[:] = here
+                copy(here, committed)
                 return done
             here, trial = trial, here
             if state.time + 1e-12 * stretch >= end:
@@ -49,5 +52,5 @@ def march(mesh, system, states, committed, stretch, rows, stop):
         done += 1
         if stop[0] != 0 or not np.isfinite(state.torque):
             break
-    committed[:] = here
+    copy(here, committed)
     return done

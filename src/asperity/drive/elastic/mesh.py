@@ -26,6 +26,7 @@ from asperity.contact.candidates.records import (
 )
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
+from asperity.dense import copy
 from asperity.drive.elastic.friction import find_shares, laws_at
 from asperity.drive.elastic.memory import HEAD, POINT, TOOTH, block_of, bring, displace, points_at
 from asperity.drive.elastic.near import AHEAD, gathered_near, reach_of
@@ -151,7 +152,7 @@ def _write(mesh, k, trial, at, tooth, side, share, q, v, dt, reach, out):
             way = max(way, abs(answer.u[j + c] - mesh.shape[k, j + c]))
     # Along the normal at most the length of what each direction has moved.
     mesh.gathered[k].way = math.sqrt(3.0) * way
-    mesh.rim.seen[k] = mesh.rim.given[k]
+    copy(mesh.rim.given[k], mesh.rim.seen[k])
     spread(own, shapes, answer.force, mesh.work.nodal)
     taken(mesh.rim, k, own.nodes, own.counts[1], mesh.work.nodal)
     return normal
@@ -280,8 +281,9 @@ def _tooth(mesh, place, tooth, committed, trial, at, q, v, dt, reach, out):
     _act(mesh, mesh.vectors, q, mesh.damped)
     mesh.wrench[:] = 0.0
     wrench(mesh.body, own, answer, mesh.wrench)
-    mesh.vectors[0] = mesh.wrench[:3]
-    mesh.vectors[1] = mesh.wrench[3:]
+    for c in range(3):
+        mesh.vectors[0, c] = mesh.wrench[c]
+        mesh.vectors[1, c] = mesh.wrench[3 + c]
     to_space(angle, side, mesh.vectors)
     _act(mesh, mesh.vectors, q, out[:POSES])
 

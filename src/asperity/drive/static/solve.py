@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.contact.candidates.records import Body, answer_of, candidates_of
+from asperity.contact.candidates.records import Body
 from asperity.contact.candidates.wrench import place_of
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import friction_at
@@ -228,7 +228,7 @@ def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float
     forces, radii, ways = [], [], []
     shapes = contact.sector.body.shapes
     for k in range(contact.slots):
-        own, answer = candidates_of(contact.candidates, k), answer_of(contact.answer, k)
+        own, answer = contact.candidates.of(k), contact.answer.of(k)
         for q in np.flatnonzero(answer.pressure[: 4 * int(own.counts[0])] > 0.0):
             place = np.array(place_of(own, shapes, answer.u, q))
             x, y, _ = rotation[k].T @ (place - translation[k])

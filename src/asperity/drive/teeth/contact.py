@@ -68,33 +68,44 @@ class Action:
 
 @kernel
 def _act(body, side, angles, candidates, answer, work, out, slope, forces):
-    """Sum up what all teeth feel."""
-    part = np.zeros(6)
-    local = np.zeros((6, 6))
-    two = np.zeros((2, 3))
-    square = np.zeros((3, 3))
+    """Sum up what all teeth feel; whether all contacts have a stiffness."""
+    part = np.empty(6)
+    local = np.empty((6, 6))
+    two = np.empty((2, 3))
+    square = np.empty((3, 3))
+    turned = np.empty((3, 3))
     for k in range(angles.shape[0]):
         own = candidates_of(candidates, k)
         if own.counts[0] == 0:
             continue
         part[:] = 0.0
         wrench(body, own, answer_of(answer, k), part)
-        two[0] = part[:3]
-        two[1] = part[3:]
+        for c in range(3):
+            two[0, c] = part[c]
+            two[1, c] = part[3 + c]
         to_space(angles[k], side, two)
-        forces[k] = two[0]
-        out[:3] += two[0]
-        out[3:] += two[1]
+        for c in range(3):
+            forces[k, c] = two[0, c]
+            out[c] += two[0, c]
+            out[3 + c] += two[1, c]
         local[:] = 0.0
-        wrench_slope(body, own, answer_of(answer, k), work, local)
+        if not wrench_slope(body, own, answer_of(answer, k), work, local):
+            return False
         for i in range(2):
             for j in range(2):
-                square[:] = local[3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
+                for c in range(3):
+                    for e in range(3):
+                        square[c, e] = local[3 * i + c, 3 * j + e]
                 # R L R^T, rows first: the vectors of `to_space` are rows.
                 to_space(angles[k], side, square)
-                turned = square.T.copy()
+                for c in range(3):
+                    for e in range(3):
+                        turned[e, c] = square[c, e]
                 to_space(angles[k], side, turned)
-                slope[3 * i : 3 * i + 3, 3 * j : 3 * j + 3] += turned.T
+                for c in range(3):
+                    for e in range(3):
+                        slope[3 * i + c, 3 * j + e] += turned[e, c]
+    return True
 
 
 class TeethContact:
@@ -250,16 +261,13 @@ class TeethContact:
                 reached={"residual": residual, "iterations": float(iterations)},
             )
         total, slope, forces = np.zeros(6), np.zeros((6, 6)), np.zeros((len(angles), 3))
-        try:
-            _act(
-                body, self.side, angles, self.candidates, self.answer, self.work,
-                total, slope, forces,
-            )  # fmt: skip
-        except np.linalg.LinAlgError as error:
+        if not _act(
+            body, self.side, angles, self.candidates, self.answer, self.work, total, slope, forces
+        ):
             raise ConvergenceError(
                 "the teeth's contact has no stiffness at this load: take another torque",
                 reached={"residual": residual},
-            ) from error
+            )
         return Action(
             total, slope, tuple(numbers), forces, self._normal_forces(), residual, iterations
         )
@@ -274,7 +282,7 @@ class TeethContact:
 
     def spread(self, k: int, force: FloatArray, nodal: FloatArray) -> None:
         """Write the nodal forces of forces at the candidates of a tooth, N."""
-        spread(candidates_of(self.candidates, k), self.sector.body.shapes, force, nodal)
+        spread(self.candidates.of(k), self.sector.body.shapes, force, nodal)
 
     def _normal_forces(self) -> FloatArray:
         counts = 4 * self.candidates.counts[:, 0]
@@ -303,5 +311,5 @@ class TeethContact:
         for k in range(len(numbers)):
             collect(
                 body, self.worm.numbers, rotation[k], translation[k], still, NEAR,
-                candidates_of(self.candidates, k),
+                self.candidates.of(k),
             )  # fmt: skip

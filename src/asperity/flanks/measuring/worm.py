@@ -18,11 +18,11 @@ import functools
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from asperity.errors import InputError
 from asperity.flanks.worm.distance import distance, distances
 from asperity.flanks.worm.helicoid import Helicoid
+from asperity.roots import root_between
 
 _TOLERANCE = 1e-12
 # Beyond the tip, in tip radii: no pin of use has its axis further out.
@@ -62,7 +62,7 @@ class Groove:
         low, high = self._span
         if not self._touch(low)[1] <= contact <= self._touch(high)[1]:
             raise InputError(f"no pin touches the worm's flanks at a radius of {contact:.5g} mm")
-        radius = float(brentq(lambda r: self._touch(r)[1] - contact, low, high, xtol=_TOLERANCE))
+        radius = root_between(lambda r: self._touch(r)[1] - contact, low, high, within=_TOLERANCE)
         return self._rest(radius, 2.0 * self._touch(radius)[0])
 
     def over(self, diameter: float) -> Rest:
@@ -81,7 +81,7 @@ class Groove:
             )
         low, high = self._span
         half = 0.5 * diameter
-        radius = float(brentq(lambda r: self._touch(r)[0] - half, low, high, xtol=_TOLERANCE))
+        radius = root_between(lambda r: self._touch(r)[0] - half, low, high, within=_TOLERANCE)
         self._check_along(radius, half)
         return self._rest(radius, diameter)
 
@@ -96,7 +96,7 @@ class Groove:
 
         if out(high) <= 0.0:
             raise InputError("no pin that the worm's flanks carry stands out of its threads")
-        least = low if out(low) >= 0.0 else brentq(out, low, high, xtol=_TOLERANCE)
+        least = low if out(low) >= 0.0 else root_between(out, low, high, within=_TOLERANCE)
         return 2.0 * self._touch(least)[0], 2.0 * self._touch(high)[0]
 
     @functools.cached_property
@@ -113,7 +113,7 @@ class Groove:
         first, last = worm.root_radius * (1.0 + 1e-6), _FURTHEST * worm.tip_radius
         if not below(first) < 0.0 < below(last):
             raise InputError("no pin touches both flanks of the worm's threads")
-        high = float(brentq(below, first, last, xtol=_TOLERANCE))
+        high = root_between(below, first, last, within=_TOLERANCE)
         # Where the root carries it, the pin is as near to the root as to the flanks.
         grid = np.linspace(first, high, 101)
         free = [above(float(radius)) > 1e-9 for radius in grid]

@@ -21,6 +21,7 @@ from asperity.flanks.meshing.vibration_share import (
     VibrationShare,
     vibration_share,
 )
+from asperity.flanks.sides import both
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED, FlankGrid
 from asperity.flanks.worm.setting import Pair
@@ -238,12 +239,12 @@ def analyse(
     ConvergenceError
         The worm does not reach the wheel's teeth all over the pitch.
     """
-    meshes = {side: transmission(pair, wheel.flank(side), samples) for side in (1, -1)}
+    meshes = both(lambda side: transmission(pair, wheel.flank(side), samples))
     if pair.backlash is not None:
         meshes = set_backlash(meshes, pair.backlash)
     free = play(meshes)
     speed = worm_speed if load is None else load.worm_speed
-    flanks = {side: _flank(meshes[side], free, rows, columns, speed, load) for side in (1, -1)}
+    flanks = both(lambda side: _flank(meshes[side], free, rows, columns, speed, load))
     thinned = meshes[1].search.pair
     worm, base = thinned.worm, thinned.worm.profile.base_radius
     return Analysis(

@@ -19,6 +19,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.transmission import ToothSearch, Transmission, least_between
+from asperity.flanks.sides import both
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.flanks.wheel.frame import on_cylinder
@@ -97,11 +98,21 @@ def play(meshes: dict[int, Transmission]) -> Play:
     pair = meshes[1].search.pair
     turn = _turn(meshes)
     return Play(
-        normal={side: normal_backlash(meshes[side], meshes[-side].search) for side in (1, -1)},
+        normal=_normal(meshes),
         axial=pair.worm.reduced_lead * turn,
         worm_angle=turn,
         wheel_angle=turn / pair.ratio,
     )
+
+
+def _normal(meshes: dict[int, Transmission]) -> dict[int, float]:
+    """Return the normal backlash by the flank that bears, mm."""
+    return both(lambda side: normal_backlash(meshes[side], meshes[-side].search))
+
+
+def _thinned(meshes: dict[int, Transmission], half_space: float) -> dict[int, Transmission]:
+    """Return the mesh with threads of another thickness."""
+    return both(lambda side: meshes[side].with_worm(half_space))
 
 
 def _turn(meshes: dict[int, Transmission]) -> float:
@@ -151,8 +162,8 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
             raise InputError(
                 f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed: {advice}"
             )
-        thinned = {side: mesh.with_worm(half_space) for side, mesh in meshes.items()}
-        least = min(normal_backlash(thinned[s], thinned[-s].search) for s in (1, -1))
+        thinned = _thinned(meshes, half_space)
+        least = min(_normal(thinned).values())
         missing = backlash - least
         if abs(missing) <= _TOLERANCE:
             return thinned

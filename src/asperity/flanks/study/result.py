@@ -176,9 +176,11 @@ class FlankStudy(Drawn):
     @functools.cached_property
     def solids(self) -> "Solids | None":
         """Tooth, worm and wheel as the STEP files hold them, where they are asked for."""
+        if not self.step:
+            return None
         from asperity.flanks.export.cad.solids import Solids
 
-        return Solids.of(self.wheel, self.assembly, self.blanks) if self.step else None
+        return Solids.of(self.wheel, self.assembly, self.blanks)
 
     @property
     def failure(self) -> AsperityError | None:

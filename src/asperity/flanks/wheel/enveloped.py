@@ -12,6 +12,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
+from asperity.flanks.sides import both
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting.trim import UNDERCUT
 from asperity.flanks.wheel.flank import FlankGrid, UndercutMap, WheelFlank
@@ -71,17 +72,16 @@ class Wheel:
 
     def _thickness(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Least angle between the sides of the tooth below its tip, and at the tip."""
-        sides = []
-        for side in (1, -1):
+
+        def outline(side: int) -> list[FloatArray]:
             flank = self.flank(side)
             parts = flank.fillet(_ROWS, z), flank.at_shares(np.linspace(0.0, 1.0, _ROWS), z)
-            sides.append(
-                [
-                    np.concatenate([getattr(part, key) for part in parts])
-                    for key in ("radius", "angle")
-                ]
-            )
-        (r_right, right), (r_left, left) = sides
+            return [
+                np.concatenate([getattr(part, key) for part in parts])
+                for key in ("radius", "angle")
+            ]
+
+        (r_right, right), (r_left, left) = both(outline).values()
         neck = np.empty(z.size)
         for k in range(z.size):
             # Sides differ in radius, row by row; the tooth begins where both have begun.

@@ -11,7 +11,6 @@ import math
 from typing import Any
 
 import numpy.typing as npt
-from scipy.optimize import brentq
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
@@ -22,6 +21,7 @@ from asperity.flanks.worm.profiles import AxialProfile, record, sampled
 from asperity.flanks.worm.types import profile
 from asperity.gearset.geometry import Flank, Geometry
 from asperity.gearset.threads import LEAST_LAND, LEAST_SPACE
+from asperity.roots import root_between
 
 _MILLIMETRES = 1e3
 # Of the root's radius: far enough below it to be no neighbour of the wheel.
@@ -204,7 +204,7 @@ class Helicoid:
             _, slope, _ = curve.width(rho, thread)
             return float(rho - r * slope / math.hypot(1.0, slope) - low)
 
-        end = tip if r == 0.0 else float(brentq(above, low, tip, xtol=1e-14, rtol=1e-15))
+        end = tip if r == 0.0 else root_between(above, low, tip, within=1e-14, share=1e-15)
         w, slope, _ = curve.width(end, thread)
         middle = w + r / math.hypot(1.0, slope)
         return end, float(middle), math.pi / 2.0 - math.atan(slope)
@@ -219,7 +219,7 @@ class Helicoid:
         if over(0.0) >= 0.0:
             raise InputError(_pointed(self))
         most = self.tip_radius - self.root_radius
-        return most if over(most) <= 0.0 else float(brentq(over, 0.0, most, xtol=1e-12))
+        return most if over(most) <= 0.0 else root_between(over, 0.0, most, within=1e-12)
 
     def curve(self, u: npt.ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         r"""Return :math:`\rho` and :math:`z` (mm) of one side's curve, and both by ``u``.
@@ -312,5 +312,5 @@ def _opened(draft: Helicoid, needed: float) -> Helicoid:
             f"{draft.name}'s thread spaces close before the wheel's tip, at a radius of "
             f"{needed:.5g} mm: take a smaller pressure angle or lower teeth"
         )
-    root = float(brentq(room, draft.root_radius, needed, xtol=1e-12))
+    root = root_between(room, draft.root_radius, needed, within=1e-12)
     return dataclasses.replace(draft, root_radius=root)

@@ -9,6 +9,7 @@ import numpy as np
 from asperity.arrays import FloatArray, Real
 from asperity.errors import InputError
 from asperity.gearset import relations
+from asperity.roots import root_between
 
 Film = Callable[..., Real]
 """From a gearset, by the names of `asperity.rating.iso14521.film_parameter`, to h*."""
@@ -104,9 +105,6 @@ def _centre_distance(gearset: Mapping[str, Any]) -> float:
 
 def _limit(film: Film, gearset: Mapping[str, Any], name: str) -> float | None:
     """Return where h* is zero nearest to what an input is, in parts of it."""
-    # Here, because loading it takes longer than all else that a command line needs.
-    from scipy.optimize import brentq
-
     nearest: float | None = None
     for way in (-1.0, 1.0):
         steps = way * np.linspace(0.0, math.log(5.0), 400)
@@ -115,12 +113,10 @@ def _limit(film: Film, gearset: Mapping[str, Any], name: str) -> float | None:
         crossing = np.flatnonzero(np.abs(side[1:] - side[:-1]) > 0.5)
         if not crossing.size or (nearest and abs(nearest) <= abs(steps[crossing[0]])):
             continue
-        nearest = float(
-            brentq(
-                lambda step: float(_scaled(film, gearset, name, np.exp(step))),
-                steps[crossing[0]],
-                steps[crossing[0] + 1],
-            )
+        nearest = root_between(
+            lambda step: float(_scaled(film, gearset, name, np.exp(step))),
+            steps[crossing[0]],
+            steps[crossing[0] + 1],
         )
     return None if nearest is None else _now(gearset, name) * math.exp(nearest)
 

@@ -87,7 +87,7 @@ def follow(law, slips, pressure, friction):
     """Friction at each increment of a path, from a state of zeros."""
     state = np.zeros(5)
     for n in range(slips.shape[0]):
-        friction[n] = advance(law, state, slips[n, 0], slips[n, 1], pressure[n])
+        friction[n, 0], friction[n, 1] = advance(law, state, slips[n, 0], slips[n, 1], pressure[n])
 
 
 def friction_of_path(law: Subroutine, slips: FloatArray, pressure: FloatArray) -> FloatArray:

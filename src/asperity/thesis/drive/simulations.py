@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _ROOM = "asperity.thesis.drive"
 _SOLVED_BY = f"{_ROOM}.marches"
-_MARCHING, _LOADING = 1.5, 150.0  # s, about
+_MARCHING, _LOADING = 0.2, 7.0  # s, about
 
 BASE = "drive-thesis"
 """Gearset 3 with its shaft and load; what is set of it is the vibration, speed and load."""

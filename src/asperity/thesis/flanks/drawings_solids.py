@@ -71,9 +71,11 @@ def paint(
     table = {part: np.array(to_rgb(colour)) for part, colour in colours.items()}
     base = np.array([table[int(part)] for part in shape.part])
     shaded = np.clip(base * light[:, None] + shine[:, None], 0.0, 1.0)[order]
+    # As one array, of which paths are made ten times as fast as of a list, though not so typed.
+    polygons: Any = corners[order, :, :2]
     axes.add_collection(
         PolyCollection(
-            list(corners[order, :, :2]), facecolors=shaded,
+            polygons, facecolors=shaded,
             # Without a line of the face's own colour the paper shows between faces.
             edgecolors=_EDGE if edges else shaded, linewidths=edges or 0.7, joinstyle="round",
         )

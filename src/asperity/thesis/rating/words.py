@@ -2,6 +2,7 @@
 
 import math
 
+from asperity.roots import root_between
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
 from asperity.thesis.rating.rated import (
@@ -173,8 +174,6 @@ def _velocity_over_size() -> Finding:
     "the order turns",
 )  # fmt: skip
 def _order_over_size() -> Finding:
-    from scipy.optimize import brentq
-
     def excess(scale: float) -> float:
         gear = _grown(scale)
         return gear.number("agma6034", "allowable_torque_Nm") / gear.number("bs721", "M_26k_Nm") - 1
@@ -184,7 +183,7 @@ def _order_over_size() -> Finding:
     turned = next((n for n, value in enumerate(values) if value < 0.0), None)
     numbers = {f"excess_at_scale_{scale:g}": v for scale, v in zip(scales, values, strict=True)}
     if turned:
-        scale = float(brentq(excess, scales[turned - 1], scales[turned], xtol=1e-3))
+        scale = root_between(excess, scales[turned - 1], scales[turned], within=1e-3)
         velocity = _grown(scale).number("iso14521", "sliding_velocity_m_s")
         size = _grown(scale).number("iso14521", "centre_distance_mm")
         numbers |= {"turns_at_v_g_m_s": velocity, "turns_at_centre_distance_mm": size}

@@ -147,6 +147,7 @@ class _Reproduction:
         self.failed: dict[str, str] = {}
         self.shown: dict[str, Shown] = {}
         self._written = -math.inf
+        self._is_behind = False
         self._say = say
         self._full = full
         self._folder = folder
@@ -170,6 +171,12 @@ class _Reproduction:
         page = render([*self.shown.values()], [*self.missing], self.failed, __version__)
         write_text(self.index, page)
         self._written = time.monotonic()
+        self._is_behind = False
+
+    def _catch_up(self) -> None:
+        """Write the page if something was made or failed since."""
+        if self._is_behind:
+            self.show(_REFRESH)
 
     def make(self, processes: int) -> None:
         """Make what is missing."""
@@ -183,7 +190,7 @@ class _Reproduction:
             for exhibit in list(self.missing.values()):
                 self._take(exhibit.name, self._task(exhibit).do)
             return
-        with contextlib.closing(done(tasks, processes)) as ended:
+        with contextlib.closing(done(tasks, processes, self._catch_up)) as ended:
             for task, future in ended:
                 if task.name in self.missing:
                     self._take(task.name, future.result)
@@ -195,10 +202,11 @@ class _Reproduction:
         key = key_of(exhibit, full=self._full)
         do = functools.partial(make, exhibit, self._folder, key, full=self._full)
         after = tuple(part.task.name for part in exhibit.parts(self._full))
-        return Task(exhibit.name, do, exhibit.room, after=after)
+        return Task(exhibit.name, do, exhibit.room, exhibit.seconds, after)
 
     def _take(self, name: str, made_by: Callable[[], Made]) -> None:
         exhibit = self.missing.pop(name)
+        self._is_behind = True
         try:
             made = made_by()
         except Exception as error:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.roots import root_between
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import Finding
@@ -130,10 +131,8 @@ def _power() -> Finding:
     "longitudinal.", "reason",
 )  # fmt: skip
 def _fixed_disc() -> Finding:
-    from scipy.optimize import brentq
-
-    crossing = float(
-        brentq(lambda k: float(longitudinal_ratio(k)) - float(transverse_ratio(k)), 1.0001, 3.0)
+    crossing = root_between(
+        lambda k: float(longitudinal_ratio(k)) - float(transverse_ratio(k)), 1.0001, 3.0
     )
     k = np.array([2.0, 5.0, 20.0])
     along, across = longitudinal_ratio(k), transverse_ratio(k)

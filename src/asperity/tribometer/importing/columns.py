@@ -42,6 +42,10 @@ class Columns:
         Number of the file's row that the values begin at; 0 where a file has no rows.
     notes : tuple of str
         What was taken how.
+    program : str
+        That wrote the file, where it is known.
+    start : float
+        Time of the first row, s.
     """
 
     headings: tuple[str, ...]
@@ -51,6 +55,8 @@ class Columns:
     times: FloatArray | None = None
     first_row: int = 0
     notes: tuple[str, ...] = ()
+    program: str = ""
+    start: float = 0.0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -76,7 +82,7 @@ def sampled(columns: Columns, channels: Channels, name: str) -> Sampled:
     rows = max((len(columns.values[place]) for place in places.values()), default=0)
     if rows < 2:
         raise InputError(f"{name} holds {rows} samples of the channels; that is no recording")
-    interval, where, length = _grid(columns, rows, name)
+    interval, where, length = placed(columns, rows, name)
     sources: list[Source] = []
     counts = np.empty((length, len(places)), np.int16)
     if where is not None and length != rows:
@@ -142,7 +148,7 @@ def matching(wanted: str, headings: Sequence[str]) -> list[int]:
     return exact or [place for place, one in enumerate(named) if one.split()[-1:] == [sought]]
 
 
-def _grid(columns: Columns, rows: int, name: str) -> tuple[float, NDArray[np.intp] | None, int]:
+def placed(columns: Columns, rows: int, name: str) -> tuple[float, NDArray[np.intp] | None, int]:
     """Return interval, the place of each row among equal intervals, and how many there are."""
     if columns.times is None:
         if not (math.isfinite(columns.interval) and columns.interval > 0.0):

@@ -1,4 +1,4 @@
-"""MATLAB files as PicoScope writes them: a variable a channel, and the interval."""
+"""MATLAB files: a variable a channel, and an interval, a rate or a vector of times."""
 
 import math
 import struct
@@ -12,8 +12,15 @@ import numpy as np
 from asperity import store
 from asperity.errors import InputError, plain
 from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.heads import Told
 
 _INTERVAL = "Tinterval"
+_STEPS = {
+    _INTERVAL: False, "Fs": True, "FS": True, "sample_rate": True, "SampleRate": True, "rate": True,
+    "dt": False, "Ts": False, "interval": False,
+}  # fmt: skip
+"""Variables that say how far samples are apart, s; those that say it in Hz."""
+_TIMES = ("t", "time", "times", "zeit", "temps")
 _MATRIX, _COMPRESSED = 14, 15
 _KINDS = frozenset((*range(1, 8), 9, *range(12, 19)))
 _NUMERIC = frozenset(
@@ -23,10 +30,20 @@ _MOST_OF_A_BYTE = 1100  # what zeros are compressed to
 _FREE, _MOST_OF_NOISE = 100_000_000, 20  # bytes, and of a byte, that samples may unpack to
 _BEGINNING = 1 << 16
 _NOTE = "the file tells no units; its channels are taken as volts"
-_TOLD = frozenset(("Tstart", _INTERVAL, "ExtraSamples", "RequestedLength", "Length", "Version"))
+_TOLD = frozenset(
+    (
+        *_STEPS,
+        *(one.lower() for one in _STEPS),
+        "Tstart",
+        "ExtraSamples",
+        "RequestedLength",
+        "Length",
+        "Version",
+    )
+)
 
 
-def read_mat(path: Path, name: str) -> Columns:
+def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
     """Read versions 4 to 7.2, and 7.3, which is HDF5.
 
     Raises
@@ -41,21 +58,65 @@ def read_mat(path: Path, name: str) -> Columns:
     except Exception as error:
         # What is not as it must be surfaces as whatever the reader trips over.
         raise InputError(f"{name} cannot be read: not a MATLAB file, or damaged") from error
-    interval = found.pop(_INTERVAL, None)
-    if interval is None or interval.size != 1 or not np.isreal(interval).all():
-        raise InputError(f"{name} has no variable {_INTERVAL}, the time between samples in s")
+    step = _interval(found)
+    if told.rate and not step:
+        step = 1.0 / told.rate
     columns = {
         plain(key): values for key, values in found.items()
         if key not in _TOLD and values.size > 1 and values.dtype.kind in "fiu"
     }  # fmt: skip
+    times = None
+    if not step:
+        # A vector of times is as long as what was sampled at them.
+        place = next((one for one in columns if one.casefold() in _TIMES), None)
+        if place is None:
+            raise InputError(
+                f"{name} has no variable {_INTERVAL}, the time between samples in s, no rate (fs) "
+                "and no vector of times (t); give the rate: --rate"
+            )
+        times = np.asarray(columns.pop(place), dtype=float).reshape(-1)
     if not columns:
         raise InputError(f"{name} has no variable that holds a channel's samples")
-    values = tuple(one.reshape(-1) for one in columns.values())
-    step = float(interval.reshape(-1)[0])
+    columns = _split(columns, None if times is None else times.size)
+    if times is not None and any(one.size > times.size for one in columns.values()):
+        raise InputError(f"{name}: its times are fewer than the samples of a channel")
     return Columns(
-        tuple(columns), ("V",) * len(columns), values,
-        interval=step if math.isfinite(step) else math.nan, notes=(_NOTE,),
+        tuple(columns), ("V",) * len(columns), tuple(columns.values()), interval=step, times=times,
+        notes=(_NOTE,), program="MATLAB", start=_start(found, times),
     )  # fmt: skip
+
+
+def _interval(found: dict[str, Any]) -> float:
+    """Return the time between samples, s, by whichever name it has; 0 where there is none."""
+    for name, turned in _STEPS.items():
+        one = next((value for key, value in found.items() if key in (name, name.lower())), None)
+        if one is None or one.size != 1 or one.dtype.kind not in "fiu":
+            continue
+        value = float(one.reshape(-1)[0])
+        if turned and value > 0.0:
+            return 1.0 / value
+        return value if math.isfinite(value) and value else math.nan
+    return 0.0
+
+
+def _start(found: dict[str, Any], times: Any) -> float:
+    if times is not None:
+        return float(times[0])
+    one = found.get("Tstart")
+    start = float(one.reshape(-1)[0]) if one is not None and one.size == 1 else 0.0
+    return start if math.isfinite(start) else 0.0
+
+
+def _split(columns: dict[str, Any], rows: int | None) -> dict[str, Any]:
+    """Return a column a channel; a matrix holds several, named by its name and their number."""
+    made: dict[str, Any] = {}
+    for name, values in columns.items():
+        if values.ndim == 2 and min(values.shape) > 1 and rows in (None, *values.shape):
+            upright = values if values.shape[0] >= values.shape[1] else values.T
+            made |= {f"{name}{n + 1}": upright[:, n] for n in range(upright.shape[1])}
+        else:
+            made[name] = values.reshape(-1)
+    return made
 
 
 def _is_hdf5(path: Path) -> bool:

@@ -6,11 +6,12 @@ import numpy as np
 
 from asperity.errors import InputError, MissingExtraError, plain
 from asperity.tribometer.importing.columns import Columns, unit_in
+from asperity.tribometer.importing.heads import Told
 
 _INTERVAL, _UNIT = "wf_increment", "unit_string"
 
 
-def read_tdms(path: Path, name: str) -> Columns:
+def read_tdms(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
     """Read the channels of all groups.
 
     Raises
@@ -35,11 +36,21 @@ def read_tdms(path: Path, name: str) -> Columns:
         raise InputError(f"{name} cannot be read: not a TDMS file, or damaged") from error
     kept = [n for n, one in enumerate(values) if one.dtype.kind in "fiu" and one.size > 1]
     steps = {properties[n].get(_INTERVAL) for n in kept}
+    if steps == {None} and told.rate:
+        steps = {1.0 / told.rate}
     if len(steps) != 1 or not isinstance(step := steps.pop(), int | float):
         raise InputError(
-            f"{name}: its channels must share one {_INTERVAL}, the time between samples in s"
+            f"{name}: its channels must share one {_INTERVAL}, the time between samples in s; "
+            "where none has it, give --rate"
         )
     units = tuple(unit_in(str(properties[n].get(_UNIT, ""))) for n in kept)
     notes = () if all(units) else ("channels without a unit are taken as volts",)
     names = tuple(plain(str(channels[n].name)) for n in kept)
-    return Columns(names, units, tuple(values[n] for n in kept), interval=float(step), notes=notes)
+    return Columns(
+        names,
+        units,
+        tuple(values[n] for n in kept),
+        interval=float(step),
+        notes=notes,
+        program="TDMS",
+    )

@@ -1,29 +1,50 @@
-"""PicoScope's CSV and text, in any language: headings, units, a blank row, numbers."""
+"""Tables of text: what oscilloscopes, loggers and their programs export, in any language."""
 
+import dataclasses
 import io
-import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asperity import store
+from asperity.arrays import FloatArray
 from asperity.errors import InputError, plain, shown
-from asperity.tribometer.importing.columns import Columns, unit_in
+from asperity.tribometer.importing.cells import (
+    BLANK,
+    INFINITY,
+    cells_of,
+    is_number,
+    is_time,
+    marks_of,
+    trimmed,
+)
+from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.heads import Layout, Told, found_in, plain_layout, timed
+from asperity.tribometer.importing.programs import own_layout, readable, told_above
 from asperity.units import to_si
 
 _MOST_BYTES = 4_000_000_000
 _HEAD = 1 << 16
-_MOST_ABOVE = 50
-_SEPARATORS = ("\t", ";", ",")
-_INFINITY = "∞"
-_DECIMAL_COMMA = re.compile(r"\d,\d")
-_BLANK = ("", " ", "NaN", "nan", "n/a", "---")
+_ROWS_LOOKED_AT = 40
+_DAY = 86400.0
+_THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+_TIME_OF_DAY = re.compile(r"(\d{1,2}):(\d{2}):(\d{2}(?:[.,]\d+)?) ?([AaPp])?")
 
 
-def read_text(path: Path, name: str) -> Columns:
+def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
     """Read a table of text.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    name : str
+        What messages call it.
+    told : Told
+        What somebody says of it that it does not say itself.
 
     Raises
     ------
@@ -32,63 +53,70 @@ def read_text(path: Path, name: str) -> Columns:
     """
     text = _decoded(path, name)
     head = text[:_HEAD].splitlines()
-    start = next((n for n, line in enumerate(head) if line.strip()), None)
-    if start is None:
-        raise InputError(f"{name} is empty")
-    separator = max(_SEPARATORS, key=head[start].count)
-    headings = [cell.strip().strip('"') for cell in head[start].split(separator)]
-    if (row := _headings_at(head, start)) > start:
-        raise InputError(f"{name}: its headings stand in row {row + 1}; delete what is above them")
-    if len(headings) < 2:
-        raise InputError(
-            f"{name}: row {start + 1} is {shown(head[start])}; it must hold headings separated by "
-            "commas, semicolons or tabs"
+    if len(text) > _HEAD:
+        head = head[:-1]
+    layout = _laid_out(head, path.stem, name, told)
+    rows_shown = [cells_of(line, layout.separator) for line in head[layout.begin :]]
+    decimal, thousands = marks_of(rows_shown[:_ROWS_LOOKED_AT], layout.separator)
+    frame = _numbers(text, name, layout, decimal, thousands)
+    columns = [n for n in range(layout.width) if n not in layout.skipped and n != layout.time]
+    notes = list(layout.notes)
+    if decimal == "," and all(map(_THOUSAND.fullmatch, _with_comma(rows_shown[:_ROWS_LOOKED_AT]))):
+        notes.append(
+            "commas in numbers are taken for decimal commas, though three digits follow each"
         )
-    if all(_number(cell, separator) is not None for cell in headings):
-        raise InputError(f"{name}: row {start + 1} holds numbers where headings must stand")
-    units_row = start + 1
-    units = [unit_in(cell) for cell in _cells(head, units_row, separator)]
-    if len(units) != len(headings) or any(_number(cell, separator) is not None for cell in units):
-        raise InputError(
-            f"{name}: row {units_row + 1} must hold the units of the {len(headings)} columns, as "
-            "in (ms),(V),(mV)"
-        )
-    begin = next(
-        (n for n in range(units_row + 1, len(head)) if head[n].strip(f"{separator} \t")), None
-    )
-    if begin is None:
-        raise InputError(f"{name} ends behind its row of units; it holds no samples")
-    decimal = "," if separator != "," and _DECIMAL_COMMA.search(head[begin]) else "."
-    rows = _numbers(text, name, separator, decimal, begin, len(headings))
-    notes = []
-    if len(rows) > 2 and np.isnan(rows[-1, -1]) and not np.isnan(rows[-2, -1]):
-        rows = rows[:-1]
+    last = columns[-1]
+    values = {place: frame[place].to_numpy() for place in columns}
+    count = len(frame)
+    if count > 2 and np.isnan(values[last][-1]) and not np.isnan(values[last][-2]):
+        count -= 1
         notes.append("the last row is cut off; it is left out")
-    _check_whole(text, name, separator, begin, rows)
-    time = _time_column(headings, units, name)
-    scale = to_si(f"1 {units[time]}", "s")
-    keep = [place for place in range(len(headings)) if place != time]
+    _check_whole(text, name, layout, values[last][:count])
+    times = None
+    if layout.time is not None:
+        told_times = frame[layout.time].iloc[:count]
+        times = (
+            _of_day(told_times, name, layout)
+            if layout.clock
+            else to_si(f"1 {layout.units[layout.time]}", "s") * told_times.to_numpy()
+        )
+    units = [layout.units[place] for place in columns]
+    if not all(units) and (any(units) or layout.time is not None):
+        notes.append("columns without a unit are taken as volts")
     return Columns(
-        tuple(plain(headings[place]) for place in keep), tuple(units[place] for place in keep),
-        tuple(rows[:, place] for place in keep), times=scale * rows[:, time],
-        first_row=begin + 1, notes=tuple(notes),
+        tuple(plain(layout.headings[place]) for place in columns), tuple(units),
+        tuple(values[place][:count] for place in columns), interval=layout.interval, times=times,
+        first_row=layout.begin + 1, notes=tuple(notes), program=layout.program,
+        start=layout.start if times is None else float(times[0]) if count else 0.0,
     )  # fmt: skip
 
 
-def _headings_at(lines: list[str], start: int) -> int:
-    """Return the first row that has a row of units below it, or the one that was begun with."""
-    for row in range(start, min(start + _MOST_ABOVE, len(lines) - 1)):
-        separator = max(_SEPARATORS, key=lines[row].count)
-        headings, units = (_cells(lines, n, separator) for n in (row, row + 1))
-        cells = (*headings, *units)
-        told = len(headings) == len(units) > 1 and all(map(_bracketed, units))
-        if told and all(_number(cell, separator) is None for cell in cells):
-            return row
-    return start
+def _with_comma(rows: Sequence[Sequence[str]]) -> list[str]:
+    return [cell for row in rows for cell in row if "," in cell]
 
 
-def _bracketed(cell: str) -> bool:
-    return cell.strip().strip('"')[:1] in ("(", "[")
+def _laid_out(head: Sequence[str], stem: str, name: str, told: Told) -> Layout:
+    """Return how a text is laid out, by its own head and by what somebody says of it."""
+    if own := own_layout(head, stem, name):
+        if told.rate or told.columns or told.units:
+            raise InputError(
+                f"{name} is by {own.program}, which says all of it; leave --rate, --columns and "
+                "--units out"
+            )
+        return own
+    found = found_in(head, name, narrow=bool(told.rate))
+    program, units, interval = told_above(head, found)
+    if units and not told.units:
+        told = dataclasses.replace(told, units=tuple(units))
+    layout = plain_layout(found, name, told)
+    if program:
+        layout = dataclasses.replace(layout, program=program)
+    left_out = {place for place, one in enumerate(layout.headings) if one == "-"}
+    layout = dataclasses.replace(layout, skipped=layout.skipped | left_out)
+    times = {unit: is_time(unit) for unit in {*layout.units}}
+    if interval and not any(times.values()):
+        layout = dataclasses.replace(layout, interval=interval)
+    return timed(layout, found, told, times, name)
 
 
 def _decoded(path: Path, name: str) -> str:
@@ -98,93 +126,90 @@ def _decoded(path: Path, name: str) -> str:
         raise InputError(f"{name} cannot be read: {store.reason(error)}") from None
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return content.decode("utf-16", "replace")
-    if b"\0" in content[:_HEAD]:
-        raise InputError(f"{name} is of no format that is read: CSV, text, .mat, TDMS, netCDF")
+    head = content[:_HEAD]
+    if b"\0" in head:
+        # Without its mark, text of two bytes a character has a zero in every other one.
+        for first, form in ((1, "utf-16-le"), (0, "utf-16-be")):
+            if (
+                head[first::2].count(0) > 0.9 * len(head[first::2])
+                and 0 not in head[1 - first :: 2]
+            ):
+                return content.decode(form, "replace")
+        raise InputError(f"{name} is of no format that is read: {readable()}")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
         return content.decode("latin-1")
 
 
-def _cells(lines: list[str], row: int, separator: str) -> list[str]:
-    return lines[row].split(separator) if row < len(lines) else []
-
-
-def _number(cell: str, separator: str) -> float | None:
-    text = cell.strip().strip('"')
-    if separator != ",":
-        text = text.replace(",", ".")
-    try:
-        return float(text)
-    except ValueError:
-        return None
-
-
-def _time_column(headings: list[str], units: list[str], name: str) -> int:
-    """Return the column in a unit of time, which must be one."""
-    found = []
-    for place, unit in enumerate(units):
-        try:
-            to_si(f"1 {unit}", "s")
-        except InputError:
-            continue
-        found.append(place)
-    if len(found) != 1:
-        told = ", ".join(
-            f"{shown(one)} ({unit})" for one, unit in zip(headings, units, strict=True)
-        )
-        raise InputError(
-            f"{name}: {len(found)} of its columns are in a unit of time; there must be one: {told}"
-        )
-    return found[0]
-
-
-def _numbers(text: str, name: str, separator: str, decimal: str, begin: int, width: int) -> Any:
-    """Return the numbers below a row, a column each."""
+def _numbers(text: str, name: str, layout: Layout, decimal: str, thousands: str) -> Any:
+    """Return the numbers of all columns that count, by place; a clock as its text."""
     import pandas as pd  # type: ignore[import-untyped]
 
-    if _INFINITY in text:
-        text = text.replace(_INFINITY, "inf")
-    options: dict[str, Any] = {
-        "sep": separator, "header": None, "skiprows": begin, "names": list(range(width)),
-        "na_values": list(_BLANK), "skip_blank_lines": False, "index_col": False,
-        "encoding_errors": "replace",
+    if INFINITY in text:
+        text = text.replace(INFINITY, "inf")
+    kinds = {
+        place: str if layout.clock and place == layout.time else np.float64
+        for place in range(layout.width) if place not in layout.skipped
     }  # fmt: skip
+    options: dict[str, Any] = {
+        "sep": layout.separator or r"\s+", "header": None, "skiprows": layout.begin,
+        "names": list(range(layout.width)), "dtype": kinds,
+        "na_values": list(BLANK), "skip_blank_lines": False, "index_col": False,
+        "encoding_errors": "replace", "decimal": decimal, "engine": "c",
+        "skipinitialspace": True,
+    }  # fmt: skip
+    if thousands:
+        options["thousands"] = thousands
     try:
-        frame = pd.read_csv(
-            io.StringIO(text), decimal=decimal, dtype=np.float64, engine="c", **options
-        )
+        return pd.read_csv(io.StringIO(text), **options)
     except (ValueError, OverflowError, pd.errors.ParserError) as error:
-        raise InputError(f"{name}: {_wrong(text, separator, begin, width, error)}") from None
-    return frame.to_numpy()
+        raise InputError(f"{name}: {_wrong(text, layout, error)}") from None
 
 
-def _check_whole(text: str, name: str, separator: str, begin: int, rows: Any) -> None:
+def _check_whole(text: str, name: str, layout: Layout, last: FloatArray) -> None:
     """Raise InputError for a row that lacks cells: its last number may be cut, too."""
-    width = rows.shape[1]
-    if not np.isnan(rows[:, -1]).any():
+    if not np.isnan(last).any():
         return
+    least = max(n for n in range(layout.width) if n not in layout.skipped) + 1
     for number, line in enumerate(io.StringIO(text)):
-        cells = line.count(separator) + 1
-        if begin <= number < begin + len(rows) and cells < width:
+        cells = len(cells_of(line, layout.separator))
+        if layout.begin <= number < layout.begin + len(last) and cells < least and line.strip():
             raise InputError(
-                f"{name}: row {number + 1} has {cells} cells for {width} columns; mend it, or "
+                f"{name}: row {number + 1} has {cells} cells for {least} columns; mend it, or "
                 "leave the row out, which makes a gap"
             )
 
 
-def _wrong(text: str, separator: str, begin: int, width: int, error: Exception) -> str:
+def _wrong(text: str, layout: Layout, error: Exception) -> str:
     """Return which row is wrong, and how."""
     for number, line in enumerate(io.StringIO(text)):
-        if number < begin:
+        if number < layout.begin:
             continue
-        cells = line.rstrip("\r\n").split(separator)
-        if len(cells) > width:
-            return f"row {number + 1} has {len(cells)} cells for {width} columns"
-        for cell in cells:
-            value = _number(cell, separator)
-            if value is None and cell.strip().strip('"') not in _BLANK:
-                return f"row {number + 1}: {shown(cell.strip())} is not a number"
-            if value is not None and math.isnan(value):
-                continue
+        cells = trimmed(cells_of(line, layout.separator))
+        if len(cells) > layout.width:
+            return f"row {number + 1} has {len(cells)} cells for {layout.width} columns"
+        for place, cell in enumerate(cells):
+            counts = place not in layout.skipped and not (layout.clock and place == layout.time)
+            if counts and cell not in BLANK and not is_number(cell, layout.separator):
+                return f"row {number + 1}: {shown(cell)} is not a number"
     return f"it cannot be read as a table: {plain(str(error).splitlines()[0])[:120]}"
+
+
+def _of_day(told: Any, name: str, layout: Layout) -> FloatArray:
+    """Return seconds since the first row of times of day, over midnight too."""
+    parts = told.astype(str).str.extract(_TIME_OF_DAY).to_numpy()
+    if (bad := np.flatnonzero(parts[:, 0] != parts[:, 0])).size:
+        row = layout.begin + int(bad[0])
+        raise InputError(
+            f"{name}: row {row + 1}: {shown(str(told.iloc[int(bad[0])]))} is no time of day"
+        )
+    hours = parts[:, 0].astype(float)
+    half = np.array([("" if one != one else str(one)).lower() for one in parts[:, 3]])
+    hours = np.where(half == "p", hours % 12 + 12, np.where(half == "a", hours % 12, hours))
+    seconds = np.array([float(str(one).replace(",", ".")) for one in parts[:, 2]])
+    found = 3600.0 * hours + 60.0 * parts[:, 1].astype(float) + seconds
+    # Half a day back is past midnight; less is a clock that runs backwards.
+    found += _DAY * np.concatenate(([0.0], np.cumsum(np.diff(found) < -0.5 * _DAY)))
+    seen: FloatArray = found - found[0]
+    return seen

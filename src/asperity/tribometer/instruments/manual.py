@@ -104,6 +104,9 @@ class ManualVibration(_Manual):
     def keep_alive(self) -> None:
         """Nothing watches a person's line."""
 
+    def vibrates(self) -> None:
+        """Nothing is asked."""
+
 
 class ManualSupply(_Manual):
     """A supply that a person operates."""
@@ -128,6 +131,9 @@ class ManualSupply(_Manual):
         """Ask what it gives."""
         voltage = self._person.read(f"Voltage that the {self.name} shows", "V")
         return Reading(voltage, self._person.read(f"Current that the {self.name} shows", "A"))
+
+    def output(self) -> None:
+        """Nothing is asked."""
 
 
 class ManualTachometer(_Manual):

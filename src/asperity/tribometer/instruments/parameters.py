@@ -1,4 +1,4 @@
-"""The ``[controller]`` and ``[supplies]`` tables: the instruments of a real rig."""
+"""The ``[controller]``, ``[supplies]`` and ``[guardian]`` tables: the instruments of a real rig."""
 
 import string
 from typing import Annotated, ClassVar, Literal
@@ -9,6 +9,8 @@ from asperity.casefile import Table
 from asperity.errors import InputError, choices
 from asperity.units import Quantity
 
+_PATIENCE, _DEADLINE = 0.3, 0.1
+_SIMULATED = 60.0  # s; a simulated rig stands still while nobody looks, and starts slowly.
 _ENDS = {"CR": b"\r", "LF": b"\n", "CRLF": b"\r\n"}
 
 Time = Annotated[float, Quantity("s", what="a time", example="100 ms", gt=0)]
@@ -34,6 +36,8 @@ class Controller(Table):
         What it answers to each of them; empty: nothing.
     identify, ask_frequency, keep_alive : str
         Commands it may have: who it is; what frequency is set; that somebody is there.
+    ask_output, output_off : str
+        A command that asks whether it is on, and what it answers if it is off.
     sine, triangle : str
         Its words for the waveforms.
     """
@@ -52,6 +56,8 @@ class Controller(Table):
     identify: str = ""
     ask_frequency: str = ""
     keep_alive: str = ""
+    ask_output: str = ""
+    output_off: str = ""
     sine: str = "sine"
     triangle: str = "triangle"
 
@@ -79,7 +85,8 @@ class Controller(Table):
                 "hold neither {waveform} nor {frequency}"
             )
         for key in ("set_waveform", "set_frequency", "start", "stop", "answer", "identify",
-                    "ask_frequency", "keep_alive", "sine", "triangle"):  # fmt: skip
+                    "ask_frequency", "keep_alive", "ask_output", "output_off", "sine",
+                    "triangle"):  # fmt: skip
             if not getattr(self, key).isascii():
                 raise InputError(f"controller.{key} is not in ASCII; a serial line takes no more")
         for key, name in (("set_waveform", "waveform"), ("set_frequency", "frequency")):
@@ -87,6 +94,11 @@ class Controller(Table):
                 raise InputError(
                     f"controller.{key} is {getattr(self, key)!r}; it must hold {{{name}}}"
                 )
+        if bool(self.ask_output) != bool(self.output_off):
+            raise InputError(
+                "controller.ask_output and controller.output_off go together: what asks whether it "
+                "is on, and what it answers if it is off"
+            )
         return self
 
     @property
@@ -130,3 +142,68 @@ class Supplies(Table):
                 "supplies.steel, bronze and amplifier name one output twice; each needs its own"
             )
         return self
+
+
+class Guard(Table):
+    """The process that switches off.
+
+    Parameters
+    ----------
+    patience : float or str, optional
+        How long the procedure may say nothing while something is on, s; left out: 0.3 s, and 60 s
+        of a simulated rig, which stands still meanwhile.
+    deadline : float or str, optional
+        How long an instrument may take to answer, s; left out: 0.1 s, and 60 s of a simulated rig.
+    relay_port : str
+        Serial port of a relay or watchdog that cuts the power; empty: none.
+    relay_line : {'RTS', 'DTR', ''}
+        The line of the port that holds it; empty: it is told by commands.
+    relay_pulses : bool
+        Whether the line must change ten times a second for the power to stay.
+    relay_on, relay_off : str
+        Commands that close and open it, in hexadecimal, such as ``"A0 01 01 A2"``.
+    relay_baud : int
+        Bits a second.
+    """
+
+    table: ClassVar[str] = "guardian"
+    counts: ClassVar[bool] = False
+
+    patience: Time | None = None
+    deadline: Time | None = None
+    relay_port: str = ""
+    relay_line: Literal["RTS", "DTR", ""] = ""
+    relay_pulses: bool = False
+    relay_on: str = ""
+    relay_off: str = ""
+    relay_baud: Annotated[int, Field(strict=True, ge=50, le=4_000_000)] = 9600
+
+    @model_validator(mode="after")
+    def _relay(self) -> "Guard":
+        for key in ("relay_on", "relay_off"):
+            try:
+                bytes.fromhex(getattr(self, key))
+            except ValueError:
+                raise InputError(
+                    f"guardian.{key} is {getattr(self, key)!r}; it must be bytes in hexadecimal, "
+                    "such as 'A0 01 01 A2'"
+                ) from None
+        named = bool(self.relay_line), bool(self.relay_on), bool(self.relay_off)
+        if self.relay_port and named not in ((True, False, False), (False, True, True)):
+            raise InputError(
+                "guardian.relay_port needs either relay_line, the line that holds the relay, or "
+                "relay_on and relay_off, the commands that it takes"
+            )
+        if not self.relay_port and any(named):
+            raise InputError("guardian.relay_port is missing; name the serial port of the relay")
+        if self.relay_pulses and not self.relay_line:
+            raise InputError("guardian.relay_pulses needs relay_line, the line that changes")
+        return self
+
+    def patient(self, *, simulated: bool) -> float:
+        """Return how long the procedure may say nothing, s."""
+        return self.patience or (_SIMULATED if simulated else _PATIENCE)
+
+    def due(self, *, simulated: bool) -> float:
+        """Return how long an answer may take, s."""
+        return self.deadline or (_SIMULATED if simulated else _DEADLINE)

@@ -1,14 +1,11 @@
 """What the rig's instruments do, whoever made them.
 
 Each kind is a small protocol; a backend is a class that follows it. All of them can be put into
-their safe state at any time, as often as one likes, and the bench does so in one order: vibration
-off, then motors off.
+their safe state at any time, as often as one likes.
 """
 
-import contextlib
 import dataclasses
 import time
-from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
@@ -19,6 +16,7 @@ from asperity.errors import AsperityError
 
 Counts = NDArray[np.int16]
 Waveform = Literal["sine", "triangle"]
+SWITCHED_OFF = "switched off"  #: Kind of the error that meets who asks for more than that.
 FULL_SCALE = 32767  #: Counts of an input at the end of its range.
 
 
@@ -40,18 +38,10 @@ class InstrumentError(AsperityError):
         self.kind = kind
 
 
-class MadeSafe(KeyboardInterrupt):
-    """Ctrl-C that came while everything was made safe.
+class StillOnError(InstrumentError):
+    """Something may be on: it was not read back that it is off."""
 
-    Parameters
-    ----------
-    failures : tuple of str
-        What could not be switched off.
-    """
-
-    def __init__(self, failures: tuple[str, ...]) -> None:
-        super().__init__("interrupted")
-        self.failures = failures
+    exit_code: ClassVar[int] = 4
 
 
 @dataclasses.dataclass(frozen=True)
@@ -157,6 +147,9 @@ class VibrationDrive(Instrument, Protocol):
     def keep_alive(self) -> None:
         """Tell a device that watches its line that somebody is there."""
 
+    def vibrates(self) -> bool | None:
+        """Return what the device says, asked whether it is on; None where it cannot be asked."""
+
 
 @runtime_checkable
 class Supply(Instrument, Protocol):
@@ -173,6 +166,17 @@ class Supply(Instrument, Protocol):
 
     def reading(self) -> Reading:
         """Return what it gives."""
+
+    def output(self) -> bool | None:
+        """Return whether the device says its output is on; None where it cannot be asked."""
+
+
+@runtime_checkable
+class Listener(Instrument, Protocol):
+    """What hears the drive signal, apart from any recording."""
+
+    def moves(self) -> bool:
+        """Return whether the drive signal moves; raises InstrumentError if it is not heard."""
 
 
 @runtime_checkable
@@ -234,96 +238,3 @@ class Memory(Protocol):
 
     def restore(self, state: dict[str, Any]) -> None:
         """Stand there again."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Bench:
-    """The instruments of a rig together.
-
-    Attributes
-    ----------
-    scope, vibration, tachometer : Scope, VibrationDrive, Tachometer
-        One of each.
-    motors : mapping of str to Supply
-        Of the ``steel`` and the ``bronze`` disc.
-    person : Person
-        Who does what no instrument does.
-    clock : Clock
-        What time it is at the rig.
-    amplifier : Supply, optional
-        What feeds the vibration's amplifier: a second way to stop it.
-    accelerometer : Accelerometer, optional
-        For runs that measure the vibration's velocity.
-    memory : Memory, optional
-        Of a simulated rig.
-    simulated : bool
-        Whether what it measures comes from no rig.
-    """
-
-    scope: Scope
-    vibration: VibrationDrive
-    motors: Mapping[str, Supply]
-    tachometer: Tachometer
-    person: Person
-    clock: Clock = dataclasses.field(default_factory=WallClock)
-    amplifier: Supply | None = None
-    accelerometer: Accelerometer | None = None
-    memory: Memory | None = None
-    simulated: bool = False
-
-    @property
-    def instruments(self) -> tuple[Instrument, ...]:
-        """All of them, in the order in which they are made safe."""
-        optional = self.amplifier, self.accelerometer
-        known: tuple[Instrument | None, ...] = (
-            self.vibration, optional[0], *self.motors.values(), self.scope, self.tachometer,
-            optional[1],
-        )  # fmt: skip
-        return tuple(instrument for instrument in known if instrument is not None)
-
-    def safe(self) -> tuple[str, ...]:
-        """Switch vibration off, then motors, then the rest.
-
-        Returns
-        -------
-        tuple of str
-            What could not be switched off; one failure keeps none of the others.
-
-        Raises
-        ------
-        MadeSafe
-            Ctrl-C came meanwhile, which turns to the next instrument and ends nothing.
-        """
-        left, pressed = list(self.instruments), 0
-        failures: list[str] = []
-        while left:
-            try:
-                _switch_off(left, failures)
-            except KeyboardInterrupt:
-                pressed += 1
-                if pressed > len(self.instruments):
-                    failures += [f"{instrument.name}: interrupted" for instrument in left]
-                    break
-                # Whatever it was at may hang: the others first.
-                left.append(left.pop(0))
-        if pressed:
-            raise MadeSafe(tuple(failures))
-        return tuple(failures)
-
-    def close(self) -> None:
-        """Let go of all of them."""
-        for instrument in self.instruments:
-            with contextlib.suppress(Exception):
-                instrument.close()
-
-
-def _switch_off(left: list[Instrument], failures: list[str]) -> None:
-    """Switch instruments off, in their order, and take those that are done off the list."""
-    while left:
-        try:
-            left[0].safe()
-        except (InstrumentError, OSError) as error:
-            failures.append(f"{left[0].name}: {error}")
-        except Exception as error:  # of a driver, or our own: the motors must stop all the same
-            failures.append(f"{left[0].name}: {type(error).__name__}: {error}")
-        left.pop(0)

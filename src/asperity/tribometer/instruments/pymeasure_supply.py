@@ -72,6 +72,20 @@ class PyMeasureSupply:
             self._done(lambda: float(self._output.current)),
         )
 
+    def output(self) -> bool | None:
+        """Return whether the device says its output is on; None where the driver cannot ask."""
+        if not hasattr(type(self._output), "output_enabled"):
+            return None
+
+        def asked() -> bool | None:
+            try:
+                return bool(self._output.output_enabled)
+            except LookupError:  # of a property that can only be set
+                return None
+
+        on: bool | None = self._done(asked)
+        return on
+
     def close(self) -> None:
         """Let go of it; the line is that of the driver."""
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from asperity.errors import InputError, plain
+from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import (
     FULL_SCALE,
-    Bench,
     Clock,
     Counts,
     Input,
@@ -121,6 +121,11 @@ class ReplayScope(_Played):
         over = tuple(bool(one) for one in (np.abs(taken.astype(int)) >= FULL_SCALE).any(axis=0))
         return Poll(tuple(taken.T), now, over)
 
+    @property
+    def plays(self) -> bool:
+        """Whether a recording is handed out."""
+        return self._played is not None
+
     def reach(self, kind: str, *, off: bool) -> None:
         """Go to where something was switched, if that is near."""
         played = self._played
@@ -194,6 +199,10 @@ class ReplayVibration(_Played):
     def keep_alive(self) -> None:
         """Nothing watches."""
 
+    def vibrates(self) -> bool:
+        """Nothing does: it is over."""
+        return False
+
 
 class ReplaySupply(_Played):
     """A supply as it was recorded."""
@@ -215,8 +224,12 @@ class ReplaySupply(_Played):
 
     def reading(self) -> Reading:
         """Return what the recording says was set; currents are on its channels."""
-        text = self._scope.told(self._kind)
+        text = self._scope.told(self._kind) if self._scope.plays else ""
         return Reading(0.0 if text in ("", _OFF) else to_si(text, "V"), 0.0)
+
+    def output(self) -> bool:
+        """Nothing is on: it is over."""
+        return False
 
 
 class _NoTachometer(_Played):

@@ -97,6 +97,12 @@ class SerialVibration:
         if self._says.keep_alive:
             self._tell(self._says.keep_alive)
 
+    def vibrates(self) -> bool | None:
+        """Return what it answers, asked whether it is on; None where it has no such command."""
+        if not self._says.ask_output:
+            return None
+        return self._asked(self._says.ask_output) != self._says.output_off
+
     def close(self) -> None:
         """Let go of the port."""
         self._line.close()

@@ -7,10 +7,10 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.tribometer.calibration import Line
+from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.inputs import volts_a_count
 from asperity.tribometer.instruments.protocols import (
     FULL_SCALE,
-    Bench,
     Counts,
     Input,
     InstrumentError,
@@ -266,6 +266,10 @@ class SimulatedVibration(_Simulated):
     def keep_alive(self) -> None:
         """Nothing watches a simulated line."""
 
+    def vibrates(self) -> bool:
+        """Return whether it is on."""
+        return "vibration" in self._rig.on
+
 
 class SimulatedSupply(_Simulated):
     """An output of a supply."""
@@ -295,9 +299,24 @@ class SimulatedSupply(_Simulated):
 
     def reading(self) -> Reading:
         """Return what it gives."""
-        given = self._rig.volts.get(self._output, 0.0) if self._output in self._rig.on else 0.0
-        known = self._output in ("steel", "bronze")
-        return Reading(given, self._rig.motor(self._output)[1] if known else 0.0)
+        if self._output not in self._rig.on or self._output not in self._rig.volts:
+            return Reading(0.0, 0.0)
+        return Reading(self._rig.volts[self._output], self._rig.motor(self._output)[1])
+
+    def output(self) -> bool:
+        """Return whether it is on."""
+        return self._output in self._rig.on
+
+
+class SimulatedListener(_Simulated):
+    """What hears the drive signal, which is there whether the amplifier has power or not."""
+
+    def __init__(self, rig: SimulatedRig) -> None:
+        super().__init__(rig, "ear at the drive signal")
+
+    def moves(self) -> bool:
+        """Return whether the drive signal moves."""
+        return "vibration" in self._rig.on and self._rig.frequency > 0.0
 
 
 class SimulatedTachometer(_Simulated):
@@ -364,6 +383,7 @@ def simulated_bench(
         clock=SimulatedClock(rig),
         amplifier=SimulatedSupply(rig, "amplifier"),
         accelerometer=SimulatedAccelerometer(rig),
+        listener=SimulatedListener(rig),
         memory=rig,
         simulated=True,
     )

@@ -12,7 +12,8 @@ from typing import TypeVar
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.tribometer.instruments.protocols import Bench, Counts, Instrument
+from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.protocols import Counts, Instrument
 from asperity.tribometer.instruments.stream import Stream
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.recording import Recorder, Source

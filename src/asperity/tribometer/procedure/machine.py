@@ -16,17 +16,23 @@ import numpy as np
 from asperity.casefile import Case
 from asperity.errors import AsperityError, StorageError
 from asperity.runs import Run
-from asperity.runs.interrupt import Interrupted, terminable
+from asperity.runs.interrupt import Interrupted, Signals
 from asperity.tribometer.channels import Channels
+from asperity.tribometer.guardian.journal import Lines
+from asperity.tribometer.instruments.bench import Bench, MadeSafe
 from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
-from asperity.tribometer.instruments.protocols import Bench, InstrumentError, MadeSafe, WallClock
+from asperity.tribometer.instruments.protocols import (
+    SWITCHED_OFF,
+    InstrumentError,
+    StillOnError,
+    WallClock,
+)
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.interlock import Expected, Interlock
-from asperity.tribometer.procedure.journal import Journal
 from asperity.tribometer.procedure.logger import Logger
 from asperity.tribometer.procedure.packer import Packer
 from asperity.tribometer.procedure.steps import Action
@@ -55,7 +61,9 @@ class Machine:
     folder : Path
         For recordings.
     run : Run
-        Progress and Ctrl-C.
+        Progress.
+    signals : Signals
+        What ends the run.
     """
 
     def __init__(
@@ -63,9 +71,10 @@ class Machine:
         case: Case,
         actions: Sequence[Action],
         bench: Bench,
-        journal: Journal,
+        journal: Lines,
         folder: Path,
         run: Run,
+        signals: Signals,
     ) -> None:
         self._case = case
         self._actions = actions
@@ -73,6 +82,7 @@ class Machine:
         self._journal = journal
         self._folder = folder
         self._run = run
+        self._signals = signals
         self._plan = case.require(Plan)
         self._pair = Pair.from_case(case)
         self._sonotrode = case.require(Sonotrode)
@@ -117,8 +127,9 @@ class Machine:
         self._forecast(done)
         try:
             self._remember(done)
-            with self._packer, terminable(), self._run.going_on():
+            with self._packer:
                 for action in self._actions:
+                    self._signals.check(self._how_far())
                     if action.key in done:
                         self._done_cells += action.act == "cell"
                         continue
@@ -130,7 +141,10 @@ class Machine:
                     self._done_cells += action.act == "cell"
         except BaseException as error:
             return self._ended(error)
-        return None
+        failures = self._bench.safe()
+        if not failures:
+            return None
+        return self._still_on("all is done", "still on", failures)
 
     def _forecast(self, done: dict[str, dict[str, Any]]) -> None:
         """Say how long it takes: as long as is recorded, or a part of that where simulated."""
@@ -160,9 +174,15 @@ class Machine:
         still = {"still_on": list(failures)} if failures else {}
         if self._logger is not None:
             self._logger.abandon()
+        if self._signals.heard and getattr(error, "kind", "") == SWITCHED_OFF:
+            # The guardian heard of the signal first.
+            error = Interrupted(f"{self._signals.heard}{self._how_far()}")
         if isinstance(error, Interrupted | KeyboardInterrupt):
-            self._journal.write("interrupted", reason=str(error), **still)
-            raise Interrupted(f"{error or 'interrupted'}; --resume goes on") from None
+            said = str(error) or "interrupted"
+            if failures:
+                return self._still_on(said, "still on", failures)
+            self._journal.write("interrupted", reason=said)
+            raise Interrupted(f"{said}; --resume goes on") from None
         kind = getattr(error, "kind", "disk" if isinstance(error, StorageError) else "error")
         reason = str(error) or type(error).__name__
         try:
@@ -172,12 +192,15 @@ class Machine:
                 error.add_note(str(full))
         if not isinstance(error, AsperityError):
             raise error
-        if failures:
-            return InstrumentError(
-                f"{reason}; NOT SWITCHED OFF: {'; '.join(failures)}; switch it off by hand",
-                kind=kind,
-            )
-        return error
+        return _not_off(reason, kind, failures) if failures else error
+
+    def _still_on(self, reason: str, kind: str, failures: Sequence[str]) -> AsperityError:
+        """Latch, since something was not read back to be off."""
+        self._journal.write("latched", interlock=kind, reason=reason, still_on=list(failures))
+        return _not_off(reason, kind, failures)
+
+    def _how_far(self) -> str:
+        return f" after {self._done_cells} of {self._cells} cells"
 
     def _act(self, action: Action) -> dict[str, Any]:
         acts: dict[str, Callable[[Action], dict[str, Any]]] = {
@@ -194,16 +217,19 @@ class Machine:
         return acts[action.act](action)
 
     def _ask(self, action: Action) -> dict[str, Any]:
-        self._bench.person.do(action.text)
+        with self._signals.raising():
+            self._bench.person.do(action.text)
         return {}
 
     def _weigh(self, action: Action) -> dict[str, Any]:
         read = self._bench.person.read
-        return {f"{disc}_kg": read(f"Weight of the {disc} disc", "kg") for disc in _DISCS}
+        with self._signals.raising():
+            return {f"{disc}_kg": read(f"Weight of the {disc} disc", "kg") for disc in _DISCS}
 
     def _arrange(self, action: Action) -> dict[str, Any]:
         one = _file_of(action)
-        self._bench.person.arrange(action.text, one.mode)
+        with self._signals.raising():
+            self._bench.person.arrange(action.text, one.mode)
         return {"mode": one.mode}
 
     def _preload(self, action: Action) -> dict[str, Any]:
@@ -264,7 +290,8 @@ class Machine:
                 self._still(logger)
                 self._journal.write("check", action=action.key, reason=str(error))
                 logger.close()
-                self._bench.person.do(f"{error}. Put it right.")
+                with self._signals.raising():
+                    self._bench.person.do(f"{error}. Put it right.")
                 continue
             logger.close()
             self._logger = None
@@ -372,10 +399,18 @@ class Machine:
 
     def _beat(self) -> None:
         self._run.checkpoint(self._done_cells, self._cells, what="cells")
+        self._signals.check(self._how_far())
 
 
 _DISCS = "steel", "bronze"
 _PUT_RIGHT = frozenset(("preload", "zero", "no change", "wrong channel map"))
+
+
+def _not_off(reason: str, kind: str, failures: Sequence[str]) -> StillOnError:
+    return StillOnError(
+        f"{reason}; NOT READ BACK TO BE OFF: {'; '.join(failures)}; switch it off by hand",
+        kind=kind,
+    )
 
 
 def _file_of(action: Action) -> PlannedFile:

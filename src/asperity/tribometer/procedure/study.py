@@ -10,12 +10,16 @@ from asperity.casefile import Case
 from asperity.errors import AsperityError, InputError, choices, plain, suggestion
 from asperity.processes import alone
 from asperity.runs import Run
+from asperity.runs.interrupt import Signals
 from asperity.runs.key import key
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.instruments.backends import BACKENDS, REPLAY, open_bench
+from asperity.tribometer.guardian.backends import BACKENDS, REPLAY, GuardedBench, open_bench
+from asperity.tribometer.guardian.guard import GuardedJournal
+from asperity.tribometer.guardian.journal import Journal, Lines
+from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
-from asperity.tribometer.instruments.protocols import Bench, InstrumentError
+from asperity.tribometer.instruments.protocols import StillOnError
 from asperity.tribometer.instruments.replay import replay_bench
 from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.options import Plan
@@ -23,10 +27,11 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.study import warnings
-from asperity.tribometer.procedure.journal import Journal
+from asperity.tribometer.procedure.kept import check_kept
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
+from asperity.tribometer.recording.recorder import joined_all
 from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
 
@@ -131,41 +136,61 @@ def answer(problem: RunProblem, run: Run) -> RunResult:
     if run.folder is None:
         raise InputError("a run needs --out DIR, a folder for its recordings and its journal")
     # Before any instrument is touched: it may be the other one's.
+    signals = Signals()
     with alone(run.folder / _HELD, "is written by a run that goes on; choose another --out"):
         if problem.backend == REPLAY:
             names = [f"{one.name}.nc" for one in problem.files]
             bench = replay_bench(Path(problem.recordings), names)
-        else:
-            bench = open_bench(problem.case, problem.backend)
-        try:
             return _run(problem, bench, run, run.folder)
-        finally:
-            bench.close()
+        with signals.listening():
+            # Raised nowhere but where nothing is on; what is on, the guardian switches off at once.
+            guarded = open_bench(problem.case, problem.backend)
+            try:
+                with signals.told_to(guarded.guard.signals):
+                    return _run(problem, guarded, run, run.folder, signals)
+            finally:
+                guarded.close()
 
 
-def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult:
+def _run(
+    problem: RunProblem, bench: Bench, run: Run, folder: Path, signals: Signals | None = None
+) -> RunResult:
+    signals = signals or Signals()
+    with signals.listening():
+        return _listening(problem, bench, run, folder, signals)
+
+
+def _listening(
+    problem: RunProblem, bench: Bench, run: Run, folder: Path, signals: Signals
+) -> RunResult:
     # A process that was killed has left the instruments as they were.
-    failures = bench.safe()
+    failures = bench.begun()
     if failures:
-        raise InstrumentError(
-            f"not everything can be switched off: {'; '.join(failures)}; switch it off by hand and "
-            "look at the instruments",
+        if isinstance(bench, GuardedBench):
+            # Opened, it takes what the guardian found.
+            GuardedJournal(bench.guard, folder).close()
+        raise StillOnError(
+            f"not everything was read back to be off: {'; '.join(failures)}; switch it off by hand "
+            "and look at the instruments",
             kind="not safe",
         )
     if not (folder / NAME).exists():
         if problem.resume:
             raise InputError(f"{folder} holds no run to go on with; leave --resume out")
+        joined_all(folder)
         files = (folder / f"{one.name}.nc" for one in problem.files)
         if there := next(filter(Path.exists, files), None):
             raise InputError(f"{there} is there already, of another run; choose another --out")
-    journal = Journal(folder)
+    journal: Lines = (
+        GuardedJournal(bench.guard, folder) if isinstance(bench, GuardedBench) else Journal(folder)
+    )
     latch: AsperityError | None = None
     try:
         _opened(problem, journal)
         case = problem.case
         for warning in warnings(case):
             run.notify(warning)
-        machine = Machine(case, problem.actions, bench, journal, folder, run)
+        machine = Machine(case, problem.actions, bench, journal, folder, run, signals)
         latch = machine.go()
         if latch is None and not journal.of("finished"):
             journal.write("finished")
@@ -174,12 +199,12 @@ def _run(problem: RunProblem, bench: Bench, run: Run, folder: Path) -> RunResult
     return _result(problem, journal, latch)
 
 
-def _opened(problem: RunProblem, journal: Journal) -> None:
+def _opened(problem: RunProblem, journal: Lines) -> None:
     """Begin a journal, or go on with it if it is of this run and nothing stands in the way."""
     name = key("rig run", problem.case.canonical(), problem.backend)
     begun = journal.of("started")
     if not problem.resume:
-        if journal.lines:
+        if any(line["kind"] not in ("off", "torn") for line in journal.lines):
             raise InputError(
                 f"{journal.path} holds a run; go on with it by --resume, or choose another --out"
             )
@@ -202,15 +227,7 @@ def _opened(problem: RunProblem, journal: Journal) -> None:
         raise InputError("--acknowledge is given and nothing has latched; leave it out")
     if latched is not None:
         journal.write("acknowledged", text=problem.acknowledge, of=latched["line"])
-    lost = [
-        line["recording"] for line in journal.of("done")
-        if "cell" in line and not (journal.path.parent / line["recording"]).is_file()
-    ]  # fmt: skip
-    if lost:
-        raise InputError(
-            f"{journal.path} says that {lost[0]} holds {lost.count(lost[0])} cells, and it is "
-            "gone; put it back, or begin the plan in another --out"
-        )
+    check_kept(journal)
     journal.write("resumed")
 
 
@@ -218,7 +235,7 @@ def _cells(files: tuple[PlannedFile, ...]) -> int:
     return sum(len(one.cells) for one in files)
 
 
-def _result(problem: RunProblem, journal: Journal, latch: AsperityError | None) -> RunResult:
+def _result(problem: RunProblem, journal: Lines, latch: AsperityError | None) -> RunResult:
     lines = tuple(line for line in journal.of("done") if "cell" in line)
     before, after = (
         np.array([line[level]["torque_steel"] for line in lines])
@@ -243,7 +260,7 @@ def _result(problem: RunProblem, journal: Journal, latch: AsperityError | None) 
     )
 
 
-def _notes(problem: RunProblem, journal: Journal, latch: AsperityError | None) -> list[str]:
+def _notes(problem: RunProblem, journal: Lines, latch: AsperityError | None) -> list[str]:
     notes: list[str] = []
     if problem.backend == REPLAY:
         notes.append(f"played back from {plain(problem.recordings)}: no rig was run")

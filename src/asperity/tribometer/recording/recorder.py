@@ -1,10 +1,11 @@
 """Writing a recording, block by block: what has come is on its way to the disk with its block.
 
-The counts of a block are one chunk of the file, which is handed to HDF5 as it stands and flushed:
-a process that is killed leaves a file that opens and lacks its last block. What is compressed is
-compressed when the recording is closed, since that takes longer than recording does.
+Blocks stand one behind the other in a file of their own until the recording is closed, or, where
+its process was killed, opened: then they are joined to the file that it is kept in. What is
+compressed is compressed then, since that takes longer than recording does.
 """
 
+import contextlib
 import dataclasses
 import datetime
 import os
@@ -18,16 +19,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.errors import StorageError, plain
+from asperity.leftovers import temporary_beside
 from asperity.store import write_atomically
-from asperity.tribometer.recording import layout
+from asperity.tribometer.recording import blocks, layout
+from asperity.tribometer.recording.blocks import Blocks, blocks_beside, recording_of
 
 Counts = NDArray[np.int16]
 
 _ROWS = 128  # of a chunk of the tables of blocks and events
 _BLOCK_SECONDS = 0.1
+_HEADS = 1 << 18  # bytes of a recording beside its counts, at most
 _COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
-_END_AT = 40  # of the first version of an HDF5 file's head
-_RESERVE = 1 << 20
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,27 +86,24 @@ class Recorder:
         self._waiting = np.empty((self._block, len(sources)), np.int16)
         self._filled = 0
         self._first = 0
-        self._blocks = self._events = 0
+        self._came = 0.0
         begun = start or datetime.datetime.now(datetime.UTC)
-        attributes = {
-            "format": layout.FORMAT,
-            "start": begun.astimezone(datetime.UTC).isoformat(),
-            "sample_interval": float(sample_interval),
-            "configuration": configuration,
-            "simulated": int(simulated),
+        about = {
+            "sources": [dataclasses.astuple(one) for one in self._sources],
+            "block": self._block,
+            "attributes": {
+                "format": layout.FORMAT,
+                "start": begun.astimezone(datetime.UTC).isoformat(),
+                "sample_interval": float(sample_interval),
+                "configuration": configuration,
+                "simulated": int(simulated),
+            },
         }
         with self._trouble_told():
-            self._file = _created(path, self._sources, attributes, self._block)
-            # HDF5's own, which takes a chunk as it stands.
-            h5 = self._file._h5file
-            self._h5 = h5
-            self._raw = h5[layout.RAW]
-            self._tables = {name: h5[name] for name in (*layout.BLOCKS, *layout.EVENTS)}
-            self._rows = {name: np.zeros(_ROWS, self._tables[name].dtype) for name in layout.BLOCKS}
-            self._clock = 0.0
-            self._came = 0.0
-            self._ahead = _Ahead(path, 2 * self._waiting.nbytes + _RESERVE)
-            self._flush()
+            self._blocks = Blocks(path, about)
+            # An earlier one would be taken for this.
+            path.unlink(missing_ok=True)
+        self._open = True
 
     def append(self, counts: Counts, clock: float, first: int | None = None) -> None:
         """Take samples that have come.
@@ -139,23 +138,19 @@ class Recorder:
 
     def event(self, time: float, kind: str, text: str) -> None:
         """Take something that happened, at a time in s since the start."""
-        row = {"event_time": time, "event_kind": plain(kind), "event_text": plain(text)}
+        row = {"event_time": float(time), "event_kind": plain(kind), "event_text": plain(text)}
         with self._trouble_told():
-            for name, value in row.items():
-                self._tables[name].resize(self._events + 1, axis=0)
-                self._tables[name][self._events] = value
-            self._events += 1
-            self._flush()
+            self._blocks.event(row)
 
     def close(self, *, compress: bool = True) -> None:
-        """Write what is left; compress the file, whole or not at all."""
-        if self._file is None:
+        """Write what is left, and make the file of it; compressed, whole or not at all."""
+        if not self._open:
             return
         self._write_waiting(self._came)
+        self._open = False
         with self._trouble_told():
-            self._close()
-            if compress:
-                write_atomically(self.path, lambda target: compressed(self.path, target))
+            self._blocks.close()
+            joined(self.path, compress=compress)
 
     def __enter__(self) -> Self:
         return self
@@ -165,18 +160,13 @@ class Recorder:
     ) -> None:
         if kind is None:
             self.close()
-        else:
-            self._close()
-
-    def _close(self) -> None:
-        file, self._file = self._file, None
-        if file is not None:
-            file.close()
-            self._ahead.close()
-
-    def _flush(self) -> None:
-        self._h5.flush()
-        self._ahead.move()
+            return
+        if self._open:
+            self._open = False
+            self._blocks.close()
+            # Where the disk takes no more the blocks stay, and are joined when there is space.
+            with contextlib.suppress(StorageError, OSError, RuntimeError):
+                joined(self.path, compress=False)
 
     def _write_waiting(self, clock: float) -> None:
         if self._filled:
@@ -184,64 +174,13 @@ class Recorder:
             self._filled = 0
 
     def _write(self, clock: float, counts: Counts) -> None:
-        """Write a block: a chunk of the file, or a part of one."""
-        count, start = len(counts), self.samples
-        row = {
-            "block_first": self._first,
-            "block_count": count,
-            "block_clock": clock,
-            "block_crc32": zlib.crc32(counts.data),
-        }
         with self._trouble_told():
-            self._raw.id.set_extent((start + count, len(self._sources)))
-            if count == self._block and start % self._block == 0:
-                self._raw.id.write_direct_chunk((start, 0), counts)
-            else:
-                self._raw[start : start + count] = counts
-            for name, value in row.items():
-                self._rows[name][self._blocks % _ROWS] = value
-                table = self._tables[name].id
-                table.set_extent((self._blocks + 1,))
-                table.write_direct_chunk((self._blocks - self._blocks % _ROWS,), self._rows[name])
-            self._flush()
-        self._clock = clock
-        self.samples += count
-        self._first += count
-        self._blocks += 1
+            self._blocks.block(self._first, clock, np.ascontiguousarray(counts))
+        self.samples += len(counts)
+        self._first += len(counts)
 
     def _trouble_told(self) -> "_Told":
         return _Told(self.path)
-
-
-class _Ahead:
-    """Keeps the end that a file states ahead of what is being written to it.
-
-    HDF5 states the end of the file last of all it flushes. A process that is killed before that
-    leaves a file that points beyond its end, which nothing opens. Stated further on than needed,
-    with nothing there, the end does no harm.
-    """
-
-    def __init__(self, path: Path, reserve: int) -> None:
-        self._descriptor = os.open(path, os.O_RDWR)
-        self._reserve = reserve
-        self._stated = b""
-
-    def move(self) -> None:
-        """State a new end, where HDF5 has just stated its own."""
-        stated = os.pread(self._descriptor, 8, _END_AT)
-        if stated == self._stated:
-            return
-        end = int.from_bytes(stated, "little") + self._reserve
-        os.ftruncate(self._descriptor, end)
-        self._stated = end.to_bytes(8, "little")
-        os.pwrite(self._descriptor, self._stated, _END_AT)
-
-    def close(self) -> None:
-        """Cut the file where HDF5 says it ends."""
-        stated = os.pread(self._descriptor, 8, _END_AT)
-        if stated != self._stated:
-            os.ftruncate(self._descriptor, int.from_bytes(stated, "little"))
-        os.close(self._descriptor)
 
 
 class _Told:
@@ -260,6 +199,102 @@ class _Told:
             number = getattr(error, "errno", None)
             reason = os.strerror(number).lower() if number else "HDF5 could not write"
             raise StorageError(f"{self._path} cannot be written: {reason}") from error
+
+
+def joined(path: Path, *, compress: bool = False) -> bool:
+    """Make a recording's file of the blocks that stand beside it, and remove these.
+
+    Parameters
+    ----------
+    path : Path
+        Of the recording.
+    compress : bool
+        Whether it is compressed.
+
+    Returns
+    -------
+    bool
+        Whether there were any.
+
+    Raises
+    ------
+    StorageError
+        The file cannot be written; the blocks stay.
+    """
+    beside = blocks_beside(path)
+    try:
+        told = blocks.about(beside)
+    except FileNotFoundError:
+        return False
+    if told is not None:
+        with _Told(path):
+            # A last chunk is as large as a whole one.
+            chunk = 2 * int(told["block"]) * len(told["sources"])
+            _require_space(path, beside.stat().st_size + chunk)
+            if compress:
+                plainly = temporary_beside(path)
+                try:
+                    _join(beside, told, plainly)
+                    write_atomically(path, lambda target: compressed(plainly, target))
+                finally:
+                    plainly.unlink(missing_ok=True)
+            else:
+                write_atomically(path, lambda target: _join(beside, told, target))
+    # What was not even begun holds nothing.
+    beside.unlink(missing_ok=True)
+    return told is not None
+
+
+def _require_space(path: Path, size: int) -> None:
+    """Refuse a disk that is full: HDF5 leaves a file open that it can neither flush nor close."""
+    probe = temporary_beside(path)
+    try:
+        with probe.open("wb") as file:
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(file.fileno(), 0, size + _HEADS)
+            else:
+                file.truncate(size + _HEADS)
+    finally:
+        probe.unlink(missing_ok=True)
+
+
+def joined_all(folder: Path) -> list[Path]:
+    """Join what killed processes have recorded in a folder; returns the files made."""
+    found = sorted(map(recording_of, folder.glob(".*.blocks")))
+    return [path for path in found if joined(path)]
+
+
+def _join(beside: Path, told: dict[str, Any], target: Path) -> None:
+    """Write blocks as a recording."""
+    sources = [Source(*one) for one in told["sources"]]
+    block, columns = int(told["block"]), len(sources)
+    table: dict[str, list[Any]] = {name: [] for name in (*layout.BLOCKS, *layout.EVENTS)}
+    done = 0
+    with _created(target, sources, told["attributes"], block) as made:
+        raw = made._h5file[layout.RAW]
+        for row in blocks.rows(beside):
+            if isinstance(row, dict):
+                for name in layout.EVENTS:
+                    table[name].append(row[name])
+                continue
+            first, clock, check, flat = row
+            counts = flat.reshape(-1, columns)
+            values = first, len(counts), clock, check
+            for name, value in zip(layout.BLOCKS, values, strict=True):
+                table[name].append(value)
+            raw.id.set_extent((done + len(counts), columns))
+            if len(counts) == block and done % block == 0:
+                raw.id.write_direct_chunk((done, 0), counts)
+            else:
+                raw[done : done + len(counts)] = counts
+            done += len(counts)
+        made.resize_dimension(layout.SAMPLE, done)
+        for dim, names in ((layout.BLOCK, layout.BLOCKS), (layout.EVENT, layout.EVENTS)):
+            made.resize_dimension(dim, len(table[next(iter(names))]))
+            for name in names:
+                if table[name]:
+                    text = isinstance(table[name][0], str)
+                    made[name][...] = np.array(table[name], dtype=object if text else None)
 
 
 def _created(

@@ -18,7 +18,8 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError, StorageError, plain, shown
 from asperity.tribometer.recording import layout
-from asperity.tribometer.recording.recorder import Counts, Source
+from asperity.tribometer.recording.blocks import blocks_beside
+from asperity.tribometer.recording.recorder import Counts, Source, joined
 from asperity.tribometer.signals import SIGNALS
 
 _MOST_SAMPLES_A_BYTE = 1100  # what zeros are compressed to
@@ -99,6 +100,9 @@ class Recording:
             There is no such file, or it is no recording or damaged.
         """
         name = plain(str(path))
+        # Its process was killed while it recorded.
+        if not path.exists() and not path.is_symlink() and blocks_beside(path).is_file():
+            joined(path)
         with contextlib.suppress(FileNotFoundError):  # which is told below
             try:
                 store.require_no_pipe(path)

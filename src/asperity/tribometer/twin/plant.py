@@ -10,6 +10,7 @@ import numpy as np
 
 from asperity.casefile import Case
 from asperity.errors import InputError
+from asperity.roots import root_between
 from asperity.tribometer.options import Twin
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import LONGITUDINAL, Sonotrode
@@ -169,8 +170,6 @@ class Plant:
         InputError
             A motor does not turn.
         """
-        from scipy.optimize import brentq
-
         idle = self._speed(self.bronze, bronze, 0.0)
         if idle <= 0.0:
             raise InputError(
@@ -189,7 +188,7 @@ class Plant:
         most = steel / drive.constant
         if missing(0.0) <= 0.0:
             raise InputError(f"the simulated motor of the steel disc does not turn at {steel:g} V")
-        speed = float(brentq(missing, 0.0, most * (1.0 + 1e-9) + 1e-9))
+        speed = root_between(missing, 0.0, most * (1.0 + 1e-9) + 1e-9)
         sliding = drive.radius * speed / drive.ratio - rim
         return SteadyState(torque(speed), speed, idle, sliding)
 

@@ -157,15 +157,15 @@ def of_column(z, given, blank, nodes, values, lowest):
 
 
 @kernel
-def least_near(j, columns, found, given, blank, nodes, values):
+def least_near(j, columns, found, given, blank, nodes, values, lowest):
     """``(value, radius, z)`` of the least measure round the column ``j``.
 
-    ``found`` has values and radii of the columns.
+    ``found`` has values and radii of the columns; ``lowest`` is room for one of each.
     """
     low, high = max(j - 1, 0), min(j + 1, columns.size - 1)
     a, b, c = columns[low], columns[j], columns[high]
     fa, fb, fc = found[0, low], found[0, j], found[0, high]
-    lowest = np.array([fb, found[1, j]])
+    lowest[0], lowest[1] = fb, found[1, j]
     column = (given, blank, nodes, values, lowest)
     narrow = _NARROW * (c - a)
     z, value = compiled_minimum(of_column, column, a, fa, b, fb, c, fc, narrow, _STEPS, _EVEN)
@@ -173,31 +173,41 @@ def least_near(j, columns, found, given, blank, nodes, values):
 
 
 @kernel
-def least_on_tooth(columns, rough, given, blank):
+def place_of_least(values):
+    """Place of the least value, of two equal ones the first."""
+    place = 0
+    for j in range(1, values.size):
+        if values[j] < values[place]:
+            place = j
+    return place
+
+
+@kernel
+def least_on_tooth(columns, rough, given, blank, nodes, values, found, lowest):
     """``(value, radius, z)`` of the least measure on the flank.
 
     ``rough`` has the least value of each column on a grid. Columns that may hold the least are
-    looked at themselves, and every minimum among them is followed between the columns.
+    looked at themselves, and every minimum among them is followed between the columns. The others
+    are room for the nodes of a section and their values, for columns, (2, n), and for one, (2,).
     """
-    nodes = np.empty(NODES, NODE)
-    values = np.empty(NODES)
-    found = np.full((2, columns.size), math.inf)
     reach = resolution(given)
-    limit = rough.min() + reach
+    last = columns.size - 1
+    limit = rough[place_of_least(rough)] + reach
     for j in range(columns.size):
-        near = rough[max(j - 1, 0) : j + 2].min()
+        found[0, j] = found[1, j] = math.inf
+        near = min(rough[j], rough[max(j - 1, 0)], rough[min(j + 1, last)])
         if near <= limit:
             found[0, j], found[1, j] = least_on_column(columns[j], given, blank, nodes, values)
     best = math.inf
     radius = z = 0.0
     # A minimum between columns is less deep below them than one between points.
-    limit = found[0].min() + 0.2 * reach
+    limit = found[0, place_of_least(found[0])] + 0.2 * reach
     before = math.inf
     for j in range(columns.size):
         value = found[0, j]
-        after = found[0, min(j + 1, columns.size - 1)]
+        after = found[0, min(j + 1, last)]
         if value < before - _EVEN and value <= after + _EVEN and value <= limit:
-            value, r, at = least_near(j, columns, found, given, blank, nodes, values)
+            value, r, at = least_near(j, columns, found, given, blank, nodes, values, lowest)
             if value < best:
                 best, radius, z = value, r, at
         before = found[0, j]
@@ -212,7 +222,7 @@ def scan(points, beta, phase, mode, side, worm, mount, rough):
         for i in range(points.shape[0]):
             x, y, z = points[i, j, 0], points[i, j, 1], points[i, j, 2]
             rough[j] = min(rough[j], measure(x, y, z, beta, phase, mode, side, worm, mount))
-    return rough.min()
+    return rough[place_of_least(rough)]
 
 
 @kernel
@@ -221,11 +231,17 @@ def least_each(points, columns, betas, phases, mode, side, hob, cut, worm, mount
 
     Those above ``near`` are left as they are at the points of the grid, and have no radius.
     """
+    nodes = np.empty(NODES, NODE)
+    values = np.empty(NODES)
     rough = np.empty(columns.size)
+    found = np.empty((2, columns.size))
+    lowest = np.empty(2)
     for k in range(betas.size):
         out[k, 0] = scan(points, betas[k], phases[k], mode, side, worm, mount, rough)
         out[k, 1] = 0.0
-        out[k, 2] = columns[rough.argmin()]
+        out[k, 2] = columns[place_of_least(rough)]
         if out[k, 0] < math.inf and out[k, 0] <= near[k]:
             given = Search(betas[k], phases[k], mode, side, hob, cut, worm, mount)
-            out[k, 0], out[k, 1], out[k, 2] = least_on_tooth(columns, rough, given, blank)
+            out[k, 0], out[k, 1], out[k, 2] = least_on_tooth(
+                columns, rough, given, blank, nodes, values, found, lowest
+            )

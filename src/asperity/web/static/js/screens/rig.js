@@ -11,7 +11,7 @@ import { digits, inUnit } from "../units.js";
 import { useJob, Work, WorkPanel } from "../work.js";
 
 const OWN = "reduction.";
-const EXPORTS = ".csv,.txt,.mat,.tdms,.nc";
+const EXPORTS = ".csv,.txt,.asc,.lvm,.dat,.mat,.tdms,.wav,.sr,.mf4,.nc";
 /** What a page can record by itself: one file of a few cells on the simulated rig. */
 const TRIAL = {
   "plan.modes": '["transverse"]', "plan.lubricants": '["oil"]', "plan.excluded": "[]",
@@ -117,7 +117,7 @@ function Bring({ name, rec }) {
       <button type="button" disabled=${!name} onClick=${record}>record one on the simulated rig</button>
     </div>
     <p class="says" role="status">${said || html`A recording (.nc), or what an oscilloscope exported
-      (.csv, .txt, .mat, .tdms), which is read by the case's channels.`}</p>
+      (text, .lvm, .mat, .tdms, .wav, .sr), which is read by the case's channels.`}</p>
   </section>`;
 }
 

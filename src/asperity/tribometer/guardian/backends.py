@@ -1,0 +1,221 @@
+"""The instruments of a configuration, by who makes them, their outputs owned by a guardian."""
+
+import contextlib
+import dataclasses
+import json
+import subprocess
+import sys
+from typing import Any
+
+from asperity.casefile import Case
+from asperity.errors import AsperityError
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.guardian import asked
+from asperity.tribometer.guardian.casing import packed
+from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
+from asperity.tribometer.guardian.guard import Guard
+from asperity.tribometer.guardian.in_time import ScopeInTime
+from asperity.tribometer.guardian.rig import Address, RigLine
+from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.instruments.manual import (
+    ManualAccelerometer,
+    ManualSupply,
+    ManualTachometer,
+    ManualVibration,
+    Operator,
+)
+from asperity.tribometer.instruments.off import said
+from asperity.tribometer.instruments.parameters import Guard as Table
+from asperity.tribometer.instruments.protocols import (
+    Input,
+    Person,
+    Scope,
+    Supply,
+    VibrationDrive,
+)
+from asperity.tribometer.parameters import Sonotrode
+
+REPLAY = "replay"
+BACKENDS = "sim", REPLAY, "hardware", "manual"
+"""All of it simulated; a run played back; all that can be had as hardware; a PicoScope, and a
+person for the rest."""
+
+
+class _Vibration(asked.AskedVibration):
+    """A drive that the guardian owns; what keeps it alive is the heartbeat."""
+
+    def __init__(self, guard: Guard) -> None:
+        super().__init__(guard, "vibration", DRIVE)
+        self._guard = guard
+
+    def keep_alive(self) -> None:
+        """Tell the guardian that the procedure goes on."""
+        self._guard.beat()
+
+
+class _ByHand(ManualVibration):
+    """A drive that a person operates, beside a guardian that wants a heartbeat all the same."""
+
+    def __init__(self, person: Person, guard: Guard) -> None:
+        super().__init__(person)
+        self._guard = guard
+
+    def keep_alive(self) -> None:
+        """Tell the guardian that the procedure goes on."""
+        self._guard.beat()
+
+
+def _picoscope(inputs: tuple[Input, ...]) -> Scope:
+    from asperity.tribometer.instruments.picoscope import PicoScope
+
+    return PicoScope(inputs)
+
+
+@dataclasses.dataclass(frozen=True)
+class GuardedBench(Bench):
+    """A bench whose outputs a guardian owns.
+
+    Attributes
+    ----------
+    guard : Guard
+        Who switches them.
+    rig : RigLine, optional
+        The line to a simulated rig.
+    """
+
+    guard: Guard = None  # type: ignore[assignment]
+    rig: RigLine | None = None
+
+    def safe(self) -> tuple[str, ...]:
+        """Have everything switched off and read back; returns what was not, and why."""
+        found = self.guard.off("the procedure asks", listen=False)
+        # Then nobody else uses it, and its samples tell whether the drive is still.
+        if self._scope_let_go():
+            found = self.guard.off("the procedure asks, and the drive signal is heard", listen=True)
+        return (*found.get("still_on", ()), *self._by_hand())
+
+    def begun(self) -> tuple[str, ...]:
+        """Return what was not read back to be off when the guardian began, and why."""
+        found = self.guard.begun()
+        trouble = [found["trouble"]] if "trouble" in found else []
+        return (*found.get("still_on", ()), *trouble, *self._by_hand())
+
+    def _scope_let_go(self) -> bool:
+        try:
+            self.scope.safe()
+            self.scope.close()
+        except Exception:  # of a driver; it is no output, and keeps nothing on
+            return False
+        return True
+
+    def _by_hand(self) -> list[str]:
+        failures = []
+        for one in (self.vibration, *self.motors.values()):
+            if one.by_hand:
+                try:
+                    one.safe()
+                except Exception as error:
+                    failures.append(f"{one.name}: {said(error)}")
+        return failures
+
+    def close(self) -> None:
+        """Let go of all of them; the guardian ends when everything is off."""
+        with contextlib.suppress(Exception):
+            self.scope.close()
+        self.guard.close()
+        if self.rig is not None:
+            self.rig.close()
+
+
+def open_bench(case: Case, backend: str) -> GuardedBench:
+    """Return the instruments of a configuration, everything switched off by their guardian.
+
+    Raises
+    ------
+    InputError
+        The configuration lacks something, or nobody sits at a terminal.
+    InstrumentError
+        No guardian can be started.
+    """
+    inputs = inputs_of(case.require(Channels), case.require(Sonotrode))
+    if backend == "sim":
+        return _simulated(case, inputs)
+    person = Operator()
+    guard = Guard(case, backend, None)
+    owned, _ = owned_by(case, backend)
+    due = case.get(Table, Table()).due(simulated=False)
+    vibration: VibrationDrive = (
+        _Vibration(guard) if "vibration" in owned else _ByHand(person, guard)
+    )
+    outputs: dict[str, Supply] = {
+        key: asked.AskedSupply(guard, key, name) if key in owned else ManualSupply(person, name)
+        for key, name in OUTPUTS.items()
+    }
+    amplifier = outputs.pop("amplifier")
+    return GuardedBench(
+        scope=ScopeInTime("PicoScope", inputs, lambda: _picoscope(inputs), due),
+        vibration=vibration,
+        motors=outputs,
+        tachometer=ManualTachometer(person),
+        person=person,
+        amplifier=amplifier if "amplifier" in owned else None,
+        accelerometer=ManualAccelerometer(person),
+        guard=guard,
+    )
+
+
+def _simulated(case: Case, inputs: tuple[Input, ...]) -> GuardedBench:
+    address = begun_rig(case)
+    line = RigLine(address)
+    try:
+        guard = Guard(case, "sim", address)
+    except BaseException:
+        line.close()
+        raise
+    clock = asked.AskedClock(line)
+    name = "simulated oscilloscope"
+    scope = asked.AskedScope(line, "scope", name, inputs)
+    due = case.get(Table, Table()).due(simulated=True)
+    outputs = {key: asked.AskedSupply(guard, key, name) for key, name in OUTPUTS.items()}
+    return GuardedBench(
+        scope=ScopeInTime(name, inputs, lambda: scope, due),
+        vibration=_Vibration(guard),
+        motors={key: outputs[key] for key in ("steel", "bronze")},
+        tachometer=asked.AskedTachometer(line, "tachometer", "simulated tachometer"),
+        person=asked.AskedPerson(line),
+        clock=clock,
+        amplifier=outputs["amplifier"],
+        memory=asked.AskedMemory(line, clock),
+        simulated=True,
+        guard=guard,
+        rig=line,
+    )
+
+
+def begun_rig(case: Case) -> Address:
+    """Start the process of a simulated rig; returns where it is."""
+    process: Any = subprocess.Popen(
+        [sys.executable, "-P", "-m", "asperity.tribometer.guardian.rig"],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True,
+    )  # fmt: skip
+    with contextlib.suppress(OSError):
+        process.stdin.write(json.dumps(packed(case)).encode() + b"\n")
+        process.stdin.close()
+    said_at = process.stdout.readline()
+    process.stdout.close()
+    try:
+        port, word = json.loads(said_at)
+    except ValueError:
+        process.kill()
+        process.wait()
+        raise AsperityError("the process of the simulated rig has not begun") from None
+    _reap(process)
+    return port, word
+
+
+def _reap(process: Any) -> None:
+    """Take note of its end, whenever that is."""
+    import threading
+
+    threading.Thread(target=process.wait, daemon=True).start()

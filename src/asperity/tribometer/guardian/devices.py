@@ -1,0 +1,82 @@
+"""The devices of a configuration that a guardian owns."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from asperity.casefile import Case
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.guardian.asked import AskedListener, AskedSupply, AskedVibration
+from asperity.tribometer.guardian.owned import LISTENER, Device
+from asperity.tribometer.guardian.rig import Address, RigLine
+from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.instruments.listening import ScopeListener
+from asperity.tribometer.instruments.parameters import Controller, Supplies
+from asperity.tribometer.parameters import Sonotrode
+
+DRIVE = "vibration controller"
+OUTPUTS = {
+    "amplifier": "supply of the amplifier",
+    "steel": "supply of the steel disc's motor",
+    "bronze": "supply of the bronze disc's motor",
+}
+"""What messages call them."""
+_EAR = "ear at the drive signal"
+
+
+def owned_by(case: Case, backend: str) -> tuple[dict[str, str], tuple[str, ...]]:
+    """Return the outputs that a guardian owns, by key with their names, and those of a person."""
+    every = {"vibration": DRIVE, **OUTPUTS}
+    if backend == "sim":
+        return every, ()
+    owned = {}
+    if backend == "hardware" and Controller.table in case:
+        owned["vibration"] = DRIVE
+    if backend == "hardware" and Supplies.table in case:
+        table = case.require(Supplies)
+        owned |= {key: OUTPUTS[key] for key in OUTPUTS if getattr(table, key)}
+    asked = (name for key, name in every.items() if key not in owned and key != "amplifier")
+    return owned, tuple(asked)
+
+
+def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
+    """Return the devices, each of which begins to be opened."""
+    owned, _ = owned_by(case, backend)
+    if rig is not None:
+        return [_simulated(key, name, rig) for key, name in {**owned, LISTENER: _EAR}.items()]
+    found = []
+    if "vibration" in owned:
+        found.append(Device(DRIVE, {"vibration": DRIVE}, lambda: _controller(case)))
+    outputs = {key: name for key, name in owned.items() if key in OUTPUTS}
+    if outputs:
+        found.append(Device("supplies", outputs, lambda: _supplies(case)))
+    found.append(Device("oscilloscope", {LISTENER: _EAR}, lambda: _ear(case)))
+    return found
+
+
+def _simulated(key: str, name: str, rig: Address) -> Device:
+    kinds: Mapping[str, Any] = {"vibration": AskedVibration, LISTENER: AskedListener}
+    made = kinds.get(key, AskedSupply)
+
+    def opened() -> dict[str, Any]:
+        one = made(RigLine(rig), key, name)
+        one.identify()
+        return {key: one}
+
+    return Device(name, {key: name}, opened)
+
+
+def _controller(case: Case) -> dict[str, Any]:
+    from asperity.tribometer.instruments.serial_vibration import SerialVibration
+
+    return {"vibration": SerialVibration(case.require(Controller))}
+
+
+def _supplies(case: Case) -> dict[str, Any]:
+    from asperity.tribometer.instruments.pymeasure_supply import open_supplies
+
+    return dict(open_supplies(case.require(Supplies)))
+
+
+def _ear(case: Case) -> dict[str, Any]:
+    sonotrode = case.require(Sonotrode)
+    return {LISTENER: ScopeListener(inputs_of(case.require(Channels), sonotrode), sonotrode)}

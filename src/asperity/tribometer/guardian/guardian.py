@@ -1,0 +1,372 @@
+"""The guardian: does with the outputs what the procedure asks, and switches off when it must.
+
+Everything that happens comes to it as an event in one queue: a message, an answer of an instrument,
+a signal, the end of the procedure. It waits for nothing but these, and for no longer than until the
+next heartbeat is due.
+"""
+
+import concurrent.futures as cf
+import contextlib
+import dataclasses
+import queue
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity.tribometer.guardian import wire as wires
+from asperity.tribometer.guardian.hand import Hand
+from asperity.tribometer.guardian.journal import Journal
+from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
+from asperity.tribometer.guardian.relay import Relay
+from asperity.tribometer.guardian.switching import Switching, longest
+from asperity.tribometer.guardian.wire import Head, Wire
+from asperity.tribometer.instruments.off import said
+from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError
+
+BEAT = 0.1  #: s
+_OPENING = 20.0  # s that a device may take at the start
+_POLLED = 0.5  # s between two looks at a supply that is on
+_AGAIN = 1.0  # s between two attempts at what was not read back
+_ATTEMPTS = 10  # of these, when the procedure has ended
+_WRITTEN = 60.0  # s that the end waits for the journal and for recordings
+_CLOSED = 0.5  # s that it waits for a device to be let go of
+
+
+@dataclasses.dataclass
+class _Asked:
+    """A request whose answer is awaited; ``number`` is 0 where nobody waits for it."""
+
+    number: int
+    what: str
+    due: float
+
+
+class Guardian:
+    """Owns outputs.
+
+    Parameters
+    ----------
+    devices : sequence of Device
+        What it owns.
+    by_hand : sequence of str
+        Names of outputs that only a person can switch off.
+    wire : Wire
+        To the procedure.
+    patience, deadline : float
+        How long the procedure may be silent while something is on, and an instrument, s.
+    say : callable
+        Tells a person at the terminal; must not wait.
+    relay : Relay, optional
+        Cuts the power.
+    trouble : str
+        Why there is none, where there should be.
+    now : callable
+        The computer's clock, s; it goes on while the computer sleeps.
+    """
+
+    def __init__(
+        self,
+        devices: Sequence[Device],
+        by_hand: Sequence[str],
+        wire: Wire,
+        *,
+        patience: float,
+        deadline: float,
+        say: Callable[[str], None],
+        relay: Relay | None = None,
+        trouble: str = "",
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._devices = devices
+        self._wire = wire
+        self._patience, self._deadline = patience, deadline
+        self._say = say
+        self._relay, self._trouble = relay, trouble
+        self._now = now
+        self._of = {key: device for device in devices for key in device.keys}
+        self._switching = Switching(devices, by_hand, limit=longest(deadline), now=now)
+        self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._awaited: dict[cf.Future[Any], _Asked] = {}
+        self._on: set[str] = set()
+        self._tripped = ""
+        self._heard = self._looked = self._tried = now()
+        self._journal: Journal | None = None
+        self._writing = Hand("journal")
+        self._unwritten: list[Verdict] = []
+        self._last: Verdict | None = None
+        self._orderly = False
+        self._left: int | None = None
+
+    def signal(self, number: int) -> None:
+        """Take a signal, as often as it comes; may be called from its handler."""
+        self._events.put(lambda: self._trip(f"signal {_named(number)}"))
+
+    def message(self, head: Head) -> None:
+        """Take a message of the procedure; may be called from any thread."""
+        self._events.put(lambda: self._take(head))
+
+    def deserted(self) -> None:
+        """Take that the procedure is there no more; may be called from any thread."""
+        self._events.put(self._end)
+
+    def work(self) -> int:
+        """Make everything safe, then guard until the procedure has ended; returns an exit code."""
+        self._last = self._switching.off("start", self._now(), limit=_OPENING, listen=True)
+        self._unwritten.append(self._last)
+        while self._left is None:
+            try:
+                self._next()
+                self._look()
+            except Exception as error:
+                # Of ours: whatever it is, nothing is to stay on.
+                self._trip(f"a fault of the guardian: {said(error)}")
+        self._close()
+        return self._left
+
+    def _next(self) -> None:
+        """Take what has come."""
+        try:
+            event = self._events.get(timeout=0.5 * BEAT)
+        except queue.Empty:
+            return
+        event()
+
+    def _look(self) -> None:
+        """See that nothing is late."""
+        now = self._now()
+        if self._tripped:
+            if self._last is not None and self._last.still_on and now - self._tried > _AGAIN:
+                self._again()
+            return
+        if self._on and now - self._heard > self._patience:
+            self._trip(
+                f"the procedure has said nothing for {now - self._heard:.2g} s", event=self._heard
+            )
+            return
+        for future, asked in list(self._awaited.items()):
+            if now > asked.due and not future.done():
+                del self._awaited[future]
+                self._fault(asked, InstrumentError(
+                    f"{asked.what} has not answered within {self._deadline:g} s", kind="late"
+                ))  # fmt: skip
+                return
+        if self._relay is not None:
+            self._relay.pulse()
+        if now - self._looked > _POLLED:
+            self._looked = now
+            for key in self._on - {"vibration"}:
+                self._begin(0, key, lambda one: one.reading())
+        # Where it hears nothing the procedure may stand still, and its end of the line be full.
+        if now - self._heard < 10.0 * BEAT:
+            self._send({"here": True})
+
+    def _take(self, head: Head) -> None:
+        self._heard = self._now()
+        name, number = head["to"], head.get("n", 0)
+        if name == "guardian":
+            self._asked_itself(head["do"], number, head.get("with", ()))
+        elif name == "journal":
+            self._asked_to_write(head, number)
+        elif self._tripped:
+            self._send(wires.failed(number, self._off_already()))
+        elif name not in self._of:
+            self._send(wires.failed(number, InstrumentError(f"nobody owns {name}")))
+        else:
+            if head["do"] == "on":
+                self._on.add(name)
+            verb, given = head["do"], head.get("with", ())
+            self._begin(number, name, lambda one: getattr(one, verb)(*given))
+
+    def _asked_itself(self, verb: str, number: int, given: Sequence[Any]) -> None:
+        if verb == "beat":
+            waits = any(asked.what == self._called("vibration") for asked in self._awaited.values())
+            if "vibration" in self._on and not self._tripped and not waits:
+                self._begin(0, "vibration", lambda one: one.keep_alive())
+        elif verb == "started":
+            assert self._last is not None
+            told = self._last.line() | ({"trouble": self._trouble} if self._trouble else {})
+            self._send({"n": number, "gave": told})
+        elif verb == "off":
+            why, listen = given
+            found = self._off(why, self._now(), listen=listen, last=listen)
+            self._send({"n": number, "gave": found.line()})
+        elif verb == "goodbye":
+            self._orderly = True
+            self._send({"n": number, "gave": None})
+
+    def _asked_to_write(self, head: Head, number: int) -> None:
+        def act() -> Any:
+            if head["do"] == "open":
+                self._journal = Journal(Path(head["with"][0]))
+                while self._unwritten:
+                    self._journal.write("off", **self._unwritten.pop(0).line())
+                return self._journal.lines
+            if self._journal is None:
+                raise InstrumentError("no journal is open")
+            if head["do"] == "close":
+                self._journal.close(finished=head["with"][0])
+                self._journal = None
+                return None
+            return self._journal.write(head["with"][0], **head["with"][1])
+
+        future = self._writing.begin(act)
+        future.add_done_callback(
+            lambda ended: self._events.put(
+                lambda: self._send(wires.answered(number, ended.result)[0])
+            )
+        )
+
+    def _begin(self, number: int, key: str, act: Callable[[Any], Any]) -> None:
+        asked = _Asked(number, self._called(key), self._now() + self._deadline)
+        future = self._of[key].begin(key, act)
+        self._awaited[future] = asked
+        future.add_done_callback(lambda ended: self._events.put(lambda: self._answered(ended)))
+
+    def _answered(self, future: "cf.Future[Any]") -> None:
+        asked = self._awaited.pop(future, None)
+        if asked is None:
+            return
+        error = future.exception()
+        if error is not None:
+            self._fault(asked, error)
+        elif asked.number:
+            self._send(wires.answered(asked.number, future.result)[0])
+
+    def _fault(self, asked: _Asked, error: BaseException) -> None:
+        """Tell of an instrument that is late or lost, and switch off."""
+        if asked.number:
+            self._send(wires.failed(asked.number, error))
+        self._trip(str(error))
+
+    def _trip(self, why: str, event: float | None = None) -> None:
+        """Switch everything off, for good."""
+        if self._tripped:
+            return
+        self._tripped = why
+        found = self._off(why, self._now() if event is None else event, listen=False)
+        self._send({"tripped": why, "still_on": found.still_on})
+
+    def _off(
+        self, why: str, event: float, *, listen: bool, alone: bool = False, last: bool = True
+    ) -> Verdict:
+        """Switch everything off; ``last``: nobody will listen afterwards."""
+        for future, asked in list(self._awaited.items()):
+            if asked.number and not future.done():
+                del self._awaited[future]
+                self._send(wires.failed(asked.number, self._off_already()))
+        self._awaited.clear()
+        found = self._switching.off(why, event, listen=listen, alone=alone)
+        self._told(found, last=last)
+        self._on.clear()
+        return found
+
+    def _told(self, found: Verdict, *, last: bool) -> None:
+        """Write down what was found, and tell a person what has to be switched off by hand."""
+        self._last, self._tried = found, self._now()
+        self._unwritten.append(found)
+        if self._journal is not None:
+            self._writing.begin(self._write_down)
+        named = [str(one) for one in found.found if not one.proven and (last or not one.unheard)]
+        if named:
+            if self._relay is not None:
+                try:
+                    self._relay.open()
+                except Exception as error:
+                    self._say(f"{self._relay.name} could not be told to cut the power: {error}")
+            self._say(f"NOT READ BACK TO BE OFF: {'; '.join(named)}. SWITCH IT OFF BY HAND.")
+
+    def _write_down(self) -> None:
+        while self._unwritten and self._journal is not None:
+            self._journal.write("off", **self._unwritten.pop(0).line())
+
+    def _again(self) -> None:
+        """Try once more what was not read back to be off."""
+        assert self._last is not None
+        before = self._last.still_on
+        found = self._switching.off(self._last.why, self._now(), listen=False)
+        self._tried = self._now()
+        if found.still_on == before:
+            return
+        self._last = found
+        self._unwritten.append(found)
+        self._writing.begin(self._write_down)
+        if not found.still_on:
+            self._say(f"read back to be off at last: {', '.join(one.name for one in found.found)}")
+
+    def _end(self) -> None:
+        """Leave, everything off: the procedure is there no more."""
+        if self._orderly and self._last is not None and not self._on:
+            self._left = 4 if self._last.still_on else 0
+            return
+        why = self._tripped or "the procedure has ended without a word"
+        self._tripped = why
+        found = self._off(why, self._now(), listen=False, alone=True, last=LISTENER not in self._of)
+        seconds = found.seconds
+        if LISTENER in self._of:
+            heard = f"{why}, and the drive signal is heard"
+            found = self._off(heard, self._now(), listen=True, alone=True)
+        self._writing.begin(lambda: self._write_end(why, found))
+        self._writing.begin(self._join)
+        for _ in range(_ATTEMPTS if any(self._of) else 0):
+            if self._last is None or not self._last.still_on:
+                break
+            time.sleep(_AGAIN)
+            self._again()
+        still = self._last.still_on if self._last is not None else []
+        if not still:
+            names = ", ".join(one.name for one in found.found)
+            self._say(f"{why}; read back to be off within {seconds:.2g} s: {names}")
+        self._left = 4 if still else 0
+
+    def _write_end(self, why: str, found: Verdict) -> None:
+        journal = self._journal
+        kinds = [] if journal is None else [line["kind"] for line in journal.lines]
+        last = next((kind for kind in reversed(kinds) if kind != "off"), "")
+        if journal is None or last in _ENDED:
+            return
+        if found.still_on:
+            journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)
+        else:
+            journal.write("interrupted", reason=why)
+
+    def _join(self) -> None:
+        """Make files of what the procedure had recorded."""
+        if self._journal is None:
+            return
+        from asperity.tribometer.recording.recorder import joined_all
+
+        joined_all(self._journal.path.parent)
+
+    def _close(self) -> None:
+        """Let go of everything; what does not let go is left."""
+        written = self._writing.begin(lambda: None)
+        cf.wait([device.close() for device in self._devices], timeout=_CLOSED)
+        cf.wait([written], timeout=_WRITTEN)
+        if self._relay is not None:
+            self._relay.close()
+
+    def _off_already(self) -> InstrumentError:
+        return InstrumentError(
+            f"everything was switched off: {self._tripped or 'asked for'}", kind=SWITCHED_OFF
+        )
+
+    def _called(self, key: str) -> str:
+        return self._of[key].keys[key] if key in self._of else key
+
+    def _send(self, head: Head) -> None:
+        # Its end is read, and told, elsewhere.
+        with contextlib.suppress(OSError, ValueError):
+            self._wire.send(head)
+
+
+_ENDED = frozenset(("finished", "latched", "interrupted"))
+
+
+def _named(number: int) -> str:
+    import signal
+
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return str(number)

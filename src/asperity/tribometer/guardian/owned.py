@@ -1,0 +1,106 @@
+"""The instruments that a guardian owns, each device with a thread of its own."""
+
+import concurrent.futures as cf
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from asperity.tribometer.guardian.hand import Hand
+from asperity.tribometer.instruments import off
+from asperity.tribometer.instruments.off import Off
+from asperity.tribometer.instruments.protocols import InstrumentError
+
+STAGES = ("vibration",), ("amplifier",), ("steel", "bronze")
+"""Outputs in the order in which they are switched off."""
+LISTENER = "listener"
+
+
+class Device:
+    """A device that is opened by itself, and whose outputs share its line.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    keys : mapping of str to str
+        What messages call its outputs, by what they feed.
+    opened : callable
+        Opens it; returns its instruments by key.
+    """
+
+    def __init__(
+        self, name: str, keys: Mapping[str, str], opened: Callable[[], Mapping[str, Any]]
+    ) -> None:
+        self.name, self.keys = name, keys
+        self.trouble = ""
+        self._opened = opened
+        self._instruments: dict[str, Any] = {}
+        self._hand = Hand(name)
+        self.open()
+
+    def open(self) -> "cf.Future[Any]":
+        """Begin to open it, where it is not."""
+        return self._hand.begin(self._open)
+
+    def _open(self) -> None:
+        if self._instruments:
+            return
+        try:
+            self._instruments = dict(self._opened())
+            self.trouble = ""
+        except Exception as error:
+            self.trouble = off.said(error)
+
+    def begin(self, key: str, act: Callable[[Any], Any]) -> "cf.Future[Any]":
+        """Have something done with one of its instruments, when all before it is done."""
+
+        def do() -> Any:
+            if key not in self._instruments:
+                raise InstrumentError(self.trouble or f"{self.name} has no {key}", kind="line lost")
+            return act(self._instruments[key])
+
+        return self._hand.begin(do)
+
+    def close(self) -> "cf.Future[Any]":
+        """Let go of it."""
+
+        def do() -> None:
+            for one in self._instruments.values():
+                off.tried(one.close)
+
+        return self._hand.begin(do)
+
+
+@dataclasses.dataclass(frozen=True)
+class Verdict:
+    """What was read back when everything was switched off.
+
+    Attributes
+    ----------
+    why : str
+        What was the reason.
+    event, seconds : float
+        When it was noticed, by the computer's clock, and how long it then took, s.
+    found : tuple of Off
+        Of each output.
+    """
+
+    why: str
+    event: float
+    seconds: float
+    found: tuple[Off, ...]
+
+    @property
+    def still_on(self) -> list[str]:
+        """What was not read back to be off, and why."""
+        return [str(one) for one in self.found if not one.proven]
+
+    def line(self) -> dict[str, Any]:
+        """Return it for a journal."""
+        told = {
+            "why": self.why,
+            "event_s": self.event,
+            "took_s": round(self.seconds, 4),
+            "read_back": {one.name: one.evidence for one in self.found if one.proven},
+        }
+        return told | ({"still_on": self.still_on} if self.still_on else {})

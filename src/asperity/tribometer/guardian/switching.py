@@ -1,0 +1,170 @@
+"""Everything switched off in its order and read back, within a time that nothing can stretch."""
+
+import concurrent.futures as cf
+import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from asperity.tribometer.guardian.owned import LISTENER, STAGES, Device, Verdict
+from asperity.tribometer.instruments import off
+from asperity.tribometer.instruments.off import Off
+from asperity.tribometer.instruments.protocols import InstrumentError
+
+_LIMIT = 0.9  # s, after which what was not read back is named
+LISTENING = 5.0  #: s that an oscilloscope may take to be opened and to hear.
+_STAGE = 0.1  # s that an output may keep those of the next stage waiting.
+_AGAIN = 0.02  # s until what was not found off is told and asked again.
+
+Clock = Callable[[], float]
+
+
+def longest(deadline: float) -> float:
+    """Return how long switching off may take, s, where an answer may take a deadline."""
+    return max(_LIMIT, deadline)
+
+
+class Switching:
+    """Switches the outputs of some devices off.
+
+    Parameters
+    ----------
+    devices : sequence of Device
+        All that is owned.
+    by_hand : sequence of str
+        Names of outputs that only a person can switch off.
+    limit : float
+        How long it is tried, s; what is not off by then is named.
+    now : callable
+        The computer's clock, s.
+    """
+
+    def __init__(
+        self,
+        devices: Sequence[Device],
+        by_hand: Sequence[str] = (),
+        *,
+        limit: float = _LIMIT,
+        now: Clock = time.monotonic,
+    ) -> None:
+        self._limit = limit
+        self._devices = devices
+        self._by_hand = by_hand
+        self._now = now
+        self._of = {key: device for device in devices for key in device.keys}
+
+    def off(
+        self,
+        why: str,
+        event: float,
+        *,
+        limit: float | None = None,
+        listen: bool,
+        alone: bool = False,
+    ) -> Verdict:
+        """Switch everything off, and read back that it is.
+
+        Parameters
+        ----------
+        why : str
+            The reason.
+        event : float
+            When it was noticed, s.
+        limit : float, optional
+            Another time than usual, s.
+        listen : bool
+            Whether the drive signal may be listened to: nobody else uses the oscilloscope.
+        alone : bool
+            Whether nobody is there who would ask a person.
+        """
+        end = self._now() + (self._limit if limit is None else limit)
+        safes: dict[str, cf.Future[Any]] = {}
+        for stage in STAGES:
+            begun = {key: self._safe(key) for key in stage if key in self._of}
+            safes |= begun
+            cf.wait(begun.values(), timeout=min(_STAGE, max(0.0, end - self._now())))
+        asked = {key: self._read(key) for key in safes}
+        known: dict[str, Any] = {}
+        listens = listen and LISTENER in self._of and "vibration" in self._of
+        if listens:
+            end = max(end, self._now() + LISTENING)
+        while True:
+            # Heard before its command was taken, a drive that is still may yet begin.
+            if listens and LISTENER not in asked and asked["vibration"].done():
+                asked[LISTENER] = self._read(LISTENER)
+            found = self._found(asked, known)
+            proven = all(one.proven for one in found)
+            if proven and (not listens or LISTENER in known):
+                break
+            if self._now() >= end or self._hopeless(found):
+                break
+            if not proven:
+                self._ask_again(asked, found)
+            cf.wait(
+                [one for one in asked.values() if not one.done()],
+                timeout=max(0.0, min(_AGAIN, end - self._now())),
+            )
+        if alone:
+            found += [
+                Off(name, False, "nobody was asked to switch it off") for name in self._by_hand
+            ]
+        return Verdict(why, event, self._now() - event, tuple(found))
+
+    def _safe(self, key: str) -> "cf.Future[Any]":
+        return self._of[key].begin(key, lambda one: one.safe())
+
+    def _read(self, key: str) -> "cf.Future[Any]":
+        acts: dict[str, Callable[[Any], Any]] = {
+            "vibration": lambda one: one.vibrates(),
+            LISTENER: lambda one: one.moves(),
+        }
+        return self._of[key].begin(key, acts.get(key, off.read_back))
+
+    def _ask_again(self, asked: dict[str, "cf.Future[Any]"], found: Iterable[Off]) -> None:
+        """Tell and ask what has answered and was not found off."""
+        if all(not one.done() for one in asked.values()):
+            return
+        time.sleep(_AGAIN)
+        names = {one.name for one in found if not one.proven}
+        for key, future in list(asked.items()):
+            named = self._of_vibration() if key == LISTENER else self._of[key].keys[key]
+            if future.done() and named in names:
+                if key != LISTENER:
+                    self._safe(key)
+                asked[key] = self._read(key)
+
+    def _of_vibration(self) -> str:
+        return self._of["vibration"].keys["vibration"] if "vibration" in self._of else ""
+
+    def _found(self, asked: dict[str, "cf.Future[Any]"], known: dict[str, Any]) -> list[Off]:
+        # Of what was asked again, what it answered last.
+        known |= {key: _told(future) for key, future in asked.items() if future.done()}
+        found = {key: known.get(key, _SILENT) for key in asked}
+        made: dict[str, Off] = {}
+        for key in asked:
+            if key not in ("vibration", LISTENER):
+                made[key] = off.supply_off(self._of[key].keys[key], found[key])
+        if "vibration" in asked and "vibration" not in known:
+            made["vibration"] = Off(self._of_vibration(), False, str(_SILENT))
+        elif "vibration" in asked:
+            moves = found.get(LISTENER)
+            made["vibration"] = off.drive_off(
+                self._of_vibration(), found["vibration"], moves, made.get("amplifier")
+            )
+        return [made[key] for stage in STAGES for key in stage if key in made]
+
+    def _hopeless(self, found: Iterable[Off]) -> bool:
+        """Whether all that is not off could not even be opened."""
+        left = {one.name for one in found if not one.proven}
+        return bool(left) and all(
+            self._of[key].trouble
+            for stage in STAGES for key in stage
+            if key in self._of and self._of[key].keys[key] in left
+        )  # fmt: skip
+
+
+_SILENT = InstrumentError("it has not answered", kind="late")
+
+
+def _told(future: "cf.Future[Any]") -> Any:
+    error = future.exception()
+    return error if error is not None else future.result()

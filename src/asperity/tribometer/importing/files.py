@@ -1,0 +1,112 @@
+"""Which reader a file goes to, by its first bytes."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from asperity import store
+from asperity.errors import InputError, plain, shown
+from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.join import joined, renamed
+from asperity.tribometer.importing.mat import read_mat
+from asperity.tribometer.importing.programs import channel_of, refuse_known
+from asperity.tribometer.importing.tdms import read_tdms
+from asperity.tribometer.importing.text import read_text
+from asperity.tribometer.importing.waves import read_mdf, read_sigrok, read_wav
+from asperity.units import to_si
+
+TEXT, MAT, TDMS, OWN = "text", "mat", "TDMS", "recording"
+WAV, SIGROK, MDF = "WAV", "sigrok", "MDF"
+_READERS: Mapping[str, Callable[[Path, str, Told], Columns]] = {
+    TEXT: read_text, MAT: read_mat, TDMS: read_tdms, WAV: read_wav, SIGROK: read_sigrok,
+    MDF: read_mdf,
+}  # fmt: skip
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+_HEAD = 256
+_MOST_RATE = 1e10
+
+
+def told_of(rate: str = "", columns: str = "", units: str = "") -> Told:
+    """Read what somebody says of a file.
+
+    Parameters
+    ----------
+    rate : str
+        Samples a second, with its unit: ``20 kHz``.
+    columns, units : str
+        Of all columns in order, separated by commas; a column called ``-`` is left out.
+
+    Raises
+    ------
+    InputError
+        A rate that is none, a column without a name, or two of one name.
+    """
+    found = to_si(rate, "Hz") if rate else 0.0
+    if rate and not 0.0 < found <= _MOST_RATE:
+        raise InputError(f"--rate is {shown(rate)}; it must be above 0 and at most 10 GHz")
+    names = tuple(one.strip() for one in columns.split(",")) if columns else ()
+    named = [one for one in names if one != "-"]
+    if not all(names) or len({*named}) < len(named):
+        raise InputError(
+            f"--columns is {shown(columns)}; it must name every column once, - for one to leave out"
+        )
+    return Told(found, names, tuple(one.strip() for one in units.split(",")) if units else ())
+
+
+def form_of(path: Path, name: str) -> str:
+    """Return the format of a file, by its first bytes.
+
+    Raises
+    ------
+    InputError
+        There is no such file, or it is of a kind that is known and not read.
+    """
+    store.keep_input(path)
+    try:
+        if not path.is_file():
+            reason = "it is a folder; give a file" if path.is_dir() else "no such file"
+            if path.exists() and not path.is_dir():
+                reason = "it is no regular file; save what it holds to a file"
+            raise InputError(f"{name} cannot be read: {reason}")
+        with path.open("rb") as opened:
+            head = opened.read(_HEAD)
+    except OSError as error:
+        raise InputError(f"{name} cannot be read: {store.reason(error)}") from None
+    ending = path.suffix.lower()
+    if head.startswith(b"TDSm"):
+        return TDMS
+    if head.startswith(_HDF5):
+        return MAT if ending == ".mat" else OWN
+    if head.startswith(b"MATLAB") or ending == ".mat":
+        return MAT
+    if head[:4] in (b"RIFF", b"RIFX", b"RF64") and head[8:12] == b"WAVE":
+        return WAV
+    if head.startswith(b"PK") and ending == ".sr":
+        return SIGROK
+    if head.startswith((b"MDF ", b"UnFinMF")):
+        return MDF
+    refuse_known(head, ending, name)
+    return TEXT
+
+
+def read_export(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+    """Read what a laboratory's program wrote; refuses what is no such file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    name : str
+        What messages call it.
+    told : Told
+        What somebody says of it that it does not say itself.
+    """
+    form = form_of(path, name)
+    if form == OWN:
+        raise InputError(f"{name} is HDF5 of no known kind; export it as .csv, .mat or .tdms")
+    return renamed(_READERS[form](path, name, told), channel_of(path.stem))
+
+
+def read_joined(files: Sequence[str], told: Told) -> Columns:
+    """Read the files of one recording, a file some of its channels."""
+    return joined([(plain(one), read_export(Path(one), plain(one), told)) for one in files])

@@ -1,0 +1,58 @@
+"""The drive signal heard by an oscilloscope that nobody else uses at the time."""
+
+import numpy as np
+
+from asperity.tribometer.instruments.inputs import volts_a_count
+from asperity.tribometer.instruments.protocols import Input, InstrumentError
+from asperity.tribometer.parameters import Sonotrode
+
+_INTERVAL = 1e-4  # s, a quarter of the shortest cycle of a sonotrode
+_LASTING = 0.1  # s
+_STILL = 0.05  # Of the drive signal's swing, which is no vibration.
+
+
+class ScopeListener:
+    """Opens an oscilloscope, hears the drive signal for a moment, and lets go of it.
+
+    Parameters
+    ----------
+    inputs : tuple of Input
+        What is plugged in where.
+    sonotrode : Sonotrode
+        Whose drive signal it is.
+    """
+
+    by_hand = False
+
+    def __init__(self, inputs: tuple[Input, ...], sonotrode: Sonotrode) -> None:
+        self.name = "ear at the drive signal"
+        self._input = next(one for one in inputs if one.signal == "drive_voltage")
+        swing = sonotrode.highest_voltage - sonotrode.lowest_voltage
+        self._still = _STILL * swing / sonotrode.amplifier_gain
+
+    def identify(self) -> str:
+        """Return its name."""
+        return self.name
+
+    def moves(self) -> bool:
+        """Return whether the drive signal moves; raises InstrumentError where none is heard."""
+        import time
+
+        from asperity.tribometer.instruments.picoscope import PicoScope
+
+        scope = PicoScope((self._input,))
+        try:
+            scope.start(_INTERVAL)
+            time.sleep(_LASTING)
+            counts = scope.poll().counts[0]
+        finally:
+            scope.close()
+        if counts.size < 2:
+            raise InstrumentError(f"{self.name}: no samples have come", kind="samples lost or late")
+        return float(np.ptp(counts.astype(int))) * volts_a_count(self._input) > self._still
+
+    def safe(self) -> None:
+        """Nothing is open."""
+
+    def close(self) -> None:
+        """Nothing is open."""

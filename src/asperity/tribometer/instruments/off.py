@@ -1,0 +1,125 @@
+"""Off is what was read back: what proves of an output that it gives nothing."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import TypeVar
+
+from asperity.errors import AsperityError
+from asperity.tribometer.instruments.protocols import Reading, Supply
+
+STILL_CURRENT = 0.05  #: A, of an output that is off.
+STILL_VOLTAGE = 0.5  #: V, of one that cannot be asked whether it is off.
+
+T = TypeVar("T")
+
+
+@dataclasses.dataclass(frozen=True)
+class Off:
+    """What was found of an output that should be off.
+
+    Attributes
+    ----------
+    name : str
+        Of the instrument.
+    proven : bool
+        Whether it was read back that it is off.
+    evidence : str
+        What was read back, or why nothing was.
+    unheard : bool
+        Whether nothing speaks against it, and it has yet to be listened to.
+    """
+
+    name: str
+    proven: bool
+    evidence: str
+    unheard: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.evidence}"
+
+
+def tried(act: Callable[[], T]) -> T | Exception:
+    """Return what something gives, or the error that it raises."""
+    try:
+        return act()
+    except Exception as error:
+        return error
+
+
+def read_back(supply: Supply) -> tuple[bool | None, Reading]:
+    """Ask a supply for its output's state and what it measures."""
+    return supply.output(), supply.reading()
+
+
+def supply_off(name: str, found: tuple[bool | None, Reading] | Exception) -> Off:
+    """Judge what was read back of a supply.
+
+    Parameters
+    ----------
+    name : str
+        Of the supply.
+    found : tuple or Exception
+        What :func:`read_back` gave or raised.
+    """
+    if isinstance(found, Exception):
+        return Off(name, False, said(found))
+    on, given = found
+    measured = f"{given.current:.3g} A measured"
+    if on:
+        return Off(name, False, f"its output's state is on, {measured}")
+    # Of a comparison with what is no number nothing is proven.
+    still = abs(given.current) <= STILL_CURRENT
+    if on is None:
+        still = still and abs(given.voltage) <= STILL_VOLTAGE
+        state = f"its output's state cannot be asked, {given.voltage:.3g} V"
+        return Off(name, still, f"{state}, {measured}")
+    return Off(name, still, f"its output's state is off, {measured}")
+
+
+def drive_off(
+    name: str,
+    state: bool | Exception | None,
+    moves: bool | Exception | None,
+    amplifier: Off | None = None,
+) -> Off:
+    """Judge what was read back of a drive.
+
+    Parameters
+    ----------
+    name : str
+        Of the drive.
+    state : bool or Exception, optional
+        What it answers, asked whether it is on; None: it cannot be asked.
+    moves : bool or Exception, optional
+        Whether the drive signal is heard; None: nobody listens.
+    amplifier : Off, optional
+        What was found of its amplifier's supply.
+    """
+    told = []
+    if isinstance(state, Exception):
+        told.append(said(state))
+    elif state is not None:
+        told.append(f"its state is {'on' if state else 'off'}")
+    if isinstance(moves, Exception):
+        told.append(f"its signal is not heard: {said(moves)}")
+    elif moves is not None:
+        told.append(f"its signal {'moves' if moves else 'is still'}")
+    if state is True or moves is True:
+        return Off(name, False, ", ".join(told))
+    if state is False or moves is False:
+        return Off(name, True, ", ".join(told))
+    if state is None and amplifier is not None and amplifier.proven:
+        return Off(name, True, ", ".join([*told, "its amplifier has no power"]))
+    if not told:
+        return Off(name, False, "its state cannot be asked, and nobody listens", unheard=True)
+    return Off(name, False, ", ".join(told))
+
+
+def by_hand(name: str) -> Off:
+    """Return what is known of an output that a person was asked to switch off."""
+    return Off(name, True, "a person says that it is off")
+
+
+def said(error: BaseException) -> str:
+    """Return what an error says in one line."""
+    return str(error) if isinstance(error, AsperityError) else f"{type(error).__name__}: {error}"

@@ -1,0 +1,237 @@
+"""A simulated rig that stands on while procedures and guardians come and go, with faults."""
+
+import contextlib
+import json
+import os
+import signal
+import sys
+import threading
+import time
+
+from apparatus import rigs
+from asperity.errors import AsperityError
+from asperity.runs import Run
+from asperity.tribometer.guardian import backends
+from asperity.tribometer.guardian.rig import RigLine, RigServer, objects_of
+from asperity.tribometer.instruments.protocols import InstrumentError, Reading
+from asperity.tribometer.procedure import study
+
+PATIENT = 60.0  # s that a busy machine may take for what is to come
+
+
+def _in_a_child(act):
+    """Do something in a process of its own, which ends with it; returns its number."""
+    child = os.fork()
+    if child:
+        return child
+    code = 70
+    try:
+        code = act()
+    except BaseException as error:
+        print(f"{type(error).__name__}: {error}", file=sys.stderr, flush=True)
+    finally:
+        os._exit(code)
+
+
+class _Server(RigServer):
+    """Asked for a device, it answers as a device with a fault does."""
+
+    def __init__(self, bench, rig):
+        super().__init__(objects_of(bench))
+        self._rig = rig
+        self._faults, self._pace, self._seen, self._heard = {}, 0.0, set(rig.on), []
+        self._doing = set()
+
+    def fault(self, key, kind, seconds=0.0):
+        self._faults[key] = kind, seconds
+
+    def sound(self):
+        self._faults = {}
+
+    def pace(self, pace):
+        self._pace = pace
+
+    def history(self):
+        return self._heard
+
+    def on(self):
+        return sorted(self._rig.on)
+
+    def doing(self):
+        return sorted(self._doing)
+
+    def quiet(self):
+        self._rig.on.clear()
+
+    def _done(self, head):
+        key, verb = head["to"], head["do"]
+        if key == "test":
+            return getattr(self, verb)(*head["with"])
+        self._doing |= {f"{key}.{verb}"}
+        try:
+            return self._as_it_is(key, verb, head)
+        finally:
+            self._doing -= {f"{key}.{verb}"}
+
+    def _as_it_is(self, key, verb, head):
+        kind, seconds = self._faults.get(key, ("", 0.0))
+        if kind in ("absent", "garbling"):
+            raise InstrumentError(f"{key} is {kind}", kind="line lost")
+        if kind == "silent":
+            threading.Event().wait()
+        if kind == "late":
+            time.sleep(seconds)
+        if kind in ("stuck on", "welded") and verb in ("off", "safe"):
+            return None
+        if kind == "welded" and verb == "output":
+            return False
+        if kind == "stuck at a value" and verb == "reading":
+            return Reading(1.0, 2.4)
+        if (key, verb) == ("clock", "sleep"):
+            time.sleep(self._pace * head["with"][0] if "vibration" in self._rig.on else 0.0)
+        gave = super()._done(head)
+        if self._rig.on != self._seen:
+            self._heard.append([time.monotonic(), sorted(self._rig.on)])
+            self._seen = set(self._rig.on)
+        return gave
+
+
+class StandingRig:
+    """A rig of a case in a process of its own.
+
+    ``fault(key, kind)`` is one of absent, silent, garbling, late (by seconds), stuck on, welded
+    (off by its state, on by its current) and stuck at a value; ``pace`` slows its time while it
+    vibrates.
+    """
+
+    def __init__(self, case):
+        heard, told = os.pipe()
+
+        def be():
+            os.close(heard)
+            bench, rig = rigs.made_bench(case)
+            _warm(bench, rig, case)
+            server = _Server(*rigs.made_bench(case))
+            server._rig.plant = rig.plant
+            server._rig.on -= {"amplifier"}
+            os.write(told, json.dumps(server.address).encode())
+            os.close(told)
+            server.serve()
+            return 0
+
+        self._process = _in_a_child(be)
+        os.close(told)
+        with os.fdopen(heard) as file:
+            self.address = tuple(json.load(file))
+        self._line = RigLine(self.address)
+
+    def __getattr__(self, name):
+        return lambda *given: self._line.ask("test", name, *given)
+
+    def close(self):
+        self._line.close()
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self._process, signal.SIGKILL)
+        os.waitpid(self._process, 0)
+
+
+def _warm(bench, rig, case):
+    """Compile and tabulate what a run needs, so that no answer is late for that."""
+    for frequency in case["plan"].frequencies:
+        for on in (set(), {"steel", "bronze"}, {"steel", "bronze", "vibration", "amplifier"}):
+            rig.volts = {"steel": 1.0, "bronze": 0.9}
+            rig.on, rig.frequency = on, frequency
+            rig.change()
+            rig.begin(1.0 / case["plan"].sample_rate)
+            bench.clock.sleep(0.1)
+            rig.taken()
+            rig.end()
+            bench.clock.sleep(0.01)
+            rig.change()
+
+
+class Procedure:
+    """``asperity rig run`` in a process of its own, on a rig that stands."""
+
+    def __init__(self, case, folder, rig, *, resume=False, acknowledge="", before=None):
+        folder.mkdir(exist_ok=True)
+        self.folder = folder
+        noted = folder / "guardian"
+        noted.unlink(missing_ok=True)
+
+        class Noted(backends.Guard):
+            def _start(self):
+                super()._start()
+                noted.write_text(str(self.process))
+
+        def work():
+            errors = os.open(folder / "errors", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+            os.dup2(errors, 2)
+            backends.begun_rig = lambda case: rig.address
+            backends.Guard = Noted
+            if before is not None:
+                before()
+            problem = study.prepare(case, "sim", "", resume, acknowledge)
+            try:
+                answer = study.answer(problem, Run(folder=folder, stem="rig-run"))
+            except KeyboardInterrupt as stop:
+                os.write(2, f"{stop}\n".encode())
+                return 130
+            except AsperityError as error:
+                os.write(2, f"{error}\n".encode())
+                return error.exit_code
+            if answer.failure is None:
+                return 0
+            os.write(2, f"{answer.failure}\n".encode())
+            return answer.failure.exit_code
+
+        self.number = _in_a_child(work)
+        self._status = None
+
+    def kill(self, number):
+        os.kill(self.number, number)
+        return time.monotonic()
+
+    @property
+    def guardian(self):
+        """Number of the guardian's process."""
+        return int((self.folder / "guardian").read_text())
+
+    def ended(self):
+        """Wait for its end; returns its exit code, negative if a signal ended it."""
+        waited_for(self._gone)
+        return os.waitstatus_to_exitcode(self._status)
+
+    def _gone(self):
+        if self._status is None:
+            gone, status = os.waitpid(self.number, os.WNOHANG)
+            if gone:
+                self._status = status
+        return self._status is not None
+
+    @property
+    def said(self):
+        return (self.folder / "errors").read_text()
+
+    def end(self):
+        """Leave nothing behind."""
+        if not self._gone():
+            os.kill(self.number, signal.SIGCONT)
+            os.kill(self.number, signal.SIGKILL)
+            self.ended()
+
+
+def waited_for(what):
+    """Wait until something is so; returns what it gives."""
+    last = time.monotonic() + PATIENT
+    while not (found := what()):
+        assert time.monotonic() < last, "nothing came"
+        time.sleep(0.01)
+    return found
+
+
+def lines_of(folder, kind):
+    """Return the lines of a kind of a journal that may just be written."""
+    path = folder / "journal.jsonl"
+    rows = path.read_bytes().split(b"\n")[:-1] if path.exists() else []
+    return [line for row in rows if (line := json.loads(row))["kind"] == kind]

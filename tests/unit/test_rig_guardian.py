@@ -1,0 +1,317 @@
+"""The guardian switches off in order, reads back, names what is not proven, waits for nobody."""
+
+import os
+import queue
+import threading
+import time
+
+import pytest
+
+from asperity.errors import InputError
+from asperity.tribometer.guardian import switching
+from asperity.tribometer.guardian.guardian import Guardian
+from asperity.tribometer.guardian.owned import LISTENER, Device
+from asperity.tribometer.guardian.relay import Relay
+from asperity.tribometer.guardian.wire import Wire
+from asperity.tribometer.instruments import off
+from asperity.tribometer.instruments.parameters import Guard
+from asperity.tribometer.instruments.protocols import InstrumentError, Reading
+
+KEYS = "vibration", "amplifier", "steel", "bronze"
+
+
+class Fake:
+    """A device that notes what it is told, and has a fault."""
+
+    def __init__(self, key, told):
+        self.key, self.told, self.on_, self.fault = key, told, True, ""
+        self.stands = threading.Event()
+
+    def _asked(self, verb):
+        if self.fault == "blocked":
+            self.stands.wait()
+        if self.fault == "late":
+            time.sleep(0.3)
+        if self.fault == "garbling":
+            raise InstrumentError(f"{self.key} answers half", kind="half an answer")
+        if self.fault == "a driver's":
+            raise ZeroDivisionError
+        self.told.append((self.key, verb))
+
+    def safe(self):
+        self._asked("safe")
+        if self.fault not in ("stuck on", "welded"):
+            self.on_ = False
+
+    def on(self):
+        self._asked("on")
+        self.on_ = True
+
+    def output(self):
+        self._asked("output")
+        return self.on_ and self.fault != "welded"
+
+    vibrates = output
+
+    def moves(self):
+        self._asked("moves")
+        return self.fault == "heard"
+
+    def keep_alive(self):
+        self._asked("keep_alive")
+
+    def reading(self):
+        self._asked("reading")
+        return Reading(1.0, 2.4 if self.on_ or self.fault == "welded" else 0.0)
+
+    def close(self):
+        self.stands.set()
+
+
+class Made:
+    """A guardian in a thread, and the procedure's end of its line."""
+
+    def __init__(self, *, absent=(), by_hand=(), patience=60.0, deadline=20.0, limit=20.0):
+        self.told, self.said = [], []
+        self.fakes = {key: Fake(key, self.told) for key in (*KEYS, LISTENER)}
+        pipes = os.pipe(), os.pipe()
+        (self._hears, tells), (hears, self._tells) = pipes
+        self.wire = Wire(os.fdopen(self._hears, "rb", 0), os.fdopen(self._tells, "wb", 0))
+        wire = Wire(os.fdopen(hears, "rb", 0), os.fdopen(tells, "wb", 0))
+        self.guardian = Guardian(
+            [self._device(key, key in absent) for key in self.fakes], by_hand, wire,
+            patience=patience, deadline=deadline, say=self.said.append,
+        )  # fmt: skip
+        self.guardian._switching._limit = limit
+        self.heard = queue.Queue()
+        self.code = None
+        threading.Thread(target=self._hear, args=(wire,), daemon=True).start()
+        threading.Thread(target=self._read, daemon=True).start()
+        self._thread = threading.Thread(target=self._work, daemon=True)
+        self._number = 0
+
+    def _device(self, key, absent):
+        def opened():
+            if absent:
+                raise InstrumentError(f"{key} is not there")
+            return {key: self.fakes[key]}
+
+        return Device(key, {key: key}, opened)
+
+    def _hear(self, wire):
+        while (message := wire.receive()) is not None:
+            self.guardian.message(message[0])
+        self.guardian.deserted()
+
+    def _read(self):
+        while (message := self.wire.receive()) is not None:
+            self.heard.put(message[0])
+
+    def _work(self):
+        self.code = self.guardian.work()
+
+    def begin(self):
+        self._thread.start()
+        return self.ask("guardian", "started")
+
+    def ask(self, to, do, *given):
+        self._number += 1
+        self.wire.send({"to": to, "do": do, "with": given, "n": self._number})
+        while True:
+            answer = self.heard.get(timeout=60.0)
+            if answer.get("n") == self._number:
+                return answer
+
+    def hears(self, word):
+        while word not in (answer := self.heard.get(timeout=60.0)):
+            pass
+        return answer
+
+    def on(self):
+        for key in KEYS:
+            assert "error" not in self.ask(key, "on")
+
+    def leave(self):
+        self.wire._write.close()
+        self._thread.join(60.0)
+        return self.code
+
+
+@pytest.fixture
+def made():
+    every = []
+
+    def make(**options):
+        every.append(Made(**options))
+        return every[-1]
+
+    yield make
+    for one in every:
+        for fake in one.fakes.values():
+            fake.fault = ""
+            fake.stands.set()
+        one.wire.close()
+
+
+def test_the_first_act_is_to_switch_off_in_order_and_read_back(made):
+    one = made()
+    found = one.begin()["gave"]
+    assert set(found["read_back"]) == set(KEYS)
+    assert "still_on" not in found
+    safes = [key for key, verb in one.told if verb == "safe"]
+    assert safes[:2] == ["vibration", "amplifier"]
+    assert set(safes[2:]) == {"steel", "bronze"}
+    assert one.ask("guardian", "goodbye")["gave"] is None
+    assert one.leave() == 0
+
+
+def test_an_absent_instrument_keeps_no_other_on_and_is_named(made):
+    one = made(absent=("steel", LISTENER))
+    found = one.begin()["gave"]
+    assert set(found["read_back"]) == {"vibration", "amplifier", "bronze"}
+    assert found["still_on"] == ["steel: steel is not there"]
+    assert "NOT READ BACK TO BE OFF: steel" in one.said[0] if one.said else True
+    one.ask("guardian", "goodbye")
+    assert one.leave() == 4
+
+
+@pytest.mark.parametrize("way", ["signal", "end", "hangs", "another's fault", "fault of ours"])
+def test_whatever_ends_it_everything_is_off(made, way):
+    one = made(patience=0.5 if way == "hangs" else 60.0)
+    one.begin()
+    one.on()
+    assert all(one.fakes[key].on_ for key in KEYS)
+    if way == "signal":
+        for _ in range(5):
+            one.guardian.signal(15)
+    if way == "another's fault":
+        one.fakes["bronze"].fault = "garbling"
+        assert "answers half" in one.ask("bronze", "reading")["error"]
+        one.fakes["bronze"].fault = ""
+    if way == "fault of ours":
+        one.guardian._events.put(lambda: 1 / 0)
+    if way != "end":
+        assert one.hears("tripped")["still_on"] == []
+        # And nothing is switched on again.
+        assert "everything was switched off" in one.ask("steel", "on")["error"]
+    assert one.leave() == 0
+    assert not any(one.fakes[key].on_ for key in KEYS)
+    # By a signal it is switched off once, however often that comes.
+    assert "read back to be off" in one.said[-1]
+
+
+@pytest.mark.parametrize(
+    ("fault", "said"),
+    [("stuck on", "state is on"), ("welded", "2.4 A measured"), ("garbling", "answers half"),
+     ("a driver's", "ZeroDivisionError"), ("blocked", "it has not answered")],
+)  # fmt: skip
+def test_what_is_not_proven_off_is_named_and_the_others_are_off(made, fault, said, monkeypatch):
+    monkeypatch.setattr("asperity.tribometer.guardian.guardian._ATTEMPTS", 0)
+    one = made(limit=1.0, by_hand=("lamp",))
+    one.begin()
+    one.on()
+    one.fakes["steel"].fault = fault
+    one.guardian.signal(15)
+    (named,) = one.hears("tripped")["still_on"]
+    assert named.startswith("steel: ")
+    assert said in named
+    assert not any(one.fakes[key].on_ for key in KEYS if key != "steel")
+    assert "SWITCH IT OFF BY HAND" in one.said[-1]
+    assert one.leave() == 4
+    assert "lamp: nobody was asked to switch it off" in one.said[-1]
+
+
+def test_one_that_is_late_is_a_fault_and_proven_when_it_answers(made):
+    one = made(deadline=0.1)
+    one.begin()
+    one.on()
+    one.fakes["steel"].fault = "late"
+    assert one.ask("steel", "reading")["kind"] == "late"
+    assert one.hears("tripped")["still_on"] == []
+    assert one.leave() == 0
+
+
+def test_a_drive_is_proven_still_by_what_is_known_of_it():
+    silent = InstrumentError("no answer")
+    unpowered = off.Off("amplifier", True, "0 A")
+    for state, moves, amplifier, proven in (
+        (False, None, None, True), (False, False, None, True), (None, False, None, True),
+        (silent, False, None, True), (None, None, unpowered, True), (None, silent, unpowered, True),
+        (True, False, unpowered, False), (False, True, unpowered, False), (None, None, None, False),
+        (silent, None, unpowered, False), (silent, silent, None, False),
+        (None, True, unpowered, False),
+    ):  # fmt: skip
+        assert off.drive_off("drive", state, moves, amplifier).proven == proven
+
+
+def test_a_supply_is_proven_off_by_its_state_and_what_it_measures():
+    for state, volts, amperes, proven in (
+        (False, 12.0, 0.0, True), (False, 0.0, 0.2, False), (True, 0.0, 0.0, False),
+        (None, 0.0, 0.0, True), (None, 12.0, 0.0, False), (False, 0.0, float("nan"), False),
+    ):  # fmt: skip
+        assert off.supply_off("supply", (state, Reading(volts, amperes))).proven == proven
+    assert not off.supply_off("supply", ValueError("half")).proven
+
+
+def test_nothing_stretches_the_time_of_switching_off(made):
+    one = made(limit=0.9)
+    one.begin()
+    one.on()
+    for fake in one.fakes.values():
+        fake.fault = "blocked"
+    begun = time.monotonic()
+    found = one.guardian._switching.off("all block", begun, listen=True)
+    assert len(found.still_on) == 4
+    # Three stages and one limit; a busy machine may add to them.
+    assert found.seconds < 0.9 + 10.0
+    assert switching.longest(0.1) == 0.9
+
+
+class Port:
+    """A serial port that notes what becomes of it."""
+
+    def __init__(self, *_, **__):
+        self.done = []
+
+    def __setattr__(self, name, value):
+        if name != "done":
+            self.done.append((name, value))
+        super().__setattr__(name, value)
+
+    def write(self, data):
+        self.done.append(("write", data))
+
+    def close(self):
+        self.done.append(("closed", True))
+
+
+def test_a_relay_is_held_pulsed_and_opened(monkeypatch):
+    serial = pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
+    monkeypatch.setattr(serial, "Serial", Port)
+    held = Relay(Guard(relay_port="p", relay_line="RTS", relay_pulses=True, units="SI"))
+    held.hold()
+    held.pulse()
+    held.pulse()
+    held.close()
+    assert held._port.done == [
+        ("rts", True), ("rts", False), ("rts", True), ("rts", False), ("closed", True)
+    ]  # fmt: skip
+    told = Relay(Guard(relay_port="p", relay_on="A0 01", relay_off="A0 00", units="SI"))
+    told.hold()
+    told.pulse()
+    told.open()
+    assert told._port.done == [("write", b"\xa0\x01"), ("write", b"\xa0\x00")]
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"relay_port": "p"}, "needs either relay_line"),
+        ({"relay_line": "RTS"}, "relay_port is missing"),
+        ({"relay_port": "p", "relay_on": "A0", "relay_off": "xy"}, "bytes in hexadecimal"),
+        ({"relay_port": "p", "relay_on": "A0", "relay_off": "A1", "relay_pulses": True}, "pulses"),
+    ],
+)
+def test_a_relay_that_cannot_be_is_refused(given, said):
+    with pytest.raises(InputError, match=said):
+        Guard(**given, units="SI")
