@@ -70,7 +70,7 @@ def _seconds(entries: Sequence[Entry]) -> float:
 
 
 def _made(folder: Path, numbers: Sequence[int]) -> None:
-    command = [sys.executable, "-P", "-m", __name__, str(folder), "--only", *map(str, numbers)]
+    command = [sys.executable, "-P", "-m", "asperity.building.library", str(folder), "--only", *map(str, numbers)]
     subprocess.run(command, check=True, env=os.environ | {"ASPERITY_NATIVE": "0"})
 
 
