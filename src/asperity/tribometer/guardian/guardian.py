@@ -28,6 +28,7 @@ BEAT = 0.1  #: s
 _OPENING = 20.0  # s that a device may take at the start
 _POLLED = 0.5  # s between two looks at a supply that is on
 _AGAIN = 1.0  # s between two attempts at what was not read back
+_ATTEMPT = 0.5  # s that one of these takes
 _ATTEMPTS = 10  # of these, when the procedure has ended
 _WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
@@ -284,7 +285,8 @@ class Guardian:
         """Try once more what was not read back to be off."""
         assert self._last is not None
         before = self._last.still_on
-        found = self._switching.off(self._last.why, self._now(), listen=False)
+        # Shortly: who asks meanwhile is not to wait long.
+        found = self._switching.off(self._last.why, self._now(), limit=_ATTEMPT, listen=False)
         self._tried = self._now()
         if found.still_on == before:
             return
