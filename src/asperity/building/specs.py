@@ -18,7 +18,7 @@ _PLAIN: dict[str, Any] = {
 }
 
 
-class Unknown(TypeError):
+class UnknownTypeError(TypeError):
     """A type that a call without Numba cannot pass."""
 
 
@@ -27,7 +27,7 @@ def spec(of: Any) -> Spec:
 
     Raises
     ------
-    Unknown
+    UnknownTypeError
         There is no word for it.
     """
     for word, plain in _PLAIN.items():
@@ -44,7 +44,7 @@ def spec(of: Any) -> Spec:
             return ["N", made.__module__, made.__qualname__, [spec(inner) for inner in of.types]]
         case types.BaseTuple():
             return ["T", [spec(inner) for inner in of.types]]
-    raise Unknown(f"{of}")
+    raise UnknownTypeError(f"{of}")
 
 
 def numba_type(given: Spec) -> Any:
@@ -70,4 +70,4 @@ def numba_type(given: Spec) -> Any:
         return types.NamedTuple(members, made)
     if word == "T":
         return types.BaseTuple.from_types([numba_type(one) for one in rest[0]])
-    raise Unknown(word)
+    raise UnknownTypeError(word)

@@ -1,4 +1,4 @@
-"""Machine code that nothing has linked, where there is no C compiler: the object files are loaded."""
+"""Machine code that nothing has linked, for want of a C compiler: object files, loaded by LLVM."""
 
 import hashlib
 import logging
@@ -21,8 +21,8 @@ def from_folder(folder: Path) -> load.Library | None:
         if rows is None or not load.is_for_here(rows["target"], rows["features"]):
             return None
         if hashlib.sha256(held).hexdigest() != rows["library"]:
-            raise table.Damaged(f"{folder} is damaged")
-    except (table.Damaged, OSError) as trouble:
+            raise table.DamagedError(f"{folder} is damaged")
+    except (table.DamagedError, OSError) as trouble:
         _log.warning("%s: kernels are compiled instead; remove it", trouble)
         return None
     return load.Library(rows, _addresses(files))
