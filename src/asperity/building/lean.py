@@ -94,7 +94,7 @@ def _stand_in(*_arguments: object) -> Any:
     return [].append
 
 
-def _compiled(function: Any, options: dict[str, Any], _key: object) -> Any:
+def _compiled(function: Any, options: dict[str, Any], key: object) -> Any:
     """What `asperity.compiled.made` is here: nothing is looked for on the disk."""
     return numba.njit(nogil=True, error_model="numpy", **options)(function)
 

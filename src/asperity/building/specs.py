@@ -3,12 +3,15 @@
 import importlib
 from typing import Any
 
-from numba.core import types
+from numba.core import types as numba_types
 from numba.np.numpy_support import as_dtype, from_dtype
 
 from asperity.native.dtypes import described, read
 
 Spec = list[Any]
+
+# Numba fills its module of types as it is loaded.
+types: Any = numba_types
 
 _PLAIN: dict[str, Any] = {
     "d": types.float64,

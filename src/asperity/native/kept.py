@@ -55,8 +55,8 @@ class Kept:
             answer = native(arguments)
             if answer is not NotImplemented:
                 return answer
-        native = self._made_for(arguments) if self._others else None
-        return NotImplemented if native is None else native(arguments)
+        made = self._made_for(arguments) if self._others else None
+        return NotImplemented if made is None else made(arguments)
 
     def _made_for(self, arguments: tuple[Any, ...]) -> Native | None:
         with self._lock:

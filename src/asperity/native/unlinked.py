@@ -5,6 +5,7 @@ import logging
 from pathlib import Path
 
 from asperity.native import load, table
+from asperity.native.call import Addresses
 
 OBJECTS = ("kernels.o", "support.o")
 """Files of a folder without a library."""
@@ -28,7 +29,7 @@ def from_folder(folder: Path) -> load.Library | None:
     return load.Library(rows, _addresses(files))
 
 
-def _addresses(files: list[Path]) -> load.Addresses:
+def _addresses(files: list[Path]) -> Addresses:
     import llvmlite.binding as ll
 
     ll.initialize_native_target()
