@@ -83,8 +83,7 @@ def main():
     of_line = {
         line: [(old.entries[n].name, old.entries[n].arguments) for n in numbers]
         for line, numbers in old.lines.items()
-        if line in wanted
-        and not (given.again and all(word in line for word in given.again))
+        if line in wanted and not (given.again and all(word in line for word in given.again))
     }
     to_do = [line for line in wanted if line not in of_line]
     with concurrent.futures.ThreadPoolExecutor(given.processes) as pool:
@@ -113,7 +112,7 @@ def timed(rows):
         start = time.process_time()
         try:
             lean.make(making.kernel(entry), types, "entry")
-        except lean.Unfit as reason:
+        except lean.UnfitError as reason:
             print(f"{name}: {reason}", flush=True)
         yield name, types, round(time.process_time() - start, 1)
 

@@ -8,7 +8,7 @@ import json
 import os
 
 from asperity import compiled
-from asperity.native.types import UnlistedType, types_of
+from asperity.native.types import UnlistedTypeError, types_of
 
 _plain = compiled._Lazy.__call__
 _seen = set()
@@ -17,7 +17,7 @@ _seen = set()
 def _noted(self, *arguments):
     try:
         types = types_of(arguments)
-    except UnlistedType:
+    except UnlistedTypeError:
         types = None
     text = json.dumps([f"{self.__module__}.{self.__qualname__}", types])
     if text not in _seen:

@@ -21,11 +21,11 @@ from numba.core.runtime import nrtdynmod, rtsys
 
 from asperity import compiled
 from asperity.building import runtime
-from asperity.building.specs import Spec, Unknown, numba_type, spec
+from asperity.building.specs import Spec, UnknownTypeError, numba_type, spec
 from asperity.native.target import PROCESSOR
 
 
-class Unfit(Exception):
+class UnfitError(Exception):
     """A kernel that cannot do without Numba, or without Python."""
 
 
@@ -94,7 +94,7 @@ def _stand_in(*_arguments: object) -> Any:
     return [].append
 
 
-def _compiled(function: Any, options: dict[str, Any], _key: object) -> Any:
+def _compiled(function: Any, options: dict[str, Any], key: object) -> Any:
     """What `asperity.compiled.made` is here: nothing is looked for on the disk."""
     return numba.njit(nogil=True, error_model="numpy", **options)(function)
 
@@ -113,7 +113,7 @@ def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
 
     Raises
     ------
-    Unfit
+    UnfitError
         It needs Numba or Python at run time, or returns what a call cannot take back.
     """
     dispatcher = kernel._dispatcher
@@ -123,16 +123,16 @@ def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
     returned = result.signature.return_type
     try:
         returns = spec(returned)
-    except Unknown as error:
-        raise Unfit(f"it returns {error}") from None
+    except UnknownTypeError as error:
+        raise UnfitError(f"it returns {error}") from None
     if isinstance(returned, types.Record):
-        raise Unfit("it returns a record")
+        raise UnfitError("it returns a record")
     native = result.fndesc.llvm_func_name
     module, words = _linked(result, native, symbol)
     _internal(module, native, symbol)
     _optimise(module)
     if foreign := _foreign(module):
-        raise Unfit(f"it needs {', '.join(foreign)}")
+        raise UnfitError(f"it needs {', '.join(foreign)}")
     return Made(_machine().emit_object(module), returns, words)
 
 
@@ -183,9 +183,7 @@ def _internal(module: Any, native: str, symbol: str) -> None:
         if not function.is_declaration and function.name != symbol:
             function.linkage = "internal"
     for variable in module.global_variables:
-        if not variable.is_declaration:
-            variable.linkage = "internal"
-        elif variable.linkage == ll.Linkage.common:
+        if not variable.is_declaration or variable.linkage == ll.Linkage.common:
             variable.linkage = "internal"
     # As a function of its own it keeps what is known of its arguments.
     module.get_function(native).add_function_attribute("noinline")
@@ -281,7 +279,7 @@ def _from_word(builder: Any, word: Any, kind: Any) -> Any:
         return builder.bitcast(builder.trunc(word, ir.IntType(32)), kind)
     if isinstance(kind, ir.IntType):
         return word if kind.width == 64 else builder.trunc(word, kind)
-    raise Unfit(f"an argument is {kind}")
+    raise UnfitError(f"an argument is {kind}")
 
 
 def _to_word(builder: Any, leaf: Any) -> Any:
@@ -296,4 +294,4 @@ def _to_word(builder: Any, leaf: Any) -> Any:
         if kind.width == 64:
             return leaf
         return (builder.zext if kind.width <= 8 else builder.sext)(leaf, _WORD)
-    raise Unfit(f"it returns {kind}")
+    raise UnfitError(f"it returns {kind}")

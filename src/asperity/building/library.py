@@ -70,7 +70,15 @@ def _seconds(entries: Sequence[Entry]) -> float:
 
 
 def _made(folder: Path, numbers: Sequence[int]) -> None:
-    command = [sys.executable, "-P", "-m", "asperity.building.library", str(folder), "--only", *map(str, numbers)]
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "asperity.building.library",
+        str(folder),
+        "--only",
+        *map(str, numbers),
+    ]
     subprocess.run(command, check=True, env=os.environ | {"ASPERITY_NATIVE": "0"})
 
 
@@ -82,7 +90,7 @@ def _make(folder: Path, entries: Iterator[Entry]) -> None:
     for entry in entries:
         try:
             made = lean.make(making.kernel(entry), entry.arguments, link.symbol(entry))
-        except lean.Unfit as error:
+        except lean.UnfitError as error:
             told: dict[str, object] = {"unfit": str(error)}
         else:
             (folder / f"{entry.number}.o").write_bytes(made.code)

@@ -11,10 +11,9 @@ from typing import Any
 
 from asperity.building import lean, runtime
 from asperity.native import gather, keys, table
-from asperity.native.unlinked import OBJECTS
 from asperity.native.entries import Entry
 from asperity.native.target import FEATURES, platform_name
-
+from asperity.native.unlinked import OBJECTS
 
 
 def compiler() -> str | None:

@@ -3,12 +3,15 @@
 import importlib
 from typing import Any
 
-from numba.core import types
+from numba.core import types as numba_types
 from numba.np.numpy_support import as_dtype, from_dtype
 
 from asperity.native.dtypes import described, read
 
 Spec = list[Any]
+
+# Numba fills its module of types as it is loaded.
+types: Any = numba_types
 
 _PLAIN: dict[str, Any] = {
     "d": types.float64,
@@ -18,7 +21,7 @@ _PLAIN: dict[str, Any] = {
 }
 
 
-class Unknown(TypeError):
+class UnknownTypeError(TypeError):
     """A type that a call without Numba cannot pass."""
 
 
@@ -27,7 +30,7 @@ def spec(of: Any) -> Spec:
 
     Raises
     ------
-    Unknown
+    UnknownTypeError
         There is no word for it.
     """
     for word, plain in _PLAIN.items():
@@ -44,7 +47,7 @@ def spec(of: Any) -> Spec:
             return ["N", made.__module__, made.__qualname__, [spec(inner) for inner in of.types]]
         case types.BaseTuple():
             return ["T", [spec(inner) for inner in of.types]]
-    raise Unknown(f"{of}")
+    raise UnknownTypeError(f"{of}")
 
 
 def numba_type(given: Spec) -> Any:
@@ -70,4 +73,4 @@ def numba_type(given: Spec) -> Any:
         return types.NamedTuple(members, made)
     if word == "T":
         return types.BaseTuple.from_types([numba_type(one) for one in rest[0]])
-    raise Unknown(word)
+    raise UnknownTypeError(word)

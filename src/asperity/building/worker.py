@@ -9,6 +9,7 @@ import signal
 import sys
 import threading
 from pathlib import Path
+
 _IDLE = 30.0  # s
 
 

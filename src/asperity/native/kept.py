@@ -19,8 +19,8 @@ from typing import Any
 from asperity import kernel_folder
 from asperity.native import keys, load, table
 from asperity.native.entries import Entry, likely, listed
-from asperity.native.types import UnlistedType, types_of
 from asperity.native.target import FEATURES
+from asperity.native.types import UnlistedTypeError, types_of
 
 UNFIT = "unfit"
 """Stands in place of machine code where there can be none; says why."""
@@ -55,14 +55,14 @@ class Kept:
             answer = native(arguments)
             if answer is not NotImplemented:
                 return answer
-        native = self._made_for(arguments) if self._others else None
-        return NotImplemented if native is None else native(arguments)
+        made = self._made_for(arguments) if self._others else None
+        return NotImplemented if made is None else made(arguments)
 
     def _made_for(self, arguments: tuple[Any, ...]) -> Native | None:
         with self._lock:
             try:
                 types = types_of(arguments)
-            except UnlistedType:
+            except UnlistedTypeError:
                 return None
             for entry in self._others:
                 if entry.arguments == types:
@@ -144,7 +144,6 @@ class _Makers:
                 process.stdin.write(line)
                 process.stdin.flush()
 
-
     def leave(self) -> None:
         """Let the processes end by themselves, after what they are at."""
         for process in self._processes:
@@ -176,4 +175,3 @@ def _cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
-

@@ -21,7 +21,7 @@ _SCALARS: dict[type, str] = {
 }
 
 
-class UnlistedType(TypeError):
+class UnlistedTypeError(TypeError):
     """A value of a type that no list of entries can hold."""
 
 
@@ -30,7 +30,7 @@ def types_of(values: Sequence[Any]) -> list[Any]:
 
     Raises
     ------
-    UnlistedType
+    UnlistedTypeError
         One of them is nothing that machine code is called with.
     """
     return [_type_of(value) for value in values]
@@ -45,11 +45,13 @@ def _type_of(value: Any) -> list[Any]:
         # One that is both counts as of rows, as it does to Numba.
         layout = "C" if flags.c_contiguous else "F" if flags.f_contiguous else "A"
         dtype = described(value.dtype)
-        return ["A", dtype, value.ndim, layout, bool(flags.writeable), bool(flags.aligned)]
+        # Numba counts on no place of what stands in a record that is packed.
+        aligned = flags.aligned and (value.dtype.fields is None or value.dtype.isalignedstruct)
+        return ["A", dtype, value.ndim, layout, bool(flags.writeable), bool(aligned)]
     if kind is np.void:
         return ["R", described(value.dtype)]
     if kind is tuple:
         return ["T", types_of(value)]
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return ["N", kind.__module__, kind.__qualname__, types_of(value)]
-    raise UnlistedType(f"{kind.__qualname__}")
+    raise UnlistedTypeError(f"{kind.__qualname__}")

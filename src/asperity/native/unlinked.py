@@ -1,10 +1,11 @@
-"""Machine code that nothing has linked, where there is no C compiler: the object files are loaded."""
+"""Machine code that nothing has linked, for want of a C compiler: object files, loaded by LLVM."""
 
 import hashlib
 import logging
 from pathlib import Path
 
 from asperity.native import load, table
+from asperity.native.call import Addresses
 
 OBJECTS = ("kernels.o", "support.o")
 """Files of a folder without a library."""
@@ -21,14 +22,14 @@ def from_folder(folder: Path) -> load.Library | None:
         if rows is None or not load.is_for_here(rows["target"], rows["features"]):
             return None
         if hashlib.sha256(held).hexdigest() != rows["library"]:
-            raise table.Damaged(f"{folder} is damaged")
-    except (table.Damaged, OSError) as trouble:
+            raise table.DamagedError(f"{folder} is damaged")
+    except (table.DamagedError, OSError) as trouble:
         _log.warning("%s: kernels are compiled instead; remove it", trouble)
         return None
     return load.Library(rows, _addresses(files))
 
 
-def _addresses(files: list[Path]) -> load.Addresses:
+def _addresses(files: list[Path]) -> Addresses:
     import llvmlite.binding as ll
 
     ll.initialize_native_target()
