@@ -109,9 +109,10 @@ def _addresses(file: Path) -> Addresses:
 def _is_wanted() -> bool:
     if os.environ.get("ASPERITY_NATIVE", "") == "0":
         return False
-    numba = sys.modules.get("numba")
-    if numba is not None:
-        return not numba.config.DISABLE_JIT
+    # Another thread may be importing it, which reads the same variable.
+    config = getattr(sys.modules.get("numba"), "config", None)
+    if hasattr(config, "DISABLE_JIT"):
+        return not config.DISABLE_JIT
     return os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 
 
