@@ -34,7 +34,8 @@ def _kernels(base: str | None, xdg: str | None) -> Path | None:
         return None
     with contextlib.suppress(OSError):
         _remove_old(folder)
-    return folder
+    # A process that makes something may outlive a link to the folder.
+    return folder.resolve()
 
 
 def is_kept(folder: Path) -> bool:

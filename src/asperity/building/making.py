@@ -47,6 +47,8 @@ def kernel(entry: Entry) -> Any:
 
 
 def _make(kernels: Path, key: str, entry: Entry) -> None:
+    from numba.core.errors import NumbaError
+
     from asperity.building import lean, link
 
     began()
@@ -56,8 +58,8 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
         try:
             made = lean.make(kernel(entry), entry.arguments, link.symbol(entry))
             link.write(new, [(entry, made)], _support())
-        except Exception as error:
-            # Whatever hinders it hinders the next attempt too; Numba tells, where it cannot either.
+        except (lean.UnfitError, NumbaError) as error:
+            # It hinders the next attempt too, until the sources change. Anything else may pass.
             (new / UNFIT).write_text(f"{entry.name}: {error}\n", "utf-8")
         with contextlib.suppress(OSError):
             new.rename(kernels / key)

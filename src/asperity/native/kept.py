@@ -8,6 +8,7 @@ import atexit
 import contextlib
 import functools
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -100,11 +101,19 @@ def _obtained(entry: Entry) -> load.Library | None:
         _makers(kernels).make(entry, folder)
     if not folder.exists() or not kernel_folder.is_kept(folder) or (folder / UNFIT).exists():
         return None
+    found = _loaded(folder)
+    if found is None:
+        shutil.rmtree(folder, ignore_errors=True)
+    return found
+
+
+def _loaded(folder: Path) -> load.Library | None:
+    remedy = "it is made anew the next time"
     if (folder / table.LIBRARY).exists():
-        return load.from_folder(folder)
+        return load.from_folder(folder, remedy)
     from asperity.native import unlinked
 
-    return unlinked.from_folder(folder)
+    return unlinked.from_folder(folder, remedy)
 
 
 _ASKED: set[int] = set()

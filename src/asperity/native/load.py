@@ -69,7 +69,7 @@ class Library:
         return self._caller.entry(name, row["signatures"])
 
 
-def from_folder(folder: Path) -> Library | None:
+def from_folder(folder: Path, remedy: str = "install asperity anew") -> Library | None:
     """Return the library of a folder; None where it has none for this machine.
 
     Whether somebody else may have written it is not asked.
@@ -78,6 +78,8 @@ def from_folder(folder: Path) -> Library | None:
     ----------
     folder : path
         Where the library and its table stand.
+    remedy : str
+        What is to be done, or is, where it is damaged.
     """
     try:
         rows = table.read(folder)
@@ -87,7 +89,7 @@ def from_folder(folder: Path) -> Library | None:
         if hashlib.sha256(file.read_bytes()).hexdigest() != rows["library"]:
             raise table.DamagedError(f"{file} is damaged")
     except (table.DamagedError, OSError) as trouble:
-        _log.warning("%s: kernels are compiled instead; install asperity anew", trouble)
+        _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
         return None
     # What it is linked with may be missing or too old here.
     with contextlib.suppress(OSError):

@@ -13,7 +13,7 @@ OBJECTS = ("kernels.o", "support.o")
 _log = logging.getLogger(__name__)
 
 
-def from_folder(folder: Path) -> load.Library | None:
+def from_folder(folder: Path, remedy: str) -> load.Library | None:
     """Return the library of a folder that has its object files; None where they are damaged."""
     try:
         rows = table.read(folder)
@@ -24,7 +24,7 @@ def from_folder(folder: Path) -> load.Library | None:
         if hashlib.sha256(held).hexdigest() != rows["library"]:
             raise table.DamagedError(f"{folder} is damaged")
     except (table.DamagedError, OSError) as trouble:
-        _log.warning("%s: kernels are compiled instead; remove it", trouble)
+        _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
         return None
     return load.Library(rows, _addresses(files))
 
