@@ -147,7 +147,9 @@ def test_no_link_is_followed(cache, shown, filled, tmp_path):
     (filled / "kernels" / ("a" * 32)).symlink_to(outside)
     (filled / "kernels" / KEY / "inner").symlink_to(outside)
     (filled / "modes" / f"{'b' * 32}.npz").symlink_to(outside / "precious")
-    (filled / "sweep" / "results-9.sqlite").symlink_to(outside / "precious")
+    (outside / "rows").write_bytes((filled / "sweep" / "results-1.sqlite").read_bytes())
+    (filled / "sweep" / "results-9.sqlite").symlink_to(outside / "rows")
+    rows = (outside / "rows").read_bytes()
     shutil.rmtree(filled / "condensed")
     (filled / "condensed").symlink_to(outside)
     assert shown()["kinds"]["condensed"]["files"] == 0
@@ -155,8 +157,9 @@ def test_no_link_is_followed(cache, shown, filled, tmp_path):
     code, _, errors = cache("--clear")
     assert code == 0
     assert errors == "condensed: its folder is a link, which is not followed\n"
-    assert {path.name for path in outside.iterdir()} == {"precious", f"{KEY}.npz"}
+    assert {path.name for path in outside.iterdir()} == {"precious", "rows", f"{KEY}.npz"}
     assert (outside / "precious").read_text() == "text"
+    assert (outside / "rows").read_bytes() == rows
     assert files(filled) == []
     assert (filled / "condensed").is_symlink()
 
