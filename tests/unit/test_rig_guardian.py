@@ -267,6 +267,32 @@ def test_nothing_stretches_the_time_of_switching_off(made):
     assert switching.longest(0.1) == 0.9
 
 
+def test_an_answer_that_comes_while_another_is_asked_again_is_not_lost(monkeypatch):
+    told = []
+    fakes = {key: Fake(key, told) for key in ("steel", "bronze")}
+    fakes["steel"].fault, fakes["bronze"].fault = "stuck on", "blocked"
+    devices = [Device(key, {key: key}, lambda key=key: {key: fakes[key]}) for key in fakes]
+    answered = threading.Event()
+    begun = devices[1].begin
+
+    def noted(key, act):
+        future = begun(key, act)
+        if told.count(("bronze", "safe")) == 0:
+            future.add_done_callback(lambda _: told.count(("bronze", "reading")) and answered.set())
+        return future
+
+    def meanwhile(seconds):
+        fakes["steel"].fault = ""
+        fakes["bronze"].stands.set()
+        assert answered.wait(20.0)
+
+    monkeypatch.setattr(devices[1], "begin", noted)
+    monkeypatch.setattr(switching.time, "sleep", meanwhile)
+    found = switching.Switching(devices, limit=20.0).off("tried", time.monotonic(), listen=False)
+    assert not found.still_on
+    assert told.count(("bronze", "safe")) == told.count(("bronze", "reading")) == 1
+
+
 class Port:
     """A serial port that notes what becomes of it."""
 
