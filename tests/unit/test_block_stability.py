@@ -113,9 +113,13 @@ def linear_step(block, motion, state):
         motion.mass, np.zeros_like(motion.mass), block.timetable.step,
         damping=np.diag(motion.damping).copy(),
     )  # fmt: skip
-    place, _ = hht.predict(step, state, np.zeros(len(motion.mass)))
-    place = np.linalg.solve(np.eye(len(place)) + step.compliance @ motion.stiffness, place)
-    return hht.complete(step, state, place, -motion.stiffness @ place)[0]
+    size = len(motion.mass)
+    place, velocity = np.empty((2, size))
+    hht.predict(step, state, 0.0, np.zeros(size), np.empty((hht.ROOM, size)), place, velocity)
+    end = hht.Coordinates.room(size)
+    end.place[:] = np.linalg.solve(np.eye(size) + step.compliance @ motion.stiffness, place)
+    hht.complete(step, state, -motion.stiffness @ end.place, end)
+    return end
 
 
 def test_eigenvalues_in_steps_are_those_of_the_steps_that_are_taken():

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import threading
+import types
 from pathlib import Path
 
 import pytest
@@ -182,6 +183,11 @@ def test_variables_switch_the_library_off(made, monkeypatch, variable, value, is
     monkeypatch.setenv(variable, value)
     monkeypatch.delitem(sys.modules, "numba", raising=False)
     assert (answer() == 0.5) is is_called
+
+
+def test_the_library_is_called_while_another_thread_loads_numba(made, monkeypatch):
+    monkeypatch.setitem(sys.modules, "numba", types.ModuleType("numba"))
+    assert answer() == 0.5
 
 
 def test_without_compiling_a_kernel_is_plain_python(made, monkeypatch):

@@ -13,7 +13,6 @@ from asperity.building import lean, runtime
 from asperity.native import gather, keys, table
 from asperity.native.entries import Entry
 from asperity.native.target import FEATURES, platform_name
-from asperity.native.unlinked import OBJECTS
 
 
 def compiler() -> str | None:
@@ -40,12 +39,19 @@ def write(folder: Path, made: Sequence[tuple[Entry, lean.Made]], common: bytes) 
     """
     program = compiler()
     codes = [one.code for _, one in made]
+    held = None
     if program is not None:
-        held = _linked(program, [*codes, common])
+        try:
+            held = _linked(program, [*codes, common])
+        except (OSError, subprocess.CalledProcessError):
+            # A compiler may lack what it links with; several entries need it.
+            if len(codes) > 1:
+                raise
+    if held is not None:
         (folder / table.LIBRARY).write_bytes(held)
     else:
         (code,) = codes
-        for name, content in zip(OBJECTS, (code, common), strict=True):
+        for name, content in zip(table.OBJECTS, (code, common), strict=True):
             (folder / name).write_bytes(content)
         held = code + common
     table.write(folder, _table(made, hashlib.sha256(held).hexdigest()))

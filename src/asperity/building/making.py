@@ -18,7 +18,11 @@ from asperity.native.kept import UNFIT
 _PATIENCE = 0.05
 
 
-def keep(kernels: Path, entry: Entry, processes: int) -> bool:
+class ChangedError(Exception):
+    """Sources are others than those that an entry is to be made from."""
+
+
+def keep(kernels: Path, entry: Entry, key: str, processes: int) -> bool:
     """Make an entry where it is not kept yet; False where another process is at it.
 
     Parameters
@@ -27,10 +31,18 @@ def keep(kernels: Path, entry: Entry, processes: int) -> bool:
         The folder of the cache.
     entry : Entry
         What is made.
+    key : str
+        What it is kept under, by `asperity.native.keys.key` where it is waited for.
     processes : int
         So many make something at a time, whoever has begun them.
+
+    Raises
+    ------
+    ChangedError
+        By the sources that stand here it is another entry.
     """
-    key = keys.key(entry)
+    if keys.key(entry) != key:
+        raise ChangedError(entry.name)
     with _held(kernels / f"{key}.lock") as ours:
         if not ours:
             return False
@@ -61,6 +73,9 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
         except (lean.UnfitError, NumbaError) as error:
             # It hinders the next attempt too, until the sources change. Anything else may pass.
             (new / UNFIT).write_text(f"{entry.name}: {error}\n", "utf-8")
+        # What was imported is what the key tells of where it stands there before and after.
+        if not keys.stands(entry.module):
+            raise ChangedError(entry.name)
         with contextlib.suppress(OSError):
             new.rename(kernels / key)
     finally:

@@ -45,6 +45,7 @@ class Kept:
     def __init__(self, entries: Sequence[Entry]) -> None:
         self._others = list(entries)
         self._natives: list[Native] = []
+        self._of_types: list[tuple[list[Any], Native | None]] = []
         self._lock = threading.Lock()
 
     def entry(self, name: str) -> Native:
@@ -52,11 +53,13 @@ class Kept:
         return self._call
 
     def _call(self, arguments: tuple[Any, ...]) -> Any:
+        # Asked before: another thread may load the last one while this one looks.
+        is_whole = not self._others
         for native in self._natives:
             answer = native(arguments)
             if answer is not NotImplemented:
                 return answer
-        made = self._made_for(arguments) if self._others else None
+        made = None if is_whole else self._made_for(arguments)
         return NotImplemented if made is None else made(arguments)
 
     def _made_for(self, arguments: tuple[Any, ...]) -> Native | None:
@@ -65,13 +68,18 @@ class Kept:
                 types = types_of(arguments)
             except UnlistedTypeError:
                 return None
+            for found, native in self._of_types:
+                if found == types:
+                    return native
             for entry in self._others:
                 if entry.arguments == types:
-                    self._others.remove(entry)
                     library = _obtained(entry)
                     native = library.entry(entry.name) if library is not None else None
                     if native is not None:
                         self._natives.append(native)
+                    # Not before: who interrupts the wait may call once more.
+                    self._of_types.append((types, native))
+                    self._others.remove(entry)
                     return native
         return None
 
@@ -95,25 +103,28 @@ def _obtained(entry: Entry) -> load.Library | None:
     kernels = kernel_folder.kernels()
     if kernels is None:
         return None
+    try:
+        folder = kernels / keys.key(entry)
+    except (OSError, LookupError, ImportError):
+        return None  # there are no sources, or nothing that tells of Numba
     _ASKED.add(entry.number)
-    folder = kernels / keys.key(entry)
     if not folder.exists():
         _makers(kernels).make(entry, folder)
     if not folder.exists() or not kernel_folder.is_kept(folder) or (folder / UNFIT).exists():
         return None
-    found = _loaded(folder)
-    if found is None:
-        shutil.rmtree(folder, ignore_errors=True)
-    return found
-
-
-def _loaded(folder: Path) -> load.Library | None:
     remedy = "it is made anew the next time"
-    if (folder / table.LIBRARY).exists():
-        return load.from_folder(folder, remedy)
+    files = [folder / table.LIBRARY]
+    if not files[0].exists():
+        files = [folder / name for name in table.OBJECTS]
+    rows = load.checked(folder, files, remedy)
+    if rows is None:
+        shutil.rmtree(folder, ignore_errors=True)
+        return None
+    if len(files) == 1:
+        return load.opened(rows, files[0])
     from asperity.native import unlinked
 
-    return unlinked.from_folder(folder, remedy)
+    return unlinked.opened(rows, files)
 
 
 _ASKED: set[int] = set()
@@ -125,6 +136,7 @@ class _Makers:
     def __init__(self, kernels: Path) -> None:
         self._kernels = kernels
         self._processes: list[subprocess.Popen[str]] = []
+        self._begins = True
         self._lock = threading.Lock()
 
     def make(self, entry: Entry, folder: Path) -> None:
@@ -132,7 +144,7 @@ class _Makers:
         reminded = -_REMIND
         while not folder.exists():
             with self._lock:
-                if any(process.poll() for process in self._processes):
+                if not self._begins or any(process.poll() for process in self._processes):
                     return  # one died of it, or cannot even begin
                 if time.monotonic() - reminded > _REMIND:
                     reminded = time.monotonic()
@@ -144,9 +156,13 @@ class _Makers:
         missing = [each for each in wanted if not (self._kernels / keys.key(each)).exists()]
         self._processes = [each for each in self._processes if each.poll() is None]
         count = min(_cores(), len(missing))
-        while len(self._processes) < count:
-            self._processes.append(_begun(self._kernels))
-        line = " ".join(str(each.number) for each in missing) + "\n"
+        try:
+            while len(self._processes) < count:
+                self._processes.append(_begun(self._kernels))
+        except (OSError, ValueError):
+            self._begins = False
+            return
+        line = " ".join(f"{each.number}:{keys.key(each)}" for each in missing) + "\n"
         for process in self._processes:
             assert process.stdin is not None
             with contextlib.suppress(OSError, ValueError):
@@ -171,8 +187,12 @@ def _makers(kernels: Path) -> _Makers:
 
 
 def _begun(kernels: Path) -> subprocess.Popen[str]:
+    alone = "-I" if sys.flags.isolated else "-P"
+    # What is kept is for everybody: how Numba compiles for this one run is not.
+    environment = {name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")}
     return subprocess.Popen(
-        [sys.executable, "-P", "-m", "asperity.building.worker", str(kernels), str(_cores())],
+        [sys.executable, alone, "-m", "asperity.building.worker", str(kernels), str(_cores())],
+        env=environment,
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

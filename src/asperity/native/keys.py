@@ -32,6 +32,11 @@ def closure_digest(module: str) -> str:
     return digest_of(_ROOT / name for name in sources(module))
 
 
+def stands(module: str) -> bool:
+    """Return whether the sources of a module's kernels are still those of `closure_digest`."""
+    return digest_of(_ROOT / name for name in sources(module)) == closure_digest(module)
+
+
 def digests(names: Iterable[str]) -> dict[str, str]:
     """Return the digest of each file, by its name from the folder of the package on."""
     return {name: hashlib.sha256((_ROOT / name).read_bytes()).hexdigest() for name in names}

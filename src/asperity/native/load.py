@@ -13,7 +13,7 @@ import logging
 import os
 import platform
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -81,17 +81,39 @@ def from_folder(folder: Path, remedy: str = "install asperity anew") -> Library 
     remedy : str
         What is to be done, or is, where it is damaged.
     """
+    file = folder / table.LIBRARY
+    rows = checked(folder, [file], remedy)
+    return None if rows is None else opened(rows, file)
+
+
+def checked(folder: Path, files: Sequence[Path], remedy: str) -> dict[str, Any] | None:
+    """Return the table of a folder; None where it is not for this machine, or a file is damaged.
+
+    Parameters
+    ----------
+    folder : path
+        Where the table stands.
+    files : sequence of path
+        What the table tells the digest of.
+    remedy : str
+        What is to be done, or is, where one is damaged.
+    """
     try:
         rows = table.read(folder)
         if rows is None or not is_for_here(rows["target"], rows["features"]):
             return None
-        file = folder / table.LIBRARY
-        if hashlib.sha256(file.read_bytes()).hexdigest() != rows["library"]:
-            raise table.DamagedError(f"{file} is damaged")
+        held = b"".join(file.read_bytes() for file in files)
+        if hashlib.sha256(held).hexdigest() != rows["library"]:
+            raise table.DamagedError(f"{files[0]} is damaged")
     except (table.DamagedError, OSError) as trouble:
         _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
         return None
-    # What it is linked with may be missing or too old here.
+    return rows
+
+
+def opened(rows: dict[str, Any], file: Path) -> Library | None:
+    """Return the library of a table; None where it cannot be loaded here."""
+    # What it is linked with may be missing or too old; or nothing is run from this disk.
     with contextlib.suppress(OSError):
         return Library(rows, _addresses(file))
     return None
@@ -109,10 +131,11 @@ def _addresses(file: Path) -> Addresses:
 def _is_wanted() -> bool:
     if os.environ.get("ASPERITY_NATIVE", "") == "0":
         return False
-    # Another thread may be importing it, which reads the same variable.
+    # Another thread may be loading it.
     config = getattr(sys.modules.get("numba"), "config", None)
-    if hasattr(config, "DISABLE_JIT"):
-        return not config.DISABLE_JIT
+    switched_off = getattr(config, "DISABLE_JIT", None)
+    if switched_off is not None:
+        return not switched_off
     return os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 
 

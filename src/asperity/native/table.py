@@ -9,6 +9,9 @@ from pathlib import Path
 from typing import Any
 
 LIBRARY = "kernels.so"
+OBJECTS = ("kernels.o", "support.o")
+"""Files of a folder whose machine code nothing has linked."""
+
 TABLE = "kernels.table"
 FORMAT = 1
 

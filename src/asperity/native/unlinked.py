@@ -1,35 +1,22 @@
 """Machine code that nothing has linked, for want of a C compiler: object files, loaded by LLVM."""
 
-import hashlib
-import logging
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-from asperity.native import load, table
+from asperity.native import load
 from asperity.native.call import Addresses
 
-OBJECTS = ("kernels.o", "support.o")
-"""Files of a folder without a library."""
 
-_log = logging.getLogger(__name__)
-
-
-def from_folder(folder: Path, remedy: str) -> load.Library | None:
-    """Return the library of a folder that has its object files; None where they are damaged."""
+def opened(rows: dict[str, Any], files: Sequence[Path]) -> load.Library | None:
+    """Return the library of a table and its object files; None where they cannot be loaded here."""
     try:
-        rows = table.read(folder)
-        files = [folder / name for name in OBJECTS]
-        held = b"".join(file.read_bytes() for file in files)
-        if rows is None or not load.is_for_here(rows["target"], rows["features"]):
-            return None
-        if hashlib.sha256(held).hexdigest() != rows["library"]:
-            raise table.DamagedError(f"{folder} is damaged")
-    except (table.DamagedError, OSError) as trouble:
-        _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
+        return load.Library(rows, _addresses(files))
+    except (OSError, RuntimeError):
         return None
-    return load.Library(rows, _addresses(files))
 
 
-def _addresses(files: list[Path]) -> Addresses:
+def _addresses(files: Sequence[Path]) -> Addresses:
     import llvmlite.binding as ll
 
     ll.initialize_native_target()

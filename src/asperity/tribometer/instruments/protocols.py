@@ -6,6 +6,7 @@ their safe state at any time, as often as one likes.
 
 import dataclasses
 import time
+from collections.abc import Sequence
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
@@ -42,6 +43,12 @@ class StillOnError(InstrumentError):
     """Something may be on: it was not read back that it is off."""
 
     exit_code: ClassVar[int] = 4
+
+    @classmethod
+    def of(cls, reason: str, kind: str, failures: Sequence[str]) -> "StillOnError":
+        """Return the error that names what was not read back, and what to do."""
+        named = "; ".join(failures)
+        return cls(f"{reason}; NOT READ BACK TO BE OFF: {named}; switch it off by hand", kind=kind)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 import contextlib
 import datetime
+import json
 import queue
 import threading
 import zlib
@@ -12,9 +13,12 @@ from typing import TypeVar
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.casefile import Case
 from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import Counts, Instrument
 from asperity.tribometer.instruments.stream import Stream
+from asperity.tribometer.options import Plan
+from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.recording import Recorder, Source
 
@@ -204,3 +208,14 @@ class Logger:
             with contextlib.suppress(Exception):
                 # Closed as after an error: what has not been written is not worth another attempt.
                 self._recorder.__exit__(InterruptedError, None, None)
+
+
+def configuration_of(case: Case, one: PlannedFile | None) -> str:
+    """Return a case as it stands for a file of its plan, as JSON."""
+    raw = {name: dict(entries) for name, entries in case.raw.items()}
+    if one is not None:
+        raw.setdefault("rig", {})["mode"] = one.mode
+        raw.setdefault("lubricant", {})["kind"] = one.lubricant
+        raw.setdefault("drives", {})["steel_supply"] = f"{one.steel_supply!r} V"
+        raw["drives"]["bronze_supply"] = f"{case.require(Plan).bronze_supply!r} V"
+    return json.dumps(raw, allow_nan=False, default=str)

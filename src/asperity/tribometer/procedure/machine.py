@@ -6,7 +6,6 @@ are switched off before anything else is tried.
 """
 
 import functools
-import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -33,7 +32,7 @@ from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.interlock import Expected, Interlock
-from asperity.tribometer.procedure.logger import Logger
+from asperity.tribometer.procedure.logger import Logger, configuration_of
 from asperity.tribometer.procedure.packer import Packer
 from asperity.tribometer.procedure.steps import Action
 
@@ -192,12 +191,12 @@ class Machine:
                 error.add_note(str(full))
         if not isinstance(error, AsperityError):
             raise error
-        return _not_off(reason, kind, failures) if failures else error
+        return StillOnError.of(reason, kind, failures) if failures else error
 
     def _still_on(self, reason: str, kind: str, failures: Sequence[str]) -> AsperityError:
         """Latch, since something was not read back to be off."""
         self._journal.write("latched", interlock=kind, reason=reason, still_on=list(failures))
-        return _not_off(reason, kind, failures)
+        return StillOnError.of(reason, kind, failures)
 
     def _how_far(self) -> str:
         return f" after {self._done_cells} of {self._cells} cells"
@@ -383,19 +382,9 @@ class Machine:
 
     def _new_logger(self, path: Path | None, one: PlannedFile | None) -> Logger:
         return Logger(
-            self._bench, self._interlock, self._interval, path, self._configuration(one),
+            self._bench, self._interlock, self._interval, path, configuration_of(self._case, one),
             self._beat,
         )  # fmt: skip
-
-    def _configuration(self, one: PlannedFile | None) -> str:
-        """Return the case as it stands for a file, as JSON."""
-        raw = {name: dict(entries) for name, entries in self._case.raw.items()}
-        if one is not None:
-            raw.setdefault("rig", {})["mode"] = one.mode
-            raw.setdefault("lubricant", {})["kind"] = one.lubricant
-            raw.setdefault("drives", {})["steel_supply"] = f"{one.steel_supply!r} V"
-            raw["drives"]["bronze_supply"] = f"{self._plan.bronze_supply!r} V"
-        return json.dumps(raw, allow_nan=False, default=str)
 
     def _beat(self) -> None:
         self._run.checkpoint(self._done_cells, self._cells, what="cells")
@@ -404,13 +393,6 @@ class Machine:
 
 _DISCS = "steel", "bronze"
 _PUT_RIGHT = frozenset(("preload", "zero", "no change", "wrong channel map"))
-
-
-def _not_off(reason: str, kind: str, failures: Sequence[str]) -> StillOnError:
-    return StillOnError(
-        f"{reason}; NOT READ BACK TO BE OFF: {'; '.join(failures)}; switch it off by hand",
-        kind=kind,
-    )
 
 
 def _file_of(action: Action) -> PlannedFile:

@@ -1,0 +1,138 @@
+"""Entries that other processes make: what is waited for, by whom, and what is not kept."""
+
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+from asperity.building import lean, link, making
+from asperity.native import kept, keys, table
+from asperity.native.entries import Entry, listed
+
+
+class Doubled:
+    """A library of one kernel of a number."""
+
+    def entry(self, name):
+        return lambda arguments: 2.0 * arguments[0]
+
+
+@pytest.fixture
+def entry():
+    (found,) = listed().named("asperity.slider.pressed.friction_limit")
+    return found
+
+
+@pytest.fixture
+def of_a_number():
+    return kept.Kept([Entry(0, "asperity.errors.doubled", [["d"]], 1.0)])
+
+
+def test_threads_that_wait_for_an_entry_all_get_it(of_a_number, monkeypatch):
+    asked = []
+
+    def obtained(entry):
+        asked.append(entry)
+        time.sleep(0.05)
+        return Doubled()
+
+    monkeypatch.setattr(kept, "_obtained", obtained)
+    call, answers = of_a_number.entry("doubled"), []
+    threads = [threading.Thread(target=lambda: answers.append(call((3.0,)))) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert answers == [6.0] * 4
+    assert len(asked) == 1
+
+
+def test_who_interrupts_the_wait_may_call_once_more(of_a_number, monkeypatch):
+    def interrupted(entry):
+        raise KeyboardInterrupt
+
+    call = of_a_number.entry("doubled")
+    monkeypatch.setattr(kept, "_obtained", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        call((3.0,))
+    monkeypatch.setattr(kept, "_obtained", lambda entry: Doubled())
+    assert call((3.0,)) == 6.0
+
+
+def test_what_cannot_be_obtained_is_asked_for_once(of_a_number, monkeypatch):
+    asked = []
+    monkeypatch.setattr(kept, "_obtained", asked.append)
+    call = of_a_number.entry("doubled")
+    assert [call((3.0,)), call((3.0,))] == [NotImplemented] * 2
+    assert len(asked) == 1
+
+
+@pytest.mark.parametrize("trouble", [OSError, ValueError])
+def test_where_no_process_begins_nobody_waits(entry, trouble, tmp_path, monkeypatch):
+    def begun(kernels):
+        raise trouble
+
+    monkeypatch.setattr(kept, "_begun", begun)
+    kept._Makers(tmp_path).make(entry, tmp_path / "never")
+
+
+def test_processes_that_make_are_no_freer_than_this_one(tmp_path, monkeypatch):
+    begun = {}
+
+    def popen(command, *, env, **_others):
+        begun.update(command=command, env=env)
+
+    monkeypatch.setenv("NUMBA_OPT", "0")
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    monkeypatch.setattr(subprocess, "Popen", popen)
+    kept._begun(tmp_path)
+    assert begun["command"][1] == ("-I" if sys.flags.isolated else "-P")
+    assert begun["env"]["ASPERITY_CACHE"] == str(tmp_path)
+    # What it makes is kept for runs without the variable.
+    assert not any(name.startswith("NUMBA_") for name in begun["env"])
+
+
+def test_an_entry_of_other_sources_is_not_made(entry, tmp_path):
+    with pytest.raises(making.ChangedError):
+        making.keep(tmp_path, entry, "0" * 32, 1)
+    assert not list(tmp_path.iterdir())
+
+
+def test_sources_that_changed_while_it_was_made_leave_nothing(entry, tmp_path, monkeypatch):
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(making, "_support", lambda: b"")
+    monkeypatch.setattr(lean, "make", lambda *_given: lean.Made(b"code", ["d"], (1, 2)))
+    monkeypatch.setattr(link, "_linked", lambda *_given: b"linked")
+    key = keys.key(entry)
+    monkeypatch.setattr(keys, "stands", lambda module: False)
+    with pytest.raises(making.ChangedError):
+        making.keep(tmp_path, entry, key, 1)
+    assert not [path for path in tmp_path.iterdir() if path.is_dir()]
+    monkeypatch.undo()
+    assert keys.stands(entry.module)
+
+
+def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkeypatch):
+    monkeypatch.setenv("CC", "false")
+    made = lean.Made(b"code", ["d"], (1, 2))
+    link.write(tmp_path, [(entry, made)], b"common")
+    assert [(tmp_path / name).read_bytes() for name in table.OBJECTS] == [b"code", b"common"]
+    assert not (tmp_path / table.LIBRARY).exists()
+    with pytest.raises(subprocess.CalledProcessError):
+        link.write(tmp_path, [(entry, made)] * 2, b"common")
+
+
+def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monkeypatch):
+    monkeypatch.setattr(link, "_linked", lambda *_given: b"no library")
+    folder = tmp_path / keys.key(entry)
+    folder.mkdir(mode=0o700)
+    link.write(folder, [(entry, lean.Made(b"code", ["d"], (1, 2)))], b"common")
+    monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: tmp_path)
+    # Otherwise each run would make it anew, and in vain.
+    assert kept._obtained(entry) is None
+    assert folder.exists()
+    (folder / table.LIBRARY).write_bytes(b"damaged")
+    assert kept._obtained(entry) is None
+    assert not folder.exists()
