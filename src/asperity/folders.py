@@ -8,24 +8,39 @@ from pathlib import Path
 _log = logging.getLogger(__name__)
 
 
-def cache_folder(name: str) -> Path | None:
-    """Return a writable folder for things that can be made again, or None where there is none.
+def cache_root() -> Path | None:
+    """Return the folder that all caches of this user stand in, made or not.
 
-    It stands in ``asperity/<name>`` under the folder the environment variable ``ASPERITY_CACHE``
-    names, else under ``XDG_CACHE_HOME``, else under ``~/.cache``.
+    It is ``asperity`` under the folder the environment variable ``ASPERITY_CACHE`` names, else
+    under ``XDG_CACHE_HOME``, else under ``~/.cache``; None where the user has no home.
     """
     base = os.environ.get("ASPERITY_CACHE") or os.environ.get("XDG_CACHE_HOME")
     try:
-        folder = (Path(base) if base else Path.home() / ".cache") / "asperity" / name
-        folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        folder = (Path(base) if base else Path.home() / ".cache") / "asperity"
+        return folder.absolute()
+    except (OSError, RuntimeError):
+        return None
+
+
+def cache_folder(name: str) -> Path | None:
+    """Return a writable folder for things that can be made again, or None where there is none.
+
+    It stands in :func:`cache_root`.
+    """
+    root = cache_root()
+    if root is None:
+        return None
+    folder = root / name
+    try:
+        root.mkdir(mode=0o700, parents=True, exist_ok=True)
         folder.mkdir(mode=0o700, exist_ok=True)
         # Permission bits do not tell about read-only file systems, so write and see.
         probe = folder / f".probe-{secrets.token_hex(6)}"
         probe.touch()
         probe.unlink()
-    except (OSError, RuntimeError, ValueError):
+    except (OSError, ValueError):
         return None
-    return folder.absolute()
+    return folder
 
 
 def is_ours_alone(folder: Path, instead: str) -> bool:
@@ -38,14 +53,17 @@ def is_ours_alone(folder: Path, instead: str) -> bool:
     instead : str
         What is done instead of reading files there, for the message.
     """
+    trouble = trouble_with(folder)
+    if trouble:
+        _log.warning("%s %s; %s instead of read from it: remove it", folder, trouble, instead)
+    return not trouble
+
+
+def trouble_with(folder: Path) -> str:
+    """Return why somebody else can have put a file into a folder; nothing where nobody can."""
     if os.name != "posix":
-        return True
+        return ""
     status = folder.stat()
     if status.st_uid != os.geteuid():
-        trouble = "belongs to another user"
-    elif status.st_mode & 0o022:
-        trouble = "can be written to by others"
-    else:
-        return True
-    _log.warning("%s %s; %s instead of read from it: remove it", folder, trouble, instead)
-    return False
+        return "belongs to another user"
+    return "can be written to by others" if status.st_mode & 0o022 else ""

@@ -103,6 +103,8 @@ class _ForgivingCache(caching.FunctionCache):
 
     def save_overload(self, sig: object, data: object) -> None:
         with contextlib.suppress(OSError, EOFError, pickle.PickleError):
+            # Where it has been removed since, Numba would make one that others may write to.
+            Path(self._cache_path).mkdir(mode=0o700, exist_ok=True)
             super().save_overload(sig, data)
 
 

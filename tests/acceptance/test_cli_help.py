@@ -8,6 +8,7 @@ import typer
 
 from asperity.cli.application import app
 from asperity.cli.helped import as_written
+from asperity.cli.made import made
 from asperity.commands import COMMANDS
 
 BRACKETED = re.compile(r"\[[^\[\]\s]+\]")
@@ -19,7 +20,7 @@ def commands(command, words=()):
         yield from commands(one, (*words, name))
 
 
-EVERY = dict(commands(typer.main.get_command(app)))
+EVERY = dict(commands(made(app)))
 
 
 def texts(command):

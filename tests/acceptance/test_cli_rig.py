@@ -418,7 +418,7 @@ def test_what_is_refused_is_told_what_to_do(asperity, tmp_path):
     refused(inner, "channels.torque_bronze is set as a whole, as channels.torque_bronze={ channel")
     text = tmp_path / "run.csv"
     text.write_text("PicoScope export\n\nZeit;Kanal A\n(s);(V)\n0;1\n1;2\n")
-    refused(asperity("rig", "import", text, "rig-final"), "stand in row 3; delete what is above")
+    refused(asperity("rig", "import", text, "rig-final"), "the file has 'Kanal A'")
     refused(asperity("rig", "reduce", text), "not a recording", "asperity rig import")
     beside = write_dataset(xarray.Dataset(attrs={"answer_of": "its"}), tmp_path / "plan.nc")
     refused(asperity("rig", "reduce", beside), "give the recordings themselves")

@@ -25,6 +25,8 @@ ROWS = (
     {
         "cases": set(),
         "cases table-4.3": set(),
+        "cache": set(),
+        "cache --json": set(),
         "--version": set(),
         "rig --help": {"rich"},
         "--help": {"rich"},

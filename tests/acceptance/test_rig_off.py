@@ -95,7 +95,7 @@ def test_a_procedure_that_is_killed_leaves_everything_off(begun, rig, tmp_path):
 @pytest.mark.parametrize(
     ("numbers", "word"),
     [
-        ([signal.SIGHUP], "ended with its terminal"),
+        slow([signal.SIGHUP], "ended with its terminal"),
         slow([signal.SIGQUIT], "quit"),
         slow([signal.SIGTERM], "terminated"),
         slow([signal.SIGTERM, signal.SIGTERM], "terminated"),
@@ -179,8 +179,7 @@ FAULTS = ["absent", "silent", "garbling", "late", "very late", "stuck on", "weld
 @pytest.mark.parametrize(
     ("key", "fault"),
     [
-        ("scope", "absent"),
-        *(slow("scope", one) for one in ("silent", "garbling", "very late")),
+        *(slow("scope", one) for one in ("absent", "silent", "garbling", "very late")),
         *(slow("vibration", one) for one in FAULTS[:-1]),
         *(slow("steel", one) for one in (*FAULTS, "stuck at a value")),
     ],

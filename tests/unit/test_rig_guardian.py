@@ -150,7 +150,8 @@ def made():
         for fake in one.fakes.values():
             fake.fault = ""
             fake.stands.set()
-        one.wire.close()
+        # What its thread still reads from stays open: its number would be the next one's pipe.
+        one.wire._write.close()
 
 
 def test_the_first_act_is_to_switch_off_in_order_and_read_back(made):
@@ -265,6 +266,52 @@ def test_nothing_stretches_the_time_of_switching_off(made):
     # Three stages and one limit; a busy machine may add to them.
     assert found.seconds < 0.9 + 10.0
     assert switching.longest(0.1) == 0.9
+
+
+def test_an_answer_that_comes_while_another_is_asked_again_is_not_lost(monkeypatch):
+    told = []
+    fakes = {key: Fake(key, told) for key in ("steel", "bronze")}
+    fakes["steel"].fault, fakes["bronze"].fault = "stuck on", "blocked"
+    devices = [Device(key, {key: key}, lambda key=key: {key: fakes[key]}) for key in fakes]
+    answered = threading.Event()
+    begun = devices[1].begin
+
+    def noted(key, act):
+        future = begun(key, act)
+        if told.count(("bronze", "safe")) == 0:
+            future.add_done_callback(lambda _: told.count(("bronze", "reading")) and answered.set())
+        return future
+
+    def meanwhile(seconds):
+        fakes["steel"].fault = ""
+        fakes["bronze"].stands.set()
+        assert answered.wait(20.0)
+
+    monkeypatch.setattr(devices[1], "begin", noted)
+    monkeypatch.setattr(switching.time, "sleep", meanwhile)
+    found = switching.Switching(devices, limit=20.0).off("tried", time.monotonic(), listen=False)
+    assert not found.still_on
+    assert told.count(("bronze", "safe")) == told.count(("bronze", "reading")) == 1
+
+
+def test_what_was_asked_of_a_slow_instrument_before_does_not_keep_it_on(made):
+    one = made()
+    one.begin()
+    one.on()
+    steel = one.fakes["steel"]
+    steel.fault = "blocked"
+    before = len(one.told)
+    for number in range(100, 105):
+        one.wire.send({"to": "steel", "do": "reading", "with": [], "n": number})
+    assert one.ask("guardian", "started")["gave"]
+    one.guardian.signal(15)
+    for _ in range(5):
+        assert "signal SIGTERM" in one.hears("error")["error"]
+    steel.stands.set()
+    assert one.hears("tripped")["still_on"] == []
+    verbs = [verb for key, verb in one.told[before:] if key == "steel"]
+    # One of them had begun, and perhaps a look of the guardian's own.
+    assert verbs.index("safe") <= 2
 
 
 class Port:

@@ -13,6 +13,7 @@ import scipy.io
 from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.runs import Run
+from asperity.tribometer.importing import look
 from asperity.tribometer.importing.columns import matching
 from asperity.tribometer.importing.study import answer, prepare
 from asperity.tribometer.recording import Recording, layout
@@ -109,6 +110,21 @@ def test_marks_past_the_range_gaps_and_a_cut_end_are_told(tmp_path):
     assert found.samples == 19
 
 
+def test_times_that_are_rounded_or_seconds_since_1970_miss_no_rows(tmp_path):
+    times = 1.55239e9 + 1e-4 * np.arange(2000)
+    path = tmp_path / "run.csv"
+    body = (f"{one:.4f},1,{n},2,3" for n, one in enumerate(times))
+    path.write_text("\n".join([HEADS["en"], "(s),(V),(V),(V),(V)", *body, ""]))
+    sampled = imported(path).sampled
+    assert len(sampled.counts) == 2000
+    assert sampled.interval == pytest.approx(1e-4, rel=1e-5)
+    lines = path.read_text().splitlines()
+    del lines[1000]
+    path.write_text("\n".join([*lines, ""]))
+    lacking = imported(path).sampled.counts
+    assert np.flatnonzero(lacking[:, 0] == layout.MISSING).tolist() == [998]
+
+
 REFUSED = {
     "empty": (lambda lines: [], ["is empty"]),
     "no headings": (lambda lines: lines[3:], ["row 1", "headings"]),
@@ -153,6 +169,13 @@ def test_what_cannot_be_imported_is_refused_with_row_and_reason(tmp_path, name):
     told = str(refused.value)
     assert "\n" not in told
     assert all(part in told for part in ("run.csv", *parts)), told
+
+
+def test_a_single_row_is_looked_at_and_refused(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("Time [s],A [V]\n0.0,0.5\n")
+    with pytest.raises(InputError, match="a single sample"):
+        look.answer(look.prepare(None, files=[str(path)]), Run())
 
 
 @pytest.mark.parametrize("version", ["4", "5", "5 compressed", "7.3"])

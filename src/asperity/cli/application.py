@@ -313,6 +313,25 @@ def lubricants(as_json: JsonOption = False) -> None:
     print_library((Lubricant, BaseOil), as_json=as_json)
 
 
+@app.command()
+@reported
+def cache(
+    kinds: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="KIND", help="Of these only; all if left out."),
+    ] = None,
+    clear: Annotated[bool, typer.Option("--clear", help="Remove it; it is made anew.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Show what is kept in the user's cache folder and how much of it, or remove it.
+
+    What runs meanwhile goes on and makes anew what it asks for.
+    """
+    from asperity.cli.cache import cache as run
+
+    run(kinds or (), clear=clear, as_json=as_json)
+
+
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line; returns its exit code."""
     outcome.hold_streams()

@@ -102,6 +102,7 @@ class Guard:
                 self._tripped = head["tripped"]
             elif "n" in head:
                 answers.put(head)
+        wire.deaf()
         answers.put(None)
 
     def ask(self, to: str, do: str, *given: Any) -> Any:

@@ -156,7 +156,11 @@ class Guardian:
             self._relay.pulse()
         if now - self._looked > _POLLED:
             self._looked = now
+            # What is slow to answer is not asked ever more.
+            waits = {asked.what for asked in self._awaited.values()}
             for key in self._on - {"vibration"}:
+                if self._called(key) in waits:
+                    continue
                 self._begin(0, key, lambda one: one.reading())
         # Where it hears nothing the procedure may stand still, and its end of the line be full.
         if now - self._heard < 10.0 * BEAT:
@@ -253,7 +257,8 @@ class Guardian:
     ) -> Verdict:
         """Switch everything off; ``last``: nobody will listen afterwards."""
         for future, asked in list(self._awaited.items()):
-            if asked.number and not future.done():
+            # What an instrument has not begun is not to be waited for.
+            if (future.cancel() or not future.done()) and asked.number:
                 del self._awaited[future]
                 self._send(wires.failed(asked.number, self._off_already()))
         self._awaited.clear()

@@ -2,7 +2,7 @@
 
 import concurrent.futures as cf
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from asperity.tribometer.guardian.owned import LISTENER, STAGES, Device, Verdict
@@ -91,6 +91,9 @@ class Switching:
             # Heard before its command was taken, a drive that is still may yet begin.
             if listens and LISTENER not in asked and asked["vibration"].done():
                 asked[LISTENER] = self._read(LISTENER)
+            answered = [key for key, future in asked.items() if future.done()]
+            # Of what was asked again, what it answered last.
+            known |= {key: _told(asked[key]) for key in answered}
             found = self._found(asked, known)
             proven = all(one.proven for one in found)
             if proven and (not listens or LISTENER in known):
@@ -98,7 +101,7 @@ class Switching:
             if self._now() >= end or self._hopeless(found):
                 break
             if not proven:
-                self._ask_again(asked, found)
+                self._ask_again(asked, answered, found)
             cf.wait(
                 [one for one in asked.values() if not one.done()],
                 timeout=max(0.0, min(_AGAIN, end - self._now())),
@@ -119,25 +122,28 @@ class Switching:
         }
         return self._of[key].begin(key, acts.get(key, off.read_back))
 
-    def _ask_again(self, asked: dict[str, "cf.Future[Any]"], found: Iterable[Off]) -> None:
+    def _ask_again(
+        self, asked: dict[str, "cf.Future[Any]"], answered: Sequence[str], found: Iterable[Off]
+    ) -> None:
         """Tell and ask what has answered and was not found off."""
-        if all(not one.done() for one in asked.values()):
+        names = {one.name for one in found if not one.proven}
+        # An answer that comes meanwhile was not looked at, and is not to be lost.
+        again = [key for key in answered if self._named(key) in names]
+        if not again:
             return
         time.sleep(_AGAIN)
-        names = {one.name for one in found if not one.proven}
-        for key, future in list(asked.items()):
-            named = self._of_vibration() if key == LISTENER else self._of[key].keys[key]
-            if future.done() and named in names:
-                if key != LISTENER:
-                    self._safe(key)
-                asked[key] = self._read(key)
+        for key in again:
+            if key != LISTENER:
+                self._safe(key)
+            asked[key] = self._read(key)
+
+    def _named(self, key: str) -> str:
+        return self._of_vibration() if key == LISTENER else self._of[key].keys[key]
 
     def _of_vibration(self) -> str:
         return self._of["vibration"].keys["vibration"] if "vibration" in self._of else ""
 
-    def _found(self, asked: dict[str, "cf.Future[Any]"], known: dict[str, Any]) -> list[Off]:
-        # Of what was asked again, what it answered last.
-        known |= {key: _told(future) for key, future in asked.items() if future.done()}
+    def _found(self, asked: Iterable[str], known: Mapping[str, Any]) -> list[Off]:
         found = {key: known.get(key, _SILENT) for key in asked}
         made: dict[str, Off] = {}
         for key in asked:

@@ -155,6 +155,8 @@ def placed(columns: Columns, rows: int, name: str) -> tuple[float, NDArray[np.in
             raise InputError(f"{name}: its sample interval is {columns.interval:g} s")
         return columns.interval, None, rows
     times = columns.times[:rows]
+    if len(times) < 2:
+        raise InputError(f"{name} holds a single sample, which tells no time between samples")
     if not np.all(np.isfinite(times)):
         row = int(np.argmin(np.isfinite(times)))
         raise InputError(f"{name}: row {columns.first_row + row} has no time")
@@ -165,11 +167,7 @@ def placed(columns: Columns, rows: int, name: str) -> tuple[float, NDArray[np.in
             f"{name}: row {columns.first_row + row}: the clock runs backwards or stands, from "
             f"{times[row - 1]:.9g} to {times[row]:.9g} s"
         )
-    interval = float(np.median(steps))
-    places = (times - times[0]) / interval
-    # The median of rounded times is rounded; the ends tell it better.
-    last = round(float(places[-1]))
-    interval = float(times[-1] - times[0]) / max(last, 1)
+    interval, last = even(times)
     if last + 1 > _MOST_GAPS * rows + 10:
         row = int(np.argmax(steps)) + 1
         raise InputError(
@@ -187,6 +185,26 @@ def placed(columns: Columns, rows: int, name: str) -> tuple[float, NDArray[np.in
             "off; samples must be at equal intervals"
         )
     return interval, where, last + 1
+
+
+def even(times: FloatArray) -> tuple[float, int]:
+    """Return the interval of times that rise, and how many of them lie between first and last."""
+    median = float(np.median(np.diff(times)))
+    span = float(times[-1] - times[0])
+
+    def off(last: int) -> float:
+        places = (times - times[0]) * (last / span)
+        return float(np.max(np.abs(places - np.rint(places))))
+
+    # The median of rounded times is rounded, by too much where they are many; the ends of ever
+    # longer parts tell it better, unless the first of them jitter.
+    interval, place = median, 1
+    while place < len(times) - 1:
+        place = min(2 * place, len(times) - 1)
+        part = float(times[place] - times[0])
+        interval = part / max(round(part / interval), 1)
+    last = min((max(round(span / one), 1) for one in (median, interval)), key=off)
+    return span / last, last
 
 
 # Bytes that were changed may be numbers that signal when they are touched.

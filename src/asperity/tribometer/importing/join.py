@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.columns import Columns, even
 
 _SAME_RATE = 1e-6
 _MOST_APART = 100.0  # times as long a joint recording as the longest file
@@ -77,8 +77,7 @@ def _grid(name: str, columns: Columns) -> tuple[float, float, NDArray[np.intp]]:
     times: FloatArray = columns.times
     if len(times) < 2 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
         raise InputError(f"{name}: its times do not rise from row to row")
-    step = float(np.median(np.diff(times)))
-    interval = float(times[-1] - times[0]) / max(round(float(times[-1] - times[0]) / step), 1)
+    interval, _ = even(times)
     return interval, float(times[0]), np.rint((times - times[0]) / interval).astype(np.intp)
 
 

@@ -1,5 +1,6 @@
 """National Instruments' TDMS, by npTDMS, which is imported when such a file is read."""
 
+import logging
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,8 @@ def read_tdms(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
         raise MissingExtraError(
             "TDMS needs npTDMS; install it: pip install asperity[daq]"
         ) from None
+    # What it tells the terminal of a file beside its errors is no line for a person.
+    logging.getLogger("nptdms.reader").setLevel(logging.ERROR)
     try:
         file = TdmsFile.read(path)
         channels = [channel for group in file.groups() for channel in group.channels()]
