@@ -1,5 +1,6 @@
 """Entries that other processes make: what is waited for, by whom, and what is not kept."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -112,6 +113,38 @@ def test_sources_that_changed_while_it_was_made_leave_nothing(entry, tmp_path, m
     assert not [path for path in tmp_path.iterdir() if path.is_dir()]
     monkeypatch.undo()
     assert keys.stands(entry.module)
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [("friction_limit", [["d"]]), ("gone", [["d"], ["d"]]), ("friction_limit", [["d"], ["0"]])],
+)
+def test_an_entry_that_no_kernel_is_like_is_told_once(name, arguments, tmp_path):
+    of_room = f"asperity.slider.pressed.{name}"
+    program = (
+        "import sys; from pathlib import Path; from asperity.building import making\n"
+        "from asperity.native import keys; from asperity.native.entries import Entry\n"
+        f"entry = Entry(0, {of_room!r}, {arguments!r}, 1.0)\n"
+        "making.keep(Path(sys.argv[1]), entry, keys.key(entry), 1)\n"
+    )
+    subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path)],
+        env=os.environ | {"ASPERITY_NATIVE": "0"},
+        check=True,
+    )
+    (told,) = tmp_path.glob(f"*/{kept.UNFIT}")
+    assert told.read_text("utf-8").startswith(of_room)
+
+
+def test_trouble_that_may_pass_leaves_nothing(entry, tmp_path, monkeypatch):
+    def full(*_given):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(lean, "make", full)
+    with pytest.raises(OSError, match="No space"):
+        making.keep(tmp_path, entry, keys.key(entry), 1)
+    assert not [path for path in tmp_path.iterdir() if path.is_dir()]
 
 
 def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkeypatch):

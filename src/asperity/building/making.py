@@ -6,6 +6,7 @@ import importlib
 import os
 import secrets
 import shutil
+import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -59,8 +60,6 @@ def kernel(entry: Entry) -> Any:
 
 
 def _make(kernels: Path, key: str, entry: Entry) -> None:
-    from numba.core.errors import NumbaError
-
     from asperity.building import lean, link
 
     began()
@@ -70,8 +69,10 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
         try:
             made = lean.make(kernel(entry), entry.arguments, link.symbol(entry))
             link.write(new, [(entry, made)], _support())
-        except (lean.UnfitError, NumbaError) as error:
-            # It hinders the next attempt too, until the sources change. Anything else may pass.
+        except (OSError, MemoryError, subprocess.SubprocessError):
+            raise  # it may pass
+        except Exception as error:
+            # It hinders the next attempt too, until the sources change; or no kernel is such.
             (new / UNFIT).write_text(f"{entry.name}: {error}\n", "utf-8")
         # What was imported is what the key tells of where it stands there before and after.
         if not keys.stands(entry.module):
