@@ -34,7 +34,7 @@ from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.procedure.logger import Logger, configuration_of
 from asperity.tribometer.procedure.packer import Packer
-from asperity.tribometer.procedure.steps import Action
+from asperity.tribometer.procedure.steps import Action, file_of
 
 _TRIES = 3
 _REST = 1.0
@@ -226,7 +226,7 @@ class Machine:
             return {f"{disc}_kg": read(f"Weight of the {disc} disc", "kg") for disc in _DISCS}
 
     def _arrange(self, action: Action) -> dict[str, Any]:
-        one = _file_of(action)
+        one = file_of(action)
         with self._signals.raising():
             self._bench.person.arrange(action.text, one.mode)
         return {"mode": one.mode}
@@ -242,13 +242,13 @@ class Machine:
         return self._tried(action, checked)
 
     def _waveform(self, action: Action) -> dict[str, Any]:
-        one = _file_of(action)
+        one = file_of(action)
         self._bench.vibration.configure(one.waveform, one.cells[0].frequency)
         return {"waveform": one.waveform}
 
     def _trial(self, action: Action) -> dict[str, Any]:
         """Steps 12 to 16, with motors but without vibration."""
-        one = _file_of(action)
+        one = file_of(action)
 
         def checked(logger: Logger) -> dict[str, Any]:
             rest = logger.levels(logger.watch(_REST))
@@ -298,14 +298,14 @@ class Machine:
         raise AssertionError
 
     def _rest(self, action: Action) -> dict[str, Any]:
-        one = _file_of(action)
+        one = file_of(action)
         logger = self._recording(one)
         logger.watch(_REST)
         return {"recording": _name(logger)}
 
     def _cell(self, action: Action) -> dict[str, Any]:
         """Steps 17 to 20 of one frequency: discs alone, with vibration, and at rest."""
-        one, cell = _file_of(action), action.cell
+        one, cell = file_of(action), action.cell
         if cell is None:
             raise AssertionError
         logger, plan = self._recording(one), self._plan
@@ -393,12 +393,6 @@ class Machine:
 
 _DISCS = "steel", "bronze"
 _PUT_RIGHT = frozenset(("preload", "zero", "no change", "wrong channel map"))
-
-
-def _file_of(action: Action) -> PlannedFile:
-    if action.file is None:
-        raise AssertionError
-    return action.file
 
 
 def _name(logger: Logger) -> str:

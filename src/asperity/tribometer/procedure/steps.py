@@ -143,3 +143,10 @@ def _leaving(name: str, one: PlannedFile) -> Iterator[Action]:
     yield Action(f"{name}/step-26", (26,), "weigh", STEPS[26], one)
     if one.lubricant == "oil":
         yield Action(f"{name}/step-27", (27,), "ask", STEPS[27], one)
+
+
+def file_of(action: Action) -> PlannedFile:
+    """Return the file that an action is for, where it is for one."""
+    if action.file is None:
+        raise AssertionError
+    return action.file
