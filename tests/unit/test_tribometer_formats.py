@@ -255,7 +255,7 @@ def test_a_look_tells_columns_values_and_gaps_and_draws_them(tmp_path, capsys):
     assert "Tektronix" in told
     found = read(tmp_path / "out" / "look.nc").dataset
     assert [*found["name"].values] == ["CH1 (V)", "CH2 (V)"]
-    assert float(found["gaps"]) == 1
+    assert float(found.attrs["gaps"]) == 1
     assert float(found["start"]) == pytest.approx(TIMES[0])
     left = np.delete(A, 30 - 17)
     assert float(found["least"][0]) == pytest.approx(left.min(), abs=1e-4)
