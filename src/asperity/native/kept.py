@@ -154,7 +154,11 @@ class _Makers:
     def _tell(self, entry: Entry) -> None:
         wanted = [entry, *likely(_ASKED)]
         missing = [each for each in wanted if not (self._kernels / keys.key(each)).exists()]
-        self._processes = [each for each in self._processes if each.poll() is None]
+        for each in self._processes:
+            if each.poll() is not None and each.stdin is not None:
+                with contextlib.suppress(OSError):
+                    each.stdin.close()
+        self._processes = [each for each in self._processes if each.returncode is None]
         count = min(_cores(), len(missing))
         try:
             while len(self._processes) < count:
