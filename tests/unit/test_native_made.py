@@ -1,5 +1,7 @@
 """Entries of the list: types told as Numba tells them, keys that follow sources, machine code."""
 
+import importlib
+import inspect
 import os
 import subprocess
 import sys
@@ -38,6 +40,16 @@ def test_what_no_machine_code_is_called_with_has_no_type():
         types_of(["word"])
     with pytest.raises(UnknownTypeError):
         spec(numba.typeof("word"))
+
+
+def test_each_entry_is_called_with_as_many_values_as_its_kernel_takes():
+    def takes(entry):
+        kernel = getattr(importlib.import_module(entry.module), entry.name.rpartition(".")[2], None)
+        return kernel and len(inspect.signature(kernel._function).parameters)
+
+    # Where it fails, `python tests/harvest.py --again` with words of the lines that call them.
+    told = {(entry.name, takes(entry), len(entry.arguments)) for entry in listed().entries}
+    assert not {one for one in told if one[1] != one[2]}
 
 
 def test_what_commands_call_together_is_likely_wanted_together():
