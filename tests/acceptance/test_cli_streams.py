@@ -63,8 +63,8 @@ main(sys.argv[2:])
     ("while_importing", "command"),
     [
         ("typer", "rate gearset-3"),
-        slow("rich.markdown", "--help"),
-        slow("rich.markdown", "rig --help"),
+        slow("rich.panel", "--help"),
+        slow("rich.panel", "rig --help"),
         slow("asperity.store", "cases"),
         ("asperity.casefile", "rig reduce run.nc"),
         slow("numpy", "rate gearset-3"),

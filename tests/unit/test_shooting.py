@@ -1,4 +1,5 @@
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -6,8 +7,9 @@ import pytest
 from asperity.casefile import read_case
 from asperity.errors import ConvergenceError
 from asperity.friction import Friction
-from asperity.slider import TABLES, Model, Slider, Solve, solve
+from asperity.slider import TABLES, Model, Slider, Solve, shooting, solve
 from asperity.slider.periodic import cycle_steps, solve_periodic
+from asperity.slider.scaled import SPRINGS
 from asperity.slider.shooting import ACCEPTED
 from asperity.vibration import Vibration
 
@@ -221,3 +223,20 @@ def test_where_that_march_cannot_be_the_first_trouble_is_told():
     )  # fmt: skip
     with pytest.raises(ConvergenceError, match="no periodic state found"):
         solved("table-4.3", *settings)
+
+
+def test_friction_at_the_start_of_a_cycle_is_the_mean_over_the_asperities():
+    # By their weights, which quadrature over the heights makes unlike each other.
+    rng = np.random.default_rng(5)
+    springs, weights = rng.normal(size=(2, 7)), rng.dirichlet(np.ones(7))
+    state = SimpleNamespace(
+        rise=0.1, penetration=0.4, velocity_x=0.2, stretch=0.3, deflection_x=9.0, deflection_y=9.0,
+        friction_x=9.0, friction_y=9.0, load=0.0, drive_force=0.0,
+    )  # fmt: skip
+    p = SimpleNamespace(model=SPRINGS, stiffness=2.0, damping=0.5, drive=1.0)
+    q = SimpleNamespace(
+        base=1.0, law=0, mobility=0.1, damping=0.0, load_power=1.0, weights=weights, keeps=0
+    )
+    shooting._forces._function(state, springs, p, q, np.array([0.0, 0.1, 0.0]))
+    assert [state.friction_x, state.friction_y] == pytest.approx(springs @ weights)
+    assert state.drive_force == pytest.approx(2.0 * 0.3 + 0.5 * (1.0 - 0.2))
