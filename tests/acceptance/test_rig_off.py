@@ -92,6 +92,7 @@ def test_a_procedure_that_is_killed_leaves_everything_off(begun, rig, tmp_path):
     gone_on_with(begun, rig, tmp_path / "run")
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     ("numbers", "word"),
     [
@@ -120,6 +121,7 @@ def test_any_signal_however_often_switches_off_and_the_next_start_goes_on(
     gone_on_with(begun, rig, tmp_path / "run")
 
 
+@pytest.mark.campaign
 @pytest.mark.slow
 @pytest.mark.parametrize("verb", ["vibration.on", "steel.on", "vibration.off", "bronze.off"])
 def test_a_signal_in_the_middle_of_a_switch_switches_off(begun, rig, tmp_path, verb):
@@ -176,6 +178,7 @@ def killed_with_its_guardian(begun, rig):
 FAULTS = ["absent", "silent", "garbling", "late", "very late", "stuck on", "welded"]
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     ("key", "fault"),
     [
@@ -224,6 +227,7 @@ def journal_latched(folder):
     return "latched" in kinds and "acknowledged" not in kinds[kinds.index("latched") :]
 
 
+@pytest.mark.campaign
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("key", "fault"),
