@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.drive.lacking import require_all
 from asperity.drive.problem import PLACES, DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
@@ -126,6 +127,7 @@ class Directions(Result):
 
 def prepare(case: Case) -> DriveProblem:
     """Return the problem of a case, with a vibration; InputError where it cannot be solved."""
+    require_all(case, must_shake=True, protocol="steady")
     problem = prepare_drive(case)
     _ = problem.vibrated
     plain = problem.drive.model_copy(update={"protocol": "steady"})
