@@ -149,6 +149,8 @@ class Following:
         kind: Kind = "B" if line.degrees_of_freedom == math.inf else "A"
         covariance = np.array([[one, both], [both, other]])
         yield Cause("calibration", kind, covariance, line.degrees_of_freedom)
+        for what, most in line.limits:
+            yield Cause(what, "B", np.diag([most**2 / 3.0] * 2))
         if name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.
             steps = [
