@@ -30,6 +30,7 @@ from asperity.tribometer.reduction.result import (
     SegmentResult,
 )
 from asperity.tribometer.reduction.segments import Segment
+from asperity.tribometer.uncertainty import Cause, Kind
 from asperity.units import to_si
 
 _LEVEL_BLOCK = 0.1  # s, in which noise and run-out are told apart
@@ -239,13 +240,22 @@ def _numbers(
             name: peak / one
             for name, one in (("k_v_before", before), ("k_v_with", shaken)) if one > 0.0
         }  # fmt: skip
-        if (ratio := following.velocity_ratio(peak, doubt)) is not None:
+        if ratio := following.velocity_ratio(peak, _amplitude(recording, blocks, doubt)):
             values |= {"k_v": ratio.value, "k_v_ci95": ratio.ends}
         # What a chain that passes one tone leaves of a triangle is a sine.
         question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
     flags += _flags(recording, case, blocks, segment, values)
     doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
+
+
+def _amplitude(recording: Recording, blocks: Blocks, doubt: float) -> Cause:
+    """Return what is not known of v_a, by the accelerometer's calibration or as stated."""
+    if recording.place("acceleration") is None:
+        return Cause("table of [sonotrode]", "B", np.array([[doubt**2]]))
+    freedom = blocks.lines["acceleration"].degrees_of_freedom
+    kind: Kind = "B" if freedom == math.inf else "A"
+    return Cause("calibration of the accelerometer", kind, np.array([[doubt**2]]), freedom)
 
 
 def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:
