@@ -18,9 +18,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from asperity import kernel_folder
-from asperity.native import keys
+from asperity.building.compiler import TARGET, hindrance
+from asperity.native import keys, load
 from asperity.native.entries import Entry, listed
 from asperity.native.kept import UNFIT
+from asperity.native.target import FEATURES
 
 NO_LIBRARY = 3
 """Exit code where no library can be made here, which the last line on standard error explains."""
@@ -53,12 +55,12 @@ def build(
     Raises
     ------
     NoLibraryError
-        There is no C compiler that links, or no entry can be made.
+        There is no C compiler that links, no entry can be made, or it is another machine.
     """
     from asperity.building import lean, link, making
 
-    if link.compiler() is None:
-        raise NoLibraryError("no C compiler (cc, gcc, clang or what CC names)")
+    if (why := hindrance()) is not None:
+        raise NoLibraryError(why)
     with tempfile.TemporaryDirectory() as other:
         kernels = kernel_folder.kernels() or Path(other)
         left = _Makers(kernels, entries, processes, tell).make()
@@ -78,6 +80,8 @@ def build(
     except (OSError, subprocess.CalledProcessError) as error:
         said = str(getattr(error, "stderr", None) or error).strip().splitlines()
         raise NoLibraryError(f"the C compiler does not link: {said[-1]}") from None
+    if load.is_for_here(TARGET, FEATURES) and load.from_folder(folder) is None:
+        raise NoLibraryError("what is linked does not load")
 
 
 @dataclasses.dataclass

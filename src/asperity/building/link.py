@@ -2,9 +2,6 @@
 
 import hashlib
 import json
-import os
-import shlex
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterable, Sequence
@@ -12,21 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from asperity.building import lean, runtime
+from asperity.building.compiler import compiler
 from asperity.native import gather, keys, table
 from asperity.native.entries import Entry
 from asperity.native.target import FEATURES, platform_name
-
-
-def compiler() -> list[str] | None:
-    """Return the command of the system's C compiler, which links; None where there is none.
-
-    It is what ``CC`` in the environment says, else the first of cc, gcc and clang.
-    """
-    said = shlex.split(os.environ.get("CC", ""))
-    for words in [said] if said else [["cc"], ["gcc"], ["clang"]]:
-        if shutil.which(words[0]) is not None:
-            return words
-    return None
 
 
 def support() -> bytes:
