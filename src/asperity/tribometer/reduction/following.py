@@ -148,12 +148,12 @@ class Following:
         one, other, both = line.covariance_of_pair(float(levels[0]), float(levels[1]))
         kind: Kind = "B" if line.degrees_of_freedom == math.inf else "A"
         covariance = np.array([[one, both], [both, other]])
-        yield Cause("calibration", kind, covariance, line.degrees_of_freedom)
+        yield Cause(f"{name}: calibration", kind, covariance, line.degrees_of_freedom)
         for what, most in line.limits:
-            yield Cause(what, "B", np.diag([most**2 / 3.0] * 2))
+            yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))
         if name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.
             steps = [
                 2.0 * math.pi / (self.pair.drives.encoder_pulses * one) for one in self.seconds
             ]
-            yield Cause("steps of the encoder", "B", np.diag(np.square(steps) / 6.0))
+            yield Cause(f"{name}: steps of the encoder", "B", np.diag(np.square(steps) / 6.0))

@@ -24,7 +24,6 @@ from asperity.tribometer.uncertainty import Budget, Cause, Contribution
 
 TORQUE = "torque_steel"
 _FEWEST_FREEDOM = 3.0
-_NOISE = "noise", "noise, run-out and drift"
 _STEP = 1e-6  # of the larger level, for slopes: differences of both sides are right to some 1e-11
 
 Pairs = Mapping[str, FloatArray]
@@ -127,19 +126,25 @@ class Joint:
             ways[name] = np.zeros(self.kept[name].size)
             ways[name][self.kept[name]] = slope @ level.weights
             if slope.any():
-                cause = Cause(_NOISE[name == TORQUE], "A", level.covariance[np.ix_(places, places)])
+                cause = Cause(_noise(name), "A", level.covariance[np.ix_(places, places)])
                 noises.append(Contribution.of(cause, _inputs(name), slope[places]))
                 doubts.append(float(change @ level.spread @ change))
         sensed = np.minimum(torque.sensed, np.diag(torque.covariance))
         if leaning.any():
             moved = -float((2.0 * straight + leaning) * leaning @ sensed)
-            others.append(_correlation("noise of the torque's sensor, which moves nothing", moved))
+            others.append(
+                _correlation("torque_steel: noise of its sensor, which moves nothing", moved)
+            )
         for (one, other), correlation in self.correlation.items():
             both = 2.0 * correlation * float(ways[one] @ ways[other])
             if both:
-                others.append(_correlation(f"correlation of the noises of {one} and {other}", both))
+                others.append(_correlation(f"{one} and {other}: correlation of their noises", both))
         noises = _with_freedom(noises, doubts, others)
         return Interval.of(Budget(of(pairs), (*noises, *others), confidence))
+
+
+def _noise(name: str) -> str:
+    return f"{name}: noise, run-out and drift" if name == TORQUE else f"{name}: noise"
 
 
 def _inputs(name: str) -> tuple[str, str]:
