@@ -15,6 +15,7 @@ from asperity.arrays import FloatArray
 from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.model import Model
 from asperity.slider.shooting import run
+from asperity.slider.steady import fading_rate
 
 _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
@@ -26,6 +27,11 @@ _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
 _MOST_TAKEN_UP = 4000.0
 _TOLD = 32  # last cycles that are looked at
 _REVERSES_NO_MORE = 1e-3  # of mu F_N, that friction may be below its limit
+# Of a body that nothing shakes: how often disturbances of steady sliding fade to a third, from one
+# slip to the next, and in steps at most; of mu F_N, below which friction is steady; and of how far
+# it swings at most, what lasts.
+_FADED, _LEAST_TIMES, _MOST_STEPS = 3.0, 4, 5e5
+_STEADY, _LASTS = 1e-3, 0.1
 _REVERSES = 1e-9  # of the limit, that a deflection goes back in a step
 
 
@@ -107,8 +113,40 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     return Elsewhere(None, math.inf, mean, body.run)
 
 
+def sticks_from_rest(cycle: Cycle) -> bool | None:
+    """Whether a body that nothing shakes goes on sticking and slipping from rest.
+
+    Where steady sliding is stable as well. It is marched for three times as long as a disturbance
+    of that takes to fade; None where that is too long.
+    """
+    model = cycle.body.model
+    slider, rate = model.slider, fading_rate(model)
+    if rate is None or slider.drive_stiffness is None or slider.mass is None:
+        return False
+    loading = _loading(model) / _TAKEN_UP
+    rings = 2.0 * math.pi * math.sqrt(slider.mass / slider.drive_stiffness)
+    longest = 2.0 * (loading + rings)  # from one slip to the next
+    times = max(_LEAST_TIMES, math.ceil((_TAKEN_UP * loading + _FADED / rate) / longest))
+    steps = math.ceil(longest / cycle.step)
+    if times * steps > _MOST_STEPS:
+        return None
+    body = Cycle(model, steps, cycle.step)
+    state, sums = body.body.kept["state"][0], body.body.sums
+    swings = []
+    for n in range(times):
+        run(state, body.springs, body.body.p, body.q, body.increments, body.rises, sums)
+        swings.append(float(sums["friction_x_max"] - sums["friction_x_min"]))
+        # The first has the way from rest in it.
+        if n and swings[-1] <= _STEADY:
+            return False
+    return swings[-1] > max(_STEADY, _LASTS * max(swings[1:]))
+
+
 def _loading(model: Model) -> float:
-    """Cycles in which a body is taken up: its drive stretched, its asperities bent."""
+    """Cycles in which a body is taken up: its drive stretched, its asperities bent.
+
+    Seconds where nothing shakes it.
+    """
     slider, friction = model.slider, model.friction
     way = 0.0
     if slider.drive_stiffness is not None:
@@ -116,7 +154,8 @@ def _loading(model: Model) -> float:
         way += held / slider.drive_stiffness
     if friction.model != "coulomb":
         way += friction.deflection_limit(slider.normal_force)
-    return _TAKEN_UP * way / slider.drive_velocity * model.frequency
+    cycles = model.frequency if model.vibrates else 1.0
+    return _TAKEN_UP * way / slider.drive_velocity * cycles
 
 
 def _marched(body: Cycle, cycles: int) -> tuple[float, float, FloatArray]:
