@@ -285,7 +285,7 @@ COMMANDS = (
         "rig reduce",
         "Reduce recordings: what vibration does to torque, power and efficiency.",
         "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "
-        "takes, and reduce.png.",
+        "takes, budget.csv and reduce.png.",
         module="asperity.tribometer.reduction.study",
         read="asperity.tribometer.reduction.study:read",
         counts="recordings",
@@ -295,13 +295,13 @@ COMMANDS = (
             Option(
                 "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
             ),
+            Option("budget", "Tell what every number is uncertain by (GUM).", default=False),
         ),
     ),
     Command(
         "rig report",
         "Put the recordings of a folder on one page: cells, pictures, what was left out.",
-        "Writes report.html, reduce.json, reduce.nc, reduce.csv and measurements.csv into DIR, "
-        "or into --out.",
+        "Writes report.html, reduce.json, reduce.nc and tables (.csv) into DIR, or into --out.",
         module="asperity.tribometer.report.study",
         read="asperity.tribometer.report.study:read",
         counts="recordings",

@@ -3,7 +3,7 @@
 import contextlib
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from asperity.tribometer.reduction import drive_signal, quantities, wear
 from asperity.tribometer.reduction.blocks import Blocks, angle, lines_of, turns
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
-from asperity.tribometer.reduction.joint import TORQUE, Joint, estimate_jointly
+from asperity.tribometer.reduction.joint import TORQUE, Interval, Joint, estimate_jointly
 from asperity.tribometer.reduction.levels import Levels
 from asperity.tribometer.reduction.prediction import model_ratios
 from asperity.tribometer.reduction.result import (
@@ -30,6 +30,7 @@ from asperity.tribometer.reduction.result import (
     SegmentResult,
 )
 from asperity.tribometer.reduction.segments import Segment
+from asperity.tribometer.uncertainty import Cause, Kind
 from asperity.units import to_si
 
 _LEVEL_BLOCK = 0.1  # s, in which noise and run-out are told apart
@@ -193,26 +194,22 @@ def _numbers(
 ) -> tuple[dict[str, Any], Any]:
     """Return the numbers of a segment, and what its model is asked."""
     pair, levels = following.pair, following.levels
-    change, power = following.torque_change(), following.power_change()
+    change = following.torque_change()
     torques = [following.torque(one) for one in (0, 1)]
     sliding = [following.sliding_velocity(one).times(1e3) for one in (0, 1)]
+    intervals: dict[str, Interval | None] = {
+        "torque_before": torques[0], "torque_with": torques[1], "torque_change": change,
+        "power_change": following.power_change(),
+        "efficiency_change": following.efficiency_change(),
+        "full_efficiency_change": following.full_efficiency_change(),
+        "sliding_velocity_before": sliding[0], "sliding_velocity_with": sliding[1],
+    }  # fmt: skip
     values: dict[str, Any] = {
-        "torque_before": torques[0].value, "torque_before_ci95": torques[0].ends,
-        "torque_with": torques[1].value, "torque_with_ci95": torques[1].ends,
-        "torque_change": change.value, "torque_change_ci95": change.ends, "low": change.low,
-        "high": change.high, "deviation": change.deviation,
-        "power_change": power.value, "power_change_ci95": power.ends,
+        "low": change.low, "high": change.high, "deviation": change.deviation,
         "slide_roll_ratio": following.slide_roll_ratio(),
         "turns_seen": _turns(blocks, STEEL, pair.drives.gear_ratio, segment.shaken),
         "bronze_turns": _turns(blocks, BRONZE, pair.drives.bronze_gear_ratio, segment.shaken),
     }  # fmt: skip
-    for name, found in (
-        ("sliding_velocity_before", sliding[0]), ("sliding_velocity_with", sliding[1]),
-        ("efficiency_change", following.efficiency_change()),
-        ("full_efficiency_change", following.full_efficiency_change()),
-    ):  # fmt: skip
-        if found is not None:
-            values |= {name: found.value, f"{name}_ci95": found.ends}
     values["sliding_velocity_deviation"] = sliding[1].deviation
     if (oil := case.get(Lubricant)) is not None:
         rolling = float(discs.rolling_velocity(*following.rims(levels, 0)))
@@ -228,6 +225,7 @@ def _numbers(
         for name, one in zip(("before", "with"), sliding, strict=True)
         if one.low <= 0.0 < one.value
     ]
+    odd += _past(recording, case)
     flags += odd
     if not following.powered:
         flags.append(f"{CURRENT} has samples missing or past its range: no efficiency")
@@ -239,13 +237,26 @@ def _numbers(
             name: peak / one
             for name, one in (("k_v_before", before), ("k_v_with", shaken)) if one > 0.0
         }  # fmt: skip
-        if (ratio := following.velocity_ratio(peak, doubt)) is not None:
-            values |= {"k_v": ratio.value, "k_v_ci95": ratio.ends}
+        amplitude = _amplitude(recording, blocks, doubt)
+        intervals["k_v"] = following.velocity_ratio(peak, amplitude)
         # What a chain that passes one tone leaves of a triangle is a sine.
         question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
-    flags += _flags(recording, case, blocks, segment, values)
+    there = {name: one for name, one in intervals.items() if one is not None}
+    for name, one in there.items():
+        values |= {name: one.value, f"{name}_ci95": one.ends}
+    values["budgets"] = {name: one.budget for name, one in there.items()}
+    flags += _flags(recording, blocks, segment, values)
     doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
+
+
+def _amplitude(recording: Recording, blocks: Blocks, doubt: float) -> Cause:
+    """Return what is not known of v_a, by the accelerometer's calibration or as stated."""
+    if recording.place("acceleration") is None:
+        return Cause("v_a: table of [sonotrode]", "B", np.array([[doubt**2]]))
+    freedom = blocks.lines["acceleration"].degrees_of_freedom
+    kind: Kind = "B" if freedom == math.inf else "A"
+    return Cause("v_a: calibration of the accelerometer", kind, np.array([[doubt**2]]), freedom)
 
 
 def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:
@@ -281,16 +292,20 @@ def _velocity(
     return peak, peak * sonotrode.velocity_uncertainty, []
 
 
+def _past(recording: Recording, case: Case) -> Iterator[str]:
+    """Yield calibrations that were past their last day when a recording began."""
+    for name, channel in case.require(Channels).mapped().items():
+        if name in _DATED and (last := channel.last_day) is not None:
+            days = (recording.start.date() - last).days
+            if days > 0:
+                yield f"the calibration of {name} was due by {last}, {days} days before"
+
+
 def _flags(
-    recording: Recording, case: Case, blocks: Blocks, segment: Segment, values: dict[str, Any]
+    recording: Recording, blocks: Blocks, segment: Segment, values: dict[str, Any]
 ) -> list[str]:
     """Return what a reader of a segment's numbers should know beside its interval."""
     flags = []
-    for name, channel in case.require(Channels).mapped().items():
-        if channel.date is not None and name in _DATED:
-            age = (recording.start.date() - channel.date).days
-            if age > channel.valid_days:
-                flags.append(f"the calibration of {name} is out of date by {age} days")
     if values["turns_seen"] < _PART_TURN:
         flags.append(f"{values['turns_seen']:.2g} of a turn of the steel disc is seen")
     if values["sliding_velocity_with"] <= 0.0:

@@ -15,7 +15,7 @@ from asperity.tribometer.parameters import Lubricant
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import study as reduction
 from asperity.tribometer.reduction.result import REFUSED, Reduced, SegmentResult
-from asperity.tribometer.reduction.study import Reducible
+from asperity.tribometer.reduction.study import Reducible, Series
 from asperity.tribometer.report.result import Report
 
 _ANSWERS = Reduced.stem, "run", "plan"  # that commands leave beside recordings
@@ -69,7 +69,7 @@ def prepare(case: Case, **_: Any) -> Gathered:
 
 def answer(problem: Gathered, run: Run) -> Report:
     """Reduce the recordings and gather what the page says."""
-    reduced = reduction.answer(problem.reducible, run)
+    reduced = reduction.answer(Series(problem.reducible), run)
     left = [
         (f"{one.file}, segment at {one.start or 0.0:.0f} s", "; ".join(one.flags))
         for one in reduced.segments
