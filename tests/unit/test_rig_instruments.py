@@ -3,11 +3,13 @@
 import functools
 import importlib
 import io
+import json
 import re
 import sys
 
 import numpy as np
 import pytest
+from apparatus import rigs
 from apparatus.fake_picoscope import FakeDriver
 
 from asperity.errors import InputError, MissingExtraError
@@ -19,6 +21,7 @@ from asperity.tribometer.instruments import (
     serial_vibration,
 )
 from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.inputs import inputs_of, lines_of, simulated_of
 from asperity.tribometer.instruments.parameters import Controller, Supplies
 from asperity.tribometer.instruments.protocols import (
     Input,
@@ -31,6 +34,8 @@ from asperity.tribometer.instruments.protocols import (
     VibrationDrive,
     WallClock,
 )
+from asperity.tribometer.signals import SIMULATED
+from asperity.tribometer.twin import plant_kernels
 from asperity.units import to_si
 
 # A driver of PyMeasure says so of devices its authors do not own.
@@ -511,3 +516,33 @@ def test_a_supply_that_answers_no_number_is_named():
     steel = pymeasure_supply.PyMeasureSupply(Output(), "supply of steel")
     with pytest.raises(InstrumentError, match="supply of steel did not do as it was told"):
         steel.reading()
+
+
+def test_other_sensors_are_recorded_beside_the_eight():
+    points = {
+        "acceleration_2": [["0 V", "0 m/s**2"], ["1 V", "100 m/s**2"]],
+        "temperature": [["0 V", "0 degC"], ["1 V", "100 degC"]],
+        "normal_force": [["0 V", "0 N"], ["5 V", "500 N"]],
+    }
+    case = rigs.small_case(
+        *(
+            f'channels.{name}={{channel="{letter}",points={json.dumps(given)}}}'
+            for letter, (name, given) in zip("XYZ", points.items(), strict=True)
+        )
+    )
+    inputs = inputs_of(case["channels"], case["sonotrode"])
+    assert [one.signal for one in inputs[-3:]] == list(points)
+    assert [one.range for one in inputs[-3:]] == [1.0, 1.0, 5.0]
+    lines = lines_of(case["channels"], inputs)
+    assert lines[-2].of(0.25) == pytest.approx(298.15)
+    assert lines[-1].of(1.4) == pytest.approx(140.0)
+    # Nothing simulates them.
+    assert [one.signal for one in simulated_of(inputs)] == [one.signal for one in inputs[:-3]]
+    with pytest.raises(InputError, match=r"channels\.load_cell is missing"):
+        inputs_of(case["channels"].model_copy(update={"load_cell": None}), case["sonotrode"])
+
+
+def test_the_simulated_signals_are_in_the_order_of_its_kernel():
+    assert len(SIMULATED) == plant_kernels.SIGNALS
+    for place, name in enumerate(SIMULATED):
+        assert getattr(plant_kernels, name.upper()) == place
