@@ -17,7 +17,7 @@ from asperity.tribometer.guardian.guard import Guard
 from asperity.tribometer.guardian.in_time import ScopeInTime
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.instruments.bench import Bench
-from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.instruments.inputs import inputs_of, simulated_of
 from asperity.tribometer.instruments.manual import (
     ManualAccelerometer,
     ManualSupply,
@@ -140,7 +140,7 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     """
     inputs = inputs_of(case.require(Channels), case.require(Sonotrode))
     if backend == "sim":
-        return _simulated(case, inputs)
+        return _simulated(case, simulated_of(inputs))
     person = Operator()
     guard = Guard(case, backend, None)
     owned, _ = owned_by(case, backend)

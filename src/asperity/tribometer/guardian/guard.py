@@ -15,6 +15,7 @@ from typing import Any
 from asperity.casefile import Case
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.casing import packed
+from asperity.tribometer.guardian.devices import deadline_of
 from asperity.tribometer.guardian.guardian import BEAT
 from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.guardian.rig import Address
@@ -51,9 +52,8 @@ class Guard:
     def __init__(self, case: Case, backend: str, rig: Address | None) -> None:
         self._told = {"case": packed(case), "backend": backend, "rig": rig}
         table, simulated = case.get(Table, Table()), backend == "sim"
-        busy = 2.0 * longest(
-            table.due(simulated=simulated)
-        )  # two attempts, the second as the end comes
+        # two attempts, the second as the end comes
+        busy = 2.0 * longest(deadline_of(case, simulated=simulated))
         self._limit = _SLACK + busy + table.patient(simulated=simulated)
         self.generation = 0
         self._heard, self._signals = os.pipe() if os.name == "posix" else (-1, -1)

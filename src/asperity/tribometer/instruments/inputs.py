@@ -6,7 +6,7 @@ from asperity.tribometer.channels import Channels
 from asperity.tribometer.instruments.picoscope import smallest_range
 from asperity.tribometer.instruments.protocols import FULL_SCALE, Input
 from asperity.tribometer.parameters import Sonotrode
-from asperity.tribometer.signals import SIGNALS
+from asperity.tribometer.signals import SIGNALS, SIMULATED, WATCHED
 
 # A load cell rides on its preload, and a drive signal on its middle.
 _MARGIN = 2.0
@@ -35,13 +35,18 @@ def inputs_of(channels: Channels, sonotrode: Sonotrode) -> tuple[Input, ...]:
                 f'calibration, such as [["0 V", "0"], ["1 V", "{SIGNALS[name].example}"]]'
             )
         found.append(Input(channel.channel.strip().upper(), name, smallest_range(volts)))
-    missing = [name for name in SIGNALS if name not in {one.signal for one in found}]
-    needed = [name for name in missing if name != "acceleration"]
-    if needed:
+    there = {one.signal for one in found}
+    missing = [name for name in WATCHED if name not in there]
+    if missing:
         raise InputError(
-            f"channels.{needed[0]} is missing; a procedure watches the eight signals of the rig"
+            f"channels.{missing[0]} is missing; a procedure watches the eight signals of the rig"
         )
     return tuple(found)
+
+
+def simulated_of(inputs: tuple[Input, ...]) -> tuple[Input, ...]:
+    """Return those of some inputs that a simulated rig has something for."""
+    return tuple(one for one in inputs if one.signal in SIMULATED)
 
 
 def lines_of(channels: Channels, inputs: tuple[Input, ...]) -> tuple[Line, ...]:

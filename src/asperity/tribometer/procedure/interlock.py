@@ -157,6 +157,10 @@ class Interlock:
             if motors[name].by_hand:
                 continue
             given = motors[name].reading().voltage
+            if given is None:
+                raise InstrumentError(
+                    f"{motors[name].name} cannot be asked what it gives", kind="supply"
+                )
             if abs(given - told) > _SUPPLY_VOLTS + _SUPPLY_SHARE * told:
                 raise InstrumentError(
                     f"{motors[name].name} gives {given:.3g} V where {told:g} V is asked for",

@@ -96,6 +96,8 @@ class Logger:
         self._bench = bench
         self._interlock = interlock
         self._beat = beat
+        # Asked before the stream begins: an answer takes its time.
+        instruments = bench.identities() if path is not None else {}
         self._begun = bench.clock.now()
         self._told = self._begun
         self._looked = self._begun
@@ -109,6 +111,7 @@ class Logger:
             self._recorder = Recorder(
                 path, sources, self.interval, configuration=configuration, start=start,
                 block=max(1, round(_WRITTEN / self.interval)), simulated=bench.simulated,
+                instruments=instruments,
             )  # fmt: skip
 
     @property

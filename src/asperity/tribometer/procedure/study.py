@@ -32,6 +32,7 @@ from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
 from asperity.tribometer.recording.recorder import joined_all
+from asperity.tribometer.signals import SIMULATED
 from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
 
@@ -266,6 +267,9 @@ def _notes(problem: RunProblem, journal: Lines, latch: AsperityError | None) -> 
         notes.append(f"played back from {plain(problem.recordings)}: no rig was run")
     if problem.backend == "sim":
         notes.append("simulated: no rig was run")
+        mapped = problem.case.require(Channels).mapped()
+        if absent := [name for name in mapped if name not in SIMULATED]:
+            notes.append(f"nothing simulates {', '.join(absent)}: not recorded")
         notes.extend(standing(problem.case))
     if latch is not None:
         notes.append(
