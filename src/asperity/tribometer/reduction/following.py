@@ -44,6 +44,8 @@ class Following:
         s, in which speeds settle, where windows have no time for it; zero where they have.
     powered : bool
         Whether the current is right in both windows.
+    zeros : mapping of str to ndarray, shape (2, 2)
+        Of signals whose zero was seen at rest and taken off, what is not known of it.
     """
 
     pair: Pair
@@ -55,6 +57,7 @@ class Following:
     seconds: tuple[float, float]
     hurried: float = 0.0
     powered: bool = True
+    zeros: Mapping[str, FloatArray] = dataclasses.field(default_factory=dict)
 
     @property
     def levels(self) -> Pairs:
@@ -137,8 +140,15 @@ class Following:
 
     def _added(self, name: str, levels: FloatArray) -> FloatArray:
         """Return the covariance that calibration and the steps of an encoder leave in levels."""
-        one, other, both = self.lines[name].covariance_of_pair(float(levels[0]), float(levels[1]))
-        found = np.array([[one, both], [both, other]])
+        line = self.lines[name]
+        if name in self.zeros:
+            # What the offset of the line was off by went with the zero.
+            found = (
+                self.zeros[name] + np.outer(levels, levels) * (line.gain_deviation / line.gain) ** 2
+            )
+        else:
+            one, other, both = line.covariance_of_pair(float(levels[0]), float(levels[1]))
+            found = np.array([[one, both], [both, other]])
         if name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.
             for place, seconds in enumerate(self.seconds):
