@@ -1,6 +1,7 @@
 """A guardian in a process that is forked, so that it costs no start, in time that it is given."""
 
 import contextlib
+import itertools
 import mmap
 import os
 import struct
@@ -61,17 +62,22 @@ class Dials:
         return struct.unpack_from("d", self._shared, 8 * self._names.index(name))[0]
 
 
-def forked_guardians(dials, keep=()):
-    """Let guardians of this process be forked, with dials; ``keep`` stays open in them."""
+def forked_guardians(dials, keep=(), begins=lambda number: None):
+    """Let guardians of this process be forked, with dials.
+
+    ``keep`` stays open in them; ``begins`` is called in each of them with its number.
+    """
+    numbers = itertools.count()
 
     class Popen:
         """What is used of the one in `subprocess`."""
 
         def __init__(self, _words, *, pass_fds=(), **_):
             (hears, tells), (reads, says) = os.pipe(), os.pipe()
+            number = next(numbers)
             self.pid = os.fork()
             if not self.pid:
-                _be_guardian(hears, says, {*pass_fds, *keep}, dials)
+                _be_guardian(hears, says, {*pass_fds, *keep}, dials, lambda: begins(number))
             os.close(hears)
             os.close(says)
             self.stdin, self.stdout = os.fdopen(tells, "wb", 0), os.fdopen(reads, "rb", 0)
@@ -102,7 +108,7 @@ def forked_guardians(dials, keep=()):
     guard.subprocess = types.SimpleNamespace(Popen=Popen, **told)
 
 
-def _be_guardian(hears, says, keep, dials):
+def _be_guardian(hears, says, keep, dials, begins):
     code = 70
     with contextlib.suppress(BaseException):
         import signal
@@ -117,6 +123,7 @@ def _be_guardian(hears, says, keep, dials):
                 with contextlib.suppress(OSError):
                     os.close(number)
         _dialled(dials)
+        begins()
         code = process.main()
     os._exit(code)
 

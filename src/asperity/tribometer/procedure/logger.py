@@ -199,6 +199,11 @@ class Logger:
         names = (one.signal for one in self._bench.scope.inputs)
         return dict(zip(names, map(float, means), strict=True))
 
+    def keep(self) -> None:
+        """Bring what is recorded so far to the disk."""
+        if self._recorder is not None:
+            self._recorder.flush()
+
     def close(self) -> None:
         """End stream and recording; it is not compressed yet."""
         self._stream.stop()

@@ -329,6 +329,8 @@ class Machine:
         self._still(logger)
         if plan.idle:
             logger.watch(plan.idle)
+        # The journal is not to tell of samples that a kill would still cost.
+        logger.keep()
         return {
             "cell": cell.number,
             "frequency_Hz": cell.frequency,
