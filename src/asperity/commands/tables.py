@@ -42,7 +42,7 @@ _TABLES = {
     "supplies": "asperity.tribometer.instruments.parameters:Supplies",
     "guardian": "asperity.tribometer.instruments.parameters:Guard",
     "conditions": "asperity.tribometer.parameters:Conditions",
-    "package": "asperity.tribometer.package.parameters:Package",
+    "package": "asperity.tribometer.deposit:Package",
     "drive": "asperity.drive.parameters:Drive",
     "shaft": "asperity.drive.parameters:Shaft",
     "actuator": "asperity.drive.parameters:Actuator",

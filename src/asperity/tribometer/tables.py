@@ -2,9 +2,9 @@
 
 from asperity.casefile import Table
 from asperity.tribometer.channels import Channels
+from asperity.tribometer.deposit import Package
 from asperity.tribometer.instruments.parameters import Controller, Guard, Supplies
 from asperity.tribometer.options import Plan, Reduction, Twin
-from asperity.tribometer.package.parameters import Package
 from asperity.tribometer.parameters import (
     BronzeDisc,
     Conditions,
