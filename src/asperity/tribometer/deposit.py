@@ -144,14 +144,15 @@ class Package(Table):
     def complete(self) -> None:
         """Refuse a package that no repository would take; raises InputError."""
         wanted = {
-            "title": "what the data are called", "authors": f"[{_AUTHOR}]",
-            "licence": '"CC-BY-4.0", say',
+            "title": '"Friction under vibration"', "authors": f"[{_AUTHOR}]",
+            "licence": '"CC-BY-4.0"',
         }  # fmt: skip
         missing = [name for name in wanted if not getattr(self, name)]
         if missing:
-            keys = " and ".join(f"package.{name}" for name in missing)
-            told = ", ".join(f"{name}: {wanted[name]}" for name in missing)
-            are = "is" if len(missing) == 1 else "are"
+            *others, last = (f"package.{name}" for name in missing)
+            keys = f"{', '.join(others)} and {last} are" if others else f"{last} is"
+            told = ", ".join(f"{name} = {wanted[name]}" for name in missing)
             raise InputError(
-                f"{keys} {are} missing, without which no repository takes data; {told}"
+                f"{keys} missing, without which no repository takes data; give them in a case by "
+                f"--config, as in {told}"
             )

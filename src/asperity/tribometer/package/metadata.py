@@ -2,11 +2,11 @@
 
 import dataclasses
 import datetime
+import importlib.metadata
 import urllib.parse
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from asperity import __version__
 from asperity.tribometer.deposit import Package, Person
 from asperity.tribometer.package.instruments import Instrument
 
@@ -215,7 +215,7 @@ def _graph(about: About, items: Sequence[Item]) -> Iterator[dict[str, Any]]:
         yield {key: value for key, value in told.items() if value}
     yield {
         "@id": _PROGRAM, "@type": "SoftwareApplication", "name": "asperity",
-        "version": __version__,
+        "version": importlib.metadata.version("asperity"),
     }  # fmt: skip
     agent = {"agent": [_of(one) for one in people]}
     yield {

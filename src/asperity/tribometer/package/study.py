@@ -3,10 +3,11 @@
 import dataclasses
 import datetime
 from collections.abc import Iterator, Sequence
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from asperity import __version__, store
+from asperity import store
 from asperity.casefile import Case
 from asperity.casefile.written import written
 from asperity.errors import InputError, plain
@@ -83,7 +84,7 @@ def answer(problem: Packing, run: Run) -> Packaged:
         Content("case.toml", "Configuration of the first recording; each holds its own.",
                 _case(gathered).encode()),
     ]  # fmt: skip
-    heading = Heading.of(gathered, __version__)
+    heading = Heading.of(gathered, version("asperity"))
     return Packaged(
         report=found, head=heading, about=about, contents=tuple(contents),
         zipped=problem.zipped, notes=tuple(_notes(gathered, found, about)),

@@ -85,7 +85,10 @@ class Report(Result):
         return self.reduced.to_json() | super().to_json() | told
 
     def tables(self) -> tuple[Table, ...]:
-        """Return conditions, cells, and what was left out."""
+        """Return what a standard asks for, conditions, cells, and what was left out."""
+        return *self._headings(), *self._numbers()
+
+    def _numbers(self) -> tuple[Table, ...]:
         cells, *intervals, files = self.reduced.tables()
         conditions = Table.of(("", ""), self.conditions, title="Conditions", left=2)
         refused = Table.of(("what", "why"), self.refused, title="Left out", left=2)
@@ -153,7 +156,7 @@ class Report(Result):
             dataclasses.replace(
                 one, remarks=tuple(said for said in one.remarks if said not in self.notes)
             )
-            for one in self.tables()
+            for one in self._numbers()
         )
         followed: tuple[Section, ...] = ()
         if self.standard:
@@ -173,7 +176,7 @@ class Report(Result):
 
 
 def _percent(value: float | None) -> str:
-    return "" if value is None else f"{value:.2g}"
+    return "" if value is None else f"{value + 0.0:.2g}"
 
 
 def over_velocity(dataset: "xr.Dataset") -> "Figure":
