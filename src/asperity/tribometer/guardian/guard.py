@@ -63,7 +63,7 @@ class Guard:
 
     def _start(self) -> None:
         self.generation += 1
-        self._tripped = ""
+        self._tripped, self._kind = "", SWITCHED_OFF
         self._number = 0
         self._waiting: float | None = None
         self._answers: queue.SimpleQueue[Head | None] = queue.SimpleQueue()
@@ -99,7 +99,7 @@ class Guard:
             # Whatever it says, it is there.
             self._waiting = None
             if "tripped" in head:
-                self._tripped = head["tripped"]
+                self._kind, self._tripped = head["kind"], head["tripped"]
             elif "n" in head:
                 answers.put(head)
         wire.deaf()
@@ -140,9 +140,7 @@ class Guard:
         self._send(_HERE)
         self._look(self._limit)
         if self._tripped:
-            raise InstrumentError(
-                f"everything was switched off: {self._tripped}", kind=SWITCHED_OFF
-            )
+            raise InstrumentError(f"everything was switched off: {self._tripped}", kind=self._kind)
 
     def _send(self, head: Head) -> None:
         if self._waiting is None:

@@ -21,6 +21,7 @@ from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.instruments.bench import Bench, MadeSafe
 from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
 from asperity.tribometer.instruments.protocols import (
+    STOPPED,
     SWITCHED_OFF,
     InstrumentError,
     StillOnError,
@@ -173,9 +174,10 @@ class Machine:
         still = {"still_on": list(failures)} if failures else {}
         if self._logger is not None:
             self._logger.abandon()
-        if self._signals.heard and getattr(error, "kind", "") == SWITCHED_OFF:
-            # The guardian heard of the signal first.
-            error = Interrupted(f"{self._signals.heard}{self._how_far()}")
+        kind = getattr(error, "kind", "")
+        if kind == STOPPED or (self._signals.heard and kind == SWITCHED_OFF):
+            # The guardian heard of the request first.
+            error = Interrupted(f"{self._signals.heard or STOPPED}{self._how_far()}")
         if isinstance(error, Interrupted | KeyboardInterrupt):
             said = str(error) or "interrupted"
             if failures:
