@@ -214,6 +214,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "controller",
                 "supplies",
                 "guardian",
+                "conditions",
+                "package",
             ),
             ("rig plan", "rig run"),
             case="rig-final",

@@ -24,6 +24,7 @@ from asperity.tribometer.reduction.file import reduce_file
 from asperity.tribometer.reduction.heard.listen import listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
 from asperity.tribometer.reduction.segments import segments_of
+from asperity.tribometer.sheets import broken_classes
 
 _OFTEN = 0.01  # share of samples
 _USUAL = 0.95  # confidence that intervals are named by
@@ -226,6 +227,8 @@ def _notes(problem: Sequence[Reducible]) -> Iterator[str]:
         )
     if any(one.recording.simulated for one in problem):
         yield "simulated recordings are among these: no rig stands behind their numbers"
+    mapped = [one.case.require(Channels).mapped() for one in problem]
+    yield from dict.fromkeys(told for one in mapped for told in broken_classes(one))
     if any(one.case.require(Rig).bearing_torque_steel == 0.0 for one in problem):
         yield (
             "the bearing torque is taken as zero: it stands in both torques, and the friction "
