@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Case
-from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian.asked import AskedListener, AskedSupply, AskedVibration
 from asperity.tribometer.guardian.owned import LISTENER, Device
 from asperity.tribometer.guardian.rig import Address, RigLine
-from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.guardian.scopes import opened_scope
+from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
 from asperity.tribometer.instruments.listening import ScopeListener
 from asperity.tribometer.instruments.parameters import Controller, Guard, Output, Supplies
 from asperity.tribometer.parameters import Sonotrode
@@ -65,7 +65,9 @@ def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
     outputs = {key: name for key, name in owned.items() if key in OUTPUTS}
     if outputs:
         found += _supplies(case.require(Supplies), outputs)
-    found.append(Device("oscilloscope", {LISTENER: _EAR}, lambda: _ear(case)))
+    # What is written into a folder comes too late to be listened to.
+    if not case.get(Acquisition, Acquisition()).folder:
+        found.append(Device("oscilloscope", {LISTENER: _EAR}, lambda: _ear(case)))
     return found
 
 
@@ -119,4 +121,5 @@ def _described(there: Mapping[str, Output]) -> dict[str, Any]:
 
 def _ear(case: Case) -> dict[str, Any]:
     sonotrode = case.require(Sonotrode)
-    return {LISTENER: ScopeListener(inputs_of(case.require(Channels), sonotrode), sonotrode)}
+    opened = functools.partial(opened_scope, case)
+    return {LISTENER: ScopeListener(inputs_for(case), sonotrode, opened)}

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, nearest, suggestion
 
 _FOLDER = "descriptions"
 
@@ -34,6 +34,14 @@ class Description:
     source: str
     words: Mapping[str, Any]
 
+    @property
+    def proves_off(self) -> bool:
+        """Whether what is said reads back that it is off."""
+        asked = "ask_output" in self.words
+        if self.kind == "controller":
+            return asked
+        return "measure_current" in self.words and (asked or "measure_voltage" in self.words)
+
 
 @functools.cache
 def descriptions() -> Mapping[str, Description]:
@@ -47,6 +55,14 @@ def descriptions() -> Mapping[str, Description]:
             about = {key: str(raw.pop(key)) for key in ("kind", "title", "source")}
             found[name] = Description(name, **about, words=raw)
     return found
+
+
+def any_description(name: str) -> Description:
+    """Return a description by its name; raises InputError where there is none."""
+    known = descriptions()
+    if name not in known:
+        raise InputError(f"{name} is not an instrument that ships{nearest(name, known)}")
+    return known[name]
 
 
 def description(name: str, kind: str) -> Description:

@@ -65,10 +65,13 @@ def supply_off(name: str, found: tuple[bool | None, Reading] | Exception) -> Off
         return Off(name, False, said(found))
     on, given = found
     measured = _measured(given.current, "A")
+    if given.current is None:
+        state = {True: "on", False: "off", None: "not asked"}[on]
+        return Off(name, False, f"not proven off: its state is {state}, {measured}")
     if on:
         return Off(name, False, f"its output's state is on, {measured}")
     # Of a comparison with what is no number nothing is proven.
-    still = given.current is not None and abs(given.current) <= STILL_CURRENT
+    still = abs(given.current) <= STILL_CURRENT
     if on is None:
         still = still and given.voltage is not None and abs(given.voltage) <= STILL_VOLTAGE
         volts = _measured(given.voltage, "V").removesuffix(" measured")
@@ -78,7 +81,7 @@ def supply_off(name: str, found: tuple[bool | None, Reading] | Exception) -> Off
 
 def _measured(value: float | None, unit: str) -> str:
     if value is None:
-        return f"{'voltage' if unit == 'V' else 'current'} cannot be measured"
+        return f"its {'voltage' if unit == 'V' else 'current'} cannot be measured"
     return f"{value:.3g} {unit} measured"
 
 

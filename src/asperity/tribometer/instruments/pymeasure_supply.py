@@ -1,5 +1,6 @@
 """Bench supplies through PyMeasure's drivers."""
 
+import contextlib
 import importlib
 import inspect
 import warnings
@@ -60,7 +61,10 @@ class PyMeasureSupply:
 
     def identify(self) -> str:
         """Return what the device says it is, or the driver's name for it."""
-        told = getattr(getattr(self._output, "parent", self._output), "id", "")
+        told = ""
+        # Not every device knows the question; one that is lost is found out by what is told it.
+        with contextlib.suppress(Exception):
+            told = " ".join(str(getattr(self._output, "parent", self._output).id).split())
         return f"{told or self.name} ({type(self._output).__name__})"
 
     def set(self, voltage: float) -> None:

@@ -31,7 +31,7 @@ class Spoken(Table):
     Parameters
     ----------
     instrument : str
-        A description that ships; ``asperity rig instruments`` lists them. A key given beside it
+        A description that ships; ``asperity instruments`` lists them. A key given beside it
         replaces that of the description.
     port : str
         Serial port of the operating system, such as ``/dev/ttyACM0`` or ``COM3``.
@@ -248,15 +248,6 @@ class SupplyWords(Spoken):
         self.must_hold("set_voltage", "value")
         if self.set_current_limit:
             self.must_hold("set_current_limit", "value")
-
-    @property
-    def unproven(self) -> str:
-        """Why it is never proven off; empty where it can be."""
-        if not self.measure_current:
-            return "measure_current is missing"
-        if not self.ask_output and not self.measure_voltage:
-            return "ask_output and measure_voltage are missing"
-        return ""
 
 
 class Plain(float):

@@ -102,6 +102,8 @@ class Logger:
         self._told = self._begun
         self._looked = self._begun
         self._changing = False
+        # What is written to files comes late: a window begins when all before it has come.
+        self._lag = float(getattr(bench.scope, "late", 0.0))
         start = datetime.datetime.now(datetime.UTC)
         self._stream = Stream(bench.scope, interval, BLOCK, self._begun)
         self.interval = self._stream.interval
@@ -127,7 +129,9 @@ class Logger:
     def event(self, kind: str, text: str) -> None:
         """Write down what was done."""
         if self._recorder is not None:
-            self._recorder.event(self.samples * self.interval, kind, text)
+            now = self._bench.clock.now() - self._begun
+            time = now if self._lag else self.samples * self.interval
+            self._recorder.event(time, kind, text)
 
     def watch(self, seconds: float, *, skip: float = 0.0, crc32: int = 0) -> Window:
         """Record for a time, and look at all of it.
@@ -150,7 +154,10 @@ class Logger:
         """
         bench, stream = self._bench, self._stream
         wanted = max(1, round(seconds / self.interval))
-        window = Window(len(bench.scope.inputs), self.samples, round(skip / self.interval), crc32)
+        behind = self._behind()
+        window = Window(
+            len(bench.scope.inputs), self.samples + behind, round(skip / self.interval), crc32
+        )
         poll = BLOCK / _POLLS_A_BLOCK
         while window.samples < wanted:
             left = (wanted - window.samples) * self.interval
@@ -159,15 +166,21 @@ class Logger:
             bench.vibration.keep_alive()
             now = bench.clock.now()
             counts = stream.take()
-            settled = not self._changing and now - self._told > _SETTLING
+            settled = not self._changing and now - self._told > _SETTLING + self._lag
             self._interlock.look(counts, self.interval, self.expected, settled=settled)
             if now - self._looked >= _SUPPLIES_EVERY:
                 self._looked = now
                 self._interlock.supplies(bench.motors, self.expected)
             if self._recorder is not None:
                 self._recorder.append(counts, now - self._begun)
-            window.add(counts)
+            window.add(counts[behind:])
+            behind -= min(behind, len(counts))
         return window
+
+    def _behind(self) -> int:
+        """Return how many samples of what has happened have not come yet."""
+        passed = self._bench.clock.now() - self._begun
+        return max(0, round(passed / self.interval) - self.samples) if self._lag else 0
 
     def during(self, instrument: Instrument, act: Callable[[], T]) -> T:
         """Do something with an instrument; while a person does it, go on recording and watching."""

@@ -16,8 +16,8 @@ from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian.backends import BACKENDS, REPLAY, GuardedBench, open_bench
 from asperity.tribometer.guardian.guard import GuardedJournal
 from asperity.tribometer.guardian.journal import Journal, Lines
+from asperity.tribometer.instruments.acquisition import inputs_for
 from asperity.tribometer.instruments.bench import Bench
-from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
 from asperity.tribometer.instruments.protocols import StillOnError
 from asperity.tribometer.instruments.replay import replay_bench
@@ -85,7 +85,7 @@ def prepare(
     files = planned_files(plan, limits)
     sonotrode = case.require(Sonotrode)
     Pair.from_case(case)
-    inputs_of(case.require(Channels), sonotrode)
+    inputs_for(case)
     if backend not in BACKENDS:
         raise InputError(
             f"--backend is {backend!r}; it must be one of {choices(BACKENDS)}"
