@@ -4,10 +4,12 @@ import contextlib
 import itertools
 import mmap
 import os
+import signal
 import struct
 import subprocess
 import threading
 import time
+import traceback
 import types
 
 from asperity.tribometer.guardian import backends, guard, guardian, in_time, process
@@ -110,9 +112,8 @@ def forked_guardians(dials, keep=(), begins=lambda number: None):
 
 def _be_guardian(hears, says, keep, dials, begins):
     code = 70
-    with contextlib.suppress(BaseException):
-        import signal
-
+    try:
+        begins()
         signal.set_wakeup_fd(-1)
         os.setsid()
         os.dup2(hears, 0)
@@ -123,9 +124,11 @@ def _be_guardian(hears, says, keep, dials, begins):
                 with contextlib.suppress(OSError):
                     os.close(number)
         _dialled(dials)
-        begins()
         code = process.main()
-    os._exit(code)
+    except BaseException:
+        os.write(2, traceback.format_exc().encode())
+    finally:
+        os._exit(code)
 
 
 def _dialled(dials):
