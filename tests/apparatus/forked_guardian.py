@@ -15,6 +15,7 @@ import types
 from asperity.tribometer.guardian import backends, guard, guardian, in_time, process
 from asperity.tribometer.guardian.in_time import ScopeInTime
 
+_close = os.close  # which a test may replace
 _EVERY, _SHARP = 0.005, 0.002  # s between two beats, and what a computer with nothing to do is late
 
 
@@ -113,7 +114,6 @@ def forked_guardians(dials, keep=(), begins=lambda number: None):
 def _be_guardian(hears, says, keep, dials, begins):
     code = 70
     try:
-        begins()
         signal.set_wakeup_fd(-1)
         os.setsid()
         os.dup2(hears, 0)
@@ -122,7 +122,8 @@ def _be_guardian(hears, says, keep, dials, begins):
         for number in map(int, os.listdir("/dev/fd")):
             if number > 2 and number not in keep:
                 with contextlib.suppress(OSError):
-                    os.close(number)
+                    _close(number)
+        begins()
         _dialled(dials)
         code = process.main()
     except BaseException:

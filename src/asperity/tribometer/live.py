@@ -82,7 +82,7 @@ class Preview:
         self._weight += lasting
         if self._begun is None:
             self._begun = clock - lasting
-        if self._weight >= _STRETCH:
+        if self._weight >= _STRETCH * (1.0 - 1e-6):
             self._times = [*self._times, round(clock - self._begun, 3)][-_POINTS:]
             for name, points in self._points.items():
                 mean = float(f"{self._sums[name] / self._weight:.5g}")
