@@ -4,15 +4,18 @@ import contextlib
 import itertools
 import mmap
 import os
+import signal
 import struct
 import subprocess
 import threading
 import time
+import traceback
 import types
 
 from asperity.tribometer.guardian import backends, guard, guardian, in_time, process
 from asperity.tribometer.guardian.in_time import ScopeInTime
 
+_close = os.close  # which a test may replace
 _EVERY, _SHARP = 0.005, 0.002  # s between two beats, and what a computer with nothing to do is late
 
 
@@ -110,9 +113,7 @@ def forked_guardians(dials, keep=(), begins=lambda number: None):
 
 def _be_guardian(hears, says, keep, dials, begins):
     code = 70
-    with contextlib.suppress(BaseException):
-        import signal
-
+    try:
         signal.set_wakeup_fd(-1)
         os.setsid()
         os.dup2(hears, 0)
@@ -121,11 +122,14 @@ def _be_guardian(hears, says, keep, dials, begins):
         for number in map(int, os.listdir("/dev/fd")):
             if number > 2 and number not in keep:
                 with contextlib.suppress(OSError):
-                    os.close(number)
-        _dialled(dials)
+                    _close(number)
         begins()
+        _dialled(dials)
         code = process.main()
-    os._exit(code)
+    except BaseException:
+        os.write(2, traceback.format_exc().encode())
+    finally:
+        os._exit(code)
 
 
 def _dialled(dials):
