@@ -119,6 +119,7 @@ def _description(found: Report, case: Case) -> str:
 
 def _notes(case: Case, found: Report, about: About) -> Iterator[str]:
     yield from found.notes
+    yield from (f"{what} is left out: {why}" for what, why in found.refused)
     package = about.package
     if not package.publisher:
         yield "package.publisher is not told; DataCite's word for that is in its place (:unav)"
