@@ -84,7 +84,9 @@ def answer(problem: Packing, run: Run) -> Packaged:
         Content("case.toml", "Configuration of the first recording; each holds its own.",
                 _case(gathered).encode()),
     ]  # fmt: skip
-    heading = Heading.of(gathered, version("asperity"))
+    # Whose folder it was is nobody's business but theirs.
+    named = dataclasses.replace(gathered, source=plain(folder.absolute().name))
+    heading = Heading.of(named, version("asperity"))
     return Packaged(
         report=found, head=heading, about=about, contents=tuple(contents),
         zipped=problem.zipped, notes=tuple(_notes(gathered, found, about)),
