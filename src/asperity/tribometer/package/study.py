@@ -84,7 +84,9 @@ def answer(problem: Packing, run: Run) -> Packaged:
         Content("case.toml", "Configuration of the first recording; each holds its own.",
                 _case(gathered).encode()),
     ]  # fmt: skip
-    heading = Heading.of(gathered, version("asperity"))
+    # Whose folder it was is nobody's business but theirs.
+    named = dataclasses.replace(gathered, source=plain(folder.absolute().name))
+    heading = Heading.of(named, version("asperity"))
     return Packaged(
         report=found, head=heading, about=about, contents=tuple(contents),
         zipped=problem.zipped, notes=tuple(_notes(gathered, found, about)),
@@ -119,6 +121,7 @@ def _description(found: Report, case: Case) -> str:
 
 def _notes(case: Case, found: Report, about: About) -> Iterator[str]:
     yield from found.notes
+    yield from (f"{what} is left out: {why}" for what, why in found.refused)
     package = about.package
     if not package.publisher:
         yield "package.publisher is not told; DataCite's word for that is in its place (:unav)"

@@ -129,15 +129,15 @@ def summary(
 ) -> Table:
     """Return numbers with their uncertainties."""
     lines = [
-        (file, _at(start), f"{NUMBERS[name][0]} {NUMBERS[name][1]}".strip(),
+        (file, _at(start), f"{NUMBERS[name][0]} {NUMBERS[name][1]}".strip(), _largest(budget),
          *map(_digits, (budget.value, budget.uncertainty)), _freedom(budget.freedom),
-         *map(_digits, (budget.coverage_factor, budget.expanded)), _largest(budget))
+         *map(_digits, (budget.coverage_factor, budget.expanded)))
         for file, start, budgets in rows
         for name, budget in budgets.items() if name in numbers
     ]  # fmt: skip
-    heads = ("file", "at s", "number", "value", "u_c", "nu_eff", "k", "U", "most of it")
+    heads = ("file", "at s", "number", "most of it", "value", "u_c", "nu_eff", "k", "U")
     return Table.of(
-        heads, lines, left=3, title="Uncertainty (GUM)",
+        heads, lines, left=4, title="Uncertainty (GUM)",
         remarks=(
             "u_c: combined standard uncertainty; nu_eff: by Welch and Satterthwaite; k: Student's "
             "factor; U = k u_c, half the interval",

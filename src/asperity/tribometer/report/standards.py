@@ -144,7 +144,8 @@ def _parameters(
         ]  # fmt: skip
         yield "stroke (twice the amplitude)", _range(strokes, "um")
         yield "waveform", ", ".join(sorted({one.waveform for one in used})) or MISSING
-    yield "tests", f"{len(used)} segments in {len(files)} recordings"
+    yield "recordings", str(len(files))
+    yield "segments", str(len(used))
 
 
 def _environment(case: Case) -> Iterator[tuple[str, str]]:
