@@ -58,6 +58,7 @@ def reduce_file(
     usable = [one for one in segments if not one.refused]
     windows = _Windows.of(blocks, usable, given) if usable else None
     joint = _joint(blocks, windows, pair, given) if windows else None
+    zeros = _zeros(heard, windows) if windows else {}
     found: list[SegmentResult] = []
     asked: list[Any] = []
     for number, segment in enumerate(segments):
@@ -73,7 +74,10 @@ def reduce_file(
             pair, common["motor_voltage"], joint, place, given.confidence, blocks.lines,
             windows.seconds[place], given.speed_settling if windows.hurried[place] else 0.0,
             powered=not any(windows.unpowered[2 * place : 2 * place + 2]),
-            zeros=_zeros(heard, segment),
+            zeros={
+                name: of[2 * place : 2 * place + 2, 2 * place : 2 * place + 2]
+                for name, of in zeros.items()
+            },
         )  # fmt: skip
         values, question = _numbers(
             recording, case, heard, segment, following, sonotrode, heard.tones.get(number)
@@ -89,7 +93,8 @@ def reduce_file(
         for one, ratio in zip(found, ratios, strict=True)
     ]
     levels = None if joint is None else joint.levels[TORQUE]
-    return _file(recording, pair, blocks, segments, found, levels), found
+    whole = _file(recording, pair, blocks, segments, found, levels)
+    return dataclasses.replace(whole, findings=heard.told(segments)), found
 
 
 @dataclasses.dataclass(frozen=True)
@@ -270,13 +275,11 @@ def _amplitude(blocks: Blocks, tones: Tones | None, doubt: float) -> Cause:
     return Cause("v_a: calibration of the accelerometer", kind, np.array([[doubt**2]]), freedom)
 
 
-def _zeros(heard: Listened, segment: Segment) -> dict[str, FloatArray]:
-    """Return what is not known of the zeros that were taken off, before and with vibration."""
-    length, windows = heard.blocks.length, (segment.before, segment.shaken)
-    return {
-        signal: heard.tare.covariance(signal, *windows, length=length)
-        for signal in heard.tare.zeros
-    }
+def _zeros(heard: Listened, windows: _Windows) -> dict[str, FloatArray]:
+    """Return what is not known of the zeros that were taken off, in the middle of all windows."""
+    times = [0.5 * (one.first + one.last) * heard.blocks.length for one in windows.parts]
+    zeros = heard.tare.zeros.items()
+    return {signal: zero.covariance_at(np.array(times)) for signal, zero in zeros}
 
 
 def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from asperity.casefile import Case
 from asperity.tribometer.options import Reduction
@@ -41,6 +42,17 @@ class Listened:
     def of_segment(self, place: int) -> list[Finding]:
         """Return what concerns a segment."""
         return [one for one in self.findings if one.place in (None, place)]
+
+    def told(self, segments: Sequence[Segment]) -> tuple[dict[str, Any], ...]:
+        """Return the findings, as JSON has them; those of the whole recording have no start."""
+        return tuple(
+            {
+                "start_s": None if one.place is None else segments[one.place].start,
+                "name": one.name, "evidence": one.evidence, "remedy": one.remedy,
+                "signals": list(one.signals), "spoils": one.spoils, "flag": one.flag,
+            }
+            for one in self.findings
+        )  # fmt: skip
 
 
 def listen(

@@ -121,9 +121,9 @@ class Material:
     def commands(self) -> Iterator[tuple[float, float, str]]:
         """Yield what vibration was commanded from when to when."""
         told = [one for one in self.recording.events if one.kind == "vibration"]
-        for one, after in zip(told, [*told[1:], None], strict=True):
+        ends = [*(one.time for one in told[1:]), self.recording.duration]
+        for one, end in zip(told, ends, strict=False):
             if one.text != "off":
-                end = self.recording.duration if after is None else after.time
                 yield one.time, end, one.text
 
     def supply(self, disc: str, time: float) -> float:

@@ -35,6 +35,7 @@ def findings(of: Material, rest: Rest) -> Iterator[Finding]:
         signal for signal in _SENSORS
         if of.has(signal)
         and int(of.blocks.lowest[signal].min()) == int(of.blocks.highest[signal].max())
+        and not _stands(of, signal)
     ]  # fmt: skip
     for signal in constant:
         yield Finding(
@@ -51,6 +52,15 @@ def findings(of: Material, rest: Rest) -> Iterator[Finding]:
             if signal.startswith(("torque", "current")):
                 yield from _jumping(of, signal)
     yield from _copies(of)
+
+
+def _stands(of: Material, signal: str) -> bool:
+    """Whether a signal is nothing because its motor is given nothing."""
+    disc = signal.rpartition("_")[2]
+    if disc not in ("steel", "bronze") or signal.startswith("torque"):
+        return False
+    level = float(np.abs(of.blocks.means[signal]).max())
+    return level < least_of(signal) and of.supply(disc, of.recording.duration) == 0.0
 
 
 def _value(of: Material, signal: str) -> str:

@@ -10,6 +10,7 @@ it, averaged over, is in the covariance of zeros between them.
 """
 
 import dataclasses
+import functools
 import math
 from collections.abc import Iterator, Mapping
 
@@ -58,42 +59,85 @@ class Zero:
     values: FloatArray
     covariance: FloatArray
 
-    def at(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return zeros at some times, and their covariance."""
-        count = self.times.size
-        if count == 1:
-            return np.full(times.size, self.values[0]), np.full(
-                (times.size, times.size), self.covariance[0, 0]
-            )
-        start, span = float(self.times[0]), float(np.ptp(self.times)) or 1.0
-        seen, asked = (self.times - start) / span, (times - start) / span
-        straight, wanted = (np.column_stack((np.ones(one.size), one)) for one in (seen, asked))
+    def at(self, times: FloatArray) -> FloatArray:
+        """Return zeros at some times."""
+        if self.times.size == 1:
+            return np.full(times.size, self.values[0])
+        asked = self._asked(times)
+        found: FloatArray = sum(way.weight * way.mean(asked) for way in self._ways)
+        return found
+
+    def covariance_at(self, times: FloatArray) -> FloatArray:
+        """Return the covariance of zeros at some times."""
+        if self.times.size == 1:
+            return np.full((times.size, times.size), self.covariance[0, 0])
+        asked, middle = self._asked(times), self.at(times)
+        found = np.zeros((times.size, times.size))
+        for way in self._ways:
+            apart = way.mean(asked) - middle
+            found += way.weight * (way.covariance(asked) + np.outer(apart, apart))
+        return found
+
+    def _asked(self, times: FloatArray) -> FloatArray:
+        found: FloatArray = (times - self.times[0]) / (float(np.ptp(self.times)) or 1.0)
+        return found
+
+    @functools.cached_property
+    def _ways(self) -> "list[_Way]":
+        """Ways it may wander, by how likely they are."""
+        count, seen = self.times.size, self._asked(self.times)
         unit = math.sqrt(float(np.trace(self.covariance)) / count) or 1e-12
-        likelihoods, means, covariances = [], [], []
+        straight, found = _straight(seen), []
         for wander in _WANDERS if count > 2 else _WANDERS[:1]:
             size = (wander * unit) ** 2
-            of_seen = self.covariance + size * _wiener(seen, seen)
-            inverse = np.linalg.inv(of_seen + 1e-9 * unit**2 * np.eye(count))
+            of_seen = self.covariance + size * _wiener(seen, seen) + 1e-9 * unit**2 * np.eye(count)
+            inverse = np.linalg.inv(of_seen)
             information = np.linalg.inv(straight.T @ inverse @ straight)
             line = information @ straight.T @ inverse @ self.values
             rest = self.values - straight @ line
-            likelihoods.append(
-                -0.5 * (float(rest @ inverse @ rest) - np.linalg.slogdet(inverse)[1]
-                        - np.linalg.slogdet(information)[1])
+            likely = -0.5 * (
+                float(rest @ inverse @ rest) - np.linalg.slogdet(inverse)[1]
+                - np.linalg.slogdet(information)[1]
             )  # fmt: skip
-            across = size * _wiener(asked, seen) @ inverse
-            left = wanted - across @ straight
-            means.append(wanted @ line + across @ rest)
-            covariances.append(
-                size * _wiener(asked, asked) - size * across @ _wiener(seen, asked)
-                + left @ information @ left.T
-            )  # fmt: skip
-        weights = np.exp(np.array(likelihoods) - max(likelihoods))
-        weights /= weights.sum()
-        middle = np.einsum("k,ki->i", weights, np.array(means))
-        apart = np.array(means) - middle
-        spread = np.einsum("k,kij->ij", weights, np.array(covariances))
-        return middle, spread + np.einsum("k,ki,kj->ij", weights, apart, apart)
+            found.append(_Way(float(likely), size, seen, inverse, information, line, rest))
+        most = max(one.weight for one in found)
+        weights = np.exp([one.weight - most for one in found])
+        return [
+            dataclasses.replace(one, weight=float(weight))
+            for one, weight in zip(found, weights / weights.sum(), strict=True)
+        ]
+
+
+@dataclasses.dataclass(frozen=True)
+class _Way:
+    """A zero that wanders by a certain size: what follows from the stretches at rest."""
+
+    weight: float
+    size: float
+    seen: FloatArray
+    inverse: FloatArray
+    information: FloatArray
+    line: FloatArray
+    rest: FloatArray
+
+    def _across(self, asked: FloatArray) -> FloatArray:
+        found: FloatArray = self.size * _wiener(asked, self.seen) @ self.inverse
+        return found
+
+    def mean(self, asked: FloatArray) -> FloatArray:
+        found: FloatArray = _straight(asked) @ self.line + self._across(asked) @ self.rest
+        return found
+
+    def covariance(self, asked: FloatArray) -> FloatArray:
+        across = self._across(asked)
+        left = _straight(asked) - across @ _straight(self.seen)
+        own = _wiener(asked, asked) - across @ _wiener(self.seen, asked)
+        found: FloatArray = self.size * own + left @ self.information @ left.T
+        return found
+
+
+def _straight(times: FloatArray) -> FloatArray:
+    return np.column_stack((np.ones(times.size), times))
 
 
 def _wiener(one: FloatArray, other: FloatArray) -> FloatArray:
@@ -179,13 +223,8 @@ class Tare:
         means = dict(blocks.means)
         for signal, zero in self.zeros.items():
             knots = np.linspace(blocks.time[0], blocks.time[-1], 200)
-            means[signal] = means[signal] - np.interp(blocks.time, knots, zero.at(knots)[0])
+            means[signal] = means[signal] - np.interp(blocks.time, knots, zero.at(knots))
         return dataclasses.replace(blocks, means=means)
-
-    def covariance(self, signal: str, *windows: Stretch, length: float) -> FloatArray:
-        """Return what is not known of a signal's zero in the middle of windows."""
-        times = np.array([0.5 * (one.first + one.last) * length for one in windows])
-        return self.zeros[signal].at(times)[1]
 
 
 def tare(of: Material, zeros: Mapping[str, Zero]) -> tuple[Tare, list[Finding]]:
@@ -219,11 +258,11 @@ def _findings(
     course = of.course(signal, marked)
     spoils = signal in TARED
     if abs(value) > max(allowed, _SURE * deviation):
-        done = "it is taken off" if mended else "it is left: no zero is off so far"
+        done = "it is taken off" if mended else "it is left, since no zero is off so far"
         yield Finding(
             f"zero of {signal}",
             f"{value:.3g} +- {deviation:.2g} {unit} at rest at {zero.times[place]:.0f} s, "
-            f"{_percent(value, level)}; {allowed:.2g} {unit} are allowed and {done}".replace("; ", ", "),
+            f"{_percent(value, level)}, {allowed:.2g} {unit} are allowed, {done}",
             "zero the sensor, or lift the discs apart and see whether it is one",
             (signal,), course, spoils=spoils,
         )  # fmt: skip
