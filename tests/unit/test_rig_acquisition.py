@@ -309,8 +309,8 @@ def test_a_run_whose_samples_come_late_records_what_happened_where_it_did(tmp_pa
         [one for one in recording.events if one.kind == "vibration"]
     ):
         first, last = (round(one.time / recording.sample_interval) for one in (event, following))
-        shaken = event.text != "off"
-        assert (np.ptp(drive[first + 10 : last - 10]) > 1.0) is bool(shaken)
+        moves = bool(np.ptp(drive[first + 10 : last - 10]) > 1.0)
+        assert moves is (event.text != "off")
 
 
 def test_a_folder_that_is_none_is_one_line(tmp_path):
