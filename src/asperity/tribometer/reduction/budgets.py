@@ -205,7 +205,7 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
         "units": "1", "long_name": "u_i, in the number's unit; below zero where it cancels",
     }  # fmt: skip
     made["contribution_inverse_freedom"] = dims, freedom, {
-        "units": "1", "long_name": "one over the degrees of freedom of that; zero where they are stated",
+        "units": "1", "long_name": "one over its degrees of freedom; zero where it is stated",
     }  # fmt: skip
     named = {"units": "1", "long_name": "what has a budget"}
     made["number"] = "number", np.array(numbers, dtype=object), named
