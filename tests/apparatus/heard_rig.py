@@ -28,7 +28,9 @@ RATIOS = {1.0: (0.12, 0.4), 3.0: (0.6, 0.85), 5.5: (0.88, 0.95)}
 """Torque with vibration over that without, by the supply: between these."""
 CONSTANT, RESISTANCE, DRAG, BRONZE_DRAG = 0.0515, 0.30, 0.095, 0.091
 BRONZE_SUPPLY = 0.9
-ACCELERATION = 'channels.acceleration={channel="I", points=[["0 V","0 m/s**2"],["5 V","500 m/s**2"]]}'
+ACCELERATION = (
+    'channels.acceleration={channel="I", points=[["0 V","0 m/s**2"],["5 V","500 m/s**2"]]}'
+)
 RANGES = {
     "torque_steel": 5.0, "torque_bronze": 5.0, "speed_steel": 5.0, "speed_bronze": 5.0,
     "drive_voltage": 20.0, "load_cell": 0.05, "current_steel": 1.0, "current_bronze": 1.0,
@@ -253,7 +255,9 @@ def _lasting(given, count, rng):
 
     keep = math.exp(-1.0 / (given.rate * given.memory))
     kicks = given.coloured * math.sqrt(1.0 - keep * keep) * rng.standard_normal(count)
-    return lfilter([1.0], [1.0, -keep], kicks, zi=[keep * given.coloured * rng.standard_normal()])[0]
+    return lfilter([1.0], [1.0, -keep], kicks, zi=[keep * given.coloured * rng.standard_normal()])[
+        0
+    ]
 
 
 def _wave(waveform, phase):
@@ -442,7 +446,7 @@ def _nan(run):
     for start, begin, _ in run.spans:
         run.missing["torque_steel"] = np.append(
             run.missing.get("torque_steel", np.zeros(0, dtype=int)),
-            np.flatnonzero(run.within(start + 4.0, start + 4.01))
+            np.flatnonzero(run.within(start + 4.0, start + 4.01)),
         )
 
 
@@ -450,7 +454,7 @@ def _nan_in_drive(run):
     for _, begin, end in run.spans:
         run.missing["drive_voltage"] = np.append(
             run.missing.get("drive_voltage", np.zeros(0, dtype=int)),
-            np.flatnonzero(run.within(0.5 * (begin + end), 0.5 * (begin + end) + 0.3))
+            np.flatnonzero(run.within(0.5 * (begin + end), 0.5 * (begin + end) + 0.3)),
         )
 
 

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -61,18 +61,21 @@ def build(
 
     if (why := hindrance()) is not None:
         raise NoLibraryError(why)
+    wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
         kernels = kernel_folder.kernels() or Path(other)
         left = _Makers(kernels, entries, processes, tell).make()
         found: list[tuple[Entry, lean.Made]] = []
         for entry in entries:
-            made = link.kept(kernels / keys.key(entry), entry)
+            made = link.kept(kernels / wanted[entry.number], entry)
             if made is not None:
                 found.append((entry, made))
             else:
                 tell(f"left to Numba: {entry.name}: {left.get(entry.number, 'damaged')}")
     if not found:
         raise NoLibraryError("no kernel can be made")
+    if not all(keys.stands(entry.module) for entry, _ in found):
+        raise NoLibraryError("sources changed while it was made")
     making.began()
     folder.mkdir(parents=True, exist_ok=True)
     try:
@@ -194,15 +197,15 @@ def _seconds(entries: Sequence[Entry]) -> float:
     return sum(entry.seconds for entry in entries)
 
 
-def _make(kernels: Path, entries: Iterator[Entry], processes: int) -> None:
+def _make(kernels: Path, entries: Iterable[Entry], processes: int) -> None:
     """Make entries and tell of each: that it begins, and how it ended or nothing."""
     from asperity.building import making
 
     # Ctrl-C is for who waits.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_input, daemon=True).start()
-    for entry in entries:
-        key = keys.key(entry)
+    # Of all, before a kernel is imported: sources may change while this process lives.
+    for entry, key in [(entry, keys.key(entry)) for entry in entries]:
         print(f"at {entry.number} ", flush=True)
         reason = ""
         try:

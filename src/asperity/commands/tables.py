@@ -38,6 +38,7 @@ _TABLES = {
     "plan": "asperity.tribometer.options:Plan",
     "twin": "asperity.tribometer.options:Twin",
     "reduction": "asperity.tribometer.options:Reduction",
+    "scope": "asperity.tribometer.instruments.acquisition:Acquisition",
     "controller": "asperity.tribometer.instruments.parameters:Controller",
     "supplies": "asperity.tribometer.instruments.parameters:Supplies",
     "guardian": "asperity.tribometer.instruments.parameters:Guard",

@@ -211,6 +211,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "plan",
                 "reduction",
                 "twin",
+                "scope",
                 "controller",
                 "supplies",
                 "guardian",

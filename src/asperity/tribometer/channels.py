@@ -168,7 +168,8 @@ class Channels(Table):
     Parameters
     ----------
     torque_steel, torque_bronze, speed_steel, speed_bronze, drive_voltage, load_cell, \
-current_steel, current_bronze, acceleration : Channel, optional
+current_steel, current_bronze, acceleration, acceleration_2, acceleration_3, temperature, \
+temperature_2, normal_force : Channel, optional
         As ``torque_steel = { channel = "A", points = [["0 V", "0 N m"], ["5 V", "2 N m"]],
         date = 2019-05-01 }``.
     """
@@ -184,6 +185,11 @@ current_steel, current_bronze, acceleration : Channel, optional
     current_steel: Annotated[Channel | None, _reads("current_steel")] = None
     current_bronze: Annotated[Channel | None, _reads("current_bronze")] = None
     acceleration: Annotated[Channel | None, _reads("acceleration")] = None
+    acceleration_2: Annotated[Channel | None, _reads("acceleration_2")] = None
+    acceleration_3: Annotated[Channel | None, _reads("acceleration_3")] = None
+    temperature: Annotated[Channel | None, _reads("temperature")] = None
+    temperature_2: Annotated[Channel | None, _reads("temperature_2")] = None
+    normal_force: Annotated[Channel | None, _reads("normal_force")] = None
 
     @model_validator(mode="after")
     def _once(self) -> "Channels":

@@ -92,10 +92,10 @@ class Poll:
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """What a supply gives: V and A."""
+    """What a supply measures that it gives, V and A; None where it cannot be asked."""
 
-    voltage: float
-    current: float
+    voltage: float | None
+    current: float | None
 
 
 @runtime_checkable

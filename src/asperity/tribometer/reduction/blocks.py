@@ -94,6 +94,8 @@ def lines_of(recording: Recording, channels: Channels) -> dict[str, tuple[float,
         if channel is not None and channel.points and wanted != "V":
             wanted = "V"
         scale = unit_scale(source.units, source.signal, wanted, recording.name)
+        if zero := to_si(f"0 {source.units}", wanted):  # of a temperature
+            line = dataclasses.replace(line, offset=line.offset + line.gain * zero)
         found[source.signal] = scale, line
     return found
 

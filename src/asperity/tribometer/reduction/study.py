@@ -21,6 +21,7 @@ from asperity.tribometer.reduction import wear
 from asperity.tribometer.reduction.blocks import blocks_of
 from asperity.tribometer.reduction.budgets import not_counted
 from asperity.tribometer.reduction.file import reduce_file
+from asperity.tribometer.reduction.heard.listen import listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
 from asperity.tribometer.reduction.segments import segments_of
 from asperity.tribometer.sheets import broken_classes
@@ -162,7 +163,8 @@ def reduce_recording(one: Reducible) -> tuple[FileResult, list[SegmentResult]]:
     """Reduce one recording."""
     blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
     segments = segments_of(one.recording, blocks, one.plan, one.reduction)
-    return reduce_file(one.recording, one.case, blocks, segments, one.reduction, one.sonotrode)
+    heard = listen(one.recording, one.case, blocks, segments, one.reduction)
+    return reduce_file(one.recording, one.case, heard, segments, one.reduction, one.sonotrode)
 
 
 def refusal(segment: SegmentResult) -> str:
