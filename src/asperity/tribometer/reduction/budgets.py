@@ -179,7 +179,7 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
     numbers = list(NUMBERS)
     whole = {
         "standard_uncertainty": "combined standard uncertainty, in the number's unit",
-        "effective_freedom": "effective degrees of freedom; inf where all are stated",
+        "inverse_freedom": "one over the effective degrees of freedom; zero where all are stated",
         "coverage_factor": "factor of the interval",
     }
     flat = {key: np.full((len(rows), len(numbers)), np.nan) for key in whole}
@@ -188,12 +188,12 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
     for row, (_, _, budgets) in enumerate(rows):
         for name, budget in budgets.items():
             place = row, numbers.index(name)
-            values = budget.uncertainty, budget.freedom, budget.coverage_factor
+            values = budget.uncertainty, 1.0 / budget.freedom, budget.coverage_factor
             for key, value in zip(whole, values, strict=True):
                 flat[key][place] = value
             for one in budget.contributions:
                 size[*place, causes.index(one.name)] = one.size
-                freedom[*place, causes.index(one.name)] = one.freedom
+                freedom[*place, causes.index(one.name)] = 1.0 / one.freedom
     made = xr.Dataset(
         {
             key: (("segment", "number"), flat[key], {"units": "1", "long_name": meaning})
@@ -204,8 +204,8 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
     made["contribution_size"] = dims, size, {
         "units": "1", "long_name": "u_i, in the number's unit; below zero where it cancels",
     }  # fmt: skip
-    made["contribution_freedom"] = dims, freedom, {
-        "units": "1", "long_name": "degrees of freedom of that",
+    made["contribution_inverse_freedom"] = dims, freedom, {
+        "units": "1", "long_name": "one over its degrees of freedom; zero where it is stated",
     }  # fmt: skip
     named = {"units": "1", "long_name": "what has a budget"}
     made["number"] = "number", np.array(numbers, dtype=object), named
