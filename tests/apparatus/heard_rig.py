@@ -1,9 +1,9 @@
 """A laboratory's rig that the reduction never saw, and the faults its sensors and cables have.
 
-Simpler than life and of its own making: motors :math:`V = k \\omega + R i`, discs that push each other
-with equal forces, encoders of 32 pulses a turn counted for a second behind a lag, run-out, drift,
-white and lasting noise, hum, twelve bits. All of it follows from a seed. A fault is a function of a
-`Run`, which it changes.
+Simpler than life and of its own making: motors V = k w + R i, discs that push each other with equal
+forces, encoders of 32 pulses a turn counted for a second behind a lag, run-out, drift, white and
+lasting noise, hum, twelve bits. All of it follows from a seed. A fault is a function of a `Run`,
+which it changes.
 """
 
 import dataclasses
@@ -443,7 +443,7 @@ def _gain(name, factor):
 
 
 def _nan(run):
-    for start, begin, _ in run.spans:
+    for start, _, _ in run.spans:
         run.missing["torque_steel"] = np.append(
             run.missing.get("torque_steel", np.zeros(0, dtype=int)),
             np.flatnonzero(run.within(start + 4.0, start + 4.01)),

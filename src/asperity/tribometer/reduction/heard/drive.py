@@ -146,7 +146,6 @@ def _delay(
 
 def _breaks(of: Material, place: int) -> Iterator[Finding]:
     """Yield a break in a vibration that goes on as it was."""
-    one = of.segments[place]
     for other in (place - 1, place + 1):
         if not 0 <= other < len(of.segments):
             continue

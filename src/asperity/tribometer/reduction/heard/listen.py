@@ -32,12 +32,15 @@ class Listened:
         In the order of signals and time.
     tones : mapping of int to Tones
         What the accelerometer hears of each segment.
+    at_rest : bool
+        Whether the rig is seen at rest, so that zeros are known.
     """
 
     blocks: Blocks
     tare: Tare
     findings: tuple[Finding, ...]
     tones: Mapping[int, Tones]
+    at_rest: bool
 
     def of_segment(self, place: int) -> list[Finding]:
         """Return what concerns a segment."""
@@ -71,4 +74,4 @@ def listen(
     found += motors.findings(of)
     found += drive.findings(of)
     found += acceleration.findings(of, tones)
-    return Listened(of.blocks, taken, tuple(found), tones)
+    return Listened(of.blocks, taken, tuple(found), tones, bool(rest.stretches))

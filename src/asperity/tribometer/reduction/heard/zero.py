@@ -4,8 +4,8 @@ A zero is seen in each stretch at rest and follows between them
 
 .. math:: z(t) = a + b\,t + q\,W(t)
 
-with a Wiener process W: a straight line where stretches lie on one, a course from stretch to stretch
-where they do not. How large q is follows from the stretches themselves, and what is not known of
+with a Wiener process W: a straight line where stretches lie on one, a course from stretch to
+stretch where they do not. How large q is follows from the stretches themselves, and what is not known of
 it, averaged over, is in the covariance of zeros between them.
 """
 
