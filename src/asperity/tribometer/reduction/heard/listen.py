@@ -4,6 +4,8 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from asperity.casefile import Case
 from asperity.tribometer.options import Reduction
 from asperity.tribometer.pair import Pair
@@ -58,10 +60,16 @@ class Listened:
         )  # fmt: skip
 
 
+# A scale that is no sensor's may be in a file.
+@np.errstate(all="ignore")
 def listen(
     recording: Recording, case: Case, blocks: Blocks, segments: Sequence[Segment], given: Reduction
 ) -> Listened:
     """Find what is wrong with what was heard."""
+    if not all(
+        np.isfinite(one).all() for one in (*blocks.means.values(), *blocks.deviations.values())
+    ):
+        return Listened(blocks, Tare({}), (), {}, at_rest=False)
     of = Material(recording, case, Pair.from_case(case), blocks, segments, given)
     rest = resting(of)
     taken, found = tare(of, zeros_of(of, rest))
@@ -74,4 +82,4 @@ def listen(
     found += motors.findings(of)
     found += drive.findings(of)
     found += acceleration.findings(of, tones)
-    return Listened(of.blocks, taken, tuple(found), tones, bool(rest.stretches))
+    return Listened(of.blocks, taken, tuple(found), tones, at_rest=bool(rest.stretches))

@@ -9,6 +9,7 @@ stretch where they do not. How large q is follows from the stretches themselves,
 known of it, averaged over, is in the covariance of zeros between them.
 """
 
+import contextlib
 import dataclasses
 import functools
 import math
@@ -156,9 +157,11 @@ def zeros_of(of: Material, rest: Rest) -> dict[str, Zero]:
     found = {}
     for signal in (*TARED, *_ALSO):
         if of.has(signal):
-            zero = _zero(of, signal, rest.stretches)
-            if zero is not None:
-                found[signal] = zero
+            # Numbers that no sensor gives leave no zero.
+            with contextlib.suppress(np.linalg.LinAlgError):
+                zero = _zero(of, signal, rest.stretches)
+                if zero is not None and np.isfinite(zero.covariance_at(zero.times)).all():
+                    found[signal] = zero
     return found
 
 
