@@ -210,7 +210,7 @@ def test_repeats_of_a_cell_are_pooled():
     assert repeats([measured(250.0, 2.0)]) == (None, 0)
 
 
-def test_a_calibration_that_is_out_of_date_is_a_flag(asperity, recording):
+def test_a_calibration_past_its_last_day_leaves_nothing_good(asperity, recording):
     dated = 'channels.torque_steel={channel="A", points=[["-5 V","-2 N m"],["5 V","2 N m"]], '
     dated += "date=2023-03-01, valid_days=365}"
     other = 'channels.speed_bronze={channel="D", points=[["0 V","0 rpm"],["5 V","500 rpm"]], '
@@ -220,9 +220,123 @@ def test_a_calibration_that_is_out_of_date_is_a_flag(asperity, recording):
     flags = [one for one in segments["segments"][0]["flags"] if "calibration" in one]
     # From 1 March 2023 to 1 March 2026, and from 30 January.
     assert flags == [
-        "the calibration of torque_steel is out of date by 1096 days",
-        "the calibration of speed_bronze is out of date by 30 days",
+        "the calibration of torque_steel was due by 2024-02-29, 731 days before",
+        "the calibration of speed_bronze was due by 2026-01-31, 29 days before",
     ]
+    assert {one["quality"] for one in segments["segments"]} == {"doubtful"}
+    until = dated.replace("valid_days=365}", "due=2026-03-01}")
+    answer = json.loads(asperity("rig", "reduce", recording, "--set", until, "--json")[1])
+    assert {one["quality"] for one in answer["segments"]} == {"good"}
+
+
+BUDGETED = {
+    "torque_before": "torque_before_Nm", "torque_with": "torque_with_Nm",
+    "torque_change": "torque_change_percent", "power_change": "power_change_percent",
+    "efficiency_change": "efficiency_change_points",
+    "sliding_velocity_before": "sliding_velocity_before_mm_s",
+    "sliding_velocity_with": "sliding_velocity_with_mm_s", "k_v": "k_v",
+}  # fmt: skip
+
+
+def _ends(key):
+    unit = next((one for one in ("_Nm", "_percent", "_points", "_mm_s") if key.endswith(one)), "")
+    return f"{key.removesuffix(unit)}_ci95{unit}"
+
+
+@pytest.fixture(scope="module")
+def budgeted(asperity, recording):
+    code, output, errors = asperity("rig", "reduce", recording, "--budget", "--json")
+    assert code == 0, errors
+    return json.loads(output)
+
+
+def test_a_budget_adds_up_to_the_interval_that_is_told(budgeted):
+    for segment, told in zip(budgeted["segments"], budgeted["budgets"], strict=True):
+        numbers = {one["number"]: one for one in told["numbers"]}
+        assert set(numbers) >= set(BUDGETED)
+        for name, key in BUDGETED.items():
+            one = numbers[name]
+            low, high = segment[_ends(key)]
+            assert one["value"] == segment[key]
+            assert one["expanded_uncertainty"] == pytest.approx(0.5 * (high - low), rel=1e-9)
+            parts = one["contributions"]
+            variance = sum(part["size"] * abs(part["size"]) for part in parts)
+            assert one["standard_uncertainty"] == pytest.approx(math.sqrt(variance), rel=1e-9)
+            assert sum(part["share_percent"] for part in parts) == pytest.approx(100.0)
+            # An auditor's own sum, by (13) and G.2b of the Guide.
+            for part in parts:
+                if part["inputs"]:
+                    moved = np.multiply(part["sensitivities"], part["uncertainties"])
+                    mixed = 2.0 * part["correlation"] * np.prod(moved) if len(moved) > 1 else 0.0
+                    assert part["size"] ** 2 == pytest.approx(moved @ moved + mixed, rel=1e-9)
+            lost = sum(part["size"] ** 4 / part["freedom"] for part in parts if part["freedom"])
+            if lost:
+                assert one["effective_freedom"] == pytest.approx(variance**2 / lost, rel=1e-9)
+            half = one["coverage_factor"] * one["standard_uncertainty"]
+            assert half == pytest.approx(one["expanded_uncertainty"], rel=1e-9)
+
+
+def test_a_budget_names_what_it_does_not_count(budgeted, asperity, recording):
+    told = "\n".join(budgeted["not_counted"])
+    assert "the calibration of speed_steel is taken as exact: 2 points" in told
+    assert "torque_steel" not in told
+    code, printed, errors = asperity("rig", "reduce", recording, "--budget")
+    assert code == 0, errors
+    assert "Uncertainty (GUM)" in printed
+    assert "torque_steel: noise, run-out and drift" in printed
+    plainly = asperity("rig", "reduce", recording)[1]
+    assert "Uncertainty (GUM)" not in plainly
+
+
+def test_a_calibration_of_three_points_widens_a_torque_by_students_factor(asperity, recording):
+    points = '[["-5 V","-2.05 N m"],["0 V","0.1 N m"],["5 V","1.95 N m"]]'
+    few = f'channels.torque_steel={{channel="A", points={points}}}'
+    sure = few.replace("}", ', uncertainty="122.5 mN m"}')
+    found = []
+    for setting in (few, sure):
+        given = "--set", setting, "--budget", "--json"
+        found.append(json.loads(asperity("rig", "reduce", recording, *given)[1])["budgets"][0])
+    # The same standard deviation, but of one degree of freedom.
+    lone, known = ({one["number"]: one for one in of["numbers"]} for of in found)
+    for name, factor in (("torque_before", 3.0), ("torque_change", 1.0)):
+        assert lone[name]["standard_uncertainty"] == pytest.approx(
+            known[name]["standard_uncertainty"], rel=0.05
+        )
+        assert lone[name]["coverage_factor"] > factor * known[name]["coverage_factor"]
+    part = next(one for one in lone["torque_before"]["contributions"]
+                if one["contribution"] == "torque_steel: calibration")  # fmt: skip
+    assert (part["type"], part["freedom"]) == ("A", 1.0)
+
+
+def test_a_sheet_s_hysteresis_and_creep_are_in_the_budget(asperity, recording):
+    sheet = 'channels.torque_steel={channel="A", points=[["-5 V","-2 N m"],["5 V","2 N m"]], '
+    sheet += 'uncertainty="2 mN m", capacity="2 N m", hysteresis="0.2 %", creep="1 mN m"}'
+    given = "--set", sheet, "--budget", "--json"
+    told = json.loads(asperity("rig", "reduce", recording, *given)[1])["budgets"][0]["numbers"]
+    torque = next(one for one in told if one["number"] == "torque_before")
+    sizes = {one["contribution"]: one["size"] for one in torque["contributions"]}
+    # Rectangles: half the loop of 4 mN m, and all of the creep.
+    assert sizes["torque_steel: hysteresis"] == pytest.approx(2e-3 / math.sqrt(3.0))
+    assert sizes["torque_steel: creep"] == pytest.approx(1e-3 / math.sqrt(3.0))
+
+
+@pytest.mark.slow
+def test_files_hold_the_budgets(written, budgeted):
+    with (written / "budget.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    numbers = budgeted["budgets"][0]["numbers"]
+    torque = next(one for one in numbers if one["number"] == "torque_change")
+    mine = [row for row in rows if row["number"] == "torque_change"][: len(torque["contributions"])]
+    assert [row["contribution"] for row in mine] == [
+        one["contribution"] for one in torque["contributions"]
+    ]
+    assert [float(row["size"]) for row in mine] == [one["size"] for one in torque["contributions"]]
+    dataset = read(written / "reduce.nc").dataset
+    place = {"segment": 0, "number": list(dataset["number"].values).index("torque_change")}
+    assert float(dataset["standard_uncertainty"][place]) == torque["standard_uncertainty"]
+    sizes = dataset["contribution_size"][place].values
+    squares = np.nansum(sizes * np.abs(sizes))
+    assert math.sqrt(squares) == pytest.approx(torque["standard_uncertainty"])
 
 
 def test_a_sliding_velocity_not_told_apart_from_zero_is_a_flag(asperity, recording):

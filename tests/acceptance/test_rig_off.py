@@ -2,14 +2,14 @@
 
 import os
 import signal
-import time
 
 import pytest
 from apparatus import rigs
+from apparatus.forked_guardian import Dials
 from apparatus.grid import slow
 from apparatus.standing_rig import Procedure, StandingRig, lines_of, waited_for
 
-from asperity.tribometer.guardian import guard
+from asperity.tribometer.guardian import guard, stop, switching
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),
@@ -17,13 +17,21 @@ pytestmark = [
 ]
 
 OUTPUTS = {"vibration", "amplifier", "steel", "bronze"}
-# What a busy machine does not stretch beyond.
-SETTINGS = 'guardian.patience="2 s"', 'guardian.deadline="6 s"', 'plan.shaken="2 s"'
+NAMES = {
+    "vibration": "vibration controller",
+    "steel": "supply of the steel disc's motor",
+}
+# s: what is asked of everything off, of what is named where an instrument is late or silent, and
+# of a real guardian where nothing says otherwise.
+OFF, NAMED = 0.5, 1.0
+PATIENCE, DEADLINE = 0.3, 0.1
+LONG = 60.0
+FAULTS = ["absent", "silent", "garbling", "late", "very late", "stuck on", "welded"]
 
 
 @pytest.fixture(scope="module")
 def case():
-    return rigs.small_case(*SETTINGS)
+    return rigs.small_case(f'guardian.patience="{LONG} s"', f'guardian.deadline="{LONG} s"')
 
 
 @pytest.fixture(scope="module")
@@ -37,21 +45,29 @@ def standing(case):
 def rig(standing):
     standing.sound()
     standing.quiet()
-    standing.pace(4.0)
+    standing.hold(True)
     yield standing
     standing.sound()
 
 
 @pytest.fixture
-def begun(case, rig, tmp_path):
+def dials():
+    """What the guardian goes by: nothing trips by time until it is meant to."""
+    return Dials(patience=LONG, deadline=LONG, limit=switching._LIMIT, opening=1.0)
+
+
+@pytest.fixture
+def begun(case, rig, dials, tmp_path):
     """Begin procedures, none of which is left behind."""
     made = []
 
     def begin(**options):
+        options.setdefault("dials", dials)
         made.append(Procedure(case, tmp_path / "run", rig, **options))
         return made[-1]
 
     yield begin
+    rig.sound()
     for one in made:
         one.end()
 
@@ -64,11 +80,32 @@ def all_off(rig):
     return waited_for(lambda: not OUTPUTS & set(rig.on()))
 
 
+class InTime:
+    """The guardian's own stamps of what follows, without what others had the processor for."""
+
+    def __init__(self, rig, folder):
+        self._rig, self._folder = rig, folder
+        self._seen, self._lost = len(lines_of(folder, "off")), rig.lost()
+
+    def off(self, most=OFF):
+        """See that all was off in time, or named in time; returns the guardian's lines."""
+        lines = lines_of(self._folder, "off")[self._seen :]
+        assert lines
+        # The guardian's clock stands still while it is not let at its work; the rig's does not.
+        lost = self._rig.lost() - self._lost
+        for line in lines:
+            said = f"{line}, {lost} s of it lost"
+            assert set(line["off_s"]) == set(line["read_back"]), said
+            assert all(0.0 <= at <= most + lost for at in line["off_s"].values()), said
+            assert line["took_s"] <= NAMED + lost, said
+        return lines
+
+
 def gone_on_with(begun, rig, folder, **options):
     """Go on with a run to its end; nothing that was recorded is lost."""
     before = rigs.cells(folder)
     rig.sound()
-    rig.pace(0.0)
+    rig.hold(False)
     again = begun(resume=True, **options)
     assert again.ended() == 0, again.said
     assert rigs.cells(folder)[: len(before)] == before
@@ -77,7 +114,8 @@ def gone_on_with(begun, rig, folder, **options):
 
 
 def test_a_procedure_that_is_killed_leaves_everything_off(begun, rig, tmp_path):
-    procedure = begun()
+    # By a guardian that is begun as for a user.
+    procedure = begun(dials=None)
     vibrating(rig)
     procedure.kill(signal.SIGKILL)
     assert procedure.ended() == -signal.SIGKILL
@@ -85,11 +123,23 @@ def test_a_procedure_that_is_killed_leaves_everything_off(begun, rig, tmp_path):
     waited_for(lambda: lines_of(tmp_path / "run", "interrupted"))
     found = lines_of(tmp_path / "run", "off")[-1]
     assert found["why"].startswith("the procedure has ended without a word")
-    assert len(found["read_back"]) == 4
+    assert len(found["read_back"]) == len(found["off_s"]) == 4
     assert "its state is off, its signal is still" in found["read_back"].values()
     assert "still_on" not in found
     waited_for(lambda: "read back to be off within" in procedure.said)
-    gone_on_with(begun, rig, tmp_path / "run")
+    gone_on_with(begun, rig, tmp_path / "run", dials=None)
+
+
+@pytest.mark.slow
+def test_a_procedure_that_is_killed_is_switched_off_in_time(begun, rig, tmp_path):
+    procedure = begun()
+    vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
+    procedure.kill(signal.SIGKILL)
+    procedure.ended()
+    procedure.gone()
+    assert len(in_time.off()) == 2
+    assert not OUTPUTS & set(rig.on())
 
 
 @pytest.mark.campaign
@@ -101,7 +151,7 @@ def test_a_procedure_that_is_killed_leaves_everything_off(begun, rig, tmp_path):
         slow([signal.SIGTERM], "terminated"),
         slow([signal.SIGTERM, signal.SIGTERM], "terminated"),
         slow(5 * [signal.SIGINT], "interrupted"),
-        slow([signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT], "ended with its"),
+        slow([signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT], ""),
     ],
 )
 def test_any_signal_however_often_switches_off_and_the_next_start_goes_on(
@@ -109,15 +159,49 @@ def test_any_signal_however_often_switches_off_and_the_next_start_goes_on(
 ):
     procedure = begun()
     vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
     for number in numbers:
         procedure.kill(number)
-        time.sleep(0.02)
     assert procedure.ended() == 130, procedure.said
-    all_off(rig)
+    procedure.gone()
+    assert not OUTPUTS & set(rig.on())
+    assert all("still_on" not in line for line in in_time.off())
     (line,) = lines_of(tmp_path / "run", "interrupted")
     assert line["reason"].startswith(word)
-    assert all("still_on" not in line for line in lines_of(tmp_path / "run", "off"))
     assert "Traceback" not in procedure.said
+    gone_on_with(begun, rig, tmp_path / "run")
+
+
+@pytest.mark.slow
+def test_a_stop_that_somebody_asks_for_switches_off_and_does_not_latch(begun, rig, tmp_path):
+    procedure = begun()
+    vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
+    stop.press(tmp_path / "run")
+    assert procedure.ended() == 130, procedure.said
+    procedure.gone()
+    assert in_time.off()[0]["why"] == "somebody asks for a stop"
+    assert not OUTPUTS & set(rig.on())
+    (line,) = lines_of(tmp_path / "run", "interrupted")
+    assert line["reason"] == "stopped after 0 of 2 cells"
+    assert not (tmp_path / "run" / stop.NAME).exists()
+    # One that was left of an earlier run stops no other.
+    stop.press(tmp_path / "run")
+    gone_on_with(begun, rig, tmp_path / "run")
+
+
+@pytest.mark.slow
+def test_a_stop_switches_off_where_the_procedure_hangs(begun, rig, tmp_path):
+    procedure = begun()
+    vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
+    procedure.kill(signal.SIGSTOP)
+    stop.press(tmp_path / "run")
+    waited_for(lambda: len(lines_of(tmp_path / "run", "off")) > 1)
+    assert in_time.off()[0]["why"] == "somebody asks for a stop"
+    assert not OUTPUTS & set(rig.on())
+    procedure.kill(signal.SIGCONT)
+    assert procedure.ended() == 130, procedure.said
     gone_on_with(begun, rig, tmp_path / "run")
 
 
@@ -127,13 +211,18 @@ def test_any_signal_however_often_switches_off_and_the_next_start_goes_on(
 def test_a_signal_in_the_middle_of_a_switch_switches_off(begun, rig, tmp_path, verb):
     procedure = begun()
     vibrating(rig)
-    rig.pace(0.0)
-    rig.fault(verb.partition(".")[0], "late", 0.5)
+    rig.fault(verb.partition(".")[0], "late", 0.1)
+    rig.hold(False)
     waited_for(lambda: verb in rig.doing())
+    # From here on it waits until all others are off.
+    rig.fault(verb.partition(".")[0], "late", LONG)
     procedure.kill(signal.SIGTERM)
     procedure.kill(signal.SIGTERM)
+    waited_for(lambda: "amplifier" not in rig.on())
+    rig.sound()
     assert procedure.ended() == 130, procedure.said
-    all_off(rig)
+    procedure.gone()
+    assert not OUTPUTS & set(rig.on())
     gone_on_with(begun, rig, tmp_path / "run")
 
 
@@ -155,11 +244,11 @@ def test_a_signal_inside_a_journal_write_leaves_a_journal_to_go_on_from(
 
         guard.GuardedJournal.write = ended
 
-    rig.pace(0.0)
+    rig.hold(False)
     assert begun(before=ends_itself).ended() == 130
     lines = rigs.journal(tmp_path / "run")
     assert [line["line"] for line in lines] == list(range(1, len(lines) + 1))
-    all_off(rig)
+    assert not OUTPUTS & set(rig.on())
     gone_on_with(begun, rig, tmp_path / "run")
 
 
@@ -171,11 +260,13 @@ def killed_with_its_guardian(begun, rig):
     procedure.kill(signal.SIGKILL)
     os.kill(procedure.guardian, signal.SIGKILL)
     procedure.ended()
+    procedure.gone()
     # The one thing that is left: nobody is there who would switch off.
     assert set(rig.on()) >= OUTPUTS
 
 
-FAULTS = ["absent", "silent", "garbling", "late", "very late", "stuck on", "welded"]
+def set_fault(rig, key, fault):
+    rig.fault(key, fault.removeprefix("very "), {"late": 0.5, "very late": 5.0}.get(fault, 0.0))
 
 
 @pytest.mark.campaign
@@ -187,39 +278,46 @@ FAULTS = ["absent", "silent", "garbling", "late", "very late", "stuck on", "weld
         *(slow("steel", one) for one in (*FAULTS, "stuck at a value")),
     ],
 )
-def test_a_start_over_what_was_left_on_switches_off_or_names(begun, rig, tmp_path, key, fault):
+def test_a_start_over_what_was_left_on_switches_off_or_names(
+    begun, rig, dials, tmp_path, key, fault
+):
     killed_with_its_guardian(begun, rig)
-    rig.pace(0.0)
-    rig.fault(key, fault.removeprefix("very "), 20.0 if fault == "very late" else 0.5)
+    rig.hold(False)
+    set_fault(rig, key, fault)
+    # What is late is late by more than this; what is not has all the time that it needs.
+    dials.turn(deadline=1.0 if key == "scope" or fault == "very late" else LONG)
+    lost = rig.lost()
     again = begun(resume=True)
     code = again.ended()
     on = OUTPUTS & set(rig.on())
     # An absent instrument keeps none of the others on.
     assert on <= {key}
-    journal = rigs.journal(tmp_path / "run")
-    named = [one for line in journal for one in line.get("still_on", ())]
+    lines = lines_of(tmp_path / "run", "off")
+    start = next(line for line in reversed(lines) if line["why"] == "start")
+    others = {name: at for name, at in start["off_s"].items() if name != NAMES.get(key)}
+    assert len(others) >= 3
+    # Each has first to be opened.
+    assert max(others.values()) <= OFF + rig.lost() - lost
+    named = [one for line in lines for one in line.get("still_on", ())]
     if on or code == 4:
         assert code == 4
         assert NAMES[key] in again.said
         assert "switch it off by hand" in again.said.lower()
         assert any(one.startswith(NAMES[key]) for one in named)
-    else:
-        assert code == (0 if fault == "late" else 3)
+    elif key != "scope":
+        assert fault == "late"
+        assert code == 0
     if key == "steel" and fault not in ("late", "very late"):
         assert code == 4
     # Then the next start goes on, once a person has looked.
     rig.sound()
     rig.quiet()
+    again.gone()
     if code == 0:
         return
+    dials.turn(deadline=LONG)
     looked = {"acknowledge": "looked at"} if journal_latched(tmp_path / "run") else {}
     gone_on_with(begun, rig, tmp_path / "run", **looked)
-
-
-NAMES = {
-    "vibration": "vibration controller",
-    "steel": "supply of the steel disc's motor",
-}
 
 
 def journal_latched(folder):
@@ -234,39 +332,48 @@ def journal_latched(folder):
     [(key, fault) for key in ("vibration", "steel") for fault in FAULTS[1:]]
     + [("steel", "stuck at a value"), ("scope", "silent"), ("scope", "garbling")],
 )
-def test_what_fails_in_a_run_is_off_or_named_and_the_others_are_off(
-    begun, rig, tmp_path, key, fault
+def test_what_fails_in_a_run_is_off_or_named_in_time_and_the_others_are_off(
+    begun, rig, dials, tmp_path, key, fault
 ):
     procedure = begun()
     vibrating(rig)
-    rig.fault(key, fault.removeprefix("very "), 20.0 if fault == "very late" else 0.5)
-    if fault in ("late", "stuck on", "welded"):
+    in_time = InTime(rig, tmp_path / "run")
+    set_fault(rig, key, fault)
+    dials.turn(deadline=DEADLINE)
+    if fault in ("stuck on", "welded", "stuck at a value"):
         procedure.kill(signal.SIGTERM)
+    waited_for(lambda: lines_of(tmp_path / "run", "off")[1:])
     code = procedure.ended()
     on = OUTPUTS & set(rig.on())
     assert on <= {key}
-    last = [line for line in rigs.journal(tmp_path / "run") if line["kind"] == "off"][-1]
-    named = last.get("still_on", [])
+    lines = in_time.off()
+    for line in lines:
+        assert set(line["read_back"]) | set(NAMES.values()) >= {*line["off_s"]}
+        assert len(line["read_back"]) >= 3
+    named = lines[-1].get("still_on", [])
     assert [one.partition(":")[0] for one in named] == ([NAMES[key]] if code == 4 else [])
     assert not on or code == 4
     if key == "steel" and fault != "late":
         assert code == 4
-    for one in OUTPUTS - {key}:
-        assert one not in rig.on()
+    rig.sound()
+    procedure.gone()
 
 
 @pytest.mark.slow
-def test_a_procedure_that_hangs_is_switched_off_by_the_missing_heartbeat(begun, rig, tmp_path):
+def test_a_procedure_that_hangs_is_switched_off_by_the_missing_heartbeat(
+    begun, rig, dials, tmp_path
+):
     procedure = begun()
     vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
     procedure.kill(signal.SIGSTOP)
-    all_off(rig)
-    (found,) = waited_for(
-        lambda: [
-            line for line in lines_of(tmp_path / "run", "off") if "has said nothing" in line["why"]
-        ]
-    )
-    assert found["took_s"] >= 2.0
+    dials.turn(patience=PATIENCE)
+    (found,) = waited_for(lambda: lines_of(tmp_path / "run", "off")[1:])
+    assert "has said nothing" in found["why"]
+    assert found["took_s"] >= PATIENCE
+    in_time.off()
+    assert not OUTPUTS & set(rig.on())
+    dials.turn(patience=LONG)
     procedure.kill(signal.SIGCONT)
     assert procedure.ended() == 3
     assert "everything was switched off: the procedure has said nothing" in procedure.said
@@ -277,9 +384,11 @@ def test_a_procedure_that_hangs_is_switched_off_by_the_missing_heartbeat(begun, 
 def test_a_guardian_that_is_killed_is_followed_by_another(begun, rig, tmp_path):
     procedure = begun()
     vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
     os.kill(procedure.guardian, signal.SIGKILL)
     assert procedure.ended() == 3
-    all_off(rig)
+    assert in_time.off()[0]["why"] == "start"
+    assert not OUTPUTS & set(rig.on())
     assert "another one switches them off" in procedure.said
     assert lines_of(tmp_path / "run", "latched")[-1]["interlock"] == "guardian lost"
     gone_on_with(begun, rig, tmp_path / "run", acknowledge="looked at")
@@ -289,10 +398,12 @@ def test_a_guardian_that_is_killed_is_followed_by_another(begun, rig, tmp_path):
 def test_a_signal_to_the_guardian_switches_off(begun, rig, tmp_path):
     procedure = begun()
     vibrating(rig)
+    in_time = InTime(rig, tmp_path / "run")
     for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
         os.kill(procedure.guardian, number)
     assert procedure.ended() == 3
-    all_off(rig)
+    in_time.off()
+    assert not OUTPUTS & set(rig.on())
     assert "signal SIG" in procedure.said
 
 
@@ -303,9 +414,22 @@ def test_a_full_disk_ends_with_everything_off(begun, rig, tmp_path):
 
         resource.setrlimit(resource.RLIMIT_FSIZE, (90_000, resource.RLIM_INFINITY))
 
-    rig.pace(0.0)
+    rig.hold(False)
     procedure = begun(before=filled)
     assert procedure.ended() == 2
     assert not OUTPUTS & set(rig.on())
     assert lines_of(tmp_path / "run", "latched")[-1]["interlock"] == "disk"
     gone_on_with(begun, rig, tmp_path / "run", acknowledge="space made")
+
+
+@pytest.mark.slow
+def test_a_guardian_after_which_no_other_begins_names_all_that_may_be_on(begun, rig, tmp_path):
+    procedure = begun(begins=lambda number: os._exit(1) if number else None)
+    vibrating(rig)
+    os.kill(procedure.guardian, signal.SIGKILL)
+    assert procedure.ended() == 4
+    assert "NOT READ BACK TO BE OFF" in procedure.said
+    assert all(name in procedure.said for name in NAMES.values())
+    assert lines_of(tmp_path / "run", "latched")[-1]["still_on"]
+    # The next start switches off.
+    gone_on_with(begun, rig, tmp_path / "run", acknowledge="looked at")

@@ -1,14 +1,17 @@
 """A simulated rig that stands on while procedures and guardians come and go, with faults."""
 
 import contextlib
+import importlib
 import json
 import os
+import select
 import signal
 import sys
 import threading
 import time
 
 from apparatus import rigs
+from apparatus.forked_guardian import OwnTime, forked_guardians
 from asperity.errors import AsperityError
 from asperity.runs import Run
 from asperity.tribometer.guardian import backends
@@ -39,20 +42,21 @@ class _Server(RigServer):
     def __init__(self, bench, rig):
         super().__init__(objects_of(bench))
         self._rig = rig
-        self._faults, self._pace, self._seen, self._heard = {}, 0.0, set(rig.on), []
+        self._faults, self._held, self._mended = {}, False, threading.Event()
         self._doing = set()
+        self._begun = rig.state()
+        self._time = OwnTime()
 
     def fault(self, key, kind, seconds=0.0):
         self._faults[key] = kind, seconds
 
     def sound(self):
         self._faults = {}
+        mended, self._mended = self._mended, threading.Event()
+        mended.set()
 
-    def pace(self, pace):
-        self._pace = pace
-
-    def history(self):
-        return self._heard
+    def hold(self, held):
+        self._held = held
 
     def on(self):
         return sorted(self._rig.on)
@@ -60,8 +64,19 @@ class _Server(RigServer):
     def doing(self):
         return sorted(self._doing)
 
+    def lost(self):
+        return self._time.lost()
+
     def quiet(self):
         self._rig.on.clear()
+
+    def left(self, afresh):
+        """Take that who used it is gone; afresh, it stands where it stood in the beginning."""
+        if self._rig.streams:
+            self._rig.end()
+        if afresh:
+            self.quiet()
+            self._rig.restore(self._begun)
 
     def _done(self, head):
         key, verb = head["to"], head["do"]
@@ -77,34 +92,33 @@ class _Server(RigServer):
         kind, seconds = self._faults.get(key, ("", 0.0))
         if kind in ("absent", "garbling"):
             raise InstrumentError(f"{key} is {kind}", kind="line lost")
-        if kind == "silent":
-            threading.Event().wait()
-        if kind == "late":
-            time.sleep(seconds)
+        if kind in ("silent", "late"):
+            self._mended.wait(seconds or None)
         if kind in ("stuck on", "welded") and verb in ("off", "safe"):
             return None
         if kind == "welded" and verb == "output":
             return False
         if kind == "stuck at a value" and verb == "reading":
             return Reading(1.0, 2.4)
-        if (key, verb) == ("clock", "sleep"):
-            time.sleep(self._pace * head["with"][0] if "vibration" in self._rig.on else 0.0)
-        gave = super()._done(head)
-        if self._rig.on != self._seen:
-            self._heard.append([time.monotonic(), sorted(self._rig.on)])
-            self._seen = set(self._rig.on)
-        return gave
+        if (key, verb) == ("clock", "sleep") and self._held and "vibration" in self._rig.on:
+            time.sleep(0.02)
+            return self._rig.now
+        return super()._done(head)
 
 
 class StandingRig:
     """A rig of a case in a process of its own.
 
     ``fault(key, kind)`` is one of absent, silent, garbling, late (by seconds), stuck on, welded
-    (off by its state, on by its current) and stuck at a value; ``pace`` slows its time while it
-    vibrates.
+    (off by its state, on by its current) and stuck at a value, until ``sound()``; while it is held
+    its time stands still as long as it vibrates. ``left(True)`` has it stand as in the beginning.
+    ``lost()`` tells how long others had its processor so far, s.
     """
 
     def __init__(self, case):
+        # Once for all that are forked from here, on rig and runs alike.
+        study.prepare(case)
+        importlib.import_module("h5netcdf")
         heard, told = os.pipe()
 
         def be():
@@ -151,13 +165,22 @@ def _warm(bench, rig, case):
 
 
 class Procedure:
-    """``asperity rig run`` in a process of its own, on a rig that stands."""
+    """``asperity rig run`` in a process of its own, on a rig that stands.
 
-    def __init__(self, case, folder, rig, *, resume=False, acknowledge="", before=None):
+    With dials its guardians are forked and go by these, ``begins`` called in each with its number;
+    without, they are begun as for a user.
+    """
+
+    def __init__(
+        self, case, folder, rig, *, resume=False, acknowledge="", before=None, dials=None,
+        begins=lambda number: None,
+    ):  # fmt: skip
         folder.mkdir(exist_ok=True)
         self.folder = folder
         noted = folder / "guardian"
         noted.unlink(missing_ok=True)
+        self._there, there = os.pipe()
+        os.set_inheritable(there, True)
 
         class Noted(backends.Guard):
             def _start(self):
@@ -165,6 +188,11 @@ class Procedure:
                 noted.write_text(str(self.process))
 
         def work():
+            # Where the tests run in the background they would not be heard.
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+            if dials is not None:
+                forked_guardians(dials, keep=(there,), begins=begins)
             errors = os.open(folder / "errors", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
             os.dup2(errors, 2)
             backends.begun_rig = lambda case: rig.address
@@ -186,6 +214,7 @@ class Procedure:
             return answer.failure.exit_code
 
         self.number = _in_a_child(work)
+        os.close(there)
         self._status = None
 
     def kill(self, number):
@@ -208,6 +237,10 @@ class Procedure:
             if gone:
                 self._status = status
         return self._status is not None
+
+    def gone(self):
+        """Wait until it and its guardians, if they are forked, have ended."""
+        assert select.select([self._there], [], [], PATIENT)[0], "nobody ended"
 
     @property
     def said(self):
@@ -232,6 +265,4 @@ def waited_for(what):
 
 def lines_of(folder, kind):
     """Return the lines of a kind of a journal that may just be written."""
-    path = folder / "journal.jsonl"
-    rows = path.read_bytes().split(b"\n")[:-1] if path.exists() else []
-    return [line for row in rows if (line := json.loads(row))["kind"] == kind]
+    return [line for line in rigs.whole_lines(folder) if line["kind"] == kind]

@@ -2,9 +2,11 @@
 
 Sources: a catalogue of worm gearboxes of the NMRV kind, at 1400 rpm (ratios 7.5 to 100; starts,
 teeth and the worm's size from memory); R. Mott, Machine Elements in Mechanical Design, 4th
-edition, examples 10-7 and 10-8; U. C. Jindal, Machine Design, example 28-2 (tooth heights of BS
-721); J. Carvill, Mechanical Engineer's Data Handbook, 2.10.6, RoyMech and JGMA 405-01 for
-efficiency by mu/cos(alpha_n).
+edition, examples 10-7 and 10-8; U. C. Jindal, Machine Design, examples 28-2 (tooth heights of BS
+721) and 28-5 (efficiency); J. Carvill, Mechanical Engineer's Data Handbook, 2.10.6, RoyMech and
+JGMA 405-01 for efficiency by mu/cos(alpha_n); the printed run of a public program ("formula",
+worm) after SDP/SI, Elements of Metric Gear Technology, section 17.6, for the surface strength by
+JGMA 405-01.
 """
 
 import importlib.util
@@ -18,6 +20,7 @@ from asperity.flanks.measuring import measures
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import RULES
 from asperity.rating import Operation, RatingOptions, rate
+from asperity.rating.bs721 import torque
 from asperity.rating.bs721.tables import read_tables
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -99,6 +102,22 @@ def test_efficiency_of_bs_721_by_the_normal_section_is_carvills(degrees, mu, pla
         assert found.bs721["eta_back"] == pytest.approx(back, abs=1.1e-3)
 
 
+def test_efficiency_and_loss_are_those_of_jindals_example():
+    # Example 28-5: 4 kW at 1000 rpm, 2/54, q 10, m 8 mm, mu 0.028; the book has 0.865 and a rise of
+    # 18.7 K by 16 W/(m2 K) and 1.8 m2.
+    gearset = Gearset(
+        starts=2, wheel_teeth=54, axial_module="8 mm", diameter_factor=10.0,
+        worm_material="case-hardened steel", wheel_material="CuSn12-C-GZ",
+    )  # fmt: skip
+    operation = Operation(
+        worm_speed="1000 rpm", output_torque="892 N m", lubricant="ISO VG 220 mineral"
+    )
+    options = RatingOptions(friction=0.028, bs721_friction_angle="mu_over_cos")
+    eta = rate(gearset, operation, options).bs721["eta"]
+    assert eta == pytest.approx(0.865147, abs=1e-6)
+    assert 4000.0 * (1.0 - eta) / (16.0 * 1.8) == pytest.approx(18.7, abs=0.05)
+
+
 def test_self_locking_by_bs_721_begins_where_its_efficiency_backwards_ends():
     gearset = Gearset(
         starts=1, wheel_teeth=50, axial_module="5 mm", diameter_factor=12.5,
@@ -126,6 +145,22 @@ def test_pins_tolerances_and_the_speed_factor_are_those_of_the_documents():
     speed = read_tables().rotation_speed_factor
     found = [float(speed("wheel_speed", n, "rpm")) for n in (500.0, 600.0)]
     assert found == pytest.approx([0.377, 0.359])
+
+
+def test_surface_strength_by_jgma_is_a_public_programs():
+    # 2 starts, 30 teeth, m 2.54 mm, a worm of 20 mm; its factors for 600 rpm are those of the worm.
+    kgf, lead = 9.80665, math.atan(2 * 2.54 / 20.0)
+    assert math.degrees(lead) == pytest.approx(14.251708, abs=5e-5)  # its pi is 3.1416
+    tables, sliding = read_tables(), math.pi * 0.02 * 10.0 / math.cos(lead)
+    assert tables.zone_factor(2, 14.0) * 1.15 == pytest.approx(1.564)
+    assert tables.rotation_speed_factor("wheel_speed", 600.0, "rpm") == pytest.approx(
+        0.358904, abs=2e-4
+    )
+    # Its sliding speed factor is a curve through a figure, ours a table.
+    assert tables.sliding_speed_factor("v_s", sliding, "m/s") == pytest.approx(0.601237, rel=0.03)
+    found = torque.wear_torque(0.601237 * 0.358904, 0.67 * kgf, 1.564, 76.2, 2.54)
+    # 0.00191 for 3.82/2000; theirs is the force on the pitch circle.
+    assert found == pytest.approx(70.274341 * kgf * 0.5e-3 * 76.2, rel=1e-4)
 
 
 def test_numbers_from_memory_are_counted_where_they_stand():

@@ -315,6 +315,22 @@ def test_a_way_that_cannot_be_solved_is_named_and_leaves_the_others():
     assert any(note.startswith("axial: not solved, the powers") for note in found.notes)
     assert rows["screw"]["torque_ratio"] > 0.0
     assert "not solved" in drawn_text(plot_directions(found.to_dataset()))
+    assert rows["axial"]["settled_by"].startswith("the powers")
+    assert rows["axial"]["step_error"] is None
+
+
+def test_of_each_way_it_is_told_by_what_it_has_settled_and_the_error_of_its_step():
+    shaken = ("vibration.frequency=20 kHz", "vibration.displacement_amplitude=2 um",
+              "solve.step=0.5 us", "solve.duration=30 ms")  # fmt: skip
+    found = ways(problem(*shaken), Run())
+    for place, row in enumerate(found.to_json()["directions"]):
+        one = solved(*shaken, f"vibration.mode={row['mode']}")
+        assert (row["settled"], row["settled_by"]) == (one.settled, one.settled_by)
+        assert row["step_error"] == one.step_error
+        assert found.to_dataset()["settled_by"].values[place] == one.settled_by
+        for note in one.notes:
+            assert note in found.notes or f"{row['mode']}: {note}" in found.notes
+    assert any(row["step_error"] for row in found.rows)
 
 
 def test_what_a_held_wheel_s_ratio_is_and_why_an_actuator_s_take_is_missing_are_told():

@@ -156,3 +156,54 @@ def test_heat_of_the_vibration_warms_the_sump_in_proportion_to_the_losses(given)
 def test_an_impossible_share_or_path_is_refused(given, words, says):
     with pytest.raises(InputError, match=says):
         life(given, **words)
+
+
+# Hours, torque and worm speed; the last one runs hottest.
+PARTS = ((500.0, 250.0, 700.0), (1500.0, 150.0, 1400.0), (100.0, 240.0, 1400.0))
+
+
+def of_parts(*settings):
+    listed = ", ".join(
+        f'{{duration = "{hours} h", output_torque = "{torque} N m", worm_speed = "{speed} rpm"}}'
+        for hours, torque, speed in PARTS
+    )
+    return read_case("gearset-3b", case_tables(), [f"operation.duty_cycle=[{listed}]", *settings])
+
+
+def alone(hours, torque, speed):
+    return rating_inputs(
+        read_case(
+            "gearset-3b",
+            case_tables(),
+            [
+                f"operation.output_torque={torque} N m",
+                f"operation.through_travel_torque={torque} N m",
+                f"operation.worm_speed={speed} rpm",
+                f"operation.life={hours} h",
+            ],
+        )
+    )
+
+
+@pytest.mark.parametrize("shaken", [(), (0.2, 3.0, 40.0)])
+def test_a_duty_cycle_wears_what_its_parts_wear_and_heats_as_the_hottest_of_them(shaken):
+    found = life(rating_inputs(of_parts()), *shaken)
+    parts = [life(alone(*part), *shaken) for part in PARTS]
+    assert found.wear == pytest.approx(sum(part.wear for part in parts), rel=1e-9)
+    # Miner's rule: what each part takes of the limit adds up to the inverse of the safety.
+    used = sum(1.0 / part.safety_wear for part in parts)
+    assert 1.0 / found.safety_wear == pytest.approx(used, rel=1e-9)
+    assert found.hours == pytest.approx(2100.0 / used, rel=1e-9)
+    sumps = [part.sump_temperature for part in parts]
+    assert found.sump_temperature == pytest.approx(max(sumps), rel=1e-12)
+    assert max(sumps) > min(sumps) + 5.0
+    assert found.safety_temperature == min(part.safety_temperature for part in parts)
+
+
+def test_a_duty_cycle_that_is_never_shaken_keeps_its_rating():
+    rated = rate_case(of_parts(), ("iso14521",)).iso14521
+    found = life(rating_inputs(of_parts()))
+    assert found.safety_wear == pytest.approx(rated["safety_wear"], rel=1e-9)
+    assert found.wear == pytest.approx(1e-3 * rated["delta_Wn_mm"], rel=1e-9)
+    assert found.sump_temperature == pytest.approx(rated["theta_S_max_degC"] + 273.15, rel=1e-9)
+    assert found.safety_temperature == pytest.approx(rated["safety_temperature"], rel=1e-9)

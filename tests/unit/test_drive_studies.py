@@ -92,6 +92,19 @@ def test_rest_neither_wears_nor_spares(stroke):
     assert without.sump_rise == pytest.approx(stroke.sump_rise, rel=1e-9)
 
 
+def test_a_duty_cycle_changes_what_wears_but_not_the_stroke(stroke):
+    parts = ", ".join(
+        f'{{duration = "{hours} h", output_torque = "{torque} N m"}}'
+        for hours, torque in ((2.0, 366.0), (1.5, 100.0))
+    )
+    found = stroked(*ACTUATOR, f"operation.duty_cycle=[{parts}]")
+    assert found.part_plain == pytest.approx(stroke.part_plain, rel=1e-12)
+    assert found.energy_plain == pytest.approx(stroke.energy_plain, rel=1e-12)
+    assert found.safety_wear_plain != pytest.approx(stroke.safety_wear_plain, rel=1e-2)
+    assert any("by the parts of operation.duty_cycle" in note for note in found.notes)
+    assert not any("operation.duty_cycle" in note for note in stroke.notes)
+
+
 def test_without_an_actuator_the_drive_is_told_and_why_its_stroke_is_not():
     found = stroked()
     assert not isinstance(found, OnDemand)

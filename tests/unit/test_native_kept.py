@@ -259,7 +259,7 @@ def test_trouble_that_may_pass_leaves_nothing(entry, tmp_path, monkeypatch):
 def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkeypatch):
     monkeypatch.setenv("CC", "false")
     made = lean.Made(b"code", ["d"], (1, 2))
-    link.write(tmp_path, [(entry, made)], b"common")
+    link.keep(tmp_path, entry, made, b"common")
     assert [(tmp_path / name).read_bytes() for name in table.OBJECTS] == [b"code", b"common"]
     assert not (tmp_path / table.LIBRARY).exists()
     with pytest.raises(subprocess.CalledProcessError):
@@ -270,7 +270,7 @@ def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monk
     monkeypatch.setattr(link, "_linked", lambda *_given: b"no library")
     folder = tmp_path / keys.key(entry)
     folder.mkdir(mode=0o700)
-    link.write(folder, [(entry, lean.Made(b"code", ["d"], (1, 2)))], b"common")
+    link.keep(folder, entry, lean.Made(b"code", ["d"], (1, 2)), b"common")
     monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: tmp_path)
     # Otherwise each run would make it anew, and in vain.
     assert kept._obtained(entry) is None

@@ -87,6 +87,7 @@ def supply(request, rig):
         from asperity.tribometer.instruments.pymeasure_supply import PyMeasureSupply
 
         said = [
+            ("*IDN?", "Keysight Technologies,E36312A,MY57001234,2.1.0"),
             ("VOLT 1, (@1)", None), ("OUTPut 1, (@1)", None), ("MEASure:VOLTage? (@1)", "1.0"),
             ("MEAS:CURRent? (@1)", "2.0"), ("OUTPut 0, (@1)", None), ("OUTPut 0, (@1)", None),
             ("OUTPut 0, (@1)", None),
@@ -238,18 +239,18 @@ def test_a_person_may_take_time_while_the_recording_goes_on(tmp_path):
             if text.lower().startswith(f"switch the supply of {name} off"):
                 inside.on -= {name}
             if text.startswith(f"Speed of the {name}"):
-                return repr(float(inside._state[f"motor_{name}"][0]))
+                return f"{float(inside._state[f'motor_{name}'][0])!r} rad/s"
             if text.startswith("Voltage") and name in text:
-                return repr(inside.volts[name])
+                return f"{inside.volts[name]!r} V"
             if text.startswith("Current") and name in text:
-                return repr(float(inside._state[f"current_{name}"][0]))
+                return f"{float(inside._state[f'current_{name}'][0])!r} A"
         if text.startswith("Set the vibration"):
             inside.waveform, inside.frequency = "sine", 750.0
         if text.startswith("Start the vibration"):
             inside.on |= {"vibration"}
         if text.lower().startswith("stop the vibration"):
             inside.on -= {"vibration"}
-        return "0.1" if "Weight" in text else ""
+        return "0.1 kg" if "Weight" in text else ""
 
     person = manual.Operator(asked)
     by_hand = dataclasses.replace(

@@ -2,15 +2,26 @@
 
 import functools
 import importlib
+import io
+import json
+import re
 import sys
 
 import numpy as np
 import pytest
+from apparatus import rigs
 from apparatus.fake_picoscope import FakeDriver
 
 from asperity.errors import InputError, MissingExtraError
-from asperity.tribometer.instruments import manual, picoscope, pymeasure_supply, serial_vibration
+from asperity.tribometer.instruments import (
+    manual,
+    off,
+    picoscope,
+    pymeasure_supply,
+    serial_vibration,
+)
 from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.inputs import inputs_of, lines_of, simulated_of
 from asperity.tribometer.instruments.parameters import Controller, Supplies
 from asperity.tribometer.instruments.protocols import (
     Input,
@@ -23,6 +34,9 @@ from asperity.tribometer.instruments.protocols import (
     VibrationDrive,
     WallClock,
 )
+from asperity.tribometer.signals import SIMULATED
+from asperity.tribometer.twin import plant_kernels
+from asperity.units import to_si
 
 # A driver of PyMeasure says so of devices its authors do not own.
 pytestmark = pytest.mark.filterwarnings("ignore:It is not known:FutureWarning")
@@ -225,8 +239,8 @@ def test_a_dialect_that_cannot_be_spoken_is_refused(key, text, said):
 
 def test_a_supply_does_as_it_is_told():
     pairs = [
-        ("I1 3", None), ("V1V 1", None), ("OP1 1", None), ("V1O?", "1.001V"), ("I1O?", "2.4A"),
-        ("OP1 0", None), ("OP1 0", None),
+        ("I1 3", None), ("I1?", "I1 3.000"), ("V1V 1", None), ("OP1 1", None),
+        ("V1O?", "1.001V"), ("I1O?", "2.4A"), ("OP1 0", None), ("OP1 0", None),
     ]  # fmt: skip
     with supply(pairs) as device:
         steel = pymeasure_supply.PyMeasureSupply(device.ch_1, "supply of steel", 3.0)
@@ -237,6 +251,59 @@ def test_a_supply_does_as_it_is_told():
         assert (reading.voltage, reading.current) == (1.001, 2.4)
         steel.off()
         steel.safe()
+
+
+def test_what_is_set_is_not_taken_for_what_is_measured():
+    pairs = [
+        ("CURR 2.0", None), ("CURR?", "2.0000"), ("VOLT 5.0", None), ("OUTP:GEN 1", None),
+        ("MEAS:VOLT?", "3.2"), ("MEAS:CURR?", "2.0"), ("OUTP:GEN?", "1"),
+    ]  # fmt: skip
+    with supply(pairs, "rohdeschwarz.hmp.HMP4040") as device:
+        steel = pymeasure_supply.PyMeasureSupply(device, "supply of steel", 2.0)
+        steel.set(5.0)
+        steel.on()
+        assert steel.reading() == Reading(3.2, 2.0)
+        assert steel.output() is True
+
+
+class Silent:
+    """A driver that tells what was set, and nothing else."""
+
+    voltage = property(lambda self: 5.0, lambda self, value: None)
+    output_enabled = True
+
+
+class Cutting:
+    """A driver that cuts what is too large to what it takes, without a word."""
+
+    voltage_setpoint, output_enabled = 0.0, False
+    current_limit = property(lambda self: 3.0, lambda self, value: None)
+
+
+def test_a_driver_that_measures_nothing_says_so_and_proves_nothing():
+    found = pymeasure_supply.PyMeasureSupply(Silent(), "supply of steel")
+    assert found.reading() == Reading(None, None)
+    assert not off.supply_off("steel", (False, found.reading())).proven
+
+
+@pytest.mark.parametrize(
+    ("driver", "said"),
+    [(Silent, "Silent has nothing that sends it"), (Cutting, r"Cutting is set to 3\.0 A")],
+)
+def test_a_limit_that_a_driver_cannot_send_is_refused(driver, said):
+    found = pymeasure_supply.PyMeasureSupply(driver(), "supply of steel", 5.0)
+    with pytest.raises(InputError, match=rf"supplies\.current_limit is 5 A; {said}"):
+        found.set(1.0)
+
+
+def test_a_limit_beyond_a_drivers_range_is_refused_before_anything_is_sent():
+    with supply([], "aimtti.aimttiPL.PL303QMTP") as device:
+        found = pymeasure_supply.PyMeasureSupply(device.ch_1, "supply of steel", 5.0)
+        with pytest.raises(InputError, match=r"PLChannel refuses it: .*5.* range"):
+            found.set(1.0)
+    # Left out, what the supply is set to stands.
+    table = Supplies(driver="aimtti.aimttiPL.PL303QMTP", address="x")
+    assert (table.current_limit, table.steel.output) == (None, "ch_1")
 
 
 def test_supplies_that_name_their_switch_otherwise_do_as_well():
@@ -293,6 +360,50 @@ def test_a_person_is_asked_and_read():
     assert typed.asked[-1].startswith("STOP THE VIBRATION")
     with pytest.raises(InputError, match="Given up after 5 tries"):
         manual.Operator(lambda text: "no").read("Speed", "rad/s")
+
+
+@pytest.mark.parametrize(
+    ("unit", "typed", "given", "examples"),
+    [
+        ("kg", "500", "500 g", "'500 g' or '0.5 kg'"),
+        ("kg", "0.5", "0.5 kg", "'500 g' or '0.5 kg'"),
+        ("rad/s", "1500", "1500 rpm", "'1500 rpm'"),
+        ("V", "5", "5 V", "'5.5 V' or '250 mV'"),
+    ],
+)
+def test_a_bare_number_is_refused_where_a_unit_is_asked(unit, typed, given, examples):
+    person = TypedPerson(typed, given)
+    assert manual.Operator(person).read("Weight of the steel disc", unit) == to_si(given, unit)
+    assert person.asked == [
+        f"Weight of the steel disc [with its unit, such as {examples}] ",
+        f"'{typed}': it has no unit; give {examples}. "
+        f"Weight of the steel disc [with its unit, such as {examples}] ",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("12 V", "'12 V': 'V' does not convert to kg; give '500 g'"),
+        ("0 g", "'0 g': it must be more than nothing"),
+        ("-3 g", "'-3 g': it must be more than nothing"),
+        ("", "'': '' is not a number with a unit"),
+        ("0,5 kg", "'0,5 kg': .* give '500 g' or '0.5 kg'"),
+    ],
+)
+def test_a_weight_that_is_none_is_refused_and_asked_again(typed, said):
+    person = TypedPerson(typed, "12.3 g")
+    assert manual.Operator(person).read("Weight", "kg") == 0.0123
+    assert re.match(said, person.asked[1])
+    assert "\n" not in person.asked[1]
+
+
+def test_a_question_keeps_its_unit_on_the_terminal(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stdin", io.StringIO("12.3 g\n"))
+    person = manual.Operator(manual._typed)
+    assert person.read("Weight [of what] the disc", "kg") == 0.0123
+    shown = "Weight [of what] the disc [with its unit, such as '500 g' or '0.5 kg'] "
+    assert capsys.readouterr().err == shown
 
 
 def test_a_person_without_a_terminal_is_refused(monkeypatch):
@@ -405,3 +516,33 @@ def test_a_supply_that_answers_no_number_is_named():
     steel = pymeasure_supply.PyMeasureSupply(Output(), "supply of steel")
     with pytest.raises(InstrumentError, match="supply of steel did not do as it was told"):
         steel.reading()
+
+
+def test_other_sensors_are_recorded_beside_the_eight():
+    points = {
+        "acceleration_2": [["0 V", "0 m/s**2"], ["1 V", "100 m/s**2"]],
+        "temperature": [["0 V", "0 degC"], ["1 V", "100 degC"]],
+        "normal_force": [["0 V", "0 N"], ["5 V", "500 N"]],
+    }
+    case = rigs.small_case(
+        *(
+            f'channels.{name}={{channel="{letter}",points={json.dumps(given)}}}'
+            for letter, (name, given) in zip("XYZ", points.items(), strict=True)
+        )
+    )
+    inputs = inputs_of(case["channels"], case["sonotrode"])
+    assert [one.signal for one in inputs[-3:]] == list(points)
+    assert [one.range for one in inputs[-3:]] == [1.0, 1.0, 5.0]
+    lines = lines_of(case["channels"], inputs)
+    assert lines[-2].of(0.25) == pytest.approx(298.15)
+    assert lines[-1].of(1.4) == pytest.approx(140.0)
+    # Nothing simulates them.
+    assert [one.signal for one in simulated_of(inputs)] == [one.signal for one in inputs[:-3]]
+    with pytest.raises(InputError, match=r"channels\.load_cell is missing"):
+        inputs_of(case["channels"].model_copy(update={"load_cell": None}), case["sonotrode"])
+
+
+def test_the_simulated_signals_are_in_the_order_of_its_kernel():
+    assert len(SIMULATED) == plant_kernels.SIGNALS
+    for place, name in enumerate(SIMULATED):
+        assert getattr(plant_kernels, name.upper()) == place

@@ -64,6 +64,15 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
     assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)
 
 
+def test_a_recording_tells_what_each_instrument_said_it_was(undisturbed):
+    told = Recording.open(undisturbed[0] / "file-01.nc").instruments
+    assert set(told.values()) == {
+        "simulated oscilloscope", "simulated vibration controller", "simulated supply of steel",
+        "simulated supply of bronze", "simulated supply of amplifier", "simulated tachometer",
+        "simulated accelerometer",
+    }  # fmt: skip
+
+
 def test_a_run_whose_recording_is_gone_is_not_gone_on_with(undisturbed, tmp_path):
     folder = tmp_path / "run"
     shutil.copytree(undisturbed[0], folder)

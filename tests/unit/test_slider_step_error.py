@@ -3,7 +3,12 @@
 import pytest
 
 from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve
+from asperity.slider.continuation import Walk, follow
+from asperity.slider.step_error import WANTED
+from asperity.sweep.branches import answer, prepare
 
 
 @pytest.mark.parametrize("waveform", ["sine", "triangle"])
@@ -22,3 +27,41 @@ def test_it_is_a_third_of_what_twice_the_step_changes_where_errors_fall_by_four(
         for step in ("0.25 us", "0.5 us")
     )  # fmt: skip
     assert fine.step_error == pytest.approx(abs(coarse.ratio - fine.ratio) / 3.0, rel=0.01)
+
+
+CORNERS = ["solve.method=periodic", "friction.model=lugre", "vibration.waveform=triangle"]
+
+
+def along_strengths(step):
+    case = read_case("table-4.3", TABLES, CORNERS).replace_values({"solve.step": step})
+    strengths = (10.0, 20.0, 30.0, 60.0)
+    return [
+        Model.from_case(case.replace_values({"vibration.velocity_ratio": k})) for k in strengths
+    ]
+
+
+def test_states_that_follow_one_another_choose_their_steps_as_each_alone_does():
+    models = along_strengths(None)
+    walk = Walk()
+    for model in models:
+        alone, state = solve(model, history=False), walk.to(model)
+        assert state.model.finer == alone.model.finer
+        assert state.ratio == pytest.approx(alone.ratio, rel=1e-9)
+        assert state.step_error <= WANTED * state.ratio
+        # What is kept of it begins again where it was left, whatever its step was.
+        again = Walk()
+        again.restore(model, walk.tree())
+        assert again.tree()["finer"] == state.model.finer
+        assert again.to(model).ratio == pytest.approx(state.ratio, rel=1e-9)
+    assert {state.model.finer for state in follow(models)} == {1, 2}
+
+
+def test_branches_tell_each_state_s_error_and_in_one_note_that_the_given_step_is_too_long():
+    case = read_case("table-4.3", case_tables(), CORNERS)
+    found = answer(prepare(case, over=["vibration.velocity_ratio=10,20,30"]), Run())
+    alone = [solve(model, history=False) for model in along_strengths(case["solve"].step)[:3]]
+    assert found.step_error[0] == pytest.approx([each.step_error for each in alone], rel=1e-3)
+    great = [each.step_error > WANTED * each.ratio for each in alone]
+    (note,) = (note for note in found.notes if "the step makes" in note)
+    assert f"in {2 * sum(great)} of 6 states" in note
+    assert found.to_json()["step_error"][1] == found.step_error[1].tolist()

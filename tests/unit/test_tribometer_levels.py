@@ -15,6 +15,7 @@ from asperity.tribometer.reduction.following import Following
 from asperity.tribometer.reduction.joint import estimate_jointly
 from asperity.tribometer.reduction.levels import estimate_levels
 from asperity.tribometer.tables import TABLES
+from asperity.tribometer.uncertainty import Cause
 
 BLOCK = 0.1  # s: means over it are what the levels are estimated from
 # Noise of a block, noise that lasts, for how long, run-out of each disc, drift an hour, loss while
@@ -276,9 +277,11 @@ def test_levels_of_which_nothing_else_is_known_have_their_own_intervals():
         return shaken / before
 
     alone = found.interval(change, 0, 1, 0.95)
-    none = dict.fromkeys(SIGNALS, np.zeros((2, 2)))
+    none = dict.fromkeys(SIGNALS, (Cause("nothing", "B", np.zeros((2, 2))),))
     assert alone == found.interval(change, 0, 1, 0.95, none)
-    more = found.interval(change, 0, 1, 0.95, {"torque_steel": np.diag([0.0, 1e-4])})
+    more = found.interval(
+        change, 0, 1, 0.95, {"torque_steel": (Cause("zero", "B", np.diag([0.0, 1e-4])),)}
+    )
     before = found.levels["torque_steel"].values[0]
     assert more.deviation**2 == pytest.approx(alone.deviation**2 + 1e-4 / before**2, rel=1e-5)
 

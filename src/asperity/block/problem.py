@@ -43,6 +43,7 @@ from asperity.contact.motion import mechanism as mo
 from asperity.contact.motion.system import Shaking, System
 from asperity.errors import InputError
 from asperity.mesh import HexMesh, box
+from asperity.slider.longer import lasting
 from asperity.slider.model import Model
 from asperity.slider.timetable import Timetable
 from asperity.vibration import Vibration
@@ -127,6 +128,13 @@ class BlockProblem:
     def timetable(self) -> Timetable:
         """Steps, window and finely recorded tail of the march."""
         return Timetable(self.model)
+
+    def lasting(self, duration: float) -> Self:
+        """Return the same block marched for a duration in s, with what has been made of it."""
+        made = {name: value for name, value in vars(self).items() if name != "timetable"}
+        longer = dataclasses.replace(self, model=lasting(self.model, duration))
+        vars(longer).update({**made, "model": longer.model})
+        return longer
 
     @property
     def nodes(self) -> int:

@@ -24,7 +24,7 @@ class ChangedError(Exception):
 
 
 def keep(kernels: Path, entry: Entry, key: str, processes: int) -> bool:
-    """Make an entry where it is not kept yet; False where another process is at it.
+    """Make an entry where it is not kept whole yet; False where another process is at it.
 
     Parameters
     ----------
@@ -47,10 +47,17 @@ def keep(kernels: Path, entry: Entry, key: str, processes: int) -> bool:
     with _held(kernels / f"{key}.lock") as ours:
         if not ours:
             return False
-        if not (kernels / key).exists():
+        if not _is_whole(kernels / key, entry):
             with _turn(kernels, processes):
                 _make(kernels, key, entry)
         return True
+
+
+def _is_whole(folder: Path, entry: Entry) -> bool:
+    """Return whether all that is known of an entry is kept, also what a library is linked of."""
+    from asperity.building import link
+
+    return (folder / UNFIT).exists() or link.kept(folder, entry) is not None
 
 
 def kernel(entry: Entry) -> Any:
@@ -63,12 +70,12 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
     from asperity.building import lean, link
 
     began()
-    new = kernels / f"new-{secrets.token_hex(6)}"
+    new, before = (kernels / f"new-{secrets.token_hex(6)}" for _ in range(2))
     new.mkdir(mode=0o700)
     try:
         try:
             made = lean.make(kernel(entry), entry.arguments, link.symbol(entry))
-            link.write(new, [(entry, made)], _support())
+            link.keep(new, entry, made, _support())
         except (OSError, MemoryError, subprocess.SubprocessError):
             raise  # it may pass
         except Exception as error:
@@ -78,8 +85,11 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
         if not keys.stands(entry.module):
             raise ChangedError(entry.name)
         with contextlib.suppress(OSError):
+            if (kernels / key).exists():
+                (kernels / key).rename(before)
             new.rename(kernels / key)
     finally:
+        shutil.rmtree(before, ignore_errors=True)
         shutil.rmtree(new, ignore_errors=True)
 
 

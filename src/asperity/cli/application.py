@@ -315,6 +315,23 @@ def lubricants(as_json: JsonOption = False) -> None:
 
 @app.command()
 @reported
+def instruments(
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="Print this one, to begin a table of your own.")
+    ] = "",
+    as_json: JsonOption = False,
+) -> None:
+    """List the supplies and generators that a rig knows by name, or print what is said to one."""
+    from asperity.cli.instruments import print_instrument, print_instruments
+
+    if name:
+        print_instrument(name, as_json=as_json)
+    else:
+        print_instruments(as_json=as_json)
+
+
+@app.command()
+@reported
 def cache(
     kinds: Annotated[
         list[str] | None,

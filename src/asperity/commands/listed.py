@@ -282,12 +282,11 @@ COMMANDS = (
         out="REC.nc",
     ),
     Command(
-        "rig reduce",
-        "Reduce recordings: what vibration does to torque, power and efficiency.",
-        "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "
-        "takes, and reduce.png.",
-        module="asperity.tribometer.reduction.study",
-        read="asperity.tribometer.reduction.study:read",
+        "rig check",
+        "Check what recordings say of their own sensors: zeros, signs, ratios, drive, tones.",
+        "With --out also check.json, check.nc and check.png, a small picture of each finding.",
+        module="asperity.tribometer.checking.study",
+        read="asperity.tribometer.checking.study:read",
         counts="recordings",
         arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
         case="",
@@ -298,17 +297,58 @@ COMMANDS = (
         ),
     ),
     Command(
+        "rig reduce",
+        "Reduce recordings: what vibration does to torque, power and efficiency.",
+        "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "
+        "takes, budget.csv and reduce.png.",
+        module="asperity.tribometer.reduction.study",
+        read="asperity.tribometer.reduction.study:read",
+        counts="recordings",
+        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        case="",
+        options=(
+            Option(
+                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
+            ),
+            Option("budget", "Tell what every number is uncertain by (GUM).", default=False),
+        ),
+    ),
+    Command(
         "rig report",
         "Put the recordings of a folder on one page: cells, pictures, what was left out.",
-        "Writes report.html, reduce.json, reduce.nc, reduce.csv and measurements.csv into DIR, "
-        "or into --out.",
+        "Writes report.html, reduce.json, reduce.nc and tables (.csv) into DIR, or into --out.",
         module="asperity.tribometer.report.study",
         read="asperity.tribometer.report.study:read",
         counts="recordings",
         arguments=(Argument("folder", "DIR", "A folder of recordings."),),
         case="",
+        options=(
+            Option("standard", "With the headings of ASTM G99 or G133 as well: G99, G133.", "NAME"),
+            Option("config", "A case with [conditions], in place of the recordings'.", "CASE"),
+        ),
         draws=False,
         into="folder",
+    ),
+    Command(
+        "rig package",
+        "Put a folder of recordings together for a repository: data, results, metadata, licence.",
+        "Needs --out: a new or empty folder for recordings, journal, results, datacite.json, "
+        "ro-crate-metadata.json and check sums.",
+        module="asperity.tribometer.package.study",
+        read="asperity.tribometer.report.study:read",
+        counts="recordings",
+        arguments=(Argument("folder", "DIR", "A folder of recordings."),),
+        case="",
+        options=(
+            Option(
+                "config",
+                "A case with [package] (title, authors, licence) and [conditions].",
+                "CASE",
+            ),
+            Option("standard", "Report with the headings of ASTM G99 or G133.", "NAME"),
+            Option("archive", "Write one file, package.zip, in place of many.", default=False),
+        ),
+        draws=False,
     ),
 )
 """In the order of the help."""

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.drive.lacking import require_all
 from asperity.drive.problem import PLACES, DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
@@ -24,7 +25,7 @@ from asperity.runs.key import code_key, key
 
 _MODES = ("mode",)
 _MICROMETRES = 1e6
-_OF_A_WAY = ("aperiodic", "what the actuator")  # begins a note that is not of all ways
+_TOLD_ELSEWHERE = ("settled_by", "step_error")  # in JSON and the file; in notes, where it matters
 
 
 class Directions(Result):
@@ -46,6 +47,8 @@ class Directions(Result):
     )
     torque_balance: FloatArray = quantity("T_m/T_R - 1", "", "balance of the wheel", dims=_MODES)
     settled: npt.NDArray[np.int8] = quantity("", "", "1 periodic and balanced", dims=_MODES)
+    settled_by: npt.NDArray[np.str_] = quantity("", "", "settled by", dims=_MODES)
+    step_error: FloatArray = quantity("", "", "error of the ratio from the step", dims=_MODES)
     saved: FloatArray = quantity("P_0 - P_d", "W", "drive power saved", dims=_MODES)
     actuator: FloatArray = quantity("P_a", "W", "mechanical power of the actuator", dims=_MODES)
     energy_ratio: FloatArray = quantity("", "", "power put in over that without", dims=_MODES)
@@ -69,6 +72,8 @@ class Directions(Result):
                 "torque_ratio": float(self.torque_ratio[n]),
                 "torque_balance": float(self.torque_balance[n]),
                 "settled": bool(self.settled[n]),
+                "settled_by": str(self.settled_by[n]),
+                "step_error": float(self.step_error[n]),
                 "saved_W": float(self.saved[n]),
                 "saved_per_micrometre_W": float(self.saved[n]) / micrometres,
                 "actuator_W": float(self.actuator[n]),
@@ -114,7 +119,9 @@ class Directions(Result):
             "mode", "ratio", "balance", "settled", "saved (W)", "per µm (W)", "actuator (W)",
             "per W", "energy", "force", "open",
         )  # fmt: skip
-        rows = [list(row.values()) for row in self.rows]
+        rows = [
+            [value for key, value in row.items() if key not in _TOLD_ELSEWHERE] for row in self.rows
+        ]
         for row, settled in zip(rows, self.settled, strict=True):
             row[0] = row[0] if settled else f"{row[0]} (not settled)"
         best = (
@@ -126,6 +133,7 @@ class Directions(Result):
 
 def prepare(case: Case) -> DriveProblem:
     """Return the problem of a case, with a vibration; InputError where it cannot be solved."""
+    require_all(case, must_shake=True, protocol="steady")
     problem = prepare_drive(case)
     _ = problem.vibrated
     plain = problem.drive.model_copy(update={"protocol": "steady"})
@@ -158,13 +166,14 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
         return np.array([np.nan if each is None else each for each in told], float)
 
     static = solved[0].torque_static * problem.worm_speed
+    of_all = set.intersection(*(set(each.notes) for each in solved))
     notes: dict[str, None] = {}
     for mode, each in zip(PLACES, found, strict=True):
         if isinstance(each, AsperityError):
             notes[f"{mode}: not solved, {each}"] = None
             continue
         for note in each.notes:
-            notes[f"{mode}: {note}" if note.startswith(_OF_A_WAY) else note] = None
+            notes[note if note in of_all else f"{mode}: {note}"] = None
     return Directions(
         problem=problem,
         amplitude=problem.amplitude,
@@ -173,6 +182,10 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
         settled=np.array(
             [isinstance(each, DriveResult) and each.settled for each in found], np.int8
         ),
+        settled_by=np.array(
+            [each.settled_by if isinstance(each, DriveResult) else str(each) for each in found]
+        ),
+        step_error=column(lambda each: each.step_error),
         saved=column(lambda each: static - each.ledger.drive),
         actuator=column(lambda each: each.ledger.actuator),
         energy_ratio=column(lambda each: each.energy_ratio),

@@ -15,7 +15,7 @@ import dataclasses
 import math
 
 from asperity.errors import InputError
-from asperity.rating.inputs import Inputs
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 
 _ZERO_CELSIUS = 273.15
@@ -30,9 +30,9 @@ class Life:
     safety_wear, safety_temperature : float
         Those of the standard.
     sump_temperature, bulk_temperature : float
-        Of the oil and of the wheel's teeth, K.
+        Of the oil and of the wheel's teeth, K; of a duty cycle in the hottest part.
     wear : float
-        Depth worn off in the required life, m.
+        Depth worn off in the required life, m; of a duty cycle the sum over its parts.
     hours : float
         Running time in which the wear reaches its limit, h.
     """
@@ -52,6 +52,9 @@ def life(
     other_heat: float = 0.0,
 ) -> Life:
     """Return wear, heat and life of a gearset that is shaken for a share of its time.
+
+    Of a duty cycle each part wears and heats by its own torque and speed, as in the rating, and is
+    shaken for the same share of its time, at the same ratio of paths.
 
     Parameters
     ----------
@@ -79,26 +82,33 @@ def life(
         if not 0.0 <= value <= high:
             upper = "" if math.isinf(high) else f" and at most {high:g}"
             raise InputError(f"the {name} is {value:g}; it must be 0 or more{upper}")
-    plain = rated_efficiency(given)
-    still = rated_capacity(given, plain)
-    between = plain["loss_meshing_W"]
     path = 1.0 - share + share * path_ratio
+    parts = given.parted() or (given,)
+    found = [_worn(part, path, share * other_heat) for part in parts]
+    wear = math.fsum(float(each["delta_Wn_mm"]) * path for each in found)
+    safety = float(found[0]["delta_Wlim_mm"]) / wear if wear > 0.0 else math.inf
+    return Life(
+        safety_wear=safety,
+        safety_temperature=min(float(each["safety_temperature"]) for each in found),
+        sump_temperature=max(float(each["theta_S_degC"]) for each in found) + _ZERO_CELSIUS,
+        bulk_temperature=max(float(each["theta_M_degC"]) for each in found) + _ZERO_CELSIUS,
+        wear=1e-3 * wear,
+        hours=math.fsum(float(part.life) for part in parts) * safety,
+    )
+
+
+def _worn(given: Inputs, path: float, other_heat: float) -> Values:
+    """Rate one load with the heat of a path so many times as long, and other heat, W."""
+    plain = rated_efficiency(given)
+    between = plain["loss_meshing_W"]
     meshing = between * path
-    total = plain["loss_total_W"] + meshing - between + share * other_heat
-    rise = still["theta_S_degC"] - given.ambient_temperature
-    sump = given.ambient_temperature + rise * total / plain["loss_total_W"]
     operation = given.operation
     if operation.oil_temperature is None:
+        still = rated_capacity(given, plain)
+        total = plain["loss_total_W"] + meshing - between + other_heat
+        rise = still["theta_S_degC"] - given.ambient_temperature
+        sump = given.ambient_temperature + rise * total / plain["loss_total_W"]
         kelvin = sump + _ZERO_CELSIUS
         operation = operation.model_copy(update={"oil_temperature": kelvin}, units="SI")
     warmer = dataclasses.replace(given, operation=operation)
-    found = rated_capacity(warmer, plain | {"loss_meshing_W": meshing})
-    safety = float(found["safety_wear"] / path) if path > 0.0 else math.inf
-    return Life(
-        safety_wear=safety,
-        safety_temperature=float(found["safety_temperature"]),
-        sump_temperature=float(found["theta_S_degC"]) + _ZERO_CELSIUS,
-        bulk_temperature=float(found["theta_M_degC"]) + _ZERO_CELSIUS,
-        wear=1e-3 * float(found["delta_Wn_mm"]) * path,
-        hours=float(given.life) * safety,
-    )
+    return rated_capacity(warmer, plain | {"loss_meshing_W": meshing})

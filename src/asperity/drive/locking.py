@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
-from asperity.drive.parameters import Drive, Shaft
+from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
@@ -26,13 +26,11 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult, inputs
 from asperity.drive.solve import prepare as prepare_drive
-from asperity.errors import AsperityError, ConvergenceError, InputError
-from asperity.flanks.parameters import Mount
+from asperity.errors import AsperityError, ConvergenceError
 from asperity.friction import Friction
 from asperity.results import Result, quantity
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
-from asperity.vibration import Vibration
 
 _AMPLITUDES = ("amplitude",)
 # Of the way from rest to full friction, what the chart shows.
@@ -93,33 +91,11 @@ class Locking(Result):
 
 def prepare(case: Case) -> DriveProblem:
     """Return the problem of a case, its motor off; InputError where it cannot be solved."""
-    _require_all(case)
+    require_all(case, must_shake=True, protocol="back-drive")
     problem = prepare_drive(case)
     _ = problem.vibrated
     plain = problem.drive.model_copy(update={"protocol": "back-drive"})
     return dataclasses.replace(problem, drive=plain)
-
-
-def _require_all(case: Case) -> None:
-    """Ask for everything that is missing at once; raises InputError."""
-    drive, shaft = case.get(Drive, Drive()), case.get(Shaft, Shaft())
-    missing = []
-    if Friction.table not in case and drive.friction == "constant":
-        missing.append("[friction] (model, 'coulomb' or 'dahl', and mu)")
-    if Vibration.table not in case:
-        missing.append("[vibration] (mode, frequency and an amplitude)")
-    missing += [
-        f"drive.{key} ('{example}')"
-        for key, example in (("load_inertia", "3.2e-3 kg m**2"), ("contact_damping", "0.01 s/m"))
-        if getattr(drive, key) is None
-    ]
-    if drive.worm_inertia is None and (shaft.diameter is None or shaft.span is None):
-        missing.append("shaft.diameter and shaft.span, or drive.worm_inertia")
-    mount = case.get(Mount)
-    if drive.flanks != "driving" and (mount is None or mount.backlash is None):
-        missing.append("mount.backlash ('20 um'), or drive.flanks = 'driving'")
-    if len(missing) > 1:
-        raise InputError(f"{case.source}: these are missing, add them: {'; '.join(missing)}")
 
 
 def answer(problem: DriveProblem, run: Run) -> Locking:

@@ -8,9 +8,9 @@ from typing import Self
 
 from asperity.casefile import Case, told
 from asperity.drive.friction import check_friction, mesh_friction
+from asperity.drive.lacking import FREE_WORM, moved, require_all
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
-from asperity.drive.shafts import bends
 from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
@@ -34,12 +34,6 @@ PLACES = {
 """What each way of shaking can be applied to, the first where nothing is said."""
 
 _ROUND = ("torsional", "screw")
-# Protocols in which the motor's end of the shaft does not hold the worm, ever or in the end.
-_FREE_WORM = {
-    "held-wheel": "the motor pushes with a torque alone",
-    "back-drive": "the motor is off",
-}
-_WORM_FREED = (*_FREE_WORM, "on-demand")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -101,7 +95,7 @@ class DriveProblem:
         InputError
             They do not make a gearset's drive.
         """
-        _check_tables(case)
+        require_all(case, shaken=shaken)
         with told(case):
             run = case.require(Operation)
             operation = driven(case.require(Gearset), run, case.get(RatingOptions))
@@ -291,10 +285,10 @@ class DriveProblem:
 
     def _check_protocol(self, vibration: Vibration) -> None:
         protocol, place = self.drive.protocol, vibration.applied_to
-        if place == "motor" and protocol in _FREE_WORM:
+        if place == "motor" and protocol in FREE_WORM:
             raise InputError(
                 f"vibration.applied_to is 'motor', but with drive.protocol '{protocol}' "
-                f"{_FREE_WORM[protocol]}, so that nothing of it comes to the worm: apply it to "
+                f"{FREE_WORM[protocol]}, so that nothing of it comes to the worm: apply it to "
                 "'worm'"
             )
         if protocol == "tangential" and place in ("seat", "motor"):
@@ -305,13 +299,8 @@ class DriveProblem:
 
     def _check_moved(self) -> None:
         """Refuse a worm whose inertia or mass counts and is not known."""
-        turns = self.shaft.torsion is not None or self.drive.protocol in _WORM_FREED
-        shifts = self.shaft.axial is not None or bends(self.shaft)
-        if self.actuator is not None and self.amplitude > 0.0:
-            # What the actuator takes follows from what it moves; of a wheel nothing tells the mass.
-            both = self.drive.protocol == "tangential" or self.mode == "screw"
-            turns = turns or both or self.mode == "torsional"
-            shifts = shifts or both or self.mode == "axial"
+        actuated = self.actuator is not None and self.amplitude > 0.0
+        turns, shifts = moved(self.drive, self.shaft, self.mode, actuated)
         if turns:
             _ = self.worm_inertia
         if shifts:
@@ -364,13 +353,3 @@ class DriveProblem:
                 f"solve.step is {given:g} s, too coarse for a vibration of {shape.frequency:g} Hz; "
                 f"it may be at most {longest:.3g} s"
             )
-
-
-def _check_tables(case: Case) -> None:
-    """Refuse a case that is none of a gearset."""
-    if Gearset.table not in case:
-        other = "a sliding body: asperity slide takes it" if "slider" in case else "something else"
-        raise InputError(
-            f"{case.source}: there is no [gearset] in it; a drive is one of a worm gearset, and "
-            f"this case is of {other}"
-        )

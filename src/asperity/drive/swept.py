@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from asperity.casefile import Case, Table
+from asperity.drive.lacking import require_all
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import steps_of
@@ -58,6 +59,7 @@ class Drives(Subject):
 
     def prepare(self, case: Case) -> DriveProblem:
         """Return the problem of a point."""
+        require_all(case, must_shake=True)
         problem = prepare(case)
         _ = problem.vibrated
         return problem

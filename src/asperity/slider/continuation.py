@@ -1,9 +1,12 @@
 """Periodic states one after the other, each sought from the one before: branches of states.
 
 Where a body has several stable states, which one it is in follows from where it comes from: a
-contact that is shaken harder and harder jumps into flight later than it comes back out of it.
+contact that is shaken harder and harder jumps into flight later than it comes back out of it. Where
+the step is not given it is chosen for each body by the error it makes, as for one alone; the state
+on a finer step is sought from the one on the first.
 """
 
+import dataclasses
 import time
 from collections.abc import Iterable, Iterator
 
@@ -17,6 +20,7 @@ from asperity.slider.model import Model
 from asperity.slider.periodic import AperiodicError, answer_of, cycle_steps, settle
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import SETTLING
+from asperity.slider.step_error import refined
 
 _PERIODS = (1, 2, 4)
 _SAME = 1e-7
@@ -36,6 +40,13 @@ class Walk:
     def to(self, model: Model) -> SlideResult | ConvergenceError:
         """Find the stable periodic state of the next body, as `follow`."""
         began = time.perf_counter()
+        try:
+            return refined(model, lambda finer: self._sought(finer, began))
+        except ConvergenceError as error:
+            return error
+
+    def _sought(self, model: Model, began: float) -> SlideResult:
+        """Find the state on the step of a model; on a finer one from that on the first."""
         steps = cycle_steps(model)
         step = 1.0 / (model.frequency * steps)
         cycle = Cycle(model, steps, step)
@@ -45,23 +56,25 @@ class Walk:
         else:
             _take_over(cycle, *self._last)
             cycle, found, growth = _from_there(cycle, model, steps, step)
-        self._last = model, cycle
+        if model.finer == 1:
+            self._last = model, cycle
         if not found:
-            return AperiodicError.of(cycle, notes)
-        try:
-            return answer_of(model, step, cycle, growth, notes, began, history=False)
-        except ConvergenceError as error:
-            return error
+            raise AperiodicError.of(cycle, notes)
+        answer = answer_of(model, step, cycle, growth, notes, began, history=False)
+        if answer.step_error is not None:
+            self._last = model, cycle
+        return answer
 
     def tree(self) -> Tree:
         """Return where the last body was left; there must be one."""
         if self._last is None:
             raise ValueError("a walk that has not begun stands nowhere")
-        cycle = self._last[1]
-        return {"state": cycle.body.kept["state"], "springs": cycle.springs}
+        model, cycle = self._last
+        return {"finer": model.finer, "state": cycle.body.kept["state"], "springs": cycle.springs}
 
     def restore(self, model: Model, tree: Tree) -> None:
         """Go back to where the last body was left, which is given."""
+        model = dataclasses.replace(model, finer=tree["finer"])
         steps = cycle_steps(model)
         cycle = Cycle(model, steps, 1.0 / (model.frequency * steps))
         _put(cycle, tree["state"], tree["springs"])

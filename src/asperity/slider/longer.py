@@ -1,10 +1,16 @@
-"""What duration a march would have settled in, from how its means change in the window."""
+"""What duration a march would have settled in, and marches that go on until they have.
 
+The duration is foreseen from how the means change in the window.
+"""
+
+import dataclasses
 import math
 from collections.abc import Sequence
+from typing import Protocol, TypeVar
 
 from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.result import SlideResult
 from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
@@ -20,6 +26,65 @@ _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
 _NEXT, _MOST_TRIED = 1.02, 400
+_FARTHEST = 16.0  # times the usual duration, that a march goes on by itself
+_FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
+
+M = TypeVar("M", bound=Model)
+A = TypeVar("A", bound=SlideResult)
+A_co = TypeVar("A_co", bound=SlideResult, covariant=True)
+
+
+class Marching(Protocol[A_co]):
+    """A march whose end can be put off."""
+
+    @property
+    def duration(self) -> float:
+        """Time it is marched for, s."""
+        ...
+
+    def to_the_end(self) -> tuple[A_co, float | None]:
+        """March to that time; the answer, and the duration in s that would do where foreseen."""
+        ...
+
+    def go_on(self, duration: float) -> None:
+        """Take a later end, s."""
+        ...
+
+
+def until_settled(model: Model, marching: Marching[A], instead: str | None = "periodic") -> A:
+    """March to the end; where the case says no duration, on until it has settled, within bounds.
+
+    Parameters
+    ----------
+    model : Model
+        The body as the case has it.
+    marching : Marching
+        Its march, wherever it stands.
+    instead : str, optional
+        The method that looks for a state where no duration is foreseen that would do.
+    """
+    while True:
+        answer, foreseen = marching.to_the_end()
+        marched = marching.duration
+        farthest = _FARTHEST * model.duration
+        if not answer.settled:
+            if model.solve.duration is None and marched < farthest * (1.0 - 1e-9):
+                low, high = (share * marched for share in _FURTHER)
+                marching.go_on(min(max(foreseen or high, low), high, farthest))
+                continue
+            note = advice(foreseen, instead)
+            answer = dataclasses.replace(answer, notes=(*answer.notes, note))
+        if marched == model.duration:
+            return answer
+        until = "when it had settled" if answer.settled else "and has not settled"
+        note = f"solve.duration is left out: the march went on to {marched:.3g} s, {until}"
+        return dataclasses.replace(answer, notes=(note, *answer.notes))
+
+
+def lasting(model: M, duration: float) -> M:
+    """Return a body that is marched for a duration in s."""
+    solve = model.solve.model_copy(update={"duration": duration}, units="SI")
+    return dataclasses.replace(model, solve=solve)
 
 
 def needed(
@@ -108,12 +173,12 @@ def _fading(
     return None
 
 
-def advice(duration: float | None) -> str:
-    """Say what duration would do."""
+def advice(duration: float | None, instead: str | None = "periodic") -> str:
+    """Say what duration would do; or, where none is foreseen, which method to take instead."""
     if duration is None:
-        return (
-            "no solve.duration is foreseen that would do: solve.method 'periodic' looks for a "
-            "state that lasts"
+        other = (
+            "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"
         )
+        return f"no solve.duration is foreseen that would do{other}"
     digit = 10.0 ** (math.floor(math.log10(duration)) - 1)
     return f"a solve.duration of {math.ceil(duration / digit) * digit:.3g} s would do, by the means"

@@ -2,6 +2,7 @@
 
 import contextlib
 import dataclasses
+import math
 import time
 
 import numpy as np
@@ -14,18 +15,20 @@ from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider.history import History
 from asperity.slider.integrators import integrator
-from asperity.slider.longer import advice, needed
+from asperity.slider.longer import lasting, needed, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
+from asperity.slider.steady import fading_rate, two_states
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
 from asperity.waveform import AT_REST
 
 _RECORDS = 4000
-_FARTHEST = 16.0  # times the usual duration, that a march goes on by itself
-_FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
+# Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell
+# anything; and of mu F_N, from which on friction swings.
+_SEEN, _SWINGS = 0.1, 1e-3
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
 
 
@@ -125,42 +128,25 @@ class March:
                 )
             self._run.checkpoint(self.done, self.table.steps, self.tree)
 
+    @property
+    def duration(self) -> float:
+        """Time it is marched for, s."""
+        return self._timed.duration
+
     def run(self) -> SlideResult:
         """March to the end, from wherever the march stands.
 
         Where the case says no duration it goes on until it has settled, within bounds.
         """
-        while True:
-            answer, duration = self._to_the_end()
-            if answer.settled:
-                return self._told(answer)
-            farthest = _FARTHEST * self.model.duration
-            marched = self._timed.duration
-            if self.model.solve.duration is not None or marched >= farthest * (1.0 - 1e-9):
-                note = advice(duration)
-                return self._told(dataclasses.replace(answer, notes=(*answer.notes, note)))
-            low, high = (share * marched for share in _FURTHER)
-            self._go_on(min(max(duration or high, low), high, farthest))
+        return until_settled(self.model, self)
 
-    def _told(self, answer: SlideResult) -> SlideResult:
-        """Return an answer with how far it went on."""
-        if self._timed is self.model:
-            return answer
-        until = "when it had settled" if answer.settled else "and has not settled"
-        note = (
-            f"solve.duration is left out: the march went on to {self._timed.duration:.3g} s, "
-            f"{until}"
-        )
-        return dataclasses.replace(answer, notes=(note, *answer.notes))
-
-    def _go_on(self, duration: float) -> None:
-        """Take a later end."""
-        longer = self.model.solve.model_copy(update={"duration": duration}, units="SI")
-        self._timed = dataclasses.replace(self.model, solve=longer)
+    def go_on(self, duration: float) -> None:
+        """Take a later end, s."""
+        self._timed = lasting(self.model, duration)
         self.table = Timetable(self._timed)
         self._start, self._first_half, self._quarters = None, None, []
 
-    def _to_the_end(self) -> tuple[SlideResult, float | None]:
+    def to_the_end(self) -> tuple[SlideResult, float | None]:
         """March to the end, and say what duration would do."""
         table = self.table
         stride, tail = BLOCK, table.steps
@@ -224,7 +210,7 @@ class March:
         self.done, self.seconds = tree["done"], tree["seconds"]
         self._body.kept = tree["body"]
         if tree["duration"] != self.model.duration:
-            self._go_on(tree["duration"])
+            self.go_on(tree["duration"])
         self._quarters = [(one[0], one[1]) for one in tree["quarters"]]
         self._start = None if tree["start"] is None else tuple(tree["start"])
         self._first_half = tree["first_half"]
@@ -254,13 +240,25 @@ class March:
             steps=table.steps,
             cycles=table.cycles,
             history=self.history() if self._record else None,
-            notes=march_notes(self._timed, table, residual, broke=broke),
+            notes=march_notes(self._timed, table, residual, broke=broke) + self._beside(halves),
             substeps=model.substeps,
             seconds=self.seconds,
         )  # fmt: skip
         if answer.settled:
             return answer, None
         return answer, needed(self._timed, table, self._means(), residual, broke=broke)
+
+    def _beside(self, halves: tuple[np.void, np.void]) -> tuple[str, ...]:
+        """Return a note where a body goes on sticking and slipping beside steady sliding."""
+        model, table = self.model, self.table
+        rate = None if model.vibrates or model.normal is not None else fading_rate(model)
+        if rate is None:
+            return ()
+        first, second = (float(half["friction_x_max"] - half["friction_x_min"]) for half in halves)
+        faded = 0.5 * rate * table.window * table.step
+        lasts = second > 0.5 * (1.0 + math.exp(-faded)) * first
+        swings = faded > _SEEN and second > _SWINGS
+        return (two_states(model),) if swings and lasts else ()
 
     def history(self) -> History:
         """Return motion and forces of the stretches recorded so far."""

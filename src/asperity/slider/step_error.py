@@ -27,6 +27,8 @@ from asperity.slider.unknowns import unknown_scales
 
 WANTED = 1e-3
 """Error of a ratio that a step is chosen by, over the ratio."""
+NOTED = "the step makes an error of about"
+"""How the note on an error that is too great begins."""
 _LEAST_RATIO = 1e-3  # what a ratio is taken as at least, for its error to be small against it
 _CLOSING = 6  # cycles at most to a state on another step
 _MOST_AGAIN = 50  # cycles at most that are run again
@@ -80,15 +82,19 @@ def refined(
 
 def _noted(answer: SlideResult, advice: str) -> SlideResult:
     error = answer.step_error or 0.0
-    note = (
-        f"the step makes an error of about {error:.2g} in the ratio of {answer.ratio:.3g}: {advice}"
-    )
+    note = f"{NOTED} {error:.2g} in the ratio of {answer.ratio:.3g}: {advice}"
     return dataclasses.replace(answer, notes=(*answer.notes, note))
 
 
 def allowed(answer: SlideResult) -> float:
     """Return the error of a ratio that a step may make unannounced."""
-    return WANTED * max(abs(answer.ratio), _LEAST_RATIO)
+    return float(allowed_of(np.array(answer.ratio)))
+
+
+def allowed_of(ratio: FloatArray) -> FloatArray:
+    """Return the error of each of some ratios that a step may make unannounced."""
+    found: FloatArray = WANTED * np.maximum(np.abs(ratio), _LEAST_RATIO)
+    return found
 
 
 def error_of_state(cycle: Cycle, model: Model) -> float | None:

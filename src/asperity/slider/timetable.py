@@ -78,6 +78,20 @@ class Timetable:
         third = (self.steps - self.middle) // 2 // BLOCK * BLOCK
         return self.window_start + first, self.middle, self.middle + third
 
+    @property
+    def whole_quarters(self) -> tuple[int, int, int]:
+        """Steps at which the first three quarters of the window end, of whole cycles if it can be.
+
+        Of a window of three cycles and fewer, or of none at all, they are quarters of its steps.
+        """
+        parts = self.cycles // 2, self.cycles - self.cycles // 2
+        spans = self.middle - self.window_start, self.steps - self.middle
+        first, third = (
+            round(span * (part // 2) / part) if self.cycles > 3 else span // 2
+            for span, part in zip(spans, parts, strict=True)
+        )
+        return self.window_start + first, self.middle, self.middle + third
+
 
 def march_standing(
     model: Model,

@@ -21,12 +21,14 @@ from asperity.slider.march import march_key
 from asperity.slider.model import Model
 from asperity.slider.periodic import cycle_steps
 from asperity.slider.result import SlideResult, inputs
+from asperity.slider.step_error import NOTED, WANTED, allowed_of
 from asperity.sweep.axes import Axis, parse_axes
 from asperity.sweep.bodies import Bodies
 from asperity.sweep.grid import Grid
 
 _WAYS = ("there", "back")
 _DIMS = ("way", "value")
+_OF_BODY = ("ratio", "settled", "step_error")
 # Of mu W: two states nearer to each other than this are one.
 _APART = 1e-4
 _CYCLES = 40  # of a state, in most cases
@@ -47,7 +49,7 @@ class Branches(Result):
     value : ndarray, shape (n,)
         Its values in its unit.
     ratio, ratio_mean_load, penetration_swing, open_share, normal_min, normal_max, period,
-    multiplier, settled
+    multiplier, settled, step_error
         ndarray, shape (2, n), there and back; NaN where no state was found that repeats itself
         after 1, 2 or 4 cycles. What is normal to the plane is NaN without ``[normal]``.
     missing : int
@@ -76,6 +78,7 @@ class Branches(Result):
     period: FloatArray = quantity("", "", "cycles until the state repeats itself", dims=_DIMS)
     multiplier: FloatArray = quantity("", "", "growth of a disturbance over it", dims=_DIMS)
     settled: FloatArray = quantity("", "", "1 where the state stays, 0 where not", dims=_DIMS)
+    step_error: FloatArray = quantity("", "", "error of the ratio from the step", dims=_DIMS)
     missing: int = quantity("", "", "states not found")
     seconds: float = quantity(
         "", "s", "time it took", key="seconds", only="json", shown=False, default=0.0
@@ -209,7 +212,9 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
             state = walk.to(body)
             rows.append(np.array([_of(state, name) for name in names]))
             if not isinstance(state, ConvergenceError):
-                notes += [note for note in state.notes if note not in notes]
+                notes += [
+                    note for note in state.notes if note not in notes and not note.startswith(NOTED)
+                ]
             run.checkpoint(len(rows), len(bodies), standing, what="states")
     there, back = np.split(np.array(rows), 2)
     ways = np.stack([there, back[::-1]])
@@ -222,7 +227,18 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         **numbers,
         missing=int(np.isnan(numbers["ratio"]).sum()),
         seconds=time.perf_counter() - began,
-        notes=tuple(notes),
+        notes=(*notes, *_of_the_step(numbers["ratio"], numbers["step_error"])),
+    )
+
+
+def _of_the_step(ratio: FloatArray, error: FloatArray) -> tuple[str, ...]:
+    """Return a note on the states of which the step makes more of an error than it may."""
+    great = error > allowed_of(ratio)
+    if not great.any():
+        return ()
+    return (
+        f"{NOTED} {error[great].max():.2g} in a ratio, and of more than {WANTED:g} of it in "
+        f"{great.sum()} of {ratio.size} states: give a smaller solve.step",
     )
 
 
@@ -230,6 +246,6 @@ def _of(state: SlideResult | ConvergenceError, name: str) -> float:
     """A number of a state, NaN where it has none."""
     if isinstance(state, ConvergenceError):
         return np.nan
-    holder = state if name in ("ratio", "settled") else state.normal
+    holder = state if name in _OF_BODY else state.normal
     value = getattr(holder, name, None)
     return np.nan if value is None else float(value)

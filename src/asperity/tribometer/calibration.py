@@ -22,6 +22,9 @@ class Line:
         Of the two.
     degrees_of_freedom : float
         Of the deviations; infinite where they are stated.
+    limits : tuple of (str, float)
+        What else keeps a value from what was applied, each with the most that it does, in the
+        signal's unit: nothing else is known of it (GUM 4.3.7).
     """
 
     gain: float = 1.0
@@ -30,6 +33,12 @@ class Line:
     offset_deviation: float = 0.0
     correlation: float = 0.0
     degrees_of_freedom: float = math.inf
+    limits: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def known(self) -> bool:
+        """Whether anything tells how uncertain it is."""
+        return bool(self.gain_deviation or self.offset_deviation or self.limits)
 
     def of(self, volts: FloatArray) -> FloatArray:
         """Return the signal."""

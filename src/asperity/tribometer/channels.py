@@ -1,10 +1,11 @@
 """The `[channels]` table: where each signal comes from, and what its volts mean."""
 
+import dataclasses
 import datetime
 from typing import Annotated, Any, ClassVar
 
 import pydantic
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError, shown
@@ -26,23 +27,90 @@ class Channel(Table):
     points : list of [str, str]
         What the sensor put out and what was applied, both with units: the calibration. Left out,
         a file has the signal in a unit of its own.
+    points_down : list of [str, str]
+        The same, applied from above: they tell the hysteresis.
     uncertainty : str, optional
         Standard deviation of what was applied; left out, that of the points about their line.
     date : date, optional
         Of the calibration.
     valid_days : int
         After so many days it is out of date.
+    due : date, optional
+        Last day that it is good for, in place of that.
+    sensor, serial, certificate : str
+        Make and model, its serial number, and the calibration's.
+    capacity : str, optional
+        End of the sensor's range.
+    hysteresis, creep : str, optional
+        Largest difference between loads from above and from below, and of a load that stays; as
+        values, or as shares of the capacity: "0.1 %".
+    accuracy_class : float, optional
+        No single deviation is more than so many percent of the capacity, by the maker's word.
     """
 
     channel: str
     points: tuple[tuple[float, float], ...] = ()
+    points_down: tuple[tuple[float, float], ...] = ()
     uncertainty: float | None = None
     date: datetime.date | None = None
     valid_days: Count = 730
+    due: datetime.date | None = None
+    sensor: str = ""
+    serial: str = ""
+    certificate: str = ""
+    capacity: float | None = None
+    hysteresis: float | None = None
+    creep: float | None = None
+    accuracy_class: Annotated[float, Field(gt=0, le=100)] | None = None
+
+    @model_validator(mode="after")
+    def _sheet(self) -> "Channel":
+        for key in ("capacity", "hysteresis", "creep"):
+            value = getattr(self, key)
+            if value is not None and (value < 0.0 or (value == 0.0 and key == "capacity")):
+                raise InputError(f"{self.table}.{key} is {value:g}; it must be a size above zero")
+        if self.accuracy_class is not None and self.capacity is None:
+            raise InputError(
+                f"{self.table}.accuracy_class is a share of the sensor's capacity; give "
+                f"{self.table}.capacity as well"
+            )
+        if self.points_down and not self.points:
+            raise InputError(f"{self.table}.points_down stands alone; give points as well")
+        if self.due is not None and self.date is not None and self.due < self.date:
+            raise InputError(f"{self.table}.due lies before {self.table}.date; look at both")
+        return self
+
+    @property
+    def last_day(self) -> datetime.date | None:
+        """The last day that the calibration is good for, if that is told."""
+        if self.due is not None or self.date is None:
+            return self.due
+        return self.date + datetime.timedelta(days=self.valid_days)
+
+    def loop(self) -> float | None:
+        """Return the hysteresis, as stated or by its points, in the signal's unit."""
+        if self.hysteresis is not None or not self.points_down:
+            return self.hysteresis
+        import numpy as np
+
+        line = self._fitted()
+        volts, applied = np.array(sorted(self.points, key=lambda pair: pair[1])).T
+        down, at = np.array(self.points_down).T
+        rising = np.interp(at, applied, line.of(volts) - applied)
+        return float(np.abs(line.of(down) - at - rising).max())
 
     def line(self) -> Line:
         """Return the calibration as a line with its covariance."""
-        return fitted_line(self.points, self.uncertainty)
+        line, loop = self._fitted(), self.loop()
+        limits = [("hysteresis", 0.5 * loop)] if loop else []
+        if self.creep:
+            limits.append(("creep", self.creep))
+        if not limits and not line.known and self.accuracy_class and self.capacity:
+            limits.append(("class of the sensor", 0.01 * self.accuracy_class * self.capacity))
+        return dataclasses.replace(line, limits=tuple(limits))
+
+    def _fitted(self) -> Line:
+        return fitted_line((*self.points, *self.points_down), self.uncertainty)
 
 
 def _channel(name: str, given: Any, info: pydantic.ValidationInfo) -> Any:
@@ -59,20 +127,32 @@ def _channel(name: str, given: Any, info: pydantic.ValidationInfo) -> Any:
         except InputError as error:
             raise InputError(f"channels.{name}.{what} is {shown(value)}; {error}") from None
 
-    if "points" in read:
-        points = read["points"]
+    for key in ("points", "points_down"):
+        if key not in read:
+            continue
+        points = read[key]
         if not isinstance(points, list | tuple) or not all(
             isinstance(pair, list | tuple) and len(pair) == 2 for pair in points
         ):
             raise InputError(
-                f"channels.{name}.points is {shown(points)}; it must be a list of pairs such as "
+                f"channels.{name}.{key} is {shown(points)}; it must be a list of pairs such as "
                 f'["1 V", "{SIGNALS[name].example}"]'
             )
-        read["points"] = [
-            (number(put, "V", "points"), number(applied, unit, "points")) for put, applied in points
-        ]
-    if read.get("uncertainty") is not None:
-        read["uncertainty"] = number(read["uncertainty"], unit, "uncertainty")
+        read[key] = [(number(put, "V", key), number(applied, unit, key)) for put, applied in points]
+    for key in ("uncertainty", "capacity"):
+        if read.get(key) is not None:
+            read[key] = number(read[key], unit, key)
+    for key in ("hysteresis", "creep"):
+        value = read.get(key)
+        if isinstance(value, str) and value.rstrip().endswith("%"):
+            if read.get("capacity") is None:
+                raise InputError(
+                    f"channels.{name}.{key} is {shown(value)}, a share of the capacity; give "
+                    f"channels.{name}.capacity as well"
+                )
+            read[key] = number(value, "", key) * float(read["capacity"])
+        elif value is not None:
+            read[key] = number(value, unit, key)
     # Of its own class, so that what is refused is told by its own name.
     own: Any = type("Channel", (Channel,), {"table": f"channels.{name}", "__module__": __name__})
     return own.model_validate(read)
@@ -88,7 +168,8 @@ class Channels(Table):
     Parameters
     ----------
     torque_steel, torque_bronze, speed_steel, speed_bronze, drive_voltage, load_cell, \
-current_steel, current_bronze, acceleration : Channel, optional
+current_steel, current_bronze, acceleration, acceleration_2, acceleration_3, temperature, \
+temperature_2, normal_force : Channel, optional
         As ``torque_steel = { channel = "A", points = [["0 V", "0 N m"], ["5 V", "2 N m"]],
         date = 2019-05-01 }``.
     """
@@ -104,6 +185,11 @@ current_steel, current_bronze, acceleration : Channel, optional
     current_steel: Annotated[Channel | None, _reads("current_steel")] = None
     current_bronze: Annotated[Channel | None, _reads("current_bronze")] = None
     acceleration: Annotated[Channel | None, _reads("acceleration")] = None
+    acceleration_2: Annotated[Channel | None, _reads("acceleration_2")] = None
+    acceleration_3: Annotated[Channel | None, _reads("acceleration_3")] = None
+    temperature: Annotated[Channel | None, _reads("temperature")] = None
+    temperature_2: Annotated[Channel | None, _reads("temperature_2")] = None
+    normal_force: Annotated[Channel | None, _reads("normal_force")] = None
 
     @model_validator(mode="after")
     def _once(self) -> "Channels":

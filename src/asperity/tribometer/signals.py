@@ -38,9 +38,20 @@ SIGNALS: Mapping[str, Signal] = {
         Signal("current_steel", "A", "current of the steel disc's motor", "2 A"),
         Signal("current_bronze", "A", "current of the bronze disc's motor", "0.8 A"),
         Signal("acceleration", "m/s**2", "acceleration of the shaken disc", "100 m/s**2"),
+        Signal("acceleration_2", "m/s**2", "acceleration by a second sensor", "100 m/s**2"),
+        Signal("acceleration_3", "m/s**2", "acceleration by a third sensor", "100 m/s**2"),
+        Signal("temperature", "K", "temperature of the lubricant or a disc", "25 degC"),
+        Signal("temperature_2", "K", "temperature at a second place", "25 degC"),
+        Signal("normal_force", "N", "force between the discs", "140 N"),
     )
 }
 """In the order in which recordings hold them."""
+
+WATCHED = tuple(SIGNALS)[:8]
+"""The eight signals of the rig, without which no procedure runs."""
+
+SIMULATED = (*WATCHED, "acceleration")
+"""Those of the simulated rig."""
 
 NEEDED = ("torque_steel", "speed_steel", "speed_bronze", "drive_voltage")
 """Those without which a recording cannot be reduced."""

@@ -1,26 +1,24 @@
 """An elastic block marched through its steps: gravity, pressure, drive, vibration."""
 
 import dataclasses
-import functools
 import math
 import time
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, inputs
 from asperity.block.series import Frame
+from asperity.block.solution.course import Course
 from asperity.block.solution.notes import block_notes
-from asperity.block.solution.stability import Flutter, Stability
-from asperity.contact.increment.solver import SolverMemory
-from asperity.contact.motion.ledger import Energies, energies, power_ledger
+from asperity.block.solution.progress import Kept, Progress
+from asperity.block.solution.stability import Flutter
+from asperity.contact.motion.ledger import energies, power_ledger
 from asperity.contact.motion.rest import rest_under_load
-from asperity.contact.motion.steps import Snapshot, Stepper
-from asperity.contact.motion.sums import Sums
+from asperity.contact.motion.steps import Stepper
 from asperity.contact.motion.system import SystemState
 from asperity.errors import ConvergenceError
 from asperity.runs import Run
@@ -28,43 +26,14 @@ from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree, from_tree, to_tree
 from asperity.slider.history import History
 from asperity.slider.kernels import condense
+from asperity.slider.longer import needed, until_settled
 from asperity.slider.summary import of_stretches
-from asperity.slider.timetable import Timetable, march_standing
-
-_RECORDS = 4000
-_FRAMES = 48
-_FRAME_CYCLES = 2
+from asperity.slider.timetable import march_standing
 
 # Seconds between two times of telling how far it is.
 _REPORTS = 0.1
 
 _NOT_FINITE = "the march left the finite numbers; look for values far out of the ordinary"
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Progress:
-    """What a march has come to, in one piece: no interruption can split it."""
-
-    snapshot: Snapshot  #: Of the stepper
-    done: int = 0  #: Increments solved
-    #: seconds, march_seconds, timed: As in `asperity.block.result.BlockResult`
-    seconds: float = 0.0
-    march_seconds: float = 0.0
-    timed: int = 0
-    #: (3, numbers of a node): Mean, least and greatest of each recorded stretch
-    rows: tuple[FloatArray, ...] | FloatArray = ()
-    nodes: tuple[FloatArray, ...] | FloatArray = ()  #: Of the stretch under way
-    frames: tuple[Frame, ...] = ()  #: For an animation
-    #: window_energies, first_half, first_pressure: Of the window, as far as it is reached
-    window_energies: Energies | None = None
-    first_half: Sums | None = None
-    first_pressure: FloatArray | None = None
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class _Kept:
-    progress: Progress
-    memories: dict[str, SolverMemory]
 
 
 class BlockMarch:
@@ -90,10 +59,11 @@ class BlockMarch:
     ) -> None:
         self.problem = problem
         self._run = run or Run()
-        self._ends = _stretch_ends(problem.timetable) if history else None
-        self._frame_steps = _frame_steps(problem) if history else frozenset()
+        self._history = history
+        self._course = Course.of(problem, (), history=history)
         self._stepper: Stepper | None = None
         self._progress: Progress | None = None
+        self._first = 0
 
     @property
     def stepper(self) -> Stepper:
@@ -107,19 +77,32 @@ class BlockMarch:
     def progress(self) -> Progress:
         """What the march has come to."""
         if self._progress is None:
-            frames = (_frame(self.stepper.state),) if 0 in self._frame_steps else ()
+            frames = (_frame(self.stepper.state),) if 0 in self._course.frame_steps else ()
             self._progress = Progress(self.stepper.snapshot(), frames=frames)
         return self._progress
+
+    @property
+    def course(self) -> Course:
+        """How long the block is marched, and what is due on the way."""
+        gone_on = self._progress.durations if self._progress is not None else ()
+        if self._course.durations != gone_on:
+            self._course = Course.of(self.problem, gone_on, history=self._history)
+        return self._course
+
+    @property
+    def duration(self) -> float:
+        """Time it is marched for, s."""
+        return self.course.problem.model.duration
 
     @property
     def done(self) -> int:
         """Increments solved."""
         return self._progress.done if self._progress is not None else 0
 
-    @functools.cached_property
+    @property
     def flutter(self) -> Flutter | None:
         """What grows as the block slides; known before the first increment."""
-        return Stability(self.problem).flutter()
+        return self.course.flutter
 
     def state(self) -> Tree:
         """Return where the march stands, to be kept: to the last bit, and with what it has learnt.
@@ -129,12 +112,12 @@ class BlockMarch:
         progress = self.progress
         rows, nodes = np.array(progress.rows), np.array(progress.nodes)
         progress = dataclasses.replace(progress, rows=rows, nodes=nodes)
-        tree: Tree = to_tree(_Kept(progress, self.stepper.memories()))
+        tree: Tree = to_tree(Kept(progress, self.stepper.memories()))
         return tree
 
     def restore(self, tree: Tree) -> None:
         """Go on from where a march of the same problem stood."""
-        kept = from_tree(_Kept, tree)
+        kept = from_tree(Kept, tree)
         self._progress = kept.progress
         self._stepper = Stepper(self.problem.system, kept.progress.snapshot.state)
         self._stepper.restore(kept.progress.snapshot)
@@ -148,7 +131,7 @@ class BlockMarch:
         return tree is not None
 
     def run(self) -> BlockResult:
-        """March to the end.
+        """March to the end; where the case says no duration, on until the block has settled.
 
         Stopped by an exception, Ctrl-C among them, the march stands at the last whole increment;
         called again it goes on from there.
@@ -159,13 +142,30 @@ class BlockMarch:
             An increment did not converge however small; with time, residual, points in contact
             and the increments done.
         """
+        self._first = self.done
+        model = self.problem.model
+        return until_settled(model, self, "settled" if model.vibrates else None)
+
+    def go_on(self, duration: float) -> None:
+        """Take a later end, s; what is recorded stays."""
+        at, frames = self.duration, self.progress.frames
+        self._run.notify(f"not settled after {at:.3g} s: goes on to {duration:.3g} s")
+        self._went_on(
+            durations=(*self.progress.durations, duration),
+            # Those of the last cycles of another end.
+            frames=() if self.problem.model.vibrates else frames,
+            window_energies=None, first_half=None, first_pressure=None, quarters=(),
+        )  # fmt: skip
+
+    def to_the_end(self) -> tuple[BlockResult, float | None]:
+        """March to the end, and say what duration would do, in s."""
         told = time.perf_counter()
-        table, first = self.problem.timetable, self.done
+        table = self.course.table
         try:
             while self.done < table.steps:
-                self._begin_half()
+                self._begin_part()
                 # The first increment of a program may have compiled kernels.
-                timed = self.done > first
+                timed = self.done > self._first
                 self._increments(self._until(told + _REPORTS) if timed else 1, timed=timed)
                 now = time.perf_counter()
                 if now - told >= _REPORTS or self.done == table.steps:
@@ -182,40 +182,44 @@ class BlockMarch:
             raise
         return self._result()
 
-    def _go_on(self, **changed: Any) -> None:
+    def _went_on(self, **changed: Any) -> None:
         snapshot = self.stepper.snapshot()
         self._progress = dataclasses.replace(self.progress, snapshot=snapshot, **changed)
 
-    def _begin_half(self) -> None:
-        """Sum anew where the window opens, and in its middle."""
-        table, progress, stepper = self.problem.timetable, self.progress, self.stepper
-        if progress.done == table.window_start and progress.window_energies is None:
+    def _begin_part(self) -> None:
+        """Sum anew where the window opens and in its middle, and keep the sums of its quarters."""
+        table, stepper = self.course.table, self.stepper
+        first, middle, third = table.whole_quarters
+        if self.done == table.window_start and self.progress.window_energies is None:
             opened = energies(stepper.system, stepper.state)
             stepper.clear()
-            self._go_on(window_energies=opened)
-        elif progress.done == table.middle and progress.first_half is None:
+            self._went_on(window_energies=opened)
+        if self.done == first and not self.progress.quarters:
+            self._went_on(quarters=(stepper.sums,))
+        if self.done == middle and self.progress.first_half is None:
             sums, pressure = stepper.sums, stepper.mean_pressure
             stepper.clear()
-            self._go_on(first_half=sums, first_pressure=pressure)
+            self._went_on(first_half=sums, first_pressure=pressure)
+        if self.done == third and len(self.progress.quarters) == 1:
+            self._went_on(quarters=(*self.progress.quarters, stepper.sums))
 
     def _until(self, report: float) -> int:
         """Increments up to the next at which something is due, as far as they end by a time."""
-        progress, table = self.progress, self.problem.timetable
-        due = {table.window_start, table.middle, table.steps, *self._frame_steps}
-        left = min(number for number in due if number > progress.done) - progress.done
+        progress = self.progress
+        left = min(number for number in self.course.due if number > progress.done) - progress.done
         if not progress.timed:
             return 1
         each = progress.march_seconds / progress.timed
         return max(1, min(left, int((report - time.perf_counter()) / each)))
 
     def _increments(self, most: int, *, timed: bool) -> None:
-        began, progress, step = time.perf_counter(), self.progress, self.problem.timetable.step
+        began, progress, step = time.perf_counter(), self.progress, self.course.table.step
         ends = step * np.arange(progress.done + 1, progress.done + most + 1, dtype=np.float64)
         rows = self.stepper.steps_to(ends, step)
         solved = time.perf_counter()
         taken = len(rows)
         recorded = self._recorded(progress, rows)
-        self._go_on(
+        self._went_on(
             done=progress.done + taken,
             march_seconds=progress.march_seconds + timed * (solved - began),
             timed=progress.timed + timed * taken,
@@ -226,32 +230,34 @@ class BlockMarch:
     def _recorded(self, progress: Progress, taken: FloatArray) -> dict[str, Any]:
         """What is recorded of increments, by the rows of their ends."""
         rows, nodes, frames = [*progress.rows], [*progress.nodes], progress.frames
-        if self._ends is not None:
+        course = self.course
+        if course.ends is not None:
             for number, node in enumerate(taken, start=progress.done + 1):
                 nodes.append(node)
-                if number == self._ends[len(rows)]:
+                if number == course.ends[len(rows)]:
                     rows.append(_condensed(nodes))
                     nodes = []
-        if progress.done + len(taken) in self._frame_steps:
+        if progress.done + len(taken) in course.frame_steps:
             frames = (*frames, _frame(self.stepper.state))
         return {"rows": tuple(rows), "nodes": tuple(nodes), "frames": frames}
 
     @property
     def history(self) -> History:
         """Motion and forces up to now."""
-        progress, step = self.progress, self.problem.timetable.step
-        if self._ends is None or not progress.done:
+        progress, step = self.progress, self.course.table.step
+        ends = self.course.ends
+        if ends is None or not progress.done:
             raise ValueError("nothing is recorded")
-        ends, rows = self._ends[: len(progress.rows)], [*progress.rows]
+        ends, rows = ends[: len(progress.rows)], [*progress.rows]
         if len(progress.nodes):
             ends, rows = np.append(ends, progress.done), [*rows, _condensed(progress.nodes)]
         counts = np.diff(ends, prepend=0)
         at, span = (np.asarray(step * steps) for steps in (ends - counts, counts))
         return of_stretches(step, at, span, *np.stack(rows, axis=1))
 
-    def _result(self) -> BlockResult:
-        problem, stepper = self.problem, self.stepper
-        model, table, progress = problem.model, problem.timetable, self.progress
+    def _result(self) -> tuple[BlockResult, float | None]:
+        problem, stepper, course = self.problem, self.stepper, self.course
+        model, table, progress = course.problem.model, course.table, self.progress
         first, start = progress.first_half, progress.window_energies
         if first is None or start is None or progress.first_pressure is None:
             raise ConvergenceError(f"the march is at {self.done} of {table.steps} increments")
@@ -266,13 +272,14 @@ class BlockMarch:
         residual = abs(halves[1] - halves[0]) / force
         mean = sums.drive_force / span
         powers = power_ledger(sums, start, end)
+        means = progress.means(second, force)
         broke = stepper.breakaway is not None
         # Its residual has every power in it.
         if not all(map(math.isfinite, (mean, residual, powers.residual))):
             raise ConvergenceError(_NOT_FINITE)
-        return BlockResult(
+        answer = BlockResult(
             problem=problem,
-            model=model,
+            model=problem.model,
             ratio=mean / force,
             drive_force=mean,
             friction_mean=(sums.friction_x / span, sums.friction_y / span),
@@ -280,20 +287,13 @@ class BlockMarch:
             friction_min=(sums.friction_x_min, sums.friction_y_min),
             breakaway_time=stepper.breakaway,
             ledger=powers,
-            **march_standing(model, table, residual, broke=broke)._asdict(),
+            **march_standing(model, table, residual, broke=broke, means=means)._asdict(),
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,
             seconds=progress.seconds,
-            history=self.history if self._ends is not None else None,
-            notes=block_notes(
-                problem,
-                stepper,
-                powers,
-                residual,
-                self.flutter,
-                broke=broke,
-            ),
+            history=self.history if self._history else None,
+            notes=block_notes(course.problem, stepper, powers, residual, self.flutter, broke=broke),
             normal_force=sums.normal_force / span,
             iterations_mean=sums.iterations / sums.increments,
             iterations_max=int(sums.iterations_max),
@@ -306,6 +306,9 @@ class BlockMarch:
             peak_pressure=sums.pressure_max,
             frames=progress.frames,
         )
+        if answer.settled:
+            return answer, None
+        return answer, needed(model, table, means, residual, broke=broke)
 
 
 def solve_block(
@@ -330,21 +333,6 @@ def solve_block(
         An increment did not converge however small.
     """
     return BlockMarch(problem, history=history, run=run).run()
-
-
-def _frame_steps(problem: BlockProblem) -> frozenset[int]:
-    table, model = problem.timetable, problem.model
-    span = table.steps
-    if model.vibrates:
-        span = min(span, round(_FRAME_CYCLES / (model.frequency * table.step)))
-    places = np.linspace(table.steps - span, table.steps, _FRAMES + 1)
-    return frozenset(np.round(places).astype(int).tolist())
-
-
-def _stretch_ends(table: Timetable) -> npt.NDArray[np.int64]:
-    """Steps at which recorded stretches end: a few thousand, and every step of the last cycles."""
-    stride, fine = max(1, table.steps // _RECORDS), max(1, table.steps - table.tail)
-    return np.union1d(np.arange(stride, fine, stride), np.arange(fine, table.steps + 1))
 
 
 def _condensed(nodes: Sequence[FloatArray] | FloatArray) -> FloatArray:

@@ -145,7 +145,9 @@ def _told(
 ) -> OnDemand:
     drive, operation = problem.drive, problem.operation
     seat = operation.output_torque
-    between = operation.travel_torque
+    between = operation.through_travel_torque
+    if between is None:
+        between = operation.travel_share * seat
     turns = np.array([drive.stroke_seat, drive.stroke - 2.0 * drive.stroke_seat, drive.stroke_seat])
     free = model.point.worm_torque(between, model.friction)
     unshaken = np.array([shaken.torque_static, free, shaken.torque_static])
@@ -183,7 +185,7 @@ def _told(
                 "factor of 2 for the latter two",
                 *_least(shaken, electrical),
                 *of_another_speed((found.before, found.after), problem.worm_speed),
-                *(() if worn else ("[rating] does not apply, so wear and heat are not told",)),
+                *_of_life(problem, worn is not None),
             ),
         }
     )
@@ -210,6 +212,18 @@ def _taken(problem: DriveProblem, shaken: DriveResult) -> tuple[float, float]:
     given = shaken.ledger.actuator
     efficiency = 1.0 if problem.actuator is None else problem.actuator.efficiency
     return max(given, 0.0) / efficiency, abs(given)
+
+
+def _of_life(problem: DriveProblem, told: bool) -> tuple[str, ...]:
+    """Return what wear and heat do not say by themselves."""
+    if not told:
+        return ("[rating] does not apply, so wear and heat are not told",)
+    if problem.operation.duty_cycle is None:
+        return ()
+    return (
+        "wear goes by the parts of operation.duty_cycle and heat by the hottest: each is taken to "
+        "be shaken for the share of its time, and at the friction, of the stroke",
+    )
 
 
 def _exchanged(found: Exchange) -> dict[str, Any]:

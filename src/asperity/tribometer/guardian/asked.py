@@ -93,8 +93,7 @@ class AskedSupply(_Asked):
 
     def reading(self) -> Reading:
         """Return what it gives."""
-        voltage, current = self._ask("reading")
-        return Reading(float(voltage), float(current))
+        return Reading(*self._ask("reading"))
 
     def output(self) -> bool | None:
         """Return whether it says its output is on."""

@@ -9,15 +9,16 @@ from typing import Any
 
 from asperity.casefile import Case
 from asperity.errors import AsperityError
-from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian import asked
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
 from asperity.tribometer.guardian.in_time import ScopeInTime
 from asperity.tribometer.guardian.rig import Address, RigLine
+from asperity.tribometer.guardian.scopes import opened_scope
+from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
 from asperity.tribometer.instruments.bench import Bench
-from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.instruments.inputs import simulated_of
 from asperity.tribometer.instruments.manual import (
     ManualAccelerometer,
     ManualSupply,
@@ -30,11 +31,9 @@ from asperity.tribometer.instruments.parameters import Guard as Table
 from asperity.tribometer.instruments.protocols import (
     Input,
     Person,
-    Scope,
     Supply,
     VibrationDrive,
 )
-from asperity.tribometer.parameters import Sonotrode
 
 REPLAY = "replay"
 BACKENDS = "sim", REPLAY, "hardware", "manual"
@@ -64,12 +63,6 @@ class _ByHand(ManualVibration):
     def keep_alive(self) -> None:
         """Tell the guardian that the procedure goes on."""
         self._guard.beat()
-
-
-def _picoscope(inputs: tuple[Input, ...]) -> Scope:
-    from asperity.tribometer.instruments.picoscope import PicoScope
-
-    return PicoScope(inputs)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -138,13 +131,15 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     InstrumentError
         No guardian can be started.
     """
-    inputs = inputs_of(case.require(Channels), case.require(Sonotrode))
+    inputs = inputs_for(case)
     if backend == "sim":
-        return _simulated(case, inputs)
+        return _simulated(case, simulated_of(inputs))
     person = Operator()
     guard = Guard(case, backend, None)
     owned, _ = owned_by(case, backend)
     due = case.get(Table, Table()).due(simulated=False)
+    sampled = case.get(Acquisition, Acquisition())
+    late = sampled.late if sampled.folder else 0.0
     vibration: VibrationDrive = (
         _Vibration(guard) if "vibration" in owned else _ByHand(person, guard)
     )
@@ -154,7 +149,13 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     }
     amplifier = outputs.pop("amplifier")
     return GuardedBench(
-        scope=ScopeInTime("PicoScope", inputs, lambda: _picoscope(inputs), due),
+        scope=ScopeInTime(
+            sampled.name,
+            inputs,
+            lambda: opened_scope(case, inputs),
+            sampled.deadline(due),
+            late=late,
+        ),
         vibration=vibration,
         motors=outputs,
         tachometer=ManualTachometer(person),

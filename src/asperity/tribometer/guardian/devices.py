@@ -1,16 +1,17 @@
 """The devices of a configuration that a guardian owns."""
 
+import functools
 from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Case
-from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian.asked import AskedListener, AskedSupply, AskedVibration
 from asperity.tribometer.guardian.owned import LISTENER, Device
 from asperity.tribometer.guardian.rig import Address, RigLine
-from asperity.tribometer.instruments.inputs import inputs_of
+from asperity.tribometer.guardian.scopes import opened_scope
+from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
 from asperity.tribometer.instruments.listening import ScopeListener
-from asperity.tribometer.instruments.parameters import Controller, Supplies
+from asperity.tribometer.instruments.parameters import Controller, Guard, Output, Supplies
 from asperity.tribometer.parameters import Sonotrode
 
 DRIVE = "vibration controller"
@@ -38,6 +39,21 @@ def owned_by(case: Case, backend: str) -> tuple[dict[str, str], tuple[str, ...]]
     return owned, tuple(asked)
 
 
+def deadline_of(case: Case, *, simulated: bool) -> float:
+    """Return how long an instrument may take to answer, s."""
+    due = case.get(Guard, Guard()).due(simulated=simulated)
+    if simulated or case.get(Guard, Guard()).deadline is not None:
+        return due
+    slow = (
+        [one.takes for one in case.require(Supplies).outputs.values()]
+        if (Supplies.table in case)
+        else []
+    )
+    if Controller.table in case:
+        slow.append(case.require(Controller).takes)
+    return max([due, *slow])
+
+
 def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
     """Return the devices, each of which begins to be opened."""
     owned, _ = owned_by(case, backend)
@@ -48,8 +64,10 @@ def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
         found.append(Device(DRIVE, {"vibration": DRIVE}, lambda: _controller(case)))
     outputs = {key: name for key, name in owned.items() if key in OUTPUTS}
     if outputs:
-        found.append(Device("supplies", outputs, lambda: _supplies(case)))
-    found.append(Device("oscilloscope", {LISTENER: _EAR}, lambda: _ear(case)))
+        found += _supplies(case.require(Supplies), outputs)
+    # What is written into a folder comes too late to be listened to.
+    if not case.get(Acquisition, Acquisition()).folder:
+        found.append(Device("oscilloscope", {LISTENER: _EAR}, lambda: _ear(case)))
     return found
 
 
@@ -66,17 +84,42 @@ def _simulated(key: str, name: str, rig: Address) -> Device:
 
 
 def _controller(case: Case) -> dict[str, Any]:
-    from asperity.tribometer.instruments.serial_vibration import SerialVibration
+    from asperity.tribometer.instruments.serial_vibration import Levels, SerialVibration
 
-    return {"vibration": SerialVibration(case.require(Controller))}
+    levels = Levels.of(case.require(Sonotrode))
+    return {"vibration": SerialVibration(case.require(Controller), levels)}
 
 
-def _supplies(case: Case) -> dict[str, Any]:
+def _supplies(table: Supplies, outputs: Mapping[str, str]) -> list[Device]:
+    if table.driver:
+        return [Device("supplies", outputs, lambda: _driven(table))]
+    # Outputs at one address are one device, with one line.
+    places: dict[str, dict[str, Output]] = {}
+    for key, words in table.outputs.items():
+        places.setdefault(words.where, {})[key] = words
+    return [
+        Device(
+            f"supply at {where}",
+            {key: outputs[key] for key in there},
+            functools.partial(_described, there),
+        )
+        for where, there in places.items()
+    ]
+
+
+def _driven(table: Supplies) -> dict[str, Any]:
     from asperity.tribometer.instruments.pymeasure_supply import open_supplies
 
-    return dict(open_supplies(case.require(Supplies)))
+    return dict(open_supplies(table))
+
+
+def _described(there: Mapping[str, Output]) -> dict[str, Any]:
+    from asperity.tribometer.instruments.described_supply import open_described
+
+    return dict(open_described(there))
 
 
 def _ear(case: Case) -> dict[str, Any]:
     sonotrode = case.require(Sonotrode)
-    return {LISTENER: ScopeListener(inputs_of(case.require(Channels), sonotrode), sonotrode)}
+    opened = functools.partial(opened_scope, case)
+    return {LISTENER: ScopeListener(inputs_for(case), sonotrode, opened)}

@@ -11,18 +11,17 @@ import dataclasses
 import queue
 import time
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any
 
 from asperity.tribometer.guardian import wire as wires
-from asperity.tribometer.guardian.hand import Hand
-from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
+from asperity.tribometer.guardian.stop import StopButton
 from asperity.tribometer.guardian.switching import Switching, longest
 from asperity.tribometer.guardian.wire import Head, Wire
+from asperity.tribometer.guardian.writing import Writing
 from asperity.tribometer.instruments.off import said
-from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError
+from asperity.tribometer.instruments.protocols import STOPPED, SWITCHED_OFF, InstrumentError
 
 BEAT = 0.1  #: s
 _OPENING = 20.0  # s that a device may take at the start
@@ -32,6 +31,7 @@ _ATTEMPT = 0.5  # s that one of these takes
 _ATTEMPTS = 10  # of these, when the procedure has ended
 _WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
+_STOPPED = "somebody asks for a stop"
 
 
 @dataclasses.dataclass
@@ -40,7 +40,7 @@ class _Asked:
 
     number: int
     what: str
-    due: float
+    since: float
 
 
 class Guardian:
@@ -86,42 +86,51 @@ class Guardian:
         self._relay, self._trouble = relay, trouble
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
-        self._switching = Switching(devices, by_hand, limit=longest(deadline), now=now)
+        self._switching = Switching(
+            devices, by_hand, limit=longest(deadline), now=now, tick=self._pulse
+        )
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._awaited: dict[cf.Future[Any], _Asked] = {}
         self._on: set[str] = set()
         self._tripped = ""
+        self._kind = SWITCHED_OFF
         self._heard = self._looked = self._tried = now()
-        self._journal: Journal | None = None
-        self._writing = Hand("journal")
-        self._unwritten: list[Verdict] = []
+        self._writing = Writing(StopButton(self.stop).watch)
         self._last: Verdict | None = None
         self._orderly = False
         self._left: int | None = None
 
     def signal(self, number: int) -> None:
         """Take a signal, as often as it comes; may be called from its handler."""
-        self._events.put(lambda: self._trip(f"signal {_named(number)}"))
+        came = self._now()
+        self._events.put(lambda: self._trip(f"signal {_named(number)}", came))
+
+    def stop(self) -> None:
+        """Take that somebody asks for an end; may be called from any thread."""
+        came = self._now()
+        self._events.put(lambda: self._trip(_STOPPED, came, kind=STOPPED))
 
     def message(self, head: Head) -> None:
         """Take a message of the procedure; may be called from any thread."""
-        self._events.put(lambda: self._take(head))
+        came = self._now()
+        self._events.put(lambda: self._take(head, came))
 
     def deserted(self) -> None:
         """Take that the procedure is there no more; may be called from any thread."""
-        self._events.put(self._end)
+        came = self._now()
+        self._events.put(lambda: self._end(came))
 
     def work(self) -> int:
         """Make everything safe, then guard until the procedure has ended; returns an exit code."""
         self._last = self._switching.off("start", self._now(), limit=_OPENING, listen=True)
-        self._unwritten.append(self._last)
+        self._writing.verdict(self._last)
         while self._left is None:
             try:
                 self._next()
                 self._look()
             except Exception as error:
                 # Of ours: whatever it is, nothing is to stay on.
-                self._trip(f"a fault of the guardian: {said(error)}")
+                self._trip(f"a fault of the guardian: {said(error)}", self._now())
         self._close()
         return self._left
 
@@ -141,19 +150,15 @@ class Guardian:
                 self._again()
             return
         if self._on and now - self._heard > self._patience:
-            self._trip(
-                f"the procedure has said nothing for {now - self._heard:.2g} s", event=self._heard
-            )
+            self._trip(f"the procedure has said nothing for {now - self._heard:.2g} s", self._heard)
             return
         for future, asked in list(self._awaited.items()):
-            if now > asked.due and not future.done():
+            if now - asked.since > self._deadline and not future.done():
                 del self._awaited[future]
-                self._fault(asked, InstrumentError(
-                    f"{asked.what} has not answered within {self._deadline:g} s", kind="late"
-                ))  # fmt: skip
+                said_late = f"{asked.what} has not answered within {self._deadline:g} s"
+                self._fault(asked, InstrumentError(said_late, kind="late"), asked.since)
                 return
-        if self._relay is not None:
-            self._relay.pulse()
+        self._pulse()
         if now - self._looked > _POLLED:
             self._looked = now
             # What is slow to answer is not asked ever more.
@@ -166,13 +171,21 @@ class Guardian:
         if now - self._heard < 10.0 * BEAT:
             self._send({"here": True})
 
-    def _take(self, head: Head) -> None:
-        self._heard = self._now()
+    def _pulse(self) -> None:
+        """Show a watchdog that somebody is there, as long as nothing has been found wrong."""
+        if self._relay is not None and not self._tripped:
+            self._relay.pulse()
+
+    def _take(self, head: Head, came: float) -> None:
+        self._heard = came
         name, number = head["to"], head.get("n", 0)
         if name == "guardian":
-            self._asked_itself(head["do"], number, head.get("with", ()))
+            self._asked_itself(head["do"], number, head.get("with", ()), came)
         elif name == "journal":
-            self._asked_to_write(head, number)
+            future = self._writing.asked(head)
+            future.add_done_callback(lambda ended: self._events.put(
+                lambda: self._send(wires.answered(number, ended.result)[0])
+            ))  # fmt: skip
         elif self._tripped:
             self._send(wires.failed(number, self._off_already()))
         elif name not in self._of:
@@ -183,7 +196,7 @@ class Guardian:
             verb, given = head["do"], head.get("with", ())
             self._begin(number, name, lambda one: getattr(one, verb)(*given))
 
-    def _asked_itself(self, verb: str, number: int, given: Sequence[Any]) -> None:
+    def _asked_itself(self, verb: str, number: int, given: Sequence[Any], came: float) -> None:
         if verb == "beat":
             waits = any(asked.what == self._called("vibration") for asked in self._awaited.values())
             if "vibration" in self._on and not self._tripped and not waits:
@@ -194,63 +207,48 @@ class Guardian:
             self._send({"n": number, "gave": told})
         elif verb == "off":
             why, listen = given
-            found = self._off(why, self._now(), listen=listen, last=listen)
+            # Switched off already it has its line, and who asks again may have waited for that.
+            event = self._now() if self._tripped else came
+            found = self._off(why, event, listen=listen, last=listen)
             self._send({"n": number, "gave": found.line()})
         elif verb == "goodbye":
             self._orderly = True
             self._send({"n": number, "gave": None})
 
-    def _asked_to_write(self, head: Head, number: int) -> None:
-        def act() -> Any:
-            if head["do"] == "open":
-                self._journal = Journal(Path(head["with"][0]))
-                while self._unwritten:
-                    self._journal.write("off", **self._unwritten.pop(0).line())
-                return self._journal.lines
-            if self._journal is None:
-                raise InstrumentError("no journal is open")
-            if head["do"] == "close":
-                self._journal.close(finished=head["with"][0])
-                self._journal = None
-                return None
-            return self._journal.write(head["with"][0], **head["with"][1])
-
-        future = self._writing.begin(act)
-        future.add_done_callback(
-            lambda ended: self._events.put(
-                lambda: self._send(wires.answered(number, ended.result)[0])
-            )
-        )
-
     def _begin(self, number: int, key: str, act: Callable[[Any], Any]) -> None:
-        asked = _Asked(number, self._called(key), self._now() + self._deadline)
+        asked = _Asked(number, self._called(key), self._now())
         future = self._of[key].begin(key, act)
         self._awaited[future] = asked
-        future.add_done_callback(lambda ended: self._events.put(lambda: self._answered(ended)))
 
-    def _answered(self, future: "cf.Future[Any]") -> None:
+        def answered(ended: "cf.Future[Any]") -> None:
+            came = self._now()
+            self._events.put(lambda: self._answered(ended, came))
+
+        future.add_done_callback(answered)
+
+    def _answered(self, future: "cf.Future[Any]", came: float) -> None:
         asked = self._awaited.pop(future, None)
         if asked is None:
             return
         error = future.exception()
         if error is not None:
-            self._fault(asked, error)
+            self._fault(asked, error, came)
         elif asked.number:
             self._send(wires.answered(asked.number, future.result)[0])
 
-    def _fault(self, asked: _Asked, error: BaseException) -> None:
+    def _fault(self, asked: _Asked, error: BaseException, event: float) -> None:
         """Tell of an instrument that is late or lost, and switch off."""
         if asked.number:
             self._send(wires.failed(asked.number, error))
-        self._trip(str(error))
+        self._trip(str(error), event)
 
-    def _trip(self, why: str, event: float | None = None) -> None:
+    def _trip(self, why: str, event: float, kind: str = SWITCHED_OFF) -> None:
         """Switch everything off, for good."""
         if self._tripped:
             return
-        self._tripped = why
-        found = self._off(why, self._now() if event is None else event, listen=False)
-        self._send({"tripped": why, "still_on": found.still_on})
+        self._tripped, self._kind = why, kind
+        found = self._off(why, event, listen=False)
+        self._send({"tripped": why, "kind": kind, "still_on": found.still_on})
 
     def _off(
         self, why: str, event: float, *, listen: bool, alone: bool = False, last: bool = True
@@ -270,9 +268,7 @@ class Guardian:
     def _told(self, found: Verdict, *, last: bool) -> None:
         """Write down what was found, and tell a person what has to be switched off by hand."""
         self._last, self._tried = found, self._now()
-        self._unwritten.append(found)
-        if self._journal is not None:
-            self._writing.begin(self._write_down)
+        self._writing.verdict(found)
         named = [str(one) for one in found.found if not one.proven and (last or not one.unheard)]
         if named:
             if self._relay is not None:
@@ -281,10 +277,6 @@ class Guardian:
                 except Exception as error:
                     self._say(f"{self._relay.name} could not be told to cut the power: {error}")
             self._say(f"NOT READ BACK TO BE OFF: {'; '.join(named)}. SWITCH IT OFF BY HAND.")
-
-    def _write_down(self) -> None:
-        while self._unwritten and self._journal is not None:
-            self._journal.write("off", **self._unwritten.pop(0).line())
 
     def _again(self) -> None:
         """Try once more what was not read back to be off."""
@@ -296,25 +288,23 @@ class Guardian:
         if found.still_on == before:
             return
         self._last = found
-        self._unwritten.append(found)
-        self._writing.begin(self._write_down)
+        self._writing.verdict(found)
         if not found.still_on:
             self._say(f"read back to be off at last: {', '.join(one.name for one in found.found)}")
 
-    def _end(self) -> None:
+    def _end(self, came: float) -> None:
         """Leave, everything off: the procedure is there no more."""
         if self._orderly and self._last is not None and not self._on:
             self._left = 4 if self._last.still_on else 0
             return
         why = self._tripped or "the procedure has ended without a word"
         self._tripped = why
-        found = self._off(why, self._now(), listen=False, alone=True, last=LISTENER not in self._of)
+        found = self._off(why, came, listen=False, alone=True, last=LISTENER not in self._of)
         seconds = found.seconds
         if LISTENER in self._of:
             heard = f"{why}, and the drive signal is heard"
             found = self._off(heard, self._now(), listen=True, alone=True)
-        self._writing.begin(lambda: self._write_end(why, found))
-        self._writing.begin(self._join)
+        self._writing.end(why, found)
         for _ in range(_ATTEMPTS if any(self._of) else 0):
             if self._last is None or not self._last.still_on:
                 break
@@ -326,28 +316,9 @@ class Guardian:
             self._say(f"{why}; read back to be off within {seconds:.2g} s: {names}")
         self._left = 4 if still else 0
 
-    def _write_end(self, why: str, found: Verdict) -> None:
-        journal = self._journal
-        kinds = [] if journal is None else [line["kind"] for line in journal.lines]
-        last = next((kind for kind in reversed(kinds) if kind != "off"), "")
-        if journal is None or last in _ENDED:
-            return
-        if found.still_on:
-            journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)
-        else:
-            journal.write("interrupted", reason=why)
-
-    def _join(self) -> None:
-        """Make files of what the procedure had recorded."""
-        if self._journal is None:
-            return
-        from asperity.tribometer.recording.recorder import joined_all
-
-        joined_all(self._journal.path.parent)
-
     def _close(self) -> None:
         """Let go of everything; what does not let go is left."""
-        written = self._writing.begin(lambda: None)
+        written = self._writing.all_written()
         cf.wait([device.close() for device in self._devices], timeout=_CLOSED)
         cf.wait([written], timeout=_WRITTEN)
         if self._relay is not None:
@@ -355,7 +326,7 @@ class Guardian:
 
     def _off_already(self) -> InstrumentError:
         return InstrumentError(
-            f"everything was switched off: {self._tripped or 'asked for'}", kind=SWITCHED_OFF
+            f"everything was switched off: {self._tripped or 'asked for'}", kind=self._kind
         )
 
     def _called(self, key: str) -> str:
@@ -365,9 +336,6 @@ class Guardian:
         # Its end is read, and told, elsewhere.
         with contextlib.suppress(OSError, ValueError):
             self._wire.send(head)
-
-
-_ENDED = frozenset(("finished", "latched", "interrupted"))
 
 
 def _named(number: int) -> str:

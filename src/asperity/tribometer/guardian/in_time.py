@@ -26,6 +26,8 @@ class ScopeInTime:
         Opens it.
     deadline : float
         How long a poll may take, s.
+    late : float
+        How late samples may be, s.
     """
 
     by_hand = False
@@ -36,8 +38,10 @@ class ScopeInTime:
         inputs: tuple[Input, ...],
         opened: Callable[[], Scope],
         deadline: float,
+        late: float = 0.0,
     ) -> None:
         self.name, self.inputs = name, inputs
+        self.late = late
         self._opened = opened
         self._deadline = deadline
         self._scope: Scope | None = None

@@ -80,15 +80,19 @@ class Verdict:
     why : str
         What was the reason.
     event, seconds : float
-        When it was noticed, by the computer's clock, and how long it then took, s.
+        When that came, by the computer's clock, and how long it then took, s: a signal came to the
+        process, the procedure was heard of last, an instrument was asked that has not answered.
     found : tuple of Off
         Of each output.
+    answered : mapping of str to float
+        When what proves each to be off had come, s after the event.
     """
 
     why: str
     event: float
     seconds: float
     found: tuple[Off, ...]
+    answered: Mapping[str, float] = dataclasses.field(default_factory=dict)
 
     @property
     def still_on(self) -> list[str]:
@@ -102,5 +106,9 @@ class Verdict:
             "event_s": self.event,
             "took_s": round(self.seconds, 4),
             "read_back": {one.name: one.evidence for one in self.found if one.proven},
-        }
+            "off_s": {
+                one.name: round(self.answered[one.name], 4)
+                for one in self.found if one.proven and one.name in self.answered
+            },
+        }  # fmt: skip
         return told | ({"still_on": self.still_on} if self.still_on else {})

@@ -75,7 +75,7 @@ def main() -> int:
     told = first[0]
     words = _Words()
     from asperity.tribometer.guardian.casing import cased
-    from asperity.tribometer.guardian.devices import devices_of, owned_by
+    from asperity.tribometer.guardian.devices import deadline_of, devices_of, owned_by
     from asperity.tribometer.guardian.guardian import Guardian
     from asperity.tribometer.guardian.relay import Relay
     from asperity.tribometer.instruments.off import said
@@ -96,8 +96,9 @@ def main() -> int:
     simulated = backend == "sim"
     guardian = Guardian(
         devices_of(case, backend, rig), owned_by(case, backend)[1], wire,
-        patience=table.patient(simulated=simulated), deadline=table.due(simulated=simulated),
-        say=words.say, relay=relay, now=_clock, trouble=trouble,
+        patience=table.patient(simulated=simulated),
+        deadline=deadline_of(case, simulated=simulated), say=words.say, relay=relay,
+        now=_clock, trouble=trouble,
     )  # fmt: skip
     for number in ears.early:
         guardian.signal(number)

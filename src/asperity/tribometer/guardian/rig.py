@@ -184,13 +184,13 @@ class RigServer:
 def simulated(case: Case) -> Bench:
     """Return the simulated bench of a case."""
     from asperity.tribometer.channels import Channels
-    from asperity.tribometer.instruments.inputs import inputs_of, lines_of
+    from asperity.tribometer.instruments.acquisition import inputs_for
+    from asperity.tribometer.instruments.inputs import lines_of, simulated_of
     from asperity.tribometer.instruments.sim import simulated_bench
-    from asperity.tribometer.parameters import Sonotrode
     from asperity.tribometer.twin.plant import Plant
 
     channels = case.require(Channels)
-    inputs = inputs_of(channels, case.require(Sonotrode))
+    inputs = simulated_of(inputs_for(case))
     return simulated_bench(Plant.from_case(case), inputs, lines_of(channels, inputs))[0]
 
 

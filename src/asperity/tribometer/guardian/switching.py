@@ -10,7 +10,7 @@ from asperity.tribometer.instruments import off
 from asperity.tribometer.instruments.off import Off
 from asperity.tribometer.instruments.protocols import InstrumentError
 
-_LIMIT = 0.9  # s, after which what was not read back is named
+_LIMIT = 0.8  # s, after which what was not read back is named
 LISTENING = 5.0  #: s that an oscilloscope may take to be opened and to hear.
 _STAGE = 0.1  # s that an output may keep those of the next stage waiting.
 _AGAIN = 0.02  # s until what was not found off is told and asked again.
@@ -36,6 +36,8 @@ class Switching:
         How long it is tried, s; what is not off by then is named.
     now : callable
         The computer's clock, s.
+    tick : callable
+        Called every now and then while it waits, ten times a second at least.
     """
 
     def __init__(
@@ -45,8 +47,10 @@ class Switching:
         *,
         limit: float = _LIMIT,
         now: Clock = time.monotonic,
+        tick: Callable[[], None] = lambda: None,
     ) -> None:
         self._limit = limit
+        self._tick = tick
         self._devices = devices
         self._by_hand = by_hand
         self._now = now
@@ -82,15 +86,17 @@ class Switching:
             begun = {key: self._safe(key) for key in stage if key in self._of}
             safes |= begun
             cf.wait(begun.values(), timeout=min(_STAGE, max(0.0, end - self._now())))
-        asked = {key: self._read(key) for key in safes}
+            self._tick()
+        came: dict[str, float] = {}
+        asked = {key: self._read(key, came) for key in safes}
         known: dict[str, Any] = {}
         listens = listen and LISTENER in self._of and "vibration" in self._of
-        if listens:
-            end = max(end, self._now() + LISTENING)
+        patient = self._now() + LISTENING
         while True:
+            self._tick()
             # Heard before its command was taken, a drive that is still may yet begin.
             if listens and LISTENER not in asked and asked["vibration"].done():
-                asked[LISTENER] = self._read(LISTENER)
+                asked[LISTENER] = self._read(LISTENER, came)
             answered = [key for key, future in asked.items() if future.done()]
             # Of what was asked again, what it answered last.
             known |= {key: _told(asked[key]) for key in answered}
@@ -98,10 +104,11 @@ class Switching:
             proven = all(one.proven for one in found)
             if proven and (not listens or LISTENER in known):
                 break
-            if self._now() >= end or self._hopeless(found):
+            listening = LISTENER in asked and LISTENER not in known
+            if self._now() >= (patient if listening else end) or self._hopeless(found):
                 break
             if not proven:
-                self._ask_again(asked, answered, found)
+                self._ask_again(asked, answered, found, came)
             cf.wait(
                 [one for one in asked.values() if not one.done()],
                 timeout=max(0.0, min(_AGAIN, end - self._now())),
@@ -110,20 +117,31 @@ class Switching:
             found += [
                 Off(name, False, "nobody was asked to switch it off") for name in self._by_hand
             ]
-        return Verdict(why, event, self._now() - event, tuple(found))
+        named: dict[str, float] = {}
+        # More may come meanwhile.
+        for key, at in dict(came).items():
+            named[self._named(key)] = max(at - event, named.get(self._named(key), 0.0))
+        return Verdict(why, event, self._now() - event, tuple(found), named)
 
     def _safe(self, key: str) -> "cf.Future[Any]":
         return self._of[key].begin(key, lambda one: one.safe())
 
-    def _read(self, key: str) -> "cf.Future[Any]":
+    def _read(self, key: str, came: dict[str, float]) -> "cf.Future[Any]":
+        """Ask what proves an output to be off; notes when the answer came."""
         acts: dict[str, Callable[[Any], Any]] = {
             "vibration": lambda one: one.vibrates(),
             LISTENER: lambda one: one.moves(),
         }
-        return self._of[key].begin(key, acts.get(key, off.read_back))
+        future = self._of[key].begin(key, acts.get(key, off.read_back))
+        future.add_done_callback(lambda _: came.update({key: self._now()}))
+        return future
 
     def _ask_again(
-        self, asked: dict[str, "cf.Future[Any]"], answered: Sequence[str], found: Iterable[Off]
+        self,
+        asked: dict[str, "cf.Future[Any]"],
+        answered: Sequence[str],
+        found: Iterable[Off],
+        came: dict[str, float],
     ) -> None:
         """Tell and ask what has answered and was not found off."""
         names = {one.name for one in found if not one.proven}
@@ -135,7 +153,7 @@ class Switching:
         for key in again:
             if key != LISTENER:
                 self._safe(key)
-            asked[key] = self._read(key)
+            asked[key] = self._read(key, came)
 
     def _named(self, key: str) -> str:
         return self._of_vibration() if key == LISTENER else self._of[key].keys[key]

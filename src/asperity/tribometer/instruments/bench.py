@@ -84,6 +84,10 @@ class Bench:
         )  # fmt: skip
         return tuple(instrument for instrument in known if instrument is not None)
 
+    def identities(self) -> dict[str, str]:
+        """Return what each instrument says it is, by its name; raises InstrumentError."""
+        return {one.name: one.identify() for one in self.instruments}
+
     def safe(self) -> tuple[str, ...]:
         """Switch vibration off, then motors, then the rest, and read back that they are off.
 

@@ -3,17 +3,34 @@
 from asperity.errors import InputError
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.instruments.picoscope import smallest_range
+from asperity.tribometer.instruments.picoscope import RANGES, smallest_range
 from asperity.tribometer.instruments.protocols import FULL_SCALE, Input
 from asperity.tribometer.parameters import Sonotrode
-from asperity.tribometer.signals import SIGNALS
+from asperity.tribometer.signals import SIGNALS, SIMULATED, WATCHED
 
 # A load cell rides on its preload, and a drive signal on its middle.
 _MARGIN = 2.0
 
 
-def inputs_of(channels: Channels, sonotrode: Sonotrode) -> tuple[Input, ...]:
+def inputs_of(
+    channels: Channels,
+    sonotrode: Sonotrode,
+    ranges: tuple[float, ...] = RANGES,
+    *,
+    letters: bool = True,
+) -> tuple[Input, ...]:
     """Return inputs in the order of recordings, each with the smallest range that holds its signal.
+
+    Parameters
+    ----------
+    channels : Channels
+        What is mapped.
+    sonotrode : Sonotrode
+        Whose drive signal it is.
+    ranges : tuple of float
+        That an input may have, V, either side of zero.
+    letters : bool
+        Whether channels are letters on a housing, and no names.
 
     Raises
     ------
@@ -34,14 +51,26 @@ def inputs_of(channels: Channels, sonotrode: Sonotrode) -> tuple[Input, ...]:
                 f"channels.{name}.points is missing; a signal that is recorded live needs its "
                 f'calibration, such as [["0 V", "0"], ["1 V", "{SIGNALS[name].example}"]]'
             )
-        found.append(Input(channel.channel.strip().upper(), name, smallest_range(volts)))
-    missing = [name for name in SIGNALS if name not in {one.signal for one in found}]
-    needed = [name for name in missing if name != "acceleration"]
-    if needed:
+        try:
+            most = smallest_range(volts, ranges)
+        except InputError as error:
+            raise InputError(
+                f"channels.{name}: {error}; put a divider before it, and its volts into points"
+            ) from None
+        called = channel.channel.strip()
+        found.append(Input(called.upper() if letters else called, name, most))
+    there = {one.signal for one in found}
+    missing = [name for name in WATCHED if name not in there]
+    if missing:
         raise InputError(
-            f"channels.{needed[0]} is missing; a procedure watches the eight signals of the rig"
+            f"channels.{missing[0]} is missing; a procedure watches the eight signals of the rig"
         )
     return tuple(found)
+
+
+def simulated_of(inputs: tuple[Input, ...]) -> tuple[Input, ...]:
+    """Return those of some inputs that a simulated rig has something for."""
+    return tuple(one for one in inputs if one.signal in SIMULATED)
 
 
 def lines_of(channels: Channels, inputs: tuple[Input, ...]) -> tuple[Line, ...]:

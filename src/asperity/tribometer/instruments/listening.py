@@ -1,9 +1,11 @@
 """The drive signal heard by an oscilloscope that nobody else uses at the time."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from asperity.tribometer.instruments.inputs import volts_a_count
-from asperity.tribometer.instruments.protocols import Input, InstrumentError
+from asperity.tribometer.instruments.protocols import Input, InstrumentError, Scope
 from asperity.tribometer.parameters import Sonotrode
 
 _INTERVAL = 1e-4  # s, a quarter of the shortest cycle of a sonotrode
@@ -18,15 +20,23 @@ class ScopeListener:
     ----------
     inputs : tuple of Input
         What is plugged in where.
+    opened : callable
+        Opens the oscilloscope, for some of the inputs.
     sonotrode : Sonotrode
         Whose drive signal it is.
     """
 
     by_hand = False
 
-    def __init__(self, inputs: tuple[Input, ...], sonotrode: Sonotrode) -> None:
+    def __init__(
+        self,
+        inputs: tuple[Input, ...],
+        sonotrode: Sonotrode,
+        opened: Callable[[tuple[Input, ...]], Scope],
+    ) -> None:
         self.name = "ear at the drive signal"
         self._input = next(one for one in inputs if one.signal == "drive_voltage")
+        self._opened = opened
         swing = sonotrode.highest_voltage - sonotrode.lowest_voltage
         self._still = _STILL * swing / sonotrode.amplifier_gain
 
@@ -38,9 +48,7 @@ class ScopeListener:
         """Return whether the drive signal moves; raises InstrumentError where none is heard."""
         import time
 
-        from asperity.tribometer.instruments.picoscope import PicoScope
-
-        scope = PicoScope((self._input,))
+        scope = self._opened((self._input,))
         try:
             scope.start(_INTERVAL)
             time.sleep(_LASTING)

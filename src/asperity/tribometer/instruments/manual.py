@@ -6,9 +6,17 @@ from collections.abc import Callable
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, shown
 from asperity.tribometer.instruments.protocols import Person, Reading, Waveform
-from asperity.units import to_si
+from asperity.units import split_unit, to_si
 
 _MOST_TRIES = 5
+_EXAMPLES = {
+    "kg": "'500 g' or '0.5 kg'",
+    "rad/s": "'1500 rpm'",
+    "V": "'5.5 V' or '250 mV'",
+    "A": "'2.4 A' or '800 mA'",
+    "m/s**2": "'280 m/s^2'",
+    "Hz": "'750 Hz' or '2 kHz'",
+}
 
 
 class Operator:
@@ -42,15 +50,28 @@ class Operator:
         self.do(text)
 
     def read(self, text: str, unit: str) -> float:
-        """Ask for a number in a unit, as ``750 rpm`` or, in the unit named, ``78.5``."""
+        """Ask for a number with its unit, as ``750 rpm``; returns it in the unit named, SI."""
+        examples = _EXAMPLES.get(unit) or repr(f"1 {unit}")
+        asked = f"[with its unit, such as {examples}]" if unit else "[number]"
         why = ""
         for _ in range(_MOST_TRIES):
-            typed = self._ask(f"{why}{text} [{unit or 'number'}] ")
+            typed = self._ask(f"{why}{text} {asked} ")
             try:
-                return to_si(typed, unit, bare=unit or None)
+                return _read(typed, unit)
             except InputError as error:
-                why = f"{shown(typed)}: {error}. "
+                allowed = f"; give {examples}" if unit else ""
+                why = f"{shown(typed)}: {error}{allowed}. "
         raise InputError(f"{text}: {why}Given up after {_MOST_TRIES} tries")
+
+
+def _read(typed: str, unit: str) -> float:
+    parts = split_unit(typed)
+    if unit and parts is not None and not parts[1]:
+        raise InputError("it has no unit")
+    value = to_si(typed, unit)
+    if unit == "kg" and value <= 0.0:
+        raise InputError("it must be more than nothing")
+    return value
 
 
 def _typed(text: str) -> str:
@@ -144,7 +165,7 @@ class ManualTachometer(_Manual):
 
     def speed(self, motor: str) -> float:
         """Ask for the speed of a motor, rad/s."""
-        return self._person.read(f"Speed of the {motor} disc's motor, as '1500 rpm'", "rad/s")
+        return self._person.read(f"Speed of the {motor} disc's motor", "rad/s")
 
     def safe(self) -> None:
         """A tachometer does nothing."""
@@ -160,8 +181,8 @@ class ManualAccelerometer(_Manual):
         """Ask for amplitude and frequency; returns that sine."""
         import numpy as np
 
-        amplitude = self._person.read("Peak acceleration, as '280 m/s^2'", "m/s**2")
-        frequency = self._person.read("Its frequency, as '750 Hz'", "Hz")
+        amplitude = self._person.read("Peak acceleration", "m/s**2")
+        frequency = self._person.read("Its frequency", "Hz")
         if amplitude <= 0.0 or frequency <= 0.0:
             raise InputError("acceleration and frequency must be positive")
         interval = 1.0 / (32.0 * frequency)

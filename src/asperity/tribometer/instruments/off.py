@@ -64,16 +64,25 @@ def supply_off(name: str, found: tuple[bool | None, Reading] | Exception) -> Off
     if isinstance(found, Exception):
         return Off(name, False, said(found))
     on, given = found
-    measured = f"{given.current:.3g} A measured"
+    measured = _measured(given.current, "A")
+    if given.current is None:
+        state = {True: "on", False: "off", None: "not asked"}[on]
+        return Off(name, False, f"not proven off: its state is {state}, {measured}")
     if on:
         return Off(name, False, f"its output's state is on, {measured}")
     # Of a comparison with what is no number nothing is proven.
     still = abs(given.current) <= STILL_CURRENT
     if on is None:
-        still = still and abs(given.voltage) <= STILL_VOLTAGE
-        state = f"its output's state cannot be asked, {given.voltage:.3g} V"
-        return Off(name, still, f"{state}, {measured}")
+        still = still and given.voltage is not None and abs(given.voltage) <= STILL_VOLTAGE
+        volts = _measured(given.voltage, "V").removesuffix(" measured")
+        return Off(name, still, f"its output's state cannot be asked, {volts}, {measured}")
     return Off(name, still, f"its output's state is off, {measured}")
+
+
+def _measured(value: float | None, unit: str) -> str:
+    if value is None:
+        return f"its {'voltage' if unit == 'V' else 'current'} cannot be measured"
+    return f"{value:.3g} {unit} measured"
 
 
 def drive_off(

@@ -31,7 +31,7 @@ _BUFFER = 1 << 17
 _WITHOUT_END = 10_000_000
 
 
-def smallest_range(volts: float) -> float:
+def smallest_range(volts: float, ranges: tuple[float, ...] = RANGES) -> float:
     """Return the smallest range that holds a voltage, V.
 
     Raises
@@ -39,10 +39,12 @@ def smallest_range(volts: float) -> float:
     InputError
         None does.
     """
-    for limit in RANGES:
+    for limit in ranges:
         if abs(volts) <= limit:
             return limit
-    raise InputError(f"{volts:g} V is beyond every range of the oscilloscope; the largest is 50 V")
+    raise InputError(
+        f"{volts:g} V is beyond every range of the oscilloscope; the largest is {ranges[-1]:g} V"
+    )
 
 
 def _driver() -> Any:

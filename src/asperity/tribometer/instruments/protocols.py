@@ -18,6 +18,7 @@ from asperity.errors import AsperityError
 Counts = NDArray[np.int16]
 Waveform = Literal["sine", "triangle"]
 SWITCHED_OFF = "switched off"  #: Kind of the error that meets who asks for more than that.
+STOPPED = "stopped"  #: The same, where somebody asked for an end.
 FULL_SCALE = 32767  #: Counts of an input at the end of its range.
 
 
@@ -91,10 +92,10 @@ class Poll:
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """What a supply gives: V and A."""
+    """What a supply measures that it gives, V and A; None where it cannot be asked."""
 
-    voltage: float
-    current: float
+    voltage: float | None
+    current: float | None
 
 
 @runtime_checkable

@@ -1,6 +1,8 @@
 """Bench supplies through PyMeasure's drivers."""
 
+import contextlib
 import importlib
+import inspect
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -12,12 +14,18 @@ from asperity.tribometer.instruments.protocols import InstrumentError, Reading
 _DRIVERS = "pymeasure.instruments"
 
 
+_LIMITS = "current_limit", "current_setpoint"
+_MEASURED = "measured_{}", "measure_{}", "{}_measured", "output_{}"
+
+
 class PyMeasureSupply:
     """An output of a supply that PyMeasure has a driver for.
 
-    The driver's names are those most of them share: ``voltage_setpoint`` and ``voltage`` (or
-    ``voltage`` alone), ``current``, ``current_limit``, and ``output_enabled`` or
-    ``enable_output()``.
+    Drivers name things differently: what sets the voltage is ``voltage_setpoint`` or ``voltage``,
+    what is measured ``measured_voltage`` or, where it cannot be set, ``voltage``; the limit is
+    ``current_limit``, ``current_setpoint`` or a ``current`` that can be set; the switch is
+    ``output_enabled`` or ``enable_output()``. A value that was set is never taken for a measured
+    one.
 
     Parameters
     ----------
@@ -26,7 +34,7 @@ class PyMeasureSupply:
     name : str
         What messages call it.
     current_limit : float, optional
-        A.
+        A; left out, what the supply is set to stands.
     """
 
     by_hand = False
@@ -34,24 +42,63 @@ class PyMeasureSupply:
     def __init__(self, output: Any, name: str, current_limit: float | None = None) -> None:
         self.name = name
         self._output = output
+        self._limit = current_limit
         for names in (("voltage_setpoint", "voltage"), ("output_enabled", "enable_output")):
             if not any(hasattr(type(output), one) for one in names):
                 raise InputError(
                     f"{name}: the driver {type(output).__name__} has neither {' nor '.join(names)};"
                     " choose another"
                 )
-        if current_limit is not None and hasattr(type(output), "current_limit"):
-            self._done(lambda: setattr(output, "current_limit", current_limit))
+        self._measures = {what: self._measured_by(what) for what in ("voltage", "current")}
+
+    def _measured_by(self, what: str) -> str:
+        """Return the name of what is measured; empty where there is none."""
+        driver = type(self._output)
+        named = next((key for n in _MEASURED if hasattr(driver, key := n.format(what))), "")
+        if named or not hasattr(driver, what):
+            return named
+        return "" if _settable(driver, what) else what
 
     def identify(self) -> str:
-        """Return the driver's name for it."""
-        return f"{self.name} ({type(self._output).__name__})"
+        """Return what the device says it is, or the driver's name for it."""
+        told = ""
+        # Not every device knows the question; one that is lost is found out by what is told it.
+        with contextlib.suppress(Exception):
+            told = " ".join(str(getattr(self._output, "parent", self._output).id).split())
+        return f"{told or self.name} ({type(self._output).__name__})"
 
     def set(self, voltage: float) -> None:
-        """Set the voltage, V."""
+        """Set the voltage, V; the current's limit before it, the first time."""
+        if self._limit is not None:
+            self._send_limit(self._limit)
+            self._limit = None
         two = hasattr(type(self._output), "voltage_setpoint")
         key = "voltage_setpoint" if two else "voltage"
         self._done(lambda: setattr(self._output, key, voltage))
+
+    def _send_limit(self, limit: float) -> None:
+        driver = type(self._output)
+        names = [one for one in _LIMITS if hasattr(driver, one)]
+        if not names and _settable(driver, "current"):
+            names = ["current"]
+        refused = f"supplies.current_limit is {limit:g} A"
+        if not names:
+            raise InputError(
+                f"{refused}; {driver.__name__} has nothing that sends it: leave it out and set it "
+                "by hand, or describe the supply by its lines"
+            )
+        try:
+            setattr(self._output, names[0], limit)
+            told = getattr(self._output, names[0])
+        except ValueError as error:
+            raise InputError(f"{refused}; {driver.__name__} refuses it: {_one_line(error)}") from (
+                None
+            )
+        except Exception as error:
+            raise self._failed(error) from error
+        # A driver may cut what is too large to what it takes, without a word.
+        if not isinstance(told, int | float) or abs(told - limit) > 0.02 + 0.005 * limit:
+            raise InputError(f"{refused}; {driver.__name__} is set to {told} A")
 
     def on(self) -> None:
         """Give power."""
@@ -66,11 +113,15 @@ class PyMeasureSupply:
         self.off()
 
     def reading(self) -> Reading:
-        """Return what it gives."""
-        return Reading(
-            self._done(lambda: float(self._output.voltage)),
-            self._done(lambda: float(self._output.current)),
-        )
+        """Return what it measures; None where the driver only tells what was set."""
+        return Reading(self._measured("voltage"), self._measured("current"))
+
+    def _measured(self, what: str) -> float | None:
+        key = self._measures[what]
+        if not key:
+            return None
+        value: float = self._done(lambda: float(getattr(self._output, key)))
+        return value
 
     def output(self) -> bool | None:
         """Return whether the device says its output is on; None where the driver cannot ask."""
@@ -99,12 +150,29 @@ class PyMeasureSupply:
         try:
             return act()
         except Exception as error:
-            # A driver raises what the line, the library below it or its own reading of an answer
-            # raise; whatever it is, the supply did not do what it was told.
-            raise InstrumentError(
-                f"{self.name} did not do as it was told: {type(error).__name__}: {error}",
-                kind="half an answer" if isinstance(error, ValueError) else "line lost",
-            ) from error
+            raise self._failed(error) from error
+
+    def _failed(self, error: Exception) -> InstrumentError:
+        # A driver raises what the line, the library below it or its own reading of an answer
+        # raise; whatever it is, the supply did not do what it was told.
+        return InstrumentError(
+            f"{self.name} did not do as it was told: {type(error).__name__}: {_one_line(error)}",
+            kind="half an answer" if isinstance(error, ValueError) else "line lost",
+        )
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())
+
+
+def _settable(driver: type, key: str) -> bool:
+    """Whether a property of a driver can be set: of PyMeasure's, whether it has such a command."""
+    held = inspect.getattr_static(driver, key, None)
+    setter = getattr(held, "fset", None)
+    if setter is None:
+        return False
+    command = inspect.signature(setter).parameters.get("set_command")
+    return command is None or command.default is not None
 
 
 def open_supplies(table: Supplies) -> dict[str, PyMeasureSupply]:
@@ -121,15 +189,12 @@ def open_supplies(table: Supplies) -> dict[str, PyMeasureSupply]:
     """
     device = _device(table)
     found = {}
-    for what in ("steel", "bronze", "amplifier"):
-        key = getattr(table, what)
-        if not key:
-            continue
+    for what, words in table.outputs.items():
+        key = words.output
         output = device if key == "." else getattr(device, key, None)
         if output is None:
             raise InputError(f"supplies.{what} is {key!r}; {table.driver} has no such output")
-        limit = None if what == "amplifier" else table.current_limit
-        found[what] = PyMeasureSupply(output, f"supply of {what}", limit)
+        found[what] = PyMeasureSupply(output, f"supply of {what}", words.current_limit)
     return found
 
 
@@ -151,8 +216,13 @@ def _device(table: Supplies) -> Any:
         with warnings.catch_warnings():
             # Drivers ask to tell their authors about devices they have not seen.
             warnings.simplefilter("ignore", FutureWarning)
-            return driver(table.address)
+            device = driver(table.address)
     except Exception as error:
         raise InstrumentError(
             f"the supply at {table.address} does not answer: {error}", kind="line lost"
         ) from error
+    # A device that is silent costs five seconds else.
+    connection: Any = getattr(getattr(device, "adapter", None), "connection", None)
+    if hasattr(connection, "timeout"):
+        connection.timeout = 1e3 * table.timeout
+    return device

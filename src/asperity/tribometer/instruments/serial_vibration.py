@@ -1,23 +1,40 @@
-"""A vibration controller on a serial line, spoken to by commands of the configuration."""
+"""A vibration controller or signal generator, spoken to by the lines of the configuration."""
 
-import functools
+import contextlib
+import dataclasses
 from typing import Any
 
-from asperity.errors import InputError, MissingExtraError, shown
+from asperity.errors import InputError, shown
+from asperity.tribometer.instruments.lines import opened_line
 from asperity.tribometer.instruments.parameters import Controller
 from asperity.tribometer.instruments.protocols import InstrumentError, Waveform
+from asperity.tribometer.instruments.words import filled, number_of
+from asperity.tribometer.parameters import Sonotrode
 
-_MOST_ANSWER = 4096
+_READ_BACK = ("frequency", "Hz", 1e-3), ("amplitude", "V", 0.01), ("offset", "V", 0.01)
 
 
-def _serial() -> Any:
-    try:
-        import serial
-    except ImportError:
-        raise MissingExtraError(
-            "a serial vibration controller needs pyserial; install asperity[daq]"
-        ) from None
-    return serial
+@dataclasses.dataclass(frozen=True)
+class Levels:
+    """How far a drive signal goes, V before the amplifier."""
+
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, sonotrode: Sonotrode) -> "Levels":
+        """Return what a sonotrode may be given."""
+        gain = sonotrode.amplifier_gain
+        return cls(sonotrode.lowest_voltage / gain, sonotrode.highest_voltage / gain)
+
+    def named(self) -> dict[str, float]:
+        """Return what lines may hold."""
+        return {
+            "low": self.low,
+            "high": self.high,
+            "amplitude": self.high - self.low,
+            "offset": 0.5 * (self.high + self.low),
+        }
 
 
 class SerialVibration:
@@ -26,37 +43,34 @@ class SerialVibration:
     Parameters
     ----------
     controller : Controller
-        Port and dialect.
+        Its line and dialect.
+    levels : Levels, optional
+        Of the drive signal, where it is told them.
 
     Raises
     ------
     InstrumentError
-        The port cannot be opened.
+        Its line cannot be opened.
+    InputError
+        It is to be told levels, and there are none.
     """
 
     by_hand = False
 
-    def __init__(self, controller: Controller) -> None:
-        self.name = f"vibration controller at {controller.port}"
+    def __init__(self, controller: Controller, levels: Levels | None = None) -> None:
+        self.name = f"vibration controller at {controller.where}"
         self._says = controller
-        try:
-            self._line = _serial().Serial(
-                controller.port,
-                controller.baud,
-                timeout=controller.timeout,
-                write_timeout=controller.timeout,
-            )
-        except (OSError, ValueError) as error:
-            raise InstrumentError(
-                f"{self.name} cannot be opened: {error}; look at controller.port", kind="line lost"
-            ) from None
+        if controller.set_levels and levels is None:
+            raise InputError("controller.set_levels needs the voltages of [sonotrode]")
+        self._levels = {} if levels is None else levels.named()
+        self._line = opened_line(self.name, controller)
         self._set: dict[str, Any] = {}
 
     def identify(self) -> str:
         """Return what it answers to ``controller.identify``, or its name where there is none."""
         if not self._says.identify:
             return self.name
-        return self._asked(self._says.identify)
+        return self._asked("identify")
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Set waveform and frequency, Hz."""
@@ -64,115 +78,88 @@ class SerialVibration:
         if waveform not in words:
             raise InputError(f"{waveform!r} is not a waveform of {self.name}")
         self._set = {"waveform": words[waveform], "frequency": frequency}
-        self._tell(self._says.set_waveform)
-        self._tell(self._says.set_frequency)
-        if self._says.ask_frequency:
-            answer = self._asked(self._says.ask_frequency)
-            try:
-                told = float(answer.split()[0])
-            except (ValueError, IndexError):
-                raise self._nonsense(self._says.ask_frequency, answer) from None
-            if not abs(told - frequency) <= 1e-3 * frequency:
+        for text in self._says.set_levels:
+            self._said(filled(text, output=self._says.output, **self._levels))
+        self._tell("set_waveform")
+        self._tell("set_frequency")
+        if self._says.ask_error:
+            answer = self._asked("ask_error")
+            if not answer.startswith(self._says.no_error):
                 raise InstrumentError(
-                    f"{self.name} was told {frequency:g} Hz and says {told:g} Hz",
-                    kind="half an answer",
+                    f"{self.name} refuses what it was told: {shown(answer)}", kind="refused"
                 )
+        set_to = {**self._levels, "frequency": frequency}
+        for what, unit, share in _READ_BACK:
+            if what in set_to and getattr(self._says, f"ask_{what}"):
+                self._compare(what, set_to[what], unit, share)
+
+    def _compare(self, what: str, wanted: float, unit: str, share: float) -> None:
+        answer = self._asked(f"ask_{what}")
+        try:
+            told = number_of(answer, getattr(self._says, f"{what}_answer"))
+        except ValueError:
+            raise self._nonsense(f"ask_{what}", answer) from None
+        size = wanted if what == "frequency" else self._levels["amplitude"]
+        if not abs(told - wanted) <= share * abs(size):
+            raise InstrumentError(
+                f"{self.name} was told {wanted:g} {unit} and says {told:g} {unit}",
+                kind="half an answer",
+            )
 
     def on(self) -> None:
         """Vibrate."""
-        self._tell(self._says.start)
+        self._tell("start")
 
     def off(self) -> None:
         """Stop."""
-        self._tell(self._says.stop)
+        self._tell("stop")
 
     def safe(self) -> None:
         """Stop; what an earlier command left on the line is thrown away first."""
-        with self._broken_line():
-            self._line.reset_input_buffer()
+        with contextlib.suppress(InstrumentError):
+            self._line.clear()
         self.off()
 
     def keep_alive(self) -> None:
         """Send the command that keeps it vibrating, where it has one."""
         if self._says.keep_alive:
-            self._tell(self._says.keep_alive)
+            self._tell("keep_alive")
 
     def vibrates(self) -> bool | None:
         """Return what it answers, asked whether it is on; None where it has no such command."""
         if not self._says.ask_output:
             return None
-        return self._asked(self._says.ask_output) != self._says.output_off
+        answer = self._asked("ask_output")
+        try:
+            return self._says.is_on(answer)
+        except ValueError:
+            raise self._nonsense("ask_output", answer) from None
 
     def close(self) -> None:
-        """Let go of the port."""
+        """Let go of the line."""
         self._line.close()
 
-    def _broken_line(self) -> "_Reported":
-        return _Reported(self.name)
+    def _tell(self, key: str) -> None:
+        self._said(self._says.filled(key, **self._set))
 
-    def _tell(self, command: str) -> None:
-        """Send a command and look at the answer, if the dialect has one."""
-        text = command.format(**self._set)
+    def _said(self, text: str) -> None:
+        """Send a line and look at the answer, if the dialect has one."""
         if not self._says.answer:
-            self._send(text)
+            self._line.tell(text)
             return
-        answer = self._asked(text)
+        answer = self._line.ask(text)
         if answer != self._says.answer:
-            raise self._nonsense(text, answer)
-
-    def _send(self, text: str) -> None:
-        with self._broken_line():
-            self._line.write(text.encode("ascii") + self._says.line_end_bytes)
-
-    def _asked(self, text: str) -> str:
-        """Send a line and return the answer's, refused where it does not end."""
-        end = self._says.line_end_bytes
-        self._send(text)
-        with self._broken_line():
-            answer = self._line.read_until(end, _MOST_ANSWER)
-        if not answer:
             raise InstrumentError(
-                f"{self.name} did not answer {shown(text)} within {self._says.timeout:g} s; look "
-                "at cable, port and power",
-                kind="no answer",
-            )
-        if not answer.endswith(end):
-            raise InstrumentError(
-                f"{self.name} broke off its answer to {shown(text)}: {shown(answer)}",
+                f"{self.name} answered {shown(text)} with {shown(answer)}, not "
+                f"{self._says.answer!r}",
                 kind="half an answer",
             )
-        said: str = answer[: -len(end)].decode("ascii", "replace").strip()
-        return said
 
-    def _nonsense(self, text: str, answer: str) -> InstrumentError:
-        expected = f", not {self._says.answer!r}" if self._says.answer else ""
+    def _asked(self, key: str) -> str:
+        return self._line.ask(self._says.filled(key))
+
+    def _nonsense(self, key: str, answer: str) -> InstrumentError:
         return InstrumentError(
-            f"{self.name} answered {shown(text)} with {shown(answer)}{expected}",
+            f"{self.name} answered {shown(self._says.filled(key))} with {shown(answer)}",
             kind="half an answer",
         )
-
-
-class _Reported:
-    """Turns what a broken serial line raises into one line."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def __enter__(self) -> None:
-        return None
-
-    def __exit__(self, kind: object, error: BaseException | None, _trace: object) -> None:
-        if isinstance(error, _line_errors()):
-            raise InstrumentError(
-                f"{self._name}: the line is lost ({error}); look at the cable", kind="line lost"
-            ) from None
-
-
-@functools.cache
-def _line_errors() -> tuple[type[BaseException], ...]:
-    errors: list[type[BaseException]] = [OSError, _serial().SerialException]
-    try:
-        import termios
-    except ImportError:  # there are none on Windows
-        return tuple(errors)
-    return (*errors, termios.error)

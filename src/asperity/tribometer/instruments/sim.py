@@ -18,7 +18,7 @@ from asperity.tribometer.instruments.protocols import (
     Reading,
     Waveform,
 )
-from asperity.tribometer.signals import SIGNALS
+from asperity.tribometer.signals import SIMULATED
 from asperity.tribometer.twin import plant_kernels as kernels
 from asperity.tribometer.twin.chain import POINTS, disc_velocity
 from asperity.tribometer.twin.noise import Noise
@@ -68,7 +68,7 @@ class SimulatedRig:
         self._begun = 0.0
         self._waiting: list[Counts] = []
         self._sensing: dict[float, kernels.Sensing] = {}
-        order = list(SIGNALS)
+        order = list(SIMULATED)
         self._columns = np.array([order.index(given.signal) for given in inputs])
         a_count = [volts_a_count(given) for given in inputs]
         pairs = list(zip(lines, a_count, strict=True))

@@ -46,7 +46,7 @@ class Stream:
         self.interval = scope.start(interval)
         self.samples = 0
         self._scope = scope
-        self._block = block
+        self._block = block + getattr(scope, "late", 0.0)
         self._begun = now
         self._waiting: list[Counts] = [np.empty(0, np.int16) for _ in scope.inputs]
         self._totals = np.zeros(len(scope.inputs), np.int64)

@@ -96,6 +96,11 @@ def check_map(running: Levels, given: Mapping[str, Reading], radii: Mapping[str,
     """
     for disc, reading in given.items():
         told = running[f"current_{disc}"]
+        if reading.current is None:
+            raise InstrumentError(
+                f"the supply of the {disc} disc's motor cannot be asked for its current",
+                kind="supply",
+            )
         if abs(told - reading.current) > _CURRENT_AMPERES + _CURRENT_SHARE * reading.current:
             raise InstrumentError(
                 f"current_{disc} tells {told:.3g} A where the supply has {reading.current:.3g} A: "

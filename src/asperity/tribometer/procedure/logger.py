@@ -17,6 +17,7 @@ from asperity.casefile import Case
 from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import Counts, Instrument
 from asperity.tribometer.instruments.stream import Stream
+from asperity.tribometer.live import Preview
 from asperity.tribometer.options import Plan
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure.interlock import Expected, Interlock
@@ -80,6 +81,8 @@ class Logger:
         Of the rig as it stands, as JSON.
     beat : callable
         Called with every poll; may end the work by raising.
+    preview : Preview
+        What is shown of it meanwhile.
     """
 
     def __init__(
@@ -90,16 +93,22 @@ class Logger:
         path: Path | None,
         configuration: str,
         beat: Callable[[], None],
+        preview: Preview,
     ) -> None:
         self.path = path
         self.expected = Expected()
         self._bench = bench
         self._interlock = interlock
         self._beat = beat
+        self._preview = preview
+        # Asked before the stream begins: an answer takes its time.
+        instruments = bench.identities() if path is not None else {}
         self._begun = bench.clock.now()
         self._told = self._begun
         self._looked = self._begun
         self._changing = False
+        # What is written to files comes late: a window begins when all before it has come.
+        self._lag = float(getattr(bench.scope, "late", 0.0))
         start = datetime.datetime.now(datetime.UTC)
         self._stream = Stream(bench.scope, interval, BLOCK, self._begun)
         self.interval = self._stream.interval
@@ -109,6 +118,7 @@ class Logger:
             self._recorder = Recorder(
                 path, sources, self.interval, configuration=configuration, start=start,
                 block=max(1, round(_WRITTEN / self.interval)), simulated=bench.simulated,
+                instruments=instruments,
             )  # fmt: skip
 
     @property
@@ -120,11 +130,21 @@ class Logger:
         """Say what the rig has just been told."""
         self.expected = expected
         self._told = self._bench.clock.now()
+        vibrates = f"on, {expected.waveform} {expected.frequency:g} Hz"
+        self._preview.told(
+            {self._bench.vibration.name: vibrates if expected.frequency else "off"}
+            | {
+                motor.name: f"on, {expected.volts[key]:g} V" if key in expected.volts else "off"
+                for key, motor in self._bench.motors.items()
+            }
+        )
 
     def event(self, kind: str, text: str) -> None:
         """Write down what was done."""
         if self._recorder is not None:
-            self._recorder.event(self.samples * self.interval, kind, text)
+            now = self._bench.clock.now() - self._begun
+            time = now if self._lag else self.samples * self.interval
+            self._recorder.event(time, kind, text)
 
     def watch(self, seconds: float, *, skip: float = 0.0, crc32: int = 0) -> Window:
         """Record for a time, and look at all of it.
@@ -147,24 +167,37 @@ class Logger:
         """
         bench, stream = self._bench, self._stream
         wanted = max(1, round(seconds / self.interval))
-        window = Window(len(bench.scope.inputs), self.samples, round(skip / self.interval), crc32)
+        behind = self._behind()
+        window = Window(
+            len(bench.scope.inputs), self.samples + behind, round(skip / self.interval), crc32
+        )
         poll = BLOCK / _POLLS_A_BLOCK
         while window.samples < wanted:
             left = (wanted - window.samples) * self.interval
             bench.clock.sleep(min(poll, left))
             self._beat()
+            self._preview.beat()
             bench.vibration.keep_alive()
             now = bench.clock.now()
             counts = stream.take()
-            settled = not self._changing and now - self._told > _SETTLING
+            settled = not self._changing and now - self._told > _SETTLING + self._lag
             self._interlock.look(counts, self.interval, self.expected, settled=settled)
             if now - self._looked >= _SUPPLIES_EVERY:
                 self._looked = now
                 self._interlock.supplies(bench.motors, self.expected)
             if self._recorder is not None:
                 self._recorder.append(counts, now - self._begun)
-            window.add(counts)
+            window.add(counts[behind:])
+            behind -= min(behind, len(counts))
+            if len(counts):
+                lasting = len(counts) * self.interval
+                self._preview.levels(now, lasting, self._interlock.levels(counts.mean(axis=0)))
         return window
+
+    def _behind(self) -> int:
+        """Return how many samples of what has happened have not come yet."""
+        passed = self._bench.clock.now() - self._begun
+        return max(0, round(passed / self.interval) - self.samples) if self._lag else 0
 
     def during(self, instrument: Instrument, act: Callable[[], T]) -> T:
         """Do something with an instrument; while a person does it, go on recording and watching."""
@@ -192,9 +225,12 @@ class Logger:
 
     def levels(self, window: Window) -> Mapping[str, float]:
         """Return mean signals of a window in SI."""
-        means = self._interlock.offsets + self._interlock.gains * window.means()
-        names = (one.signal for one in self._bench.scope.inputs)
-        return dict(zip(names, map(float, means), strict=True))
+        return self._interlock.levels(window.means())
+
+    def keep(self) -> None:
+        """Bring what is recorded so far to the disk."""
+        if self._recorder is not None:
+            self._recorder.flush()
 
     def close(self) -> None:
         """End stream and recording; it is not compressed yet."""

@@ -16,8 +16,8 @@ from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian.backends import BACKENDS, REPLAY, GuardedBench, open_bench
 from asperity.tribometer.guardian.guard import GuardedJournal
 from asperity.tribometer.guardian.journal import Journal, Lines
+from asperity.tribometer.instruments.acquisition import inputs_for
 from asperity.tribometer.instruments.bench import Bench
-from asperity.tribometer.instruments.inputs import inputs_of
 from asperity.tribometer.instruments.manual import Operator
 from asperity.tribometer.instruments.protocols import StillOnError
 from asperity.tribometer.instruments.replay import replay_bench
@@ -32,6 +32,7 @@ from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
 from asperity.tribometer.recording.recorder import joined_all
+from asperity.tribometer.signals import SIMULATED
 from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
 
@@ -84,7 +85,7 @@ def prepare(
     files = planned_files(plan, limits)
     sonotrode = case.require(Sonotrode)
     Pair.from_case(case)
-    inputs_of(case.require(Channels), sonotrode)
+    inputs_for(case)
     if backend not in BACKENDS:
         raise InputError(
             f"--backend is {backend!r}; it must be one of {choices(BACKENDS)}"
@@ -190,6 +191,8 @@ def _listening(
         case = problem.case
         for warning in warnings(case):
             run.notify(warning)
+        if late := getattr(bench.scope, "late", 0.0):
+            run.notify(f"samples come by files, up to {late:g} s late: interlocks trip as late")
         machine = Machine(case, problem.actions, bench, journal, folder, run, signals)
         latch = machine.go()
         if latch is None and not journal.of("finished"):
@@ -204,7 +207,7 @@ def _opened(problem: RunProblem, journal: Lines) -> None:
     name = key("rig run", problem.case.canonical(), problem.backend)
     begun = journal.of("started")
     if not problem.resume:
-        if any(line["kind"] not in ("off", "torn") for line in journal.lines):
+        if begun:
             raise InputError(
                 f"{journal.path} holds a run; go on with it by --resume, or choose another --out"
             )
@@ -266,6 +269,9 @@ def _notes(problem: RunProblem, journal: Lines, latch: AsperityError | None) -> 
         notes.append(f"played back from {plain(problem.recordings)}: no rig was run")
     if problem.backend == "sim":
         notes.append("simulated: no rig was run")
+        mapped = problem.case.require(Channels).mapped()
+        if absent := [name for name in mapped if name not in SIMULATED]:
+            notes.append(f"nothing simulates {', '.join(absent)}: not recorded")
         notes.extend(standing(problem.case))
     if latch is not None:
         notes.append(

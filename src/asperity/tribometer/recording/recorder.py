@@ -8,9 +8,10 @@ compressed is compressed then, since that takes longer than recording does.
 import contextlib
 import dataclasses
 import datetime
+import json
 import os
 import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -61,6 +62,8 @@ class Recorder:
         Samples that are written together; left out: a tenth of a second.
     simulated : bool
         Whether it comes from no rig.
+    instruments : mapping of str to str, optional
+        What each instrument said it was.
 
     Raises
     ------
@@ -78,6 +81,7 @@ class Recorder:
         start: datetime.datetime | None = None,
         block: int | None = None,
         simulated: bool = False,
+        instruments: Mapping[str, str] | None = None,
     ) -> None:
         self.path = path
         self.samples = 0
@@ -97,6 +101,7 @@ class Recorder:
                 "sample_interval": float(sample_interval),
                 "configuration": configuration,
                 "simulated": int(simulated),
+                "instruments": json.dumps(dict(instruments or {})),
             },
         }
         with self._trouble_told():
@@ -141,6 +146,12 @@ class Recorder:
         row = {"event_time": float(time), "event_kind": plain(kind), "event_text": plain(text)}
         with self._trouble_told():
             self._blocks.event(row)
+
+    def flush(self) -> None:
+        """Bring all that has come to the disk, so that it may be said to be there."""
+        self._write_waiting(self._came)
+        with self._trouble_told():
+            self._blocks.sync()
 
     def close(self, *, compress: bool = True) -> None:
         """Write what is left, and make the file of it; compressed, whole or not at all."""

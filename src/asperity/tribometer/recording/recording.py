@@ -78,6 +78,8 @@ class Recording:
         What is missing.
     simulated : bool
         Whether it comes from no rig.
+    instruments : mapping of str to str
+        What each instrument said it was, by its name.
     """
 
     path: Path
@@ -89,6 +91,7 @@ class Recording:
     events: tuple[Event, ...]
     gaps: tuple[Gap, ...]
     simulated: bool
+    instruments: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     @classmethod
     def open(cls, path: Path) -> Self:
@@ -234,10 +237,18 @@ def _read(file: Any, size: int, name: str) -> dict[str, Any]:
         "sample_interval": interval,
         "start": datetime.datetime.fromisoformat(_text(attributes["start"])),
         "configuration": json.loads(attributes["configuration"]),
+        "instruments": _instruments(attributes.get("instruments", "{}")),
         "events": _events(file, name),
         "gaps": gaps,
         "simulated": bool(attributes.get("simulated", 0)),
     }
+
+
+def _instruments(text: Any) -> dict[str, str]:
+    told = json.loads(text)
+    if not isinstance(told, Mapping):
+        raise ValueError("no names")
+    return {plain(str(name)): plain(str(who)) for name, who in told.items()}
 
 
 def _text(value: Any) -> str:

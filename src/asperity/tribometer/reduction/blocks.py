@@ -13,11 +13,13 @@ from asperity.tribometer.calibration import Line
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.recording.layout import BEYOND
+from asperity.tribometer.recording.recorder import Counts
 from asperity.tribometer.signals import NEEDED, SIGNALS
 from asperity.units import to_si
 
 _AT_A_TIME = 1 << 18
 _NONE = 1e-6  # of a block
+_MOST_IN_32_BITS = 1 << 16  # samples whose counts add up in 32 bits
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,8 +34,10 @@ class Blocks:
         In each.
     means : mapping of str to ndarray
         Of the signals, calibrated, in SI.
-    drive_deviation : ndarray
-        Of the drive signal within each block, V.
+    deviations : mapping of str to ndarray
+        Of the signals within each block, in SI.
+    lowest, highest : mapping of str to ndarray
+        Counts of the signals in each block.
     lost : mapping of str to ndarray of bool
         Blocks in which a signal has samples that are missing or past their range.
     lines : mapping of str to Line
@@ -43,9 +47,16 @@ class Blocks:
     length: float
     samples: int
     means: Mapping[str, FloatArray]
-    drive_deviation: FloatArray
+    deviations: Mapping[str, FloatArray]
+    lowest: Mapping[str, Counts]
+    highest: Mapping[str, Counts]
     lost: Mapping[str, BoolArray]
     lines: Mapping[str, Line]
+
+    @property
+    def drive_deviation(self) -> FloatArray:
+        """Of the drive signal within each block, V."""
+        return self.deviations["drive_voltage"]
 
     @property
     def count(self) -> int:
@@ -83,6 +94,8 @@ def lines_of(recording: Recording, channels: Channels) -> dict[str, tuple[float,
         if channel is not None and channel.points and wanted != "V":
             wanted = "V"
         scale = unit_scale(source.units, source.signal, wanted, recording.name)
+        if zero := to_si(f"0 {source.units}", wanted):  # of a temperature
+            line = dataclasses.replace(line, offset=line.offset + line.gain * zero)
         found[source.signal] = scale, line
     return found
 
@@ -112,40 +125,43 @@ def blocks_of(recording: Recording, channels: Channels, length: float) -> Blocks
         )
     lines = lines_of(recording, channels)
     signals = [source.signal for source in recording.sources]
-    place = signals.index("drive_voltage")
-    sums = np.empty((count, len(signals)))
-    spread = np.empty(count)
-    lost = np.zeros((count, len(signals)), dtype=bool)
+    shape = len(signals), count
+    sums, squares = np.empty(shape), np.empty(shape)
+    lowest, highest = np.empty(shape, np.int16), np.empty(shape, np.int16)
     for first, counts in recording.stretches(samples * max(1, _AT_A_TIME // samples)):
         whole = len(counts) // samples
         if not whole:
             break
-        begin = first // samples
-        part = counts[: whole * samples].reshape(whole, samples, len(signals))
-        sums[begin : begin + whole] = _means(part)
-        spread[begin : begin + whole] = part[:, :, place].std(axis=1)
-        highest, lowest = part.max(axis=1), part.min(axis=1)
-        lost[begin : begin + whole] = (highest >= BEYOND) | (lowest <= -BEYOND)
-    means = {}
-    for column, source in enumerate(recording.sources):
+        # Along a channel numbers are taken together ten times as fast as across.
+        part = np.ascontiguousarray(counts[: whole * samples].T)
+        part = part.reshape(len(signals), whole, samples)
+        here = slice(first // samples, first // samples + whole)
+        sums[:, here], squares[:, here] = _moments(part)
+        part.min(axis=2, out=lowest[:, here])
+        part.max(axis=2, out=highest[:, here])
+    means, deviations, lost = {}, {}, {}
+    for row, source in enumerate(recording.sources):
         scale, line = lines[source.signal]
-        means[source.signal] = line.of(scale * (source.offset + source.scale * sums[:, column]))
-    drive_scale, drive_line = lines["drive_voltage"]
-    size = abs(recording.sources[place].scale * drive_scale * drive_line.gain)
+        means[source.signal] = line.of(scale * (source.offset + source.scale * sums[row]))
+        size = abs(source.scale * scale * line.gain)
+        deviations[source.signal] = size * np.sqrt(squares[row])
+        lost[source.signal] = (highest[row] >= BEYOND) | (lowest[row] <= -BEYOND)
     return Blocks(
-        samples * recording.sample_interval,
-        samples,
-        means,
-        size * spread,
-        {signal: lost[:, column] for column, signal in enumerate(signals)},
+        samples * recording.sample_interval, samples, means, deviations,
+        dict(zip(signals, lowest, strict=True)), dict(zip(signals, highest, strict=True)), lost,
         {signal: line for signal, (_, line) in lines.items()},
-    )
+    )  # fmt: skip
 
 
-def _means(part: NDArray[np.int16]) -> FloatArray:
+def _moments(part: NDArray[np.int16]) -> tuple[FloatArray, FloatArray]:
+    """Return means and mean squares about them, over the last axis."""
     # Whole numbers add up faster and without rounding.
-    total: FloatArray = part.sum(axis=1, dtype=np.int64) / part.shape[1]
-    return total
+    wide = np.int32 if part.shape[2] < _MOST_IN_32_BITS else np.int64
+    means = part.sum(axis=2, dtype=wide) / part.shape[2]
+    # About a count near the mean, so that single precision is enough.
+    near = part - means.astype(np.float32)[:, :, None]
+    squares = np.einsum("cbs,cbs->cb", near, near) / part.shape[2]
+    return means, squares.astype(np.float64)
 
 
 def angle(blocks: Blocks, signal: str, gear_ratio: float) -> FloatArray:

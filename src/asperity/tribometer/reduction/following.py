@@ -1,8 +1,9 @@
 """What follows from the levels of torque, speeds and current before and with vibration."""
 
 import dataclasses
+import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction import quantities
 from asperity.tribometer.reduction.joint import TORQUE, Interval, Joint, Pairs
+from asperity.tribometer.uncertainty import Cause, Contribution, Kind
 
 STEEL, BRONZE, CURRENT = "speed_steel", "speed_bronze", "current_steel"
 _BEFORE, _WITH = 0, 1
@@ -44,6 +46,8 @@ class Following:
         s, in which speeds settle, where windows have no time for it; zero where they have.
     powered : bool
         Whether the current is right in both windows.
+    zeros : mapping of str to ndarray, shape (2, 2)
+        Of signals whose zero was seen at rest and taken off, what is not known of it.
     """
 
     pair: Pair
@@ -55,6 +59,7 @@ class Following:
     seconds: tuple[float, float]
     hurried: float = 0.0
     powered: bool = True
+    zeros: Mapping[str, FloatArray] = dataclasses.field(default_factory=dict)
 
     @property
     def levels(self) -> Pairs:
@@ -107,8 +112,8 @@ class Following:
         both = (float(discs.slide_roll_ratio(*self.rims(self.levels, one))) for one in (0, 1))
         return 0.5 * sum(both)
 
-    def velocity_ratio(self, peak: float, doubt: float) -> Interval | None:
-        """Return v_a, of some deviation, over the mean of the sliding velocities."""
+    def velocity_ratio(self, peak: float, amplitude: Cause) -> Interval | None:
+        """Return v_a, of some uncertainty, over the mean of the sliding velocities."""
 
         def mean(of: Pairs) -> float:
             found = (float(discs.sliding_velocity(*self.rims(of, one))) for one in (0, 1))
@@ -117,7 +122,8 @@ class Following:
         middle = mean(self.levels)
         if middle <= 0.0:
             return None
-        return self._interval(lambda of: peak / mean(of), (doubt / middle) ** 2)
+        beside = Contribution.of(amplitude, ("peak velocity of the vibration",), (1.0 / middle,))
+        return self._interval(lambda of: peak / mean(of), (beside,) if beside.variance else ())
 
     def rims(self, of: Pairs, place: int) -> tuple[float, float]:
         """Return the velocities of both rims, m/s."""
@@ -130,18 +136,32 @@ class Following:
             return None
         return self._interval(lambda of: 100.0 * (one(of, _WITH) - one(of, _BEFORE)))
 
-    def _interval(self, of: Number, beside: float = 0.0) -> Interval:
-        added = {name: self._added(name, level) for name, level in self.levels.items()}
+    def _interval(self, of: Number, beside: Sequence[Contribution] = ()) -> Interval:
         before = 2 * self.place
-        return self.joint.interval(of, before, before + 1, self.confidence, added, beside)
+        return self.joint.interval(of, before, before + 1, self.confidence, self._added, beside)
 
-    def _added(self, name: str, levels: FloatArray) -> FloatArray:
-        """Return the covariance that calibration and the steps of an encoder leave in levels."""
-        one, other, both = self.lines[name].covariance_of_pair(float(levels[0]), float(levels[1]))
-        found = np.array([[one, both], [both, other]])
+    @functools.cached_property
+    def _added(self) -> Mapping[str, Sequence[Cause]]:
+        """What is not known of the levels beside their noise."""
+        return {name: tuple(self._causes(name, level)) for name, level in self.levels.items()}
+
+    def _causes(self, name: str, levels: FloatArray) -> Iterator[Cause]:
+        """Yield what calibration, zero and the steps of an encoder leave in a signal's levels."""
+        line = self.lines[name]
+        if name in self.zeros:
+            # What the offset of the line was off by went with the zero.
+            covariance = np.outer(levels, levels) * (line.gain_deviation / line.gain) ** 2
+            yield Cause(f"{name}: zero at rest", "A", self.zeros[name])
+        else:
+            one, other, both = line.covariance_of_pair(float(levels[0]), float(levels[1]))
+            covariance = np.array([[one, both], [both, other]])
+        kind: Kind = "B" if line.degrees_of_freedom == math.inf else "A"
+        yield Cause(f"{name}: calibration", kind, covariance, line.degrees_of_freedom)
+        for what, most in line.limits:
+            yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))
         if name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.
-            for place, seconds in enumerate(self.seconds):
-                step = 2.0 * math.pi / (self.pair.drives.encoder_pulses * seconds)
-                found[place, place] += step**2 / 6.0
-        return found
+            steps = [
+                2.0 * math.pi / (self.pair.drives.encoder_pulses * one) for one in self.seconds
+            ]
+            yield Cause(f"{name}: steps of the encoder", "B", np.diag(np.square(steps) / 6.0))

@@ -8,8 +8,8 @@ and current give way to the torque: with its swings they swing, and with an erro
 as a part of a turn leaves, they are wrong as far as they give, but for what the torque's sensor
 adds. To these come the calibrations, which leave the same error in all windows, and the steps of an
 encoder. A number that follows from levels before and with vibration has the variance of its slopes
-by them.
-Intervals are Student's with Satterthwaite's degrees of freedom.
+by them. What each of all this brings is a contribution to the number's budget
+(:mod:`asperity.tribometer.uncertainty`), which the interval is taken from.
 """
 
 import dataclasses
@@ -20,6 +20,7 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.tribometer.reduction.levels import Levels, estimate_levels
+from asperity.tribometer.uncertainty import Budget, Cause, Contribution
 
 TORQUE = "torque_steel"
 _FEWEST_FREEDOM = 3.0
@@ -37,10 +38,19 @@ class Interval:
     low: float
     high: float
     deviation: float
+    budget: Budget
+
+    @classmethod
+    def of(cls, budget: Budget) -> "Interval":
+        """Return the interval that a budget leaves."""
+        half = budget.expanded
+        return cls(
+            budget.value, budget.value - half, budget.value + half, budget.uncertainty, budget
+        )
 
     def times(self, factor: float) -> "Interval":
         """Return it in another unit."""
-        return Interval(*(factor * one for one in dataclasses.astuple(self)))
+        return Interval.of(self.budget.times(factor))
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -76,8 +86,8 @@ class Joint:
         before: int,
         shaken: int,
         confidence: float,
-        added: Mapping[str, FloatArray] | None = None,
-        beside: float = 0.0,
+        added: Mapping[str, Sequence[Cause]] | None = None,
+        beside: Sequence[Contribution] = (),
     ) -> Interval:
         """Return what follows from levels of two windows, with its interval.
 
@@ -89,41 +99,80 @@ class Joint:
             The windows.
         confidence : float
             Of the interval.
-        added : mapping of str to ndarray, optional
-            Covariances of a signal's two levels from elsewhere, such as a calibration.
-        beside : float
-            Variance of the number from elsewhere.
+        added : mapping of str to sequence of Cause, optional
+            What else is not known of a signal's two levels, such as by a calibration.
+        beside : sequence of Contribution
+            What the number is uncertain by apart from the levels.
         """
-        from scipy.stats import t as student
-
         pairs = self.pairs(before, shaken)
         places, count = [before, shaken], self.levels[TORQUE].values.size
         slopes = {name: np.zeros(count) for name in self.levels}
         leaning, largest = np.zeros(count), float(np.abs(self.levels[TORQUE].values).max())
+        others = list(beside)
         for name, slope in _slopes(of, pairs).items():
             slopes[name][places] += slope
             leaning[places] += slope * self.levels[name].give / largest
-            beside += float(slope @ (added or {}).get(name, np.zeros((2, 2))) @ slope)
+            others += (
+                Contribution.of(cause, _inputs(name), slope)
+                for cause in (added or {}).get(name, ())
+                if cause.covariance.any()
+            )
         torque, straight = self.levels[TORQUE], slopes[TORQUE]
         slopes[TORQUE] = straight + leaning
-        sensed = np.minimum(torque.sensed, np.diag(torque.covariance))
-        ways, variance, doubt = {}, -float((2.0 * straight + leaning) * leaning @ sensed), 0.0
+        noises, ways, doubts = [], {}, []
         for name, slope in slopes.items():
             level = self.levels[name]
-            variance += float(slope @ level.covariance @ slope)
             change = np.einsum("i,kij,j->k", slope, level.gradients, slope)
-            doubt += float(change @ level.spread @ change)
             ways[name] = np.zeros(self.kept[name].size)
             ways[name][self.kept[name]] = slope @ level.weights
+            if slope.any():
+                cause = Cause(_noise(name), "A", level.covariance[np.ix_(places, places)])
+                noises.append(Contribution.of(cause, _inputs(name), slope[places]))
+                doubts.append(float(change @ level.spread @ change))
+        sensed = np.minimum(torque.sensed, np.diag(torque.covariance))
+        if leaning.any():
+            moved = -float((2.0 * straight + leaning) * leaning @ sensed)
+            others.append(
+                _correlation("torque_steel: noise of its sensor, which moves nothing", moved)
+            )
         for (one, other), correlation in self.correlation.items():
-            variance += 2.0 * correlation * float(ways[one] @ ways[other])
-        variance = max(variance, 0.0)
-        variance += beside
-        freedom = 2.0 * variance**2 / doubt if doubt > 0.0 else math.inf
-        deviation = math.sqrt(variance)
-        half = deviation * float(student.ppf(0.5 + 0.5 * confidence, max(freedom, _FEWEST_FREEDOM)))
-        middle = of(pairs)
-        return Interval(middle, middle - half, middle + half, deviation)
+            both = 2.0 * correlation * float(ways[one] @ ways[other])
+            if both:
+                others.append(_correlation(f"{one} and {other}: correlation of their noises", both))
+        noises = _with_freedom(noises, doubts, others)
+        return Interval.of(Budget(of(pairs), (*noises, *others), confidence))
+
+
+def _noise(name: str) -> str:
+    return f"{name}: noise, run-out and drift" if name == TORQUE else f"{name}: noise"
+
+
+def _inputs(name: str) -> tuple[str, str]:
+    return f"{name} before", f"{name} with"
+
+
+def _correlation(name: str, variance: float) -> Contribution:
+    return Contribution(name, "A", (), (), (), 0.0, variance)
+
+
+def _with_freedom(
+    noises: Sequence[Contribution], doubts: Sequence[float], others: Sequence[Contribution]
+) -> list[Contribution]:
+    """Return what noise brings with the degrees of freedom that its own doubt leaves.
+
+    An estimate of noise is never doubted so much that fewer than three would be left of a number
+    that depends on nothing else.
+    """
+    stated = [one for one in others if one.freedom == math.inf]
+    variance = max(math.fsum(one.variance for one in (*noises, *stated)), 0.0)
+    doubt = math.fsum(doubts)
+    most = 2.0 * variance**2 / _FEWEST_FREEDOM
+    held = min(1.0, most / doubt) if doubt > 0.0 else 1.0
+    return [
+        dataclasses.replace(one, freedom=2.0 * one.variance**2 / (held * doubt))
+        if held * doubt > 0.0 and one.variance > 0.0 else one
+        for one, doubt in zip(noises, doubts, strict=True)
+    ]  # fmt: skip
 
 
 def _slopes(of: Callable[[Pairs], float], pairs: Pairs) -> dict[str, FloatArray]:

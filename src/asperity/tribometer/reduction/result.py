@@ -11,6 +11,8 @@ from asperity.results.quantity import Entry, plain
 from asperity.results.table import Table
 from asperity.store import harmless_cell, write_text
 from asperity.tribometer.parameters import TRANSVERSE
+from asperity.tribometer.reduction import budgets
+from asperity.tribometer.uncertainty import Budget
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -121,6 +123,7 @@ class SegmentResult(Quantities):
     bronze_turns: float | None = _beside("", "", "turns of the bronze disc in the window")
     film_parameter: float | None = _beside("lambda", "", "film over roughness before")
     start: float | None = _beside("t", "s", "start of the vibration")
+    budgets: Mapping[str, Budget] | None = None
 
     @property
     def cell(self) -> tuple[Any, ...]:
@@ -158,6 +161,12 @@ class FileResult(Quantities):
     wear_steel: float | None = quantity("K", "", "Archard's coefficient, steel", default=None)
     wear_bronze: float | None = quantity("K", "", "Archard's coefficient, bronze", default=None)
     gaps: tuple[dict[str, Any], ...] = quantity("", "", "what is missing", default=())
+    findings: tuple[dict[str, Any], ...] = quantity("", "", "what was found", default=())
+
+    @property
+    def everywhere(self) -> tuple[str, ...]:
+        """Flags that all of the recording has."""
+        return tuple(one["flag"] for one in self.findings if one["start_s"] is None)
 
 
 class Reduced(Result):
@@ -169,6 +178,10 @@ class Reduced(Result):
         In the order of recordings and time.
     files : tuple of FileResult
         In the order given.
+    told : bool
+        Whether tables and JSON tell what every number is uncertain by; files always do.
+    not_counted : tuple of str
+        What no budget counts, because nothing tells how uncertain it is.
     """
 
     title = "Recordings of a disc-on-disc rig, reduced"
@@ -185,6 +198,15 @@ class Reduced(Result):
     )  # fmt: skip
     repeat_freedom: int = quantity("", "", "degrees of freedom of that", default=0)
     weighed: tuple[dict[str, Any], ...] = ()
+    told: bool = False
+    not_counted: tuple[str, ...] = ()
+
+    @property
+    def uncertainties(self) -> tuple[budgets.Row, ...]:
+        """Of each segment that was reduced its file, its start and its budgets."""
+        return tuple(
+            (one.file, one.start, one.budgets) for one in self.segments if one.budgets is not None
+        )
 
     def to_json(self) -> dict[str, Any]:
         """Return the segments, and beside them what is told of each recording."""
@@ -195,6 +217,9 @@ class Reduced(Result):
             ],
             "noise_Nm": [{"file": one.file, "noise": one.noise} for one in self.files],
             "gaps": [{"file": one.file, **gap} for one in self.files for gap in one.gaps],
+            "findings": [
+                {"file": one.file, **found} for one in self.files for found in one.findings
+            ],
             "wear": [
                 {entry.key: entry.value for entry in one.entries()
                  if entry.name in ("file", "distance", "path") or entry.name.startswith(
@@ -204,6 +229,12 @@ class Reduced(Result):
         }  # fmt: skip
         if self.weighed:
             beside["wear_together"] = list(self.weighed)
+        if self.told:
+            beside["budgets"] = [
+                {"file": file, "start_s": start, "numbers": budgets.of_segment(of)}
+                for file, start, of in self.uncertainties
+            ]
+            beside["not_counted"] = list(self.not_counted)
         segments = {"segments": [one.to_json() for one in self.segments]}
         told: dict[str, Any] = plain(beside)
         return segments | told | super().to_json()
@@ -215,10 +246,11 @@ class Reduced(Result):
             for place, entry in enumerate(_declared(rows)):
                 values = [list(row.entries())[place].value for row in rows]
                 name = "recording" if entry.name == "file" and dim == "recording" else entry.name
-                if entry.label.only == "json" or entry.name == "gaps":
+                if entry.label.only == "json" or entry.name in ("gaps", "findings"):
                     continue
                 dataset[name] = _variable(entry, values, dim)
-        return dataset
+        each = [(one.file, one.start, one.budgets or {}) for one in self.segments]
+        return dataset.merge(budgets.variables(each))
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a segment, what has intervals, and a row a recording."""
@@ -235,11 +267,13 @@ class Reduced(Result):
             "file", "mode", "lubricant", "wave", "V_ms V", "f Hz", "T before N m", "T with N m",
             "change %", "low", "high", "k_v", "model", "quality",
         )  # fmt: skip
-        flags = [
-            f"{one.file} at {one.start or 0.0:.0f} s: {'; '.join(one.flags)}"
-            for one in self.segments
-            if one.flags
-        ]
+        # What all of a recording has is told once.
+        common = {one.file: one.everywhere for one in self.files}
+        flags = [f"{file}: {flag}" for file, told in common.items() for flag in told]
+        for one in self.segments:
+            own = [flag for flag in one.flags if flag not in common.get(one.file, ())]
+            if own:
+                flags.append(f"{one.file} at {one.start or 0.0:.0f} s: {'; '.join(own)}")
         if self.repeat_deviation is not None:
             flags.append(
                 f"repeats of a cell differ by {self.repeat_deviation:.2g} points about their mean, "
@@ -265,6 +299,7 @@ class Reduced(Result):
         return (
             Table.of(headings, rows, left=4, remarks=flags),
             *self._intervals(),
+            *(budgets.tables(self.uncertainties, self.not_counted) if self.told else ()),
             Table.of(heads, files, remarks=(*remarks, *self.notes)),
         )
 
@@ -294,10 +329,14 @@ class Reduced(Result):
         )  # fmt: skip
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write JSON, netCDF, CSV, what a fit takes, and the picture."""
-        write_text(folder / "reduce.csv", self.to_csv())
-        write_text(folder / "measurements.csv", self.to_measurements())
-        return [*super().write(folder, pictures=pictures), "reduce.csv", "measurements.csv"]
+        """Write JSON, netCDF, CSV, what a fit takes, budgets, and the picture."""
+        texts = {
+            "reduce.csv": self.to_csv(), "measurements.csv": self.to_measurements(),
+            "budget.csv": budgets.to_csv(self.uncertainties),
+        }  # fmt: skip
+        for name, text in texts.items():
+            write_text(folder / name, text)
+        return [*super().write(folder, pictures=pictures), *texts]
 
     def to_measurements(self) -> str:
         """Return torque with over torque before, with its conditions: a table for ``fit``.

@@ -19,9 +19,12 @@ from asperity.tribometer.parameters import Rig, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import wear
 from asperity.tribometer.reduction.blocks import blocks_of
+from asperity.tribometer.reduction.budgets import not_counted
 from asperity.tribometer.reduction.file import reduce_file
+from asperity.tribometer.reduction.heard.listen import Listened, listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
-from asperity.tribometer.reduction.segments import segments_of
+from asperity.tribometer.reduction.segments import Segment, segments_of
+from asperity.tribometer.sheets import broken_classes
 
 _OFTEN = 0.01  # share of samples
 _USUAL = 0.95  # confidence that intervals are named by
@@ -51,6 +54,22 @@ class Reducible:
 
 
 @dataclasses.dataclass(frozen=True)
+class Series:
+    """Recordings that are reduced together.
+
+    Attributes
+    ----------
+    reducible : tuple of Reducible
+        In the order given.
+    budget : bool
+        Whether the answer tells what every number is uncertain by.
+    """
+
+    reducible: tuple[Reducible, ...]
+    budget: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
 class _Opened(Case):
     """A case that brings its recordings along."""
 
@@ -64,6 +83,7 @@ def read(
     *,
     recordings: Sequence[str],
     config: str = "",
+    budget: bool = False,
 ) -> Case:
     """Open recordings; each is reduced by the configuration that is given, or by its own."""
     given = read_case(config, known, settings) if config else None
@@ -93,17 +113,18 @@ def read(
     return _Opened(**values, reducible=tuple(found))
 
 
-def prepare(case: Case, **_: Any) -> tuple[Reducible, ...]:
+def prepare(case: Case, budget: bool = False, **_: Any) -> Series:
     """Return the recordings, refused where a configuration lacks what is needed."""
     found = case.reducible if isinstance(case, _Opened) else ()
     for one in found:
         Pair.from_case(one.case)
         one.case.require(Channels)
-    return found
+    return Series(found, budget)
 
 
-def answer(problem: Sequence[Reducible], run: Run) -> Reduced:
+def answer(series: Series, run: Run) -> Reduced:
     """Reduce recordings, one after the other."""
+    problem = series.reducible
     segments: list[SegmentResult] = []
     files: list[FileResult] = []
     with run.going_on():
@@ -126,15 +147,29 @@ def answer(problem: Sequence[Reducible], run: Run) -> Reduced:
     return Reduced(
         segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
         repeat_freedom=freedom, notes=tuple(notes),
-        weighed=tuple(weighed),
+        weighed=tuple(weighed), told=series.budget, not_counted=tuple(_not_counted(problem)),
     )  # fmt: skip
+
+
+def _not_counted(problem: Sequence[Reducible]) -> Iterator[str]:
+    told: dict[str, None] = {}
+    for one in problem:
+        signals = [source.signal for source in one.recording.sources]
+        told |= dict.fromkeys(not_counted(one.case, signals))
+    yield from told
+
+
+def heard_in(one: Reducible) -> tuple[list[Segment], Listened]:
+    """Return the segments of a recording, and what its sensors say of themselves."""
+    blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
+    segments = segments_of(one.recording, blocks, one.plan, one.reduction)
+    return segments, listen(one.recording, one.case, blocks, segments, one.reduction)
 
 
 def reduce_recording(one: Reducible) -> tuple[FileResult, list[SegmentResult]]:
     """Reduce one recording."""
-    blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
-    segments = segments_of(one.recording, blocks, one.plan, one.reduction)
-    return reduce_file(one.recording, one.case, blocks, segments, one.reduction, one.sonotrode)
+    segments, heard = heard_in(one)
+    return reduce_file(one.recording, one.case, heard, segments, one.reduction, one.sonotrode)
 
 
 def refusal(segment: SegmentResult) -> str:
@@ -197,6 +232,8 @@ def _notes(problem: Sequence[Reducible]) -> Iterator[str]:
         )
     if any(one.recording.simulated for one in problem):
         yield "simulated recordings are among these: no rig stands behind their numbers"
+    mapped = [one.case.require(Channels).mapped() for one in problem]
+    yield from dict.fromkeys(told for one in mapped for told in broken_classes(one))
     if any(one.case.require(Rig).bearing_torque_steel == 0.0 for one in problem):
         yield (
             "the bearing torque is taken as zero: it stands in both torques, and the friction "

@@ -14,7 +14,6 @@ from asperity.roots import root_between
 from asperity.tribometer.options import Twin
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import LONGITUDINAL, Sonotrode
-from asperity.tribometer.signals import SIGNALS
 from asperity.tribometer.twin import plant_kernels as kernels
 from asperity.tribometer.twin.chain import disc_velocity
 from asperity.tribometer.twin.contact import MeanFriction, Rotor, Surface, mean_friction
@@ -93,7 +92,7 @@ class Plant:
 
     def sensing(self, interval: float) -> Sensing:
         """What the sensors make of it at an interval of samples, s."""
-        twin, noise = self.twin, np.zeros(len(SIGNALS))
+        twin, noise = self.twin, np.zeros(kernels.SIGNALS)
         noise[[kernels.TORQUE_STEEL, kernels.TORQUE_BRONZE]] = twin.torque_noise
         noise[[kernels.SPEED_STEEL, kernels.SPEED_BRONZE]] = _SPEED_NOISE
         noise[[kernels.CURRENT_STEEL, kernels.CURRENT_BRONZE]] = twin.current_noise

@@ -1,0 +1,67 @@
+"""A stop button that is a file: who can write to a run's folder can have it switched off.
+
+The guardian looks for it, so that it works where the procedure hangs; in a thread of its own, since
+a disk may hang as well.
+"""
+
+import contextlib
+import os
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+NAME = ".stop"
+_EVERY = 0.05  # s
+
+
+def press(folder: Path) -> None:
+    """Have the run in a folder switched off.
+
+    Parameters
+    ----------
+    folder : Path
+        Where its journal is.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be written to.
+    """
+    # A link would lead to a file of somebody else.
+    flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
+    os.close(os.open(folder / NAME, flags, 0o644))
+
+
+class StopButton:
+    """Looks whether somebody asks for a stop.
+
+    Parameters
+    ----------
+    pressed : callable
+        Called in a thread, once for each time.
+    """
+
+    def __init__(self, pressed: Callable[[], None]) -> None:
+        self._pressed = pressed
+        self._file: Path | None = None
+
+    def watch(self, folder: Path) -> None:
+        """Look into a folder from now on; what was asked of an earlier run there is forgotten."""
+        begun = self._file is not None
+        file = folder / NAME
+        with contextlib.suppress(OSError):
+            file.unlink()
+        self._file = file
+        if not begun:
+            threading.Thread(target=self._look, name="stop", daemon=True).start()
+
+    def _look(self) -> None:
+        while True:
+            time.sleep(_EVERY)
+            file = self._file
+            if file is None or not file.exists():
+                continue
+            self._pressed()
+            with contextlib.suppress(OSError):
+                file.unlink()

@@ -1,0 +1,305 @@
+"""Lines to instruments: a serial port, or VISA; a line goes out, and one may come back."""
+
+import functools
+import threading
+import time
+from typing import Any, Protocol
+
+from asperity.errors import MissingExtraError, shown
+from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.instruments.words import Spoken
+
+_MOST_ANSWER = 4096
+_SILENCE = 0.02  # s, after which an answer without an end has ended.
+_OPENING = 2.0  # s, for a VISA device to be reached.
+_NOTHING = 1  # ms, in which what is there already is read.
+_MOST_LEFT = 64
+
+
+class Line(Protocol):
+    """A line to an instrument."""
+
+    lock: threading.RLock
+
+    def tell(self, text: str) -> None:
+        """Send a line."""
+
+    def ask(self, text: str) -> str:
+        """Send a line and return the answer without its end."""
+
+    def clear(self) -> None:
+        """Throw away what an earlier command left."""
+
+    def close(self) -> None:
+        """Let go of it."""
+
+
+class _Line:
+    """What lines share.
+
+    Parameters
+    ----------
+    name : str
+        What messages call the instrument.
+    words : Spoken
+        How it is spoken to.
+    """
+
+    def __init__(self, name: str, words: Spoken) -> None:
+        self.name = name
+        self.lock = threading.RLock()
+        self._words = words
+        self._end, self._answer_end = words.ends
+        self._free = 0.0
+        # A question was not answered in time: what comes next may be its answer.
+        self._owed = False
+
+    def _waited(self) -> None:
+        if (left := self._free - time.monotonic()) > 0.0:
+            time.sleep(left)
+        self._free = time.monotonic() + self._words.pause
+
+    def _whole(self, text: str, answer: bytes) -> str:
+        end = self._answer_end
+        if not answer:
+            raise InstrumentError(
+                f"{self.name} did not answer {shown(text)} within {self._words.timeout:g} s; look "
+                "at cable, port and power",
+                kind="no answer",
+            )
+        if not answer.endswith(end):
+            raise InstrumentError(
+                f"{self.name} broke off its answer to {shown(text)}: {shown(answer)}",
+                kind="half an answer",
+            )
+        answer = answer[: len(answer) - len(end)]
+        if self._words.output_bit is not None and len(answer) == 1:
+            return answer.decode("latin-1")
+        return answer.decode("ascii", "replace").strip()
+
+
+class SerialLine(_Line):
+    """A serial port.
+
+    Parameters
+    ----------
+    name : str
+        What messages call the instrument.
+    words : Spoken
+        Port, and how it is spoken to.
+
+    Raises
+    ------
+    InstrumentError
+        The port cannot be opened.
+    MissingExtraError
+        pyserial is not installed.
+    """
+
+    def __init__(self, name: str, words: Spoken) -> None:
+        super().__init__(name, words)
+        try:
+            self._port = _serial().Serial(
+                words.port, words.baud, timeout=words.timeout, write_timeout=words.timeout
+            )
+        except (OSError, ValueError) as error:
+            raise InstrumentError(
+                f"{name} cannot be opened: {error}; look at {words.table}.port", kind="line lost"
+            ) from None
+
+    def tell(self, text: str) -> None:
+        """Send a line."""
+        with self.lock, _Reported(self.name, _serial_errors()):
+            self._waited()
+            self._port.write(text.encode("ascii") + self._end)
+
+    def ask(self, text: str) -> str:
+        """Send a line and return the answer without its end."""
+        with self.lock, _Reported(self.name, _serial_errors()):
+            if self._owed:
+                self._owed = False
+                self._answer()
+            # What came unasked is no answer to this.
+            self._port.reset_input_buffer()
+            self.tell(text)
+            answer = self._answer()
+            self._owed = not answer
+            return self._whole(text, answer)
+
+    def _answer(self) -> bytes:
+        if not self._answer_end:
+            return self._until_silent()
+        answer: bytes = self._port.read_until(self._answer_end, _MOST_ANSWER)
+        return answer
+
+    def _until_silent(self) -> bytes:
+        answer: bytes = self._port.read(1)
+        while answer and len(answer) < _MOST_ANSWER:
+            time.sleep(_SILENCE)
+            more = self._port.read(self._port.in_waiting) if self._port.in_waiting else b""
+            if not more:
+                break
+            answer += more
+        return answer
+
+    def clear(self) -> None:
+        """Throw away what an earlier command left."""
+        with self.lock, _Reported(self.name, _serial_errors()):
+            self._port.reset_input_buffer()
+
+    def close(self) -> None:
+        """Let go of the port."""
+        self._port.close()
+
+
+class VisaLine(_Line):
+    """A VISA address: a socket, VXI-11, HiSLIP, USB, GPIB or a serial port.
+
+    Parameters
+    ----------
+    name : str
+        What messages call the instrument.
+    words : Spoken
+        Address, and how it is spoken to.
+
+    Raises
+    ------
+    InstrumentError
+        Nothing answers there.
+    MissingExtraError
+        There is no VISA library, neither a maker's nor pyvisa-py.
+    """
+
+    def __init__(self, name: str, words: Spoken) -> None:
+        super().__init__(name, words)
+        manager, self._errors = _visa()
+        try:
+            self._device = manager.open_resource(words.address, open_timeout=int(1e3 * _OPENING))
+            self._device.timeout = 1e3 * words.timeout
+            if words.address.upper().startswith("ASRL"):
+                self._device.baud_rate = words.baud
+            self._device.write_termination = None
+            self._device.read_termination = self._answer_end.decode() or None
+        except Exception as error:  # of whichever VISA library there is
+            raise InstrumentError(
+                f"{name} cannot be opened: {_said(error)}; look at {words.table}.address",
+                kind="line lost",
+            ) from None
+        kind = words.address.upper()
+        # A packet of the others has an end of its own.
+        self._needs_end = kind.startswith("ASRL") or kind.endswith("SOCKET")
+
+    def tell(self, text: str) -> None:
+        """Send a line."""
+        with self.lock, _Reported(self.name, self._errors):
+            self._waited()
+            self._device.write_raw(text.encode("ascii") + self._end)
+
+    def ask(self, text: str) -> str:
+        """Send a line and return the answer without its end."""
+        with self.lock, _Reported(self.name, self._errors):
+            if self._owed:
+                self._owed = False
+                self._answer()
+            self.tell(text)
+            answer = self._answer()
+            self._owed = not answer
+            if not self._needs_end and answer and not answer.endswith(self._answer_end):
+                answer = answer.rstrip(b"\r\n") + self._answer_end
+            return self._whole(text, answer)
+
+    def _answer(self) -> bytes:
+        try:
+            return bytes(self._device.read_raw(_MOST_ANSWER))
+        except self._errors as error:
+            if _late(error):
+                return b""
+            raise
+
+    def clear(self) -> None:
+        """Throw away what an earlier command left."""
+        with self.lock, _Reported(self.name, self._errors):
+            if not self._needs_end:
+                self._device.clear()
+                return
+            # What clears a socket waits, and for ever where it is closed.
+            self._device.timeout = _NOTHING
+            try:
+                for _ in range(_MOST_LEFT):
+                    self._device.read_raw(_MOST_ANSWER)
+            except self._errors as error:
+                if not _late(error):
+                    raise
+            finally:
+                self._device.timeout = 1e3 * self._words.timeout
+
+    def close(self) -> None:
+        """Let go of the device."""
+        self._device.close()
+
+
+def opened_line(name: str, words: Spoken) -> Line:
+    """Return the line to an instrument by its port or its address."""
+    return SerialLine(name, words) if words.port else VisaLine(name, words)
+
+
+class _Reported:
+    """Turns what a broken line raises into one line."""
+
+    def __init__(self, name: str, errors: tuple[type[BaseException], ...]) -> None:
+        self._name, self._errors = name, errors
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, kind: object, error: BaseException | None, _trace: object) -> None:
+        if isinstance(error, self._errors):
+            raise InstrumentError(
+                f"{self._name}: the line is lost ({_said(error)}); look at the cable",
+                kind="line lost",
+            ) from None
+
+
+def _late(error: BaseException) -> bool:
+    return "TMO" in str(error)
+
+
+def _said(error: BaseException) -> str:
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _serial() -> Any:
+    try:
+        import serial
+    except ImportError:
+        raise MissingExtraError(
+            "an instrument on a serial port needs pyserial; install asperity[daq]"
+        ) from None
+    return serial
+
+
+@functools.cache
+def _serial_errors() -> tuple[type[BaseException], ...]:
+    errors: list[type[BaseException]] = [OSError, _serial().SerialException]
+    try:
+        import termios
+    except ImportError:  # there are none on Windows
+        return tuple(errors)
+    return (*errors, termios.error)
+
+
+@functools.cache
+def _visa() -> tuple[Any, tuple[type[BaseException], ...]]:
+    try:
+        import pyvisa
+    except ImportError:
+        raise MissingExtraError(
+            "an instrument at a VISA address needs pyvisa; install asperity[daq]"
+        ) from None
+    try:
+        manager = pyvisa.ResourceManager()
+    except (ValueError, OSError):
+        raise MissingExtraError(
+            "there is no VISA library; install asperity[daq], which has pyvisa-py, or the maker's"
+        ) from None
+    return manager, (pyvisa.errors.Error, OSError)
