@@ -6,6 +6,7 @@ which compilers it has loaded.
 """
 
 import atexit
+import contextlib
 import json
 import os
 import sys
@@ -35,7 +36,9 @@ def _write(text):
 
 
 def _ends():
-    _write(json.dumps([None, sorted({"numba", "llvmlite"}.intersection(sys.modules))]))
+    # A process that others share may end after the command that began it.
+    with contextlib.suppress(FileNotFoundError):
+        _write(json.dumps([None, sorted({"numba", "llvmlite"}.intersection(sys.modules))]))
 
 
 # What makes kernels needs compilers and calls none.
