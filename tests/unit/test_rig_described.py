@@ -375,7 +375,7 @@ def test_what_a_slow_supply_takes_is_the_guardians_deadline():
     slow = 'supplies.amplifier={instrument="korad",port="p"}'
     fast = ('supplies.instrument="tti-pl"', 'supplies.port="q"', 'supplies.steel="1"')
     for given, due in (
-        ((*fast, slow), 0.5), (fast, 0.1), ((*fast, slow, 'guardian.deadline="0.2 s"'), 0.2)
+        ((*fast, slow), 0.5), (fast, 0.3), ((*fast, slow, 'guardian.deadline="0.2 s"'), 0.2)
     ):  # fmt: skip
         assert deadline_of(rigs.small_case(*given), simulated=False) == due
     assert deadline_of(rigs.small_case(*fast, slow), simulated=True) == 60.0
