@@ -75,6 +75,7 @@ def _library(folder):
         check=False,
     )
     if done.returncode:
-        return (done.stderr.strip().splitlines() or [f"status {done.returncode}"])[-1]
+        last = (done.stderr.strip().splitlines() or [f"status {done.returncode}"])[-1]
+        return last.removeprefix("no library of kernels: ")
     sys.stderr.write(done.stderr)
     return None

@@ -20,6 +20,7 @@ from asperity.slider.closed_forms import (
     normal_ratio,
     transverse_ratio,
 )
+from asperity.slider.periodic import solve_periodic
 from asperity.slider.plots import shade_flight
 from asperity.store import write_atomically
 from asperity.sweep.branches import answer, prepare
@@ -107,7 +108,7 @@ def in_space() -> "Figure":
 def in_flight() -> "Figure":
     """Normal force and friction of a body that is thrown, over the two cycles of its period."""
     model = Model.from_case(read_case("normal-pin", TABLES, ["vibration.velocity_ratio=20"]))
-    history = solve(model).history
+    history = solve_periodic(model).history
     assert history is not None
     return plot_two_cycles(
         history.time, history.normal_force, history.friction[:, 0],

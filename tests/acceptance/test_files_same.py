@@ -79,7 +79,7 @@ def asked(name, lot):
 
 # They write recordings or a page of a folder's, of which `rig reduce` has the numbers, or take
 # minutes: tests of their own.
-ELSEWHERE = {"rig run", "rig look", "rig import", "rig report", "optimise"}
+ELSEWHERE = {"rig run", "rig look", "rig import", "rig report", "rig package", "optimise"}
 QUICK = ("slide", "rig plan")
 
 

@@ -420,3 +420,16 @@ def test_a_full_disk_ends_with_everything_off(begun, rig, tmp_path):
     assert not OUTPUTS & set(rig.on())
     assert lines_of(tmp_path / "run", "latched")[-1]["interlock"] == "disk"
     gone_on_with(begun, rig, tmp_path / "run", acknowledge="space made")
+
+
+@pytest.mark.slow
+def test_a_guardian_after_which_no_other_begins_names_all_that_may_be_on(begun, rig, tmp_path):
+    procedure = begun(begins=lambda number: os._exit(1) if number else None)
+    vibrating(rig)
+    os.kill(procedure.guardian, signal.SIGKILL)
+    assert procedure.ended() == 4
+    assert "NOT READ BACK TO BE OFF" in procedure.said
+    assert all(name in procedure.said for name in NAMES.values())
+    assert lines_of(tmp_path / "run", "latched")[-1]["still_on"]
+    # The next start switches off.
+    gone_on_with(begun, rig, tmp_path / "run", acknowledge="looked at")

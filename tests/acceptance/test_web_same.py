@@ -11,7 +11,7 @@ import pytest
 import scipy.io
 import xarray as xr
 
-from asperity.start.write import written
+from asperity.casefile.written import written
 
 pytestmark = pytest.mark.slow
 

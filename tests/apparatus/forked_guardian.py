@@ -1,17 +1,21 @@
 """A guardian in a process that is forked, so that it costs no start, in time that it is given."""
 
 import contextlib
+import itertools
 import mmap
 import os
+import signal
 import struct
 import subprocess
 import threading
 import time
+import traceback
 import types
 
 from asperity.tribometer.guardian import backends, guard, guardian, in_time, process
 from asperity.tribometer.guardian.in_time import ScopeInTime
 
+_close = os.close  # which a test may replace
 _EVERY, _SHARP = 0.005, 0.002  # s between two beats, and what a computer with nothing to do is late
 
 
@@ -61,17 +65,22 @@ class Dials:
         return struct.unpack_from("d", self._shared, 8 * self._names.index(name))[0]
 
 
-def forked_guardians(dials, keep=()):
-    """Let guardians of this process be forked, with dials; ``keep`` stays open in them."""
+def forked_guardians(dials, keep=(), begins=lambda number: None):
+    """Let guardians of this process be forked, with dials.
+
+    ``keep`` stays open in them; ``begins`` is called in each of them with its number.
+    """
+    numbers = itertools.count()
 
     class Popen:
         """What is used of the one in `subprocess`."""
 
         def __init__(self, _words, *, pass_fds=(), **_):
             (hears, tells), (reads, says) = os.pipe(), os.pipe()
+            number = next(numbers)
             self.pid = os.fork()
             if not self.pid:
-                _be_guardian(hears, says, {*pass_fds, *keep}, dials)
+                _be_guardian(hears, says, {*pass_fds, *keep}, dials, lambda: begins(number))
             os.close(hears)
             os.close(says)
             self.stdin, self.stdout = os.fdopen(tells, "wb", 0), os.fdopen(reads, "rb", 0)
@@ -102,11 +111,9 @@ def forked_guardians(dials, keep=()):
     guard.subprocess = types.SimpleNamespace(Popen=Popen, **told)
 
 
-def _be_guardian(hears, says, keep, dials):
+def _be_guardian(hears, says, keep, dials, begins):
     code = 70
-    with contextlib.suppress(BaseException):
-        import signal
-
+    try:
         signal.set_wakeup_fd(-1)
         os.setsid()
         os.dup2(hears, 0)
@@ -115,10 +122,14 @@ def _be_guardian(hears, says, keep, dials):
         for number in map(int, os.listdir("/dev/fd")):
             if number > 2 and number not in keep:
                 with contextlib.suppress(OSError):
-                    os.close(number)
+                    _close(number)
+        begins()
         _dialled(dials)
         code = process.main()
-    os._exit(code)
+    except BaseException:
+        os.write(2, traceback.format_exc().encode())
+    finally:
+        os._exit(code)
 
 
 def _dialled(dials):

@@ -1,9 +1,9 @@
 """A laboratory's rig that the reduction never saw, and the faults its sensors and cables have.
 
-Simpler than life and of its own making: motors :math:`V = k \\omega + R i`, discs that push each other
-with equal forces, encoders of 32 pulses a turn counted for a second behind a lag, run-out, drift,
-white and lasting noise, hum, twelve bits. All of it follows from a seed. A fault is a function of a
-`Run`, which it changes.
+Simpler than life and of its own making: motors V = k w + R i, discs that push each other with equal
+forces, encoders of 32 pulses a turn counted for a second behind a lag, run-out, drift, white and
+lasting noise, hum, twelve bits. All of it follows from a seed. A fault is a function of a `Run`,
+which it changes.
 """
 
 import dataclasses
@@ -28,7 +28,9 @@ RATIOS = {1.0: (0.12, 0.4), 3.0: (0.6, 0.85), 5.5: (0.88, 0.95)}
 """Torque with vibration over that without, by the supply: between these."""
 CONSTANT, RESISTANCE, DRAG, BRONZE_DRAG = 0.0515, 0.30, 0.095, 0.091
 BRONZE_SUPPLY = 0.9
-ACCELERATION = 'channels.acceleration={channel="I", points=[["0 V","0 m/s**2"],["5 V","500 m/s**2"]]}'
+ACCELERATION = (
+    'channels.acceleration={channel="I", points=[["0 V","0 m/s**2"],["5 V","500 m/s**2"]]}'
+)
 RANGES = {
     "torque_steel": 5.0, "torque_bronze": 5.0, "speed_steel": 5.0, "speed_bronze": 5.0,
     "drive_voltage": 20.0, "load_cell": 0.05, "current_steel": 1.0, "current_bronze": 1.0,
@@ -83,7 +85,7 @@ class Settings:
 
 @dataclasses.dataclass
 class Run:
-    """Volts of every channel over time, what was told, and what is true of each cell."""
+    """Volts of every channel over time, what was told, and when cells begin, shake and end."""
 
     given: Settings
     time: np.ndarray
@@ -91,7 +93,6 @@ class Run:
     events: list[tuple[float, str, str]]
     lines: dict[str, Any]
     spans: list[tuple[float, float, float]]
-    truth: list[dict[str, float]]
     missing: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
     configured: list[str] = dataclasses.field(default_factory=list)
     rng: np.random.Generator = dataclasses.field(default_factory=np.random.default_rng)
@@ -209,7 +210,7 @@ def made(given: Settings, fault: Callable[[Run], None] | None = None) -> Run:
     lines = {name: channel.line() for name, channel in channels.items()}
     run = Run(
         given, time, {}, events, lines, spans,
-        [_truth(given, ratio) for ratio in given.ratios], configured=settings,
+        configured=settings,
         rng=np.random.default_rng((given.seed, 3)),
     )  # fmt: skip
     for name, values in signals.items():
@@ -217,6 +218,11 @@ def made(given: Settings, fault: Callable[[Run], None] | None = None) -> Run:
     if fault is not None:
         fault(run)
     return run
+
+
+def truths(given: Settings) -> list[dict[str, float]]:
+    """What is true of each cell: changes of torque and power, %, and the torque before, N m."""
+    return [_truth(given, ratio) for ratio in given.ratios]
 
 
 def _truth(given: Settings, ratio: float) -> dict[str, float]:
@@ -253,7 +259,9 @@ def _lasting(given, count, rng):
 
     keep = math.exp(-1.0 / (given.rate * given.memory))
     kicks = given.coloured * math.sqrt(1.0 - keep * keep) * rng.standard_normal(count)
-    return lfilter([1.0], [1.0, -keep], kicks, zi=[keep * given.coloured * rng.standard_normal()])[0]
+    return lfilter([1.0], [1.0, -keep], kicks, zi=[keep * given.coloured * rng.standard_normal()])[
+        0
+    ]
 
 
 def _wave(waveform, phase):
@@ -439,10 +447,10 @@ def _gain(name, factor):
 
 
 def _nan(run):
-    for start, begin, _ in run.spans:
+    for start, _, _ in run.spans:
         run.missing["torque_steel"] = np.append(
             run.missing.get("torque_steel", np.zeros(0, dtype=int)),
-            np.flatnonzero(run.within(start + 4.0, start + 4.01))
+            np.flatnonzero(run.within(start + 4.0, start + 4.01)),
         )
 
 
@@ -450,7 +458,7 @@ def _nan_in_drive(run):
     for _, begin, end in run.spans:
         run.missing["drive_voltage"] = np.append(
             run.missing.get("drive_voltage", np.zeros(0, dtype=int)),
-            np.flatnonzero(run.within(0.5 * (begin + end), 0.5 * (begin + end) + 0.3))
+            np.flatnonzero(run.within(0.5 * (begin + end), 0.5 * (begin + end) + 0.3)),
         )
 
 
@@ -506,10 +514,16 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
 }  # fmt: skip
 
 
-def faulty(name, seed, path):
+SMALL = {"rate": 4e3, "part": 6.0, "rest": 4.0, "frequencies": (250.0, 500.0, 750.0)}
+"""Settings of recordings that are soon made."""
+SPARED = {"drive half as strong in one cell": {0, 2}, "encoder that dies": {0}}
+"""Segments that a fault leaves as they are; others spoil all."""
+
+
+def faulty(name, seed, path, **settings):
     """Write a recording with a fault, of a rig drawn by a seed."""
-    fault, settings = FAULTS[name]
-    given = dataclasses.replace(sound_settings(seed), **settings)
+    fault, needed = FAULTS[name]
+    given = dataclasses.replace(sound_settings(seed), **settings, **needed)
     return recorded(made(given, fault), path)
 
 

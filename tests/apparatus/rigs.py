@@ -119,17 +119,27 @@ def serial_controller(rig=None):
 
 def cells(folder):
     """What the journal tells of the cells, without where they stand in a file."""
-    kept = []
-    for row in (folder / "journal.jsonl").read_text().splitlines():
-        line = json.loads(row)
-        if line["kind"] == "done" and "cell" in line:
-            kept.append((line["cell"], line["crc32"], line["level_before"], line["level_with"]))
-    return kept
+    return cells_of(journal(folder))
+
+
+def cells_of(lines):
+    """The same, of its lines."""
+    return [
+        (line["cell"], line["crc32"], line["level_before"], line["level_with"])
+        for line in lines if line["kind"] == "done" and "cell" in line
+    ]  # fmt: skip
 
 
 def journal(folder):
     """The lines of a journal."""
     return [json.loads(row) for row in (folder / "journal.jsonl").read_text().splitlines()]
+
+
+def whole_lines(folder):
+    """The lines of a journal that may just be written, or of which the last was."""
+    path = folder / "journal.jsonl"
+    rows = path.read_bytes().split(b"\n")[:-1] if path.exists() else []
+    return list(map(json.loads, rows))
 
 
 class FaultyScope:

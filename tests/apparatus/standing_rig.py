@@ -44,6 +44,7 @@ class _Server(RigServer):
         self._rig = rig
         self._faults, self._held, self._mended = {}, False, threading.Event()
         self._doing = set()
+        self._begun = rig.state()
         self._time = OwnTime()
 
     def fault(self, key, kind, seconds=0.0):
@@ -68,6 +69,14 @@ class _Server(RigServer):
 
     def quiet(self):
         self._rig.on.clear()
+
+    def left(self, afresh):
+        """Take that who used it is gone; afresh, it stands where it stood in the beginning."""
+        if self._rig.streams:
+            self._rig.end()
+        if afresh:
+            self.quiet()
+            self._rig.restore(self._begun)
 
     def _done(self, head):
         key, verb = head["to"], head["do"]
@@ -102,8 +111,8 @@ class StandingRig:
 
     ``fault(key, kind)`` is one of absent, silent, garbling, late (by seconds), stuck on, welded
     (off by its state, on by its current) and stuck at a value, until ``sound()``; while it is held
-    its time stands still as long as it vibrates. ``lost()`` tells how long others had its
-    processor so far, s.
+    its time stands still as long as it vibrates. ``left(True)`` has it stand as in the beginning.
+    ``lost()`` tells how long others had its processor so far, s.
     """
 
     def __init__(self, case):
@@ -158,11 +167,13 @@ def _warm(bench, rig, case):
 class Procedure:
     """``asperity rig run`` in a process of its own, on a rig that stands.
 
-    With dials its guardians are forked and go by these; without, they are begun as for a user.
+    With dials its guardians are forked and go by these, ``begins`` called in each with its number;
+    without, they are begun as for a user.
     """
 
     def __init__(
-        self, case, folder, rig, *, resume=False, acknowledge="", before=None, dials=None
+        self, case, folder, rig, *, resume=False, acknowledge="", before=None, dials=None,
+        begins=lambda number: None,
     ):  # fmt: skip
         folder.mkdir(exist_ok=True)
         self.folder = folder
@@ -181,7 +192,7 @@ class Procedure:
             signal.signal(signal.SIGINT, signal.default_int_handler)
             signal.signal(signal.SIGQUIT, signal.SIG_DFL)
             if dials is not None:
-                forked_guardians(dials, keep=(there,))
+                forked_guardians(dials, keep=(there,), begins=begins)
             errors = os.open(folder / "errors", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
             os.dup2(errors, 2)
             backends.begun_rig = lambda case: rig.address
@@ -254,6 +265,4 @@ def waited_for(what):
 
 def lines_of(folder, kind):
     """Return the lines of a kind of a journal that may just be written."""
-    path = folder / "journal.jsonl"
-    rows = path.read_bytes().split(b"\n")[:-1] if path.exists() else []
-    return [line for row in rows if (line := json.loads(row))["kind"] == kind]
+    return [line for line in rigs.whole_lines(folder) if line["kind"] == kind]

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.casefile.written import toml, written
 from asperity.errors import InputError
-from asperity.start.write import toml, written
 from asperity.tribometer.calibration import fitted_line
 from asperity.tribometer.options import Reduction, Twin
 from asperity.tribometer.report.study import _cells

@@ -1,13 +1,16 @@
 """A recording holds what was recorded, says what is missing, and survives being killed."""
 
 import contextlib
+import importlib.util
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -17,9 +20,11 @@ import xarray as xr
 from asperity.errors import StorageError
 from asperity.store import read_dataset
 from asperity.tribometer.recording import Recorder, Recording, Source, layout
+from asperity.tribometer.signals import SIGNALS
 
 SOURCES = [Source("torque_steel", "V", 1e-3, 0.5), Source("drive_voltage", "mV", 2.0)]
 BLOCK, INTERVAL = 100, 1e-3
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def counts(rows, seed=0):
@@ -250,3 +255,49 @@ def test_of_300_recordings_killed_at_random_each_lacks_its_last_block_at_most(tm
     for number in range(30):
         path, reported = killed(tmp_path, number, 50_000, rng.uniform(0.0, 1.0))
         check_killed(path, 50_000, reported)
+
+
+def test_the_reader_of_the_docs_reads_a_recording_without_this_package(tmp_path):
+    path = tmp_path / "run.nc"
+    given = counts(600)
+    given[3, 0], given[5, 1], given[6, 1] = layout.MISSING, layout.BEYOND, -layout.BEYOND
+    with recorder(path) as made:
+        made.append(given[:120], 0.12)
+        made.event(0.05, "vibration", "750 Hz sine")
+        made.append(given[120:], 0.6)
+    script = DOCS / "read_recording.py"
+    # A page of the docs says that it is short.
+    body = script.read_text("utf-8").split("def read(path):\n")[1].split("\n\n\nif ")[0]
+    assert len(body.splitlines()) <= 20
+    assert "asperity" not in script.read_text("utf-8")
+    spec = importlib.util.spec_from_file_location("read_recording", script)
+    reader = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(reader)
+    times, signals, units, events = reader.read(path)
+    opened = Recording.open(path)
+    assert times == pytest.approx(1e-3 * np.arange(600))
+    assert list(signals) == [one.signal for one in opened.sources]
+    for one in opened.sources:
+        assert units[one.signal] == one.units
+        np.testing.assert_array_equal(signals[one.signal], opened.values(one.signal))
+        assert np.isnan(signals[one.signal]).any()
+    assert [tuple(one) for one in events] == [(0.05, "vibration", "750 Hz sine")]
+    with h5py.File(path, "r+") as file:
+        file["raw"][100, 0] += 1
+    with pytest.raises(ValueError, match="damaged"):
+        reader.read(path)
+
+
+def test_the_layout_s_page_names_all_that_is_in_a_recording(tmp_path):
+    with recorder(tmp_path / "run.nc") as made:
+        made.append(counts(10), 0.01)
+    page = (DOCS / "recording-format.rst").read_text("utf-8")
+    assert f"``{layout.FORMAT}``" in page
+    for name in (*layout.CHANNELS, *layout.EVENTS, *layout.BLOCKS):
+        assert re.search(rf"``{name}\((channel|event|block)\)``", page), name
+    with h5py.File(tmp_path / "run.nc") as file:
+        for name in file.attrs:
+            assert name.startswith("_") or f"``{name}``" in page, name
+    for signal_ in SIGNALS.values():
+        row = rf"``{signal_.name}``\s+{re.escape(signal_.unit)}\s+{re.escape(signal_.meaning)}"
+        assert re.search(row, page), signal_.name

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -59,20 +59,23 @@ def build(
     """
     from asperity.building import lean, link, making
 
-    if (why := hindrance()) is not None:
+    if (why := hindrance() or (None if entries else "no kernel is listed")) is not None:
         raise NoLibraryError(why)
+    wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
         kernels = kernel_folder.kernels() or Path(other)
         left = _Makers(kernels, entries, processes, tell).make()
         found: list[tuple[Entry, lean.Made]] = []
         for entry in entries:
-            made = link.kept(kernels / keys.key(entry), entry)
+            made = link.kept(kernels / wanted[entry.number], entry)
             if made is not None:
                 found.append((entry, made))
             else:
                 tell(f"left to Numba: {entry.name}: {left.get(entry.number, 'damaged')}")
     if not found:
         raise NoLibraryError("no kernel can be made")
+    if not all(keys.stands(entry.module) for entry, _ in found):
+        raise NoLibraryError("sources changed while it was made")
     making.began()
     folder.mkdir(parents=True, exist_ok=True)
     try:
@@ -133,10 +136,7 @@ class _Makers:
 
     def _go_through(self, waiting: Sequence[int]) -> int:
         """Begin a process for entries; return how many it came to an end with."""
-        command = [
-            *(sys.executable, "-P", "-m", "asperity.building.library", str(self.kernels)),
-            *("--processes", str(self.processes), "--only", *map(str, waiting)),
-        ]
+        command = _command(self.kernels, self.processes, waiting)
         environment = {
             name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")
         }
@@ -179,6 +179,13 @@ class _Makers:
         self.tell(f"{len(self._done)} of {len(self.entries)}: {name}")
 
 
+def _command(kernels: Path, processes: int, numbers: Sequence[int]) -> list[str]:
+    return [
+        *(sys.executable, "-P", "-m", "asperity.building.library", str(kernels)),
+        *("--processes", str(processes), "--only", *map(str, numbers)),
+    ]
+
+
 def _parts(entries: Sequence[Entry], processes: int) -> list[list[int]]:
     """Modules that call much the same stay together, of about equal length each."""
     parts: list[list[Entry]] = [[] for _ in range(processes)]
@@ -194,15 +201,15 @@ def _seconds(entries: Sequence[Entry]) -> float:
     return sum(entry.seconds for entry in entries)
 
 
-def _make(kernels: Path, entries: Iterator[Entry], processes: int) -> None:
+def _make(kernels: Path, entries: Iterable[Entry], processes: int) -> None:
     """Make entries and tell of each: that it begins, and how it ended or nothing."""
     from asperity.building import making
 
     # Ctrl-C is for who waits.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_input, daemon=True).start()
-    for entry in entries:
-        key = keys.key(entry)
+    # Of all, before a kernel is imported: sources may change while this process lives.
+    for entry, key in [(entry, keys.key(entry)) for entry in entries]:
         print(f"at {entry.number} ", flush=True)
         reason = ""
         try:
@@ -234,6 +241,8 @@ def main() -> None:
         return
     try:
         build(given.folder, entries, given.processes, lambda line: print(line, flush=True))
+    except KeyboardInterrupt:
+        sys.exit(130)
     except NoLibraryError as error:
         print(f"no library of kernels: {error}", file=sys.stderr)
         sys.exit(NO_LIBRARY)

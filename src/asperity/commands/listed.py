@@ -282,6 +282,21 @@ COMMANDS = (
         out="REC.nc",
     ),
     Command(
+        "rig check",
+        "Check what recordings say of their own sensors: zeros, signs, ratios, drive, tones.",
+        "With --out also check.json, check.nc and check.png, a small picture of each finding.",
+        module="asperity.tribometer.checking.study",
+        read="asperity.tribometer.checking.study:read",
+        counts="recordings",
+        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        case="",
+        options=(
+            Option(
+                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
+            ),
+        ),
+    ),
+    Command(
         "rig reduce",
         "Reduce recordings: what vibration does to torque, power and efficiency.",
         "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "
@@ -307,8 +322,33 @@ COMMANDS = (
         counts="recordings",
         arguments=(Argument("folder", "DIR", "A folder of recordings."),),
         case="",
+        options=(
+            Option("standard", "With the headings of ASTM G99 or G133 as well: G99, G133.", "NAME"),
+            Option("config", "A case with [conditions], in place of the recordings'.", "CASE"),
+        ),
         draws=False,
         into="folder",
+    ),
+    Command(
+        "rig package",
+        "Put a folder of recordings together for a repository: data, results, metadata, licence.",
+        "Needs --out: a new or empty folder for recordings, journal, results, datacite.json, "
+        "ro-crate-metadata.json and check sums.",
+        module="asperity.tribometer.package.study",
+        read="asperity.tribometer.report.study:read",
+        counts="recordings",
+        arguments=(Argument("folder", "DIR", "A folder of recordings."),),
+        case="",
+        options=(
+            Option(
+                "config",
+                "A case with [package] (title, authors, licence) and [conditions].",
+                "CASE",
+            ),
+            Option("standard", "Report with the headings of ASTM G99 or G133.", "NAME"),
+            Option("archive", "Write one file, package.zip, in place of many.", default=False),
+        ),
+        draws=False,
     ),
 )
 """In the order of the help."""

@@ -42,6 +42,8 @@ _TABLES = {
     "controller": "asperity.tribometer.instruments.parameters:Controller",
     "supplies": "asperity.tribometer.instruments.parameters:Supplies",
     "guardian": "asperity.tribometer.instruments.parameters:Guard",
+    "conditions": "asperity.tribometer.parameters:Conditions",
+    "package": "asperity.tribometer.deposit:Package",
     "drive": "asperity.drive.parameters:Drive",
     "shaft": "asperity.drive.parameters:Shaft",
     "actuator": "asperity.drive.parameters:Actuator",

@@ -15,6 +15,7 @@ from asperity.arrays import FloatArray
 from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.model import Model
 from asperity.slider.shooting import run
+from asperity.slider.steady import fading_rate
 
 _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
@@ -24,8 +25,15 @@ _TAKEN_UP = 1.2
 _LEANS = 1.5  # times a resonance, up to which there may be two states
 _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
 _MOST_TAKEN_UP = 4000.0
-_TOLD = 32  # last cycles that are looked at
+_TOLD = 36  # last cycles that are looked at
+_PERIODS = (1, 2, 3, 4, 6)  # cycles, after which a state may repeat itself
+_ALIKE = 1e-5  # of mu F_N, that cycles of a march are apart which comes to such a state
 _REVERSES_NO_MORE = 1e-3  # of mu F_N, that friction may be below its limit
+# Of a body that nothing shakes: how often disturbances of steady sliding fade to a third, from one
+# slip to the next, and in steps at most; of mu F_N, below which friction is steady; and of how far
+# it swings at most, what lasts.
+_FADED, _LEAST_TIMES, _MOST_STEPS = 3.0, 4, 5e5
+_STEADY, _LASTS = 1e-3, 0.1
 _REVERSES = 1e-9  # of the limit, that a deflection goes back in a step
 
 
@@ -47,7 +55,8 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
     """Whether a body from rest may come to another state than that of a cycle.
 
     Where friction at its limit was found; where friction falls with the speed; and up to a
-    resonance on contact or asperities. What moves as it is told has one state, for its asperities
+    resonance on contact or asperities, or on the contact up to as many of them as the cycles after
+    which the state repeats itself. What moves as it is told has one state, for its asperities
     forget; so has what friction holds to a limit that is told (Coulomb's, and springs that are cut
     off): two motions of it only come nearer.
     """
@@ -58,15 +67,18 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
         return False
     if cycle.at_the_limit:
         return elastic and friction.model != "coulomb"
-    if cycle.period > 1 or slider.mass is None:
+    if slider.mass is None:
         return False
     # The resonance of what softens as it is moved further leans to lower frequencies.
     highest = _LEANS * math.sqrt(1.0 / slider.mass) / (2.0 * math.pi)
     pressed = 0.0
     if normal is not None and normal.control == "force" and model.unit_direction[2] != 0.0:
         pressed = normal.slope(slider.normal_force)
-    if model.frequency <= highest * math.sqrt(pressed):
+    # What repeats itself after some cycles rings at a part of their frequency.
+    if model.frequency <= cycle.period * highest * math.sqrt(pressed):
         return True
+    if cycle.period > 1:
+        return False
     if friction.model in ("coulomb", "springs") or not (elastic or slider.free):
         return False
     if elastic and (friction.static_mu or 0.0) > friction.mu:
@@ -83,19 +95,20 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     if not may_come_elsewhere(cycle) or not loading <= _MOST_TAKEN_UP:
         return None
     there = ratio_of(cycle)
-    body = Cycle(model, len(cycle.increments) - 1, cycle.step)
+    body = Cycle(model, (len(cycle.increments) - 1) // cycle.period, cycle.step)
     if body.body.p.rigid:
         body.body.state["velocity_x"] = body.body.p.drive
     mean = before = 0.0
     for n, cycles in enumerate(_CYCLES):
         before = mean
-        mean, last, least = _marched(body, cycles + (0 if n else math.ceil(loading)))
+        last_cycles, mean, least = _marched(body, cycles + (0 if n else math.ceil(loading)))
+        last = float(np.mean(last_cycles))
         if cycle.at_the_limit and _at_the_limit(body, cycle, least):
             return None
         if not cycle.at_the_limit and max(abs(mean - there), abs(last - there)) <= _COME:
             return None
-        found = body.copied()
-        if not found.find(-1) or abs(ratio_of(found) - last) > _NEAR:
+        found = _repeating(body, last_cycles)
+        if found is None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
             if abs(ratio_of(found) - there) <= _SAME:
@@ -107,8 +120,40 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     return Elsewhere(None, math.inf, mean, body.run)
 
 
+def sticks_from_rest(cycle: Cycle) -> bool | None:
+    """Whether a body that nothing shakes goes on sticking and slipping from rest.
+
+    Where steady sliding is stable as well. It is marched for three times as long as a disturbance
+    of that takes to fade; None where that is too long.
+    """
+    model = cycle.body.model
+    slider, rate = model.slider, fading_rate(model)
+    if rate is None or slider.drive_stiffness is None or slider.mass is None:
+        return False
+    loading = _loading(model) / _TAKEN_UP
+    rings = 2.0 * math.pi * math.sqrt(slider.mass / slider.drive_stiffness)
+    longest = 2.0 * (loading + rings)  # from one slip to the next
+    times = max(_LEAST_TIMES, math.ceil((_TAKEN_UP * loading + _FADED / rate) / longest))
+    steps = math.ceil(longest / cycle.step)
+    if times * steps > _MOST_STEPS:
+        return None
+    body = Cycle(model, steps, cycle.step)
+    state, sums = body.body.kept["state"][0], body.body.sums
+    swings = []
+    for n in range(times):
+        run(state, body.springs, body.body.p, body.q, body.increments, body.rises, sums)
+        swings.append(float(sums["friction_x_max"] - sums["friction_x_min"]))
+        # The first has the way from rest in it.
+        if n and swings[-1] <= _STEADY:
+            return False
+    return swings[-1] > max(_STEADY, _LASTS * max(swings[1:]))
+
+
 def _loading(model: Model) -> float:
-    """Cycles in which a body is taken up: its drive stretched, its asperities bent."""
+    """Cycles in which a body is taken up: its drive stretched, its asperities bent.
+
+    Seconds where nothing shakes it.
+    """
     slider, friction = model.slider, model.friction
     way = 0.0
     if slider.drive_stiffness is not None:
@@ -116,13 +161,26 @@ def _loading(model: Model) -> float:
         way += held / slider.drive_stiffness
     if friction.model != "coulomb":
         way += friction.deflection_limit(slider.normal_force)
-    return _TAKEN_UP * way / slider.drive_velocity * model.frequency
+    cycles = model.frequency if model.vibrates else 1.0
+    return _TAKEN_UP * way / slider.drive_velocity * cycles
 
 
-def _marched(body: Cycle, cycles: int) -> tuple[float, float, FloatArray]:
-    """March some cycles; returns the ratios of their second half and of the last ones.
+def _repeating(body: Cycle, last: FloatArray) -> Cycle | None:
+    """Return the state next to where a march is, over as many cycles as its last ones repeat."""
+    for period in _PERIODS:
+        if period > 1 and np.abs(last[period:] - last[:-period]).max() > _ALIKE:
+            continue
+        found = body.copied()
+        found.repeat(period)
+        if found.find(-1) and abs(ratio_of(found) - float(np.mean(last))) <= _NEAR:
+            return found
+    return None
 
-    And the least friction in each of these.
+
+def _marched(body: Cycle, cycles: int) -> tuple[FloatArray, float, FloatArray]:
+    """March some cycles; returns the ratios of the last ones, and the mean of their second half.
+
+    And the least friction in each of the last ones.
     """
     means, least = [], []
     state = body.body.kept["state"][0]
@@ -132,8 +190,7 @@ def _marched(body: Cycle, cycles: int) -> tuple[float, float, FloatArray]:
         if n >= cycles - _TOLD:
             least.append(float(body.body.sums["friction_x_min"]))
     body.run += cycles
-    half, last = float(np.mean(means[cycles // 2 :])), float(np.mean(means[-_TOLD:]))
-    return half, last, np.array(least)
+    return np.array(means[-_TOLD:]), float(np.mean(means[cycles // 2 :])), np.array(least)
 
 
 def _at_the_limit(body: Cycle, cycle: Cycle, least: FloatArray) -> bool:

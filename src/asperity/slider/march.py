@@ -2,6 +2,7 @@
 
 import contextlib
 import dataclasses
+import math
 import time
 
 import numpy as np
@@ -18,12 +19,16 @@ from asperity.slider.longer import lasting, needed, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import Parameters
+from asperity.slider.steady import fading_rate, two_states
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
 from asperity.waveform import AT_REST
 
 _RECORDS = 4000
+# Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell
+# anything; and of mu F_N, from which on friction swings.
+_SEEN, _SWINGS = 0.1, 1e-3
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
 
 
@@ -235,13 +240,25 @@ class March:
             steps=table.steps,
             cycles=table.cycles,
             history=self.history() if self._record else None,
-            notes=march_notes(self._timed, table, residual, broke=broke),
+            notes=march_notes(self._timed, table, residual, broke=broke) + self._beside(halves),
             substeps=model.substeps,
             seconds=self.seconds,
         )  # fmt: skip
         if answer.settled:
             return answer, None
         return answer, needed(self._timed, table, self._means(), residual, broke=broke)
+
+    def _beside(self, halves: tuple[np.void, np.void]) -> tuple[str, ...]:
+        """Return a note where a body goes on sticking and slipping beside steady sliding."""
+        model, table = self.model, self.table
+        rate = None if model.vibrates or model.normal is not None else fading_rate(model)
+        if rate is None:
+            return ()
+        first, second = (float(half["friction_x_max"] - half["friction_x_min"]) for half in halves)
+        faded = 0.5 * rate * table.window * table.step
+        lasts = second > 0.5 * (1.0 + math.exp(-faded)) * first
+        swings = faded > _SEEN and second > _SWINGS
+        return (two_states(model),) if swings and lasts else ()
 
     def history(self) -> History:
         """Return motion and forces of the stretches recorded so far."""

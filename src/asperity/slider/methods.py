@@ -66,7 +66,7 @@ def solve(
         return dataclasses.replace(
             answer,
             settled_by=f"no state repeats itself; marched, {answer.settled_by}",
-            notes=(note, *none.notes, *answer.notes),
+            notes=tuple(dict.fromkeys((note, *none.notes, *answer.notes))),
         )
     if model.solve.method == "homogenised":
         return solve_homogenised(model, history=history)

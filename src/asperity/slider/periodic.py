@@ -9,13 +9,13 @@ import numpy as np
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import UNSTABLE, Cycle
-from asperity.slider.from_rest import from_rest, ratio_of
+from asperity.slider.from_rest import from_rest, ratio_of, sticks_from_rest
 from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import ACCEPTED, SETTLING
-from asperity.slider.steady import growth_rate, sticks_and_slips
+from asperity.slider.steady import growth_rate, sticks_and_slips, two_states
 from asperity.slider.step_error import error_of_state, refined
 from asperity.slider.summary import history_of, summarise
 
@@ -27,6 +27,10 @@ _OF_MANY = (
     "a ringing of its own"
 )
 _MARCH = "march it from rest with solve.method 'march'"
+_NOT_FOLLOWED = (
+    "friction falls with the speed: a body from rest may stick and slip instead, which takes too "
+    "long to follow here: see solve.method 'march'"
+)
 _REST = f"give a damping (normal.damping_ratio), or {_MARCH}"
 
 
@@ -113,6 +117,12 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
     found, growth, notes = settle(cycle)
     if not model.vibrates and (rate := growth_rate(model)) > 0.0:
         found, notes = False, (sticks_and_slips(rate),)
+    if found and rested and not model.vibrates:
+        sticks = sticks_from_rest(cycle)
+        if sticks:
+            found, notes = False, (two_states(model),)
+        elif sticks is None:
+            notes += (_NOT_FOLLOWED,)
     if not found:
         raise AperiodicError.of(cycle, notes)
     other = from_rest(cycle) if rested and standing_of(cycle, growth).settled else None

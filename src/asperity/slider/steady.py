@@ -22,17 +22,35 @@ _NONE = 1e-9  # of the drive's own angular frequency: rounding
 
 def growth_rate(model: Model) -> float:
     """Return the rate at which a disturbance of steady sliding grows, 1/s; 0 where none does."""
+    slider, rate = model.slider, _slowest(model)
+    if rate is None or slider.mass is None or slider.drive_stiffness is None:
+        return 0.0
+    return rate if rate > _NONE * math.sqrt(slider.drive_stiffness / slider.mass) else 0.0
+
+
+def fading_rate(model: Model) -> float | None:
+    """Return the least rate at which disturbances of steady sliding fade, 1/s.
+
+    None where some grow, and where a body from rest can do nothing but come to steady sliding:
+    friction does not fall with the speed, or the drive is rigid.
+    """
+    rate = _slowest(model)
+    falls = (model.friction.static_mu or 0.0) > model.friction.mu
+    return -rate if falls and rate is not None and rate < 0.0 else None
+
+
+def _slowest(model: Model) -> float | None:
+    """Largest real part of the rates of steady sliding, 1/s; None where friction is constant."""
     slider, friction = model.slider, model.friction
     if slider.mass is None or slider.drive_stiffness is None or friction.model != "lugre":
-        return 0.0
+        return None
     if not friction.stribeck_velocity > 0.0:
-        return 0.0
+        return None
     v, mass, stiffness = slider.drive_velocity, slider.mass, slider.drive_stiffness
-    full, asperities = model.full_friction, friction.stiffness(slider.normal_force)
-    x = v / friction.stribeck_velocity
-    falling = full * ((friction.static_mu or friction.mu) / friction.mu - 1.0) * math.exp(-x * x)
-    held = full + falling
-    follows = -2.0 * x * x * falling / held  # v g'/g
+    falling, slope = _falling(model)
+    asperities = friction.stiffness(slider.normal_force)
+    held = model.full_friction + falling
+    follows = slope / held  # v g'/g
     relaxes = asperities * v / held
     contact = friction.contact_damping
     damping = slider.drive_damping + friction.viscous_damping + contact * follows
@@ -43,9 +61,28 @@ def growth_rate(model: Model) -> float:
     ]
     with np.errstate(all="ignore"):
         if not np.all(np.isfinite(matrix)):
-            return 0.0
-        growth = float(np.linalg.eigvals(np.array(matrix)).real.max())
-    return growth if growth > _NONE * math.sqrt(stiffness / mass) else 0.0
+            return None
+        return float(np.linalg.eigvals(np.array(matrix)).real.max())
+
+
+def _falling(model: Model) -> tuple[float, float]:
+    """What LuGre's limit is above that of fast sliding, N, and its slope times the velocity."""
+    friction = model.friction
+    x = model.slider.drive_velocity / friction.stribeck_velocity
+    above = model.full_friction * ((friction.static_mu or friction.mu) / friction.mu - 1.0)
+    falling = above * math.exp(-x * x)
+    return falling, -2.0 * x * x * falling
+
+
+def two_states(model: Model) -> str:
+    """Say that a body sticks and slips, and that steady sliding would last as well."""
+    steady = model.full_friction + _falling(model)[0]
+    steady += model.friction.viscous_damping * model.slider.drive_velocity
+    return (
+        "from rest the body sticks and slips, which is shown; steady sliding, with the ratio "
+        f"{steady / model.full_friction:.5g}, would last as well: which state a body is in follows "
+        "from where it comes from"
+    )
 
 
 def sticks_and_slips(growth: float) -> str:

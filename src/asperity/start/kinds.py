@@ -215,6 +215,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "controller",
                 "supplies",
                 "guardian",
+                "conditions",
+                "package",
             ),
             ("rig plan", "rig run"),
             case="rig-final",

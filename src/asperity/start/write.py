@@ -1,8 +1,5 @@
 """A commented case file: what is given as keys, and all that could be as comments."""
 
-import datetime
-import json
-import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -11,11 +8,11 @@ from typing import Any
 from asperity.casefile.case import Case, read_raw
 from asperity.casefile.schema import Key, keys_of, table_schema
 from asperity.casefile.table import Table, same_thing
+from asperity.casefile.written import toml, written
 from asperity.shipped import describe
 from asperity.start.kinds import Values
 
 _WIDTH = 98
-_BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def case_text(
@@ -88,32 +85,6 @@ def _tidy(value: str) -> str:
 
 def _comment(text: str) -> list[str]:
     return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
-
-
-def toml(value: Any) -> str:
-    """Return a value as TOML has it."""
-    if isinstance(value, Mapping):
-        entries = (f"{_key(key)} = {toml(entry)}" for key, entry in value.items())
-        return "{ " + ", ".join(entries) + " }"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(toml, value))}]"
-    if isinstance(value, datetime.date | datetime.time):
-        return value.isoformat()
-    # What JSON writes of a text, a number and a truth is TOML too.
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _key(name: str) -> str:
-    return name if _BARE.fullmatch(name) else json.dumps(name, ensure_ascii=False)
-
-
-def written(raw: Mapping[str, Mapping[str, Any]], title: str = "") -> str:
-    """Return tables as the text of a case file, as they are."""
-    lines = [f"# {title}"] if title else []
-    for name, given in raw.items():
-        entries = (f"{_key(key)} = {toml(value)}" for key, value in given.items())
-        lines += ["", f"[{_key(name)}]", *entries]
-    return "\n".join(lines).lstrip() + "\n"
 
 
 def as_set(case: Case) -> str:

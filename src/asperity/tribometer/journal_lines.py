@@ -7,6 +7,7 @@ from typing import Any
 from asperity.errors import InputError
 
 NAME = "journal.jsonl"
+ENDED = frozenset(("finished", "latched", "interrupted"))  #: Lines of how a run has ended.
 
 Line = dict[str, Any]
 
@@ -31,4 +32,35 @@ def lines_of(text: bytes, path: Path) -> list[Line]:
                 "choose another folder, and import what it recorded"
             ) from None
         lines.append(line)
+    return lines
+
+
+def last_lines(path: Path, size: int = 1 << 16) -> list[Line]:
+    """Return the last whole lines of a journal that may just be written; none of what is none.
+
+    Parameters
+    ----------
+    path : Path
+        Its file.
+    size : int
+        How many bytes of its end are looked at.
+    """
+    try:
+        if path.is_symlink():
+            return []
+        with path.open("rb") as file:
+            end = file.seek(0, 2)
+            file.seek(max(0, end - size))
+            rows = file.read(size).split(b"\n")
+    except OSError:
+        return []
+    lines: list[Line] = []
+    # The first may be cut, and the last on its way.
+    for row in rows[:-1] if end <= size else rows[1:-1]:
+        try:
+            line = json.loads(row)
+        except (ValueError, RecursionError):
+            continue
+        if isinstance(line, dict) and isinstance(line.get("kind"), str):
+            lines.append(line)
     return lines

@@ -99,6 +99,8 @@ class Disc(Table):
         Pa, for Archard's coefficient of wear.
     mass_loss : float or str, optional
         What it lost between two weighings, over the recordings that are reduced together, kg.
+    composition, treatment : str
+        Of the material, and what was done to it: for reports.
     """
 
     material: str
@@ -110,6 +112,8 @@ class Disc(Table):
     roughness: Annotated[float, Quantity("m", "a roughness", "0.8 um", gt=0)] | None = None
     hardness: Modulus | None = None
     mass_loss: Annotated[float, Quantity("kg", "a mass", "4.2 mg", ge=0)] | None = None
+    composition: str = ""
+    treatment: str = ""
 
     @property
     def radius(self) -> float:
@@ -269,6 +273,40 @@ class Lubricant(Table):
         Annotated[float, Quantity("1/Pa", "a coefficient", "2e-8 1/Pa", gt=0)] | None
     ) = None
     temperature: Temperature | None = None
+
+
+class Conditions(Table):
+    """What a report on tests tells beside their numbers; no number hangs on it.
+
+    Parameters
+    ----------
+    laboratory, operator : str
+        Where and by whom the tests were made.
+    temperature : float or str, optional
+        Of the air, K.
+    humidity : float or str, optional
+        Of the air, relative: "45 %".
+    atmosphere : str
+        What the discs stand in.
+    cleaning : str
+        How the discs were cleaned before the tests.
+    running_in : str
+        What was done before the first recording.
+    deviations : str
+        From the standard that a report follows, beside those of the rig itself.
+    """
+
+    table: ClassVar[str] = "conditions"
+    counts: ClassVar[bool] = False
+
+    laboratory: str = ""
+    operator: str = ""
+    temperature: Temperature | None = None
+    humidity: Share | None = None
+    atmosphere: str = ""
+    cleaning: str = ""
+    running_in: str = ""
+    deviations: str = ""
 
 
 class Limits(Table):

@@ -2,11 +2,13 @@
 
 from asperity.casefile import Table
 from asperity.tribometer.channels import Channels
+from asperity.tribometer.deposit import Package
 from asperity.tribometer.instruments.acquisition import Acquisition
 from asperity.tribometer.instruments.parameters import Controller, Guard, Supplies
 from asperity.tribometer.options import Plan, Reduction, Twin
 from asperity.tribometer.parameters import (
     BronzeDisc,
+    Conditions,
     Drives,
     Limits,
     Lubricant,
@@ -19,6 +21,6 @@ TABLES: dict[str, type[Table]] = {
     table.table: table
     for table in (
         Rig, SteelDisc, BronzeDisc, Drives, Sonotrode, Channels, Lubricant, Limits, Plan, Twin,
-        Reduction, Acquisition, Controller, Supplies, Guard,
+        Reduction, Acquisition, Controller, Supplies, Guard, Conditions, Package,
     )
 }  # fmt: skip

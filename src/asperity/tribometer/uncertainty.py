@@ -141,7 +141,7 @@ class Budget:
         lost = math.fsum(
             one.variance**2 / one.freedom for one in self.contributions if one.freedom < math.inf
         )
-        return self.variance**2 / lost if lost > 0.0 else math.inf
+        return self.variance**2 / lost if lost > 0.0 < self.variance else math.inf
 
     @property
     def coverage_factor(self) -> float:

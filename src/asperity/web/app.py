@@ -19,6 +19,8 @@ from asperity.errors import AsperityError
 from asperity.leftovers import temporary_beside
 from asperity.start.listed import listed
 from asperity.store import read_text, reason, write_atomically, write_text
+from asperity.tribometer.guardian.stop import press
+from asperity.tribometer.live import look, runs
 from asperity.web.folder import CASE, MOST_FILE, Folder
 from asperity.web.guard import Refused, body_of, parts_of, refusal
 from asperity.web.jobs import Jobs
@@ -58,6 +60,8 @@ class Page:
             "POST /api/save": self._save,
             "GET /api/files/{name}": _file(lambda at: folder.file(at["name"])),
             "PUT /api/files/{name}": self._upload,
+            "GET /api/runs": _told(lambda _: runs(folder.path)),
+            "POST /api/runs/stop": self._stop_run,
             "GET /api/jobs": _told(lambda _: jobs.listed()),
             "POST /api/jobs": self._submit,
             "GET /api/jobs/{id}": _told(lambda at: jobs.found(at["id"]).to_json()),
@@ -148,6 +152,17 @@ class Page:
             return named
         told = json.loads(bytes(named.body))
         return JSONResponse(self.jobs.submit(told["id"], told["line"], object_of(body)))
+
+    async def _stop_run(self, request: Request) -> Response:
+        """Have a run of the rig switched off, whoever began it."""
+        name = object_of(await body_of(request)).get("run")
+        if not isinstance(name, str):
+            raise Refused(400, "run must be the name of one that is listed")
+        home = self.folder.inside(name)
+        if look(home) is None:
+            raise Refused(404, "there is no such run")
+        press(home)
+        return JSONResponse({"run": name})
 
     async def _events(self, request: Request) -> Response:
         events = self.jobs.events(self.jobs.found(request.path_params["id"]))

@@ -15,15 +15,15 @@ from typing import Any
 from asperity.casefile import Case
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.casing import packed
-from asperity.tribometer.guardian.devices import deadline_of
+from asperity.tribometer.guardian.devices import deadline_of, owned_by
 from asperity.tribometer.guardian.guardian import BEAT
-from asperity.tribometer.guardian.journal import Lines
+from asperity.tribometer.guardian.journal import Journal, Lines
 from asperity.tribometer.guardian.rig import Address
 from asperity.tribometer.guardian.switching import LISTENING, longest
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.instruments.parameters import Guard as Table
-from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError
-from asperity.tribometer.journal_lines import NAME, Line
+from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError, StillOnError
+from asperity.tribometer.journal_lines import ENDED, NAME, Line
 
 LOST = "guardian lost"  #: Kind of the error where the guardian is there no more.
 _STARTING = 60.0  # s that it may take to begin
@@ -55,6 +55,7 @@ class Guard:
         # two attempts, the second as the end comes
         busy = 2.0 * longest(deadline_of(case, simulated=simulated))
         self._limit = _SLACK + busy + table.patient(simulated=simulated)
+        self._owned = tuple(owned_by(case, backend)[0].values())
         self.generation = 0
         self._heard, self._signals = os.pipe() if os.name == "posix" else (-1, -1)
         if self._signals >= 0:
@@ -81,7 +82,13 @@ class Guard:
             pipe = self._heard if self._heard >= 0 else None
             self._wire.send(self._told | {"signals": pipe})
         threading.Thread(target=self._hear, args=(self._wire, self._answers), daemon=True).start()
-        self._found = self._ask(_STARTING, "guardian", "started", ())
+        try:
+            self._found = self._ask(_STARTING, "guardian", "started", ())
+        except InstrumentError as error:
+            if error.kind != LOST:
+                raise
+            why = "the guardian, which switches off, has ended as it began"
+            raise StillOnError.of(why, LOST, self._owned) from None
 
     @property
     def signals(self) -> int:
@@ -180,8 +187,11 @@ class Guard:
         except InstrumentError as error:
             if error.kind != LOST:
                 raise
+        try:
             self._start()
-            return dict(self._found)
+        except InstrumentError as error:
+            return {"still_on": [f"{name}: {error}" for name in self._owned]}
+        return dict(self._found)
 
     def close(self) -> None:
         """Let it end, everything off."""
@@ -225,11 +235,20 @@ class GuardedJournal(Lines):
             self._generation = self._guard.generation
 
     def write(self, kind: str, **what: Any) -> Line:
-        """Write a line and bring it to the disk."""
-        self._open()
+        """Write a line and bring it to the disk; how a run ends also where no guardian is left."""
         # Numbers of arrays are plain ones in JSON.
         plainly = json.loads(json.dumps(what, allow_nan=False))
-        line: Line = self._guard.ask("journal", "write", kind, plainly)
+        try:
+            self._open()
+            line: Line = self._guard.ask("journal", "write", kind, plainly)
+        except InstrumentError as error:
+            if error.kind != LOST or kind not in ENDED:
+                raise
+            book = Journal(self.path.parent)
+            try:
+                line = book.write(kind, **plainly)
+            finally:
+                book.close()
         self.lines.append(line)
         return line
 

@@ -5,6 +5,7 @@ a disk may hang as well.
 """
 
 import contextlib
+import os
 import threading
 import time
 from collections.abc import Callable
@@ -27,7 +28,9 @@ def press(folder: Path) -> None:
     OSError
         The folder cannot be written to.
     """
-    (folder / NAME).touch()
+    # A link would lead to a file of somebody else.
+    flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
+    os.close(os.open(folder / NAME, flags, 0o644))
 
 
 class StopButton:

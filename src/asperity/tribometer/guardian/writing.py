@@ -10,8 +10,7 @@ from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.guardian.owned import Verdict
 from asperity.tribometer.guardian.wire import Head
 from asperity.tribometer.instruments.protocols import InstrumentError
-
-_ENDED = frozenset(("finished", "latched", "interrupted"))
+from asperity.tribometer.journal_lines import ENDED
 
 
 class Writing:
@@ -73,11 +72,11 @@ class Writing:
         journal = self._journal
         kinds = [] if journal is None else [line["kind"] for line in journal.lines]
         last = next((kind for kind in reversed(kinds) if kind != "off"), "")
-        if journal is None or last in _ENDED:
+        if journal is None or last in ENDED:
             return
         if found.still_on:
             journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)
-        else:
+        elif "started" in kinds:
             journal.write("interrupted", reason=why)
 
     def _join(self) -> None:

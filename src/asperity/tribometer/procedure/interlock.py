@@ -7,12 +7,16 @@ within a block of what happened.
 import dataclasses
 import functools
 from collections.abc import Mapping
+from typing import Self
 
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.casefile import Case
+from asperity.tribometer.channels import Channels
+from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
 from asperity.tribometer.instruments.protocols import Counts, Input, InstrumentError, Supply
-from asperity.tribometer.parameters import Limits
+from asperity.tribometer.parameters import Limits, Sonotrode
 
 _SPIKES = 2  # Samples of a poll that noise may take beyond a limit.
 _SUPPLY_SHARE, _SUPPLY_VOLTS = 0.05, 0.1
@@ -65,6 +69,24 @@ class Interlock:
     offsets: FloatArray
     swing: float
     frequency_tolerance: float = _FREQUENCY_SHARE
+
+    @classmethod
+    def from_case(cls, case: Case, inputs: tuple[Input, ...]) -> Self:
+        """Return the limits of a configuration."""
+        lines = lines_of(case.require(Channels), inputs)
+        sonotrode = case.require(Sonotrode)
+        swing = sonotrode.highest_voltage - sonotrode.lowest_voltage
+        gains = [line.gain * volts_a_count(one) for line, one in zip(lines, inputs, strict=True)]
+        return cls(
+            case.get(Limits, Limits()), inputs, np.array(gains),
+            np.array([line.offset for line in lines]), 0.5 * swing / sonotrode.amplifier_gain,
+        )  # fmt: skip
+
+    def levels(self, means: FloatArray) -> dict[str, float]:
+        """Return what mean counts of the inputs are of their signals, in SI."""
+        values = self.offsets + self.gains * means
+        names = (one.signal for one in self.inputs)
+        return dict(zip(names, map(float, values), strict=True))
 
     def look(self, counts: Counts, interval: float, expected: Expected, *, settled: bool) -> None:
         """Look at samples.

@@ -17,6 +17,7 @@ from asperity.casefile import Case
 from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import Counts, Instrument
 from asperity.tribometer.instruments.stream import Stream
+from asperity.tribometer.live import Preview
 from asperity.tribometer.options import Plan
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure.interlock import Expected, Interlock
@@ -80,6 +81,8 @@ class Logger:
         Of the rig as it stands, as JSON.
     beat : callable
         Called with every poll; may end the work by raising.
+    preview : Preview
+        What is shown of it meanwhile.
     """
 
     def __init__(
@@ -90,12 +93,14 @@ class Logger:
         path: Path | None,
         configuration: str,
         beat: Callable[[], None],
+        preview: Preview,
     ) -> None:
         self.path = path
         self.expected = Expected()
         self._bench = bench
         self._interlock = interlock
         self._beat = beat
+        self._preview = preview
         # Asked before the stream begins: an answer takes its time.
         instruments = bench.identities() if path is not None else {}
         self._begun = bench.clock.now()
@@ -125,6 +130,14 @@ class Logger:
         """Say what the rig has just been told."""
         self.expected = expected
         self._told = self._bench.clock.now()
+        vibrates = f"on, {expected.waveform} {expected.frequency:g} Hz"
+        self._preview.told(
+            {self._bench.vibration.name: vibrates if expected.frequency else "off"}
+            | {
+                motor.name: f"on, {expected.volts[key]:g} V" if key in expected.volts else "off"
+                for key, motor in self._bench.motors.items()
+            }
+        )
 
     def event(self, kind: str, text: str) -> None:
         """Write down what was done."""
@@ -163,6 +176,7 @@ class Logger:
             left = (wanted - window.samples) * self.interval
             bench.clock.sleep(min(poll, left))
             self._beat()
+            self._preview.beat()
             bench.vibration.keep_alive()
             now = bench.clock.now()
             counts = stream.take()
@@ -175,6 +189,9 @@ class Logger:
                 self._recorder.append(counts, now - self._begun)
             window.add(counts[behind:])
             behind -= min(behind, len(counts))
+            if len(counts):
+                lasting = len(counts) * self.interval
+                self._preview.levels(now, lasting, self._interlock.levels(counts.mean(axis=0)))
         return window
 
     def _behind(self) -> int:
@@ -208,9 +225,12 @@ class Logger:
 
     def levels(self, window: Window) -> Mapping[str, float]:
         """Return mean signals of a window in SI."""
-        means = self._interlock.offsets + self._interlock.gains * window.means()
-        names = (one.signal for one in self._bench.scope.inputs)
-        return dict(zip(names, map(float, means), strict=True))
+        return self._interlock.levels(window.means())
+
+    def keep(self) -> None:
+        """Bring what is recorded so far to the disk."""
+        if self._recorder is not None:
+            self._recorder.flush()
 
     def close(self) -> None:
         """End stream and recording; it is not compressed yet."""

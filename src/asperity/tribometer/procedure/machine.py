@@ -16,10 +16,8 @@ from asperity.casefile import Case
 from asperity.errors import AsperityError, StorageError
 from asperity.runs import Run
 from asperity.runs.interrupt import Interrupted, Signals
-from asperity.tribometer.channels import Channels
 from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.instruments.bench import Bench, MadeSafe
-from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
 from asperity.tribometer.instruments.protocols import (
     STOPPED,
     SWITCHED_OFF,
@@ -27,9 +25,10 @@ from asperity.tribometer.instruments.protocols import (
     StillOnError,
     WallClock,
 )
+from asperity.tribometer.live import Preview, units_of
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
-from asperity.tribometer.parameters import Limits, Sonotrode
+from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.interlock import Expected, Interlock
@@ -87,28 +86,15 @@ class Machine:
         self._pair = Pair.from_case(case)
         self._sonotrode = case.require(Sonotrode)
         self._settling = (case.get(Reduction, Reduction())).settling
-        self._interlock = self._made_interlock()
+        self._interlock = Interlock.from_case(case, bench.scope.inputs)
         self._interval = 1.0 / self._plan.sample_rate
         self._logger: Logger | None = None
         self._file: PlannedFile | None = None
         self._cells = sum(action.act == "cell" for action in actions)
         self._done_cells = 0
         self._packer = Packer(run.notify)
-
-    def _made_interlock(self) -> Interlock:
-        case, inputs = self._case, self._bench.scope.inputs
-        lines = lines_of(case.require(Channels), inputs)
-        limits = case.get(Limits, Limits())
-        swing = self._sonotrode.highest_voltage - self._sonotrode.lowest_voltage
-        return Interlock(
-            limits,
-            inputs,
-            np.array(
-                [line.gain * volts_a_count(one) for line, one in zip(lines, inputs, strict=True)]
-            ),
-            np.array([line.offset for line in lines]),
-            0.5 * swing / self._sonotrode.amplifier_gain,
-        )
+        units = units_of([one.signal for one in bench.scope.inputs])
+        self._preview = Preview(folder, units, simulated=bench.simulated)
 
     def go(self) -> AsperityError | None:
         """Do what is left.
@@ -128,11 +114,14 @@ class Machine:
         try:
             self._remember(done)
             with self._packer:
-                for action in self._actions:
+                for place, action in enumerate(self._actions):
                     self._signals.check(self._how_far())
                     if action.key in done:
                         self._done_cells += action.act == "cell"
                         continue
+                    following = next(map(str, self._actions[place + 1 :]), "")
+                    far = self._done_cells, self._cells
+                    self._preview.step(str(action), following, *far, asks=action.asks)
                     self._journal.write("begun", action=action.key, steps=list(action.steps))
                     told = self._act(action)
                     self._journal.write(
@@ -142,6 +131,7 @@ class Machine:
         except BaseException as error:
             return self._ended(error)
         failures = self._bench.safe()
+        self._preview.end("latched" if failures else "finished")
         if not failures:
             return None
         return self._still_on("all is done", "still on", failures)
@@ -180,10 +170,12 @@ class Machine:
             error = Interrupted(f"{self._signals.heard or STOPPED}{self._how_far()}")
         if isinstance(error, Interrupted | KeyboardInterrupt):
             said = str(error) or "interrupted"
+            self._preview.end("latched" if failures else "interrupted")
             if failures:
                 return self._still_on(said, "still on", failures)
             self._journal.write("interrupted", reason=said)
             raise Interrupted(f"{said}; --resume goes on") from None
+        self._preview.end("latched")
         kind = getattr(error, "kind", "disk" if isinstance(error, StorageError) else "error")
         reason = str(error) or type(error).__name__
         try:
@@ -319,6 +311,7 @@ class Machine:
         if self._bench.amplifier is not None:
             # Made safe, it is off.
             self._bench.amplifier.on()
+            self._preview.told({self._bench.amplifier.name: "on"})
         logger.during(drive, drive.on)
         volts = logger.expected.volts
         logger.expect(Expected(cell.frequency, one.waveform, volts))
@@ -329,6 +322,8 @@ class Machine:
         self._still(logger)
         if plan.idle:
             logger.watch(plan.idle)
+        # The journal is not to tell of samples that a kill would still cost.
+        logger.keep()
         return {
             "cell": cell.number,
             "frequency_Hz": cell.frequency,
@@ -385,7 +380,7 @@ class Machine:
     def _new_logger(self, path: Path | None, one: PlannedFile | None) -> Logger:
         return Logger(
             self._bench, self._interlock, self._interval, path, configuration_of(self._case, one),
-            self._beat,
+            self._beat, self._preview,
         )  # fmt: skip
 
     def _beat(self) -> None:

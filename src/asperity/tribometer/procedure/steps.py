@@ -93,6 +93,20 @@ class Action:
     file: PlannedFile | None = None
     cell: Cell | None = None
 
+    @property
+    def asks(self) -> bool:
+        """Whether a person does it, who takes time."""
+        return self.act in ("ask", "weigh", "arrange")
+
+    def __str__(self) -> str:
+        if self.cell is None or self.file is None:
+            return self.text.rstrip(".")
+        one = self.file
+        return (
+            f"Cell {self.cell.number}: {one.waveform} of {self.cell.frequency:g} Hz, {one.mode}, "
+            f"{one.lubricant}, {one.steel_supply:g} V"
+        )
+
 
 def sequence(files: Sequence[PlannedFile]) -> Iterator[Action]:
     """Yield everything a plan needs, in order."""

@@ -210,7 +210,7 @@ def _opened(problem: RunProblem, journal: Lines) -> None:
     name = key("rig run", problem.case.canonical(), problem.backend)
     begun = journal.of("started")
     if not problem.resume:
-        if any(line["kind"] not in ("off", "torn") for line in journal.lines):
+        if begun:
             raise InputError(
                 f"{journal.path} holds a run; go on with it by --resume, or choose another --out"
             )

@@ -87,6 +87,11 @@ class Blocks:
             raise
         self._end += sum(map(len, parts))
 
+    def sync(self) -> None:
+        """Bring what is written to the disk."""
+        if self._file is not None:
+            os.fsync(self._file)
+
     def close(self) -> None:
         """Let go of the file."""
         file, self._file = self._file, None

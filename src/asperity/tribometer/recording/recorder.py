@@ -147,6 +147,12 @@ class Recorder:
         with self._trouble_told():
             self._blocks.event(row)
 
+    def flush(self) -> None:
+        """Bring all that has come to the disk, so that it may be said to be there."""
+        self._write_waiting(self._came)
+        with self._trouble_told():
+            self._blocks.sync()
+
     def close(self, *, compress: bool = True) -> None:
         """Write what is left, and make the file of it; compressed, whole or not at all."""
         if not self._open:

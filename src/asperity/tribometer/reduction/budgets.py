@@ -38,6 +38,8 @@ _CSV = (
     "sensitivity_1", "input_2", "uncertainty_2", "sensitivity_2", "correlation", "size",
     "share_percent", "freedom",
 )  # fmt: skip
+_LEAST_SHARE = 5e-4
+_MANY = 1000.0
 _RESTED_ON = TORQUE, STEEL, BRONZE, CURRENT, "acceleration"
 
 Row = tuple[str, float | None, Budgets]
@@ -119,23 +121,29 @@ def to_csv(rows: Sequence[Row]) -> str:
 
 def tables(rows: Sequence[Row], left_out: Sequence[str]) -> tuple[Table, ...]:
     """Return every number with its uncertainty, and of each segment what that comes from."""
-    summary = [
-        (file, _at(start), f"{NUMBERS[name][0]} {NUMBERS[name][1]}".strip(),
+    return summary(rows, left_out), *(_detail(*row) for row in rows)
+
+
+def summary(
+    rows: Sequence[Row], left_out: Sequence[str], numbers: Sequence[str] = tuple(NUMBERS)
+) -> Table:
+    """Return numbers with their uncertainties."""
+    lines = [
+        (file, _at(start), f"{NUMBERS[name][0]} {NUMBERS[name][1]}".strip(), _largest(budget),
          *map(_digits, (budget.value, budget.uncertainty)), _freedom(budget.freedom),
-         *map(_digits, (budget.coverage_factor, budget.expanded)), _largest(budget))
+         *map(_digits, (budget.coverage_factor, budget.expanded)))
         for file, start, budgets in rows
-        for name, budget in budgets.items()
+        for name, budget in budgets.items() if name in numbers
     ]  # fmt: skip
-    heads = ("file", "at s", "number", "value", "u_c", "nu_eff", "k", "U", "most of it")
-    whole = Table.of(
-        heads, summary, left=3, title="Uncertainty (GUM)",
+    heads = ("file", "at s", "number", "most of it", "value", "u_c", "nu_eff", "k", "U")
+    return Table.of(
+        heads, lines, left=4, title="Uncertainty (GUM)",
         remarks=(
             "u_c: combined standard uncertainty; nu_eff: by Welch and Satterthwaite; k: Student's "
             "factor; U = k u_c, half the interval",
             *(f"not counted: {one}" for one in left_out),
         ),
     )  # fmt: skip
-    return whole, *(_detail(file, start, budgets) for file, start, budgets in rows)
 
 
 def _detail(file: str, start: float | None, budgets: Budgets) -> Table:
@@ -144,14 +152,19 @@ def _detail(file: str, start: float | None, budgets: Budgets) -> Table:
          *_pair(one.sensitivities), _digits(one.size), f"{100.0 * budget.share(one):.1f}",
          _freedom(one.freedom))
         for name, budget in budgets.items()
-        for one in budget.contributions
+        for one in budget.contributions if abs(budget.share(one)) >= _LEAST_SHARE
     ]  # fmt: skip
     heads = (
         "number", "contribution", "type", "u before", "u with", "r", "c before", "c with", "u_i",
         "share %", "nu",
     )  # fmt: skip
-    title = f"Contributions: {file} at {_at(start)} s"
-    return Table.of(heads, rows, left=3, title=title)
+    return Table.of(
+        heads, rows, left=3, title=f"Contributions: {file} at {_at(start)} s",
+        remarks=(
+            "u of levels in N m, rad/s and A, of v_a in m/s, r their correlation; c: of the number "
+            f"by these; what brings less than {100.0 * _LEAST_SHARE:g} % stands in files only",
+        ),
+    )  # fmt: skip
 
 
 def variables(rows: Sequence[Row]) -> "xr.Dataset":
@@ -166,7 +179,7 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
     numbers = list(NUMBERS)
     whole = {
         "standard_uncertainty": "combined standard uncertainty, in the number's unit",
-        "effective_freedom": "effective degrees of freedom; inf where all are stated",
+        "inverse_freedom": "one over the effective degrees of freedom; zero where all are stated",
         "coverage_factor": "factor of the interval",
     }
     flat = {key: np.full((len(rows), len(numbers)), np.nan) for key in whole}
@@ -175,12 +188,12 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
     for row, (_, _, budgets) in enumerate(rows):
         for name, budget in budgets.items():
             place = row, numbers.index(name)
-            values = budget.uncertainty, budget.freedom, budget.coverage_factor
+            values = budget.uncertainty, 1.0 / budget.freedom, budget.coverage_factor
             for key, value in zip(whole, values, strict=True):
                 flat[key][place] = value
             for one in budget.contributions:
                 size[*place, causes.index(one.name)] = one.size
-                freedom[*place, causes.index(one.name)] = one.freedom
+                freedom[*place, causes.index(one.name)] = 1.0 / one.freedom
     made = xr.Dataset(
         {
             key: (("segment", "number"), flat[key], {"units": "1", "long_name": meaning})
@@ -191,8 +204,8 @@ def variables(rows: Sequence[Row]) -> "xr.Dataset":
     made["contribution_size"] = dims, size, {
         "units": "1", "long_name": "u_i, in the number's unit; below zero where it cancels",
     }  # fmt: skip
-    made["contribution_freedom"] = dims, freedom, {
-        "units": "1", "long_name": "degrees of freedom of that",
+    made["contribution_inverse_freedom"] = dims, freedom, {
+        "units": "1", "long_name": "one over its degrees of freedom; zero where it is stated",
     }  # fmt: skip
     named = {"units": "1", "long_name": "what has a budget"}
     made["number"] = "number", np.array(numbers, dtype=object), named
@@ -222,7 +235,7 @@ def _digits(value: float) -> float:
 
 
 def _freedom(value: float) -> str:
-    return "inf" if value == math.inf else f"{value:.1f}" if value < 1e3 else f"{value:.0f}"
+    return f"{value:.1f}" if value < _MANY else f"> {_MANY:g}" if value < math.inf else "inf"
 
 
 def _pair(values: Sequence[float]) -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -16,6 +17,7 @@ _TRIANGLE = 1.0 / 9.0
 _TELLS = 0.5  # of a triangle's third harmonic, above which a wave is one
 _FIFTH = 1.0 / 25.0
 _NYQUIST_LINES = 8
+_OUT_OF_NOISE = 8.0  # times the usual line of a spectrum
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,13 +46,95 @@ class Tone:
     waveform : str
         ``sine``, ``triangle``, or ``unknown`` where the third harmonic is of neither or is lost.
     third : float
-        Third harmonic over the first.
+        Third harmonic over the first; not a number where samples are too few.
+    second : float
+        Second harmonic over the first; zero where samples are too few.
+    impurity : float
+        All tones beside the first harmonic over it.
     """
 
     frequency: float
     amplitude: float
     waveform: str
     third: float
+    second: float = 0.0
+    impurity: float = 0.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Spectrum:
+    """Tones of a signal, seen through a Hann window.
+
+    Attributes
+    ----------
+    raw : ndarray
+        Sizes of the transform.
+    step : float
+        Hz from one to the next.
+    count : int
+        Samples it is of.
+    """
+
+    raw: FloatArray
+    step: float
+    count: int
+
+    @classmethod
+    def of(cls, signal: FloatArray, interval: float) -> "Spectrum | None":
+        """Return that of the middle of a signal; None where it is short or not whole."""
+        count = min(signal.size, _MOST)
+        middle = (signal.size - count) // 2
+        part = signal[middle : middle + count]
+        if count < 64 or not np.all(np.isfinite(part)):
+            return None
+        raw = np.abs(np.fft.rfft((part - part.mean()) * np.hanning(count)))
+        raw[:_NARROW] = 0.0
+        return cls(raw, 1.0 / (count * interval), count)
+
+    @property
+    def lines(self) -> FloatArray:
+        """Peaks of the tones, in the signal's unit."""
+        return 4.0 / self.count * self.raw
+
+    def holds(self, frequency: float) -> bool:
+        """Whether a frequency is within it."""
+        return frequency / self.step < self.raw.size - _NYQUIST_LINES
+
+    def strength(self, frequency: float) -> float:
+        """Return the size of a tone and of the lines it spreads over."""
+        at = round(frequency / self.step)
+        part = self.raw[max(at - _NARROW, 0) : at + _NARROW + 1]
+        return float(np.sqrt(np.sum(part**2)))
+
+    def amplitude(self, frequency: float) -> float:
+        """Return the peak of a tone, in the signal's unit."""
+        return self._peak(self.strength(frequency))
+
+    def _peak(self, strength: float) -> float:
+        # The squares of a Hann window have the mean 3/8.
+        return 2.0 * strength / (self.count * math.sqrt(3.0 / 8.0))
+
+    @property
+    def usual(self) -> float:
+        """Peak of what lies on as many lines as a tone does where there is none."""
+        return self._peak(math.sqrt(2 * _NARROW + 1) * float(np.median(self.raw)))
+
+    def beside(self, frequency: float) -> float:
+        """Return the size of all tones but one that stand out of the noise."""
+        left = self._without([frequency])
+        return float(np.sqrt(np.sum(left[left > _OUT_OF_NOISE * np.median(self.raw)] ** 2)))
+
+    def strongest(self, apart: Sequence[float]) -> tuple[float, float]:
+        """Return frequency and peak of the strongest tone apart from some."""
+        at = self.step * int(np.argmax(self._without(apart)))
+        return at, self.amplitude(at)
+
+    def _without(self, tones: Sequence[float]) -> FloatArray:
+        left = self.raw.copy()
+        for one in tones:
+            at = round(one / self.step)
+            left[max(at - 2 * _NARROW, 0) : at + 2 * _NARROW + 1] = 0.0
+        return left
 
 
 def switched(level: FloatArray, on: float, off: float) -> list[Stretch]:
@@ -98,29 +182,22 @@ def vibrating(deviation: FloatArray, threshold: float, least: float) -> list[Str
 
 def tone(signal: FloatArray, interval: float) -> Tone | None:
     """Return the strongest tone of a signal; None where there is none to be told."""
-    count = min(signal.size, _MOST)
-    middle = (signal.size - count) // 2
-    part = signal[middle : middle + count]
-    if count < 64 or not np.all(np.isfinite(part)):
+    found = Spectrum.of(signal, interval)
+    if found is None:
         return None
-    window = np.hanning(count)
-    spectrum = np.abs(np.fft.rfft((part - part.mean()) * window))
-    spectrum[:_NARROW] = 0.0
-    peak = int(np.argmax(spectrum))
-    if spectrum[peak] <= 0.0 or not 1 < peak < spectrum.size - 2:
+    peak = int(np.argmax(found.raw))
+    if found.raw[peak] <= 0.0 or not 1 < peak < found.raw.size - 2:
         return None
-    shift = _between(spectrum, peak)
-    frequency = (peak + shift) / (count * interval)
-    first = _strength(spectrum, peak + shift)
-    third, fifth = (
-        _strength(spectrum, order * (peak + shift)) / first
-        if order * (peak + shift) < spectrum.size - _NYQUIST_LINES
-        else math.nan
-        for order in (3, 5)
+    frequency = (peak + _between(found.raw, peak)) * found.step
+    first = found.strength(frequency)
+    second, third, fifth = (
+        found.strength(order * frequency) / first if found.holds(order * frequency) else math.nan
+        for order in (2, 3, 5)
     )
-    # The squares of a Hann window have the mean 3/8.
-    amplitude = 2.0 * first / (count * math.sqrt(3.0 / 8.0))
-    return Tone(frequency, amplitude, _shape(third, fifth), third)
+    return Tone(
+        frequency, found.amplitude(frequency), _shape(third, fifth), third,
+        0.0 if math.isnan(second) else second, found.beside(frequency) / first,
+    )  # fmt: skip
 
 
 def _shape(third: float, fifth: float) -> str:
@@ -136,9 +213,3 @@ def _between(spectrum: FloatArray, peak: int) -> float:
     low, top, high = np.log(np.maximum(spectrum[peak - 1 : peak + 2], 1e-300))
     bend = low - 2.0 * top + high
     return 0.0 if bend >= 0.0 else float(np.clip(0.5 * (low - high) / bend, -0.5, 0.5))
-
-
-def _strength(spectrum: FloatArray, line: float) -> float:
-    at = round(line)
-    part = spectrum[max(at - _NARROW, 0) : at + _NARROW + 1]
-    return float(np.sqrt(np.sum(part**2)))

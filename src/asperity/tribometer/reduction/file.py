@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.tribometer import discs
 from asperity.tribometer.channels import Channels
@@ -15,10 +16,12 @@ from asperity.tribometer.options import Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Lubricant, Sonotrode
 from asperity.tribometer.recording import Recording
-from asperity.tribometer.reduction import drive_signal, quantities, wear
-from asperity.tribometer.reduction.blocks import Blocks, angle, lines_of, turns
+from asperity.tribometer.reduction import quantities, wear
+from asperity.tribometer.reduction.blocks import Blocks, angle, turns
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
+from asperity.tribometer.reduction.heard.acceleration import Heard as Tones
+from asperity.tribometer.reduction.heard.listen import Listened
 from asperity.tribometer.reduction.joint import TORQUE, Interval, Joint, estimate_jointly
 from asperity.tribometer.reduction.levels import Levels
 from asperity.tribometer.reduction.prediction import model_ratios
@@ -45,22 +48,24 @@ _FUNDAMENTAL = 8.0 / math.pi**2  # of a triangle: what a chain that passes one t
 def reduce_file(
     recording: Recording,
     case: Case,
-    blocks: Blocks,
+    heard: Listened,
     segments: Sequence[Segment],
     given: Reduction,
     sonotrode: Sonotrode | None,
 ) -> tuple[FileResult, list[SegmentResult]]:
-    """Reduce a recording whose segments are found."""
-    pair = Pair.from_case(case)
+    """Reduce a recording whose segments are found, by what was heard without its zeros."""
+    pair, blocks = Pair.from_case(case), heard.blocks
     usable = [one for one in segments if not one.refused]
     windows = _Windows.of(blocks, usable, given) if usable else None
     joint = _joint(blocks, windows, pair, given) if windows else None
+    zeros = _zeros(heard, windows) if windows else {}
     found: list[SegmentResult] = []
     asked: list[Any] = []
-    for segment in segments:
+    for number, segment in enumerate(segments):
         common = _common(recording, case, segment)
+        concerns = heard.of_segment(number)
         if segment.refused or windows is None or joint is None:
-            flags = (segment.refused, *segment.flags)
+            flags = (segment.refused, *segment.flags, *(one.flag for one in concerns))
             found.append(SegmentResult(**common, quality=REFUSED, flags=flags))
             asked.append(None)
             continue
@@ -69,8 +74,17 @@ def reduce_file(
             pair, common["motor_voltage"], joint, place, given.confidence, blocks.lines,
             windows.seconds[place], given.speed_settling if windows.hurried[place] else 0.0,
             powered=not any(windows.unpowered[2 * place : 2 * place + 2]),
+            zeros={
+                name: of[2 * place : 2 * place + 2, 2 * place : 2 * place + 2]
+                for name, of in zeros.items()
+            },
         )  # fmt: skip
-        values, question = _numbers(recording, case, blocks, segment, following, sonotrode)
+        values, question = _numbers(
+            recording, case, heard, segment, following, sonotrode, heard.tones.get(number)
+        )
+        values["flags"] += tuple(one.flag for one in concerns)
+        if any(one.spoils for one in concerns):
+            values["quality"] = DOUBTFUL
         found.append(SegmentResult(**common, **values))
         asked.append(question)
     ratios = model_ratios(case, pair.rig.load, asked)
@@ -79,7 +93,8 @@ def reduce_file(
         for one, ratio in zip(found, ratios, strict=True)
     ]
     levels = None if joint is None else joint.levels[TORQUE]
-    return _file(recording, pair, blocks, segments, found, levels), found
+    whole = _file(recording, pair, blocks, segments, found, levels)
+    return dataclasses.replace(whole, findings=heard.told(segments)), found
 
 
 @dataclasses.dataclass(frozen=True)
@@ -187,13 +202,14 @@ def _common(recording: Recording, case: Case, segment: Segment) -> dict[str, Any
 def _numbers(
     recording: Recording,
     case: Case,
-    blocks: Blocks,
+    heard: Listened,
     segment: Segment,
     following: Following,
     sonotrode: Sonotrode | None,
+    tones: Tones | None,
 ) -> tuple[dict[str, Any], Any]:
     """Return the numbers of a segment, and what its model is asked."""
-    pair, levels = following.pair, following.levels
+    pair, levels, blocks = following.pair, following.levels, heard.blocks
     change = following.torque_change()
     torques = [following.torque(one) for one in (0, 1)]
     sliding = [following.sliding_velocity(one).times(1e3) for one in (0, 1)]
@@ -215,7 +231,7 @@ def _numbers(
         rolling = float(discs.rolling_velocity(*following.rims(levels, 0)))
         values["film_parameter"] = pair.film(oil, rolling)
     flags = list(segment.flags)
-    peak, doubt, odd = _velocity(recording, case, blocks, segment, sonotrode)
+    peak, doubt, odd = _velocity(case, blocks, segment, sonotrode, tones)
     if following.hurried:
         odd.append(
             f"speeds are taken before reduction.speed_settling = {following.hurried:g} s is over"
@@ -237,7 +253,7 @@ def _numbers(
             name: peak / one
             for name, one in (("k_v_before", before), ("k_v_with", shaken)) if one > 0.0
         }  # fmt: skip
-        amplitude = _amplitude(recording, blocks, doubt)
+        amplitude = _amplitude(blocks, tones, doubt)
         intervals["k_v"] = following.velocity_ratio(peak, amplitude)
         # What a chain that passes one tone leaves of a triangle is a sine.
         question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
@@ -250,13 +266,20 @@ def _numbers(
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
 
 
-def _amplitude(recording: Recording, blocks: Blocks, doubt: float) -> Cause:
+def _amplitude(blocks: Blocks, tones: Tones | None, doubt: float) -> Cause:
     """Return what is not known of v_a, by the accelerometer's calibration or as stated."""
-    if recording.place("acceleration") is None:
+    if tones is None or not tones.told:
         return Cause("v_a: table of [sonotrode]", "B", np.array([[doubt**2]]))
     freedom = blocks.lines["acceleration"].degrees_of_freedom
     kind: Kind = "B" if freedom == math.inf else "A"
     return Cause("v_a: calibration of the accelerometer", kind, np.array([[doubt**2]]), freedom)
+
+
+def _zeros(heard: Listened, windows: _Windows) -> dict[str, FloatArray]:
+    """Return what is not known of the zeros that were taken off, in the middle of all windows."""
+    times = [0.5 * (one.first + one.last) * heard.blocks.length for one in windows.parts]
+    zeros = heard.tare.zeros.items()
+    return {signal: zero.covariance_at(np.array(times)) for signal, zero in zeros}
 
 
 def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:
@@ -264,24 +287,23 @@ def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:
 
 
 def _velocity(
-    recording: Recording,
     case: Case,
     blocks: Blocks,
     segment: Segment,
     sonotrode: Sonotrode | None,
+    tones: Tones | None,
 ) -> tuple[float | None, float, list[str]]:
-    """Return v_a with its deviation, m/s, by the accelerometer if there is one, else the table."""
+    """Return v_a with its deviation, m/s, by the accelerometer if there is one, else the table.
+
+    The accelerometer tells it by its tone at the drive's frequency, whatever else it hears.
+    """
     frequency = segment.commanded
     if frequency is None:
         return None, 0.0, []
-    if recording.place("acceleration") is not None:
-        first, last = segment.shaken.first * blocks.samples, segment.shaken.last * blocks.samples
-        signal = recording.values("acceleration", first, last)
-        scale, line = lines_of(recording, case.require(Channels))["acceleration"]
-        heard = drive_signal.tone(line.of(scale * signal), recording.sample_interval)
-        if heard is not None and segment.tone is not None:
-            peak = float(quantities.velocity_amplitude(heard.amplitude, segment.tone.frequency))
-            return peak, peak * abs(line.gain_deviation / line.gain), []
+    if tones is not None and tones.told and segment.tone is not None:
+        line = blocks.lines["acceleration"]
+        peak = float(quantities.velocity_amplitude(tones.amplitude, segment.tone.frequency))
+        return peak, peak * abs(line.gain_deviation / line.gain), []
     if sonotrode is None:
         return None, 0.0, []
     mode = Pair.from_case(case).rig.mode

@@ -46,6 +46,8 @@ class Following:
         s, in which speeds settle, where windows have no time for it; zero where they have.
     powered : bool
         Whether the current is right in both windows.
+    zeros : mapping of str to ndarray, shape (2, 2)
+        Of signals whose zero was seen at rest and taken off, what is not known of it.
     """
 
     pair: Pair
@@ -57,6 +59,7 @@ class Following:
     seconds: tuple[float, float]
     hurried: float = 0.0
     powered: bool = True
+    zeros: Mapping[str, FloatArray] = dataclasses.field(default_factory=dict)
 
     @property
     def levels(self) -> Pairs:
@@ -143,11 +146,16 @@ class Following:
         return {name: tuple(self._causes(name, level)) for name, level in self.levels.items()}
 
     def _causes(self, name: str, levels: FloatArray) -> Iterator[Cause]:
-        """Yield what calibration and the steps of an encoder leave in the levels of a signal."""
+        """Yield what calibration, zero and the steps of an encoder leave in a signal's levels."""
         line = self.lines[name]
-        one, other, both = line.covariance_of_pair(float(levels[0]), float(levels[1]))
+        if name in self.zeros:
+            # What the offset of the line was off by went with the zero.
+            covariance = np.outer(levels, levels) * (line.gain_deviation / line.gain) ** 2
+            yield Cause(f"{name}: zero at rest", "A", self.zeros[name])
+        else:
+            one, other, both = line.covariance_of_pair(float(levels[0]), float(levels[1]))
+            covariance = np.array([[one, both], [both, other]])
         kind: Kind = "B" if line.degrees_of_freedom == math.inf else "A"
-        covariance = np.array([[one, both], [both, other]])
         yield Cause(f"{name}: calibration", kind, covariance, line.degrees_of_freedom)
         for what, most in line.limits:
             yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))

@@ -37,6 +37,7 @@ _NEAR_NONE = -9.0  # logarithm of a share that is as good as none
 # What is expected of the memory, loosely: where all noise is white, nothing else tells of it.
 _USUAL_MEMORY, _MEMORY_SPREAD = 0.3, 1.5  # s, and of its logarithm
 _FLOOR = 1e-18  # of the noise's variance, over the signal's largest value squared
+_MOST_SIZE = 6.0  # of that logarithm, which a signal without any noise leaves open
 _SIZE_SPREAD = 0.7  # of the logarithm of the noise under vibration over that without
 
 
@@ -156,7 +157,8 @@ class _Fit:
 
 def _noise(given: FloatArray, block: float) -> tuple[float, float, float]:
     share = 1.0 / (1.0 + math.exp(-min(max(given[0], _NEAR_NONE), 8.0)))
-    return share, block * math.exp(min(max(given[1], -2.0), 9.0)), math.exp(given[2])
+    size = math.exp(min(max(given[2], -_MOST_SIZE), _MOST_SIZE))
+    return share, block * math.exp(min(max(given[1], -2.0), 9.0)), size
 
 
 def estimate_levels(

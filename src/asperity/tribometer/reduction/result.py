@@ -161,6 +161,12 @@ class FileResult(Quantities):
     wear_steel: float | None = quantity("K", "", "Archard's coefficient, steel", default=None)
     wear_bronze: float | None = quantity("K", "", "Archard's coefficient, bronze", default=None)
     gaps: tuple[dict[str, Any], ...] = quantity("", "", "what is missing", default=())
+    findings: tuple[dict[str, Any], ...] = quantity("", "", "what was found", default=())
+
+    @property
+    def everywhere(self) -> tuple[str, ...]:
+        """Flags that all of the recording has."""
+        return tuple(one["flag"] for one in self.findings if one["start_s"] is None)
 
 
 class Reduced(Result):
@@ -211,6 +217,9 @@ class Reduced(Result):
             ],
             "noise_Nm": [{"file": one.file, "noise": one.noise} for one in self.files],
             "gaps": [{"file": one.file, **gap} for one in self.files for gap in one.gaps],
+            "findings": [
+                {"file": one.file, **found} for one in self.files for found in one.findings
+            ],
             "wear": [
                 {entry.key: entry.value for entry in one.entries()
                  if entry.name in ("file", "distance", "path") or entry.name.startswith(
@@ -237,7 +246,7 @@ class Reduced(Result):
             for place, entry in enumerate(_declared(rows)):
                 values = [list(row.entries())[place].value for row in rows]
                 name = "recording" if entry.name == "file" and dim == "recording" else entry.name
-                if entry.label.only == "json" or entry.name == "gaps":
+                if entry.label.only == "json" or entry.name in ("gaps", "findings"):
                     continue
                 dataset[name] = _variable(entry, values, dim)
         each = [(one.file, one.start, one.budgets or {}) for one in self.segments]
@@ -258,11 +267,13 @@ class Reduced(Result):
             "file", "mode", "lubricant", "wave", "V_ms V", "f Hz", "T before N m", "T with N m",
             "change %", "low", "high", "k_v", "model", "quality",
         )  # fmt: skip
-        flags = [
-            f"{one.file} at {one.start or 0.0:.0f} s: {'; '.join(one.flags)}"
-            for one in self.segments
-            if one.flags
-        ]
+        # What all of a recording has is told once.
+        common = {one.file: one.everywhere for one in self.files}
+        flags = [f"{file}: {flag}" for file, told in common.items() for flag in told]
+        for one in self.segments:
+            own = [flag for flag in one.flags if flag not in common.get(one.file, ())]
+            if own:
+                flags.append(f"{one.file} at {one.start or 0.0:.0f} s: {'; '.join(own)}")
         if self.repeat_deviation is not None:
             flags.append(
                 f"repeats of a cell differ by {self.repeat_deviation:.2g} points about their mean, "

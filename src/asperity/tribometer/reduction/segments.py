@@ -79,7 +79,7 @@ def _segment(
     on = next((one for one in running if one.first <= shaking.first < one.last), None)
     if on is None:
         on = next((one for one in running if shaking.first < one.first < shaking.last), None)
-    moving = _moving(recording.events, blocks, on) if on else shaking.first
+    moving = _moving(recording.events, blocks, on, shaking) if on else shaking.first
     begun = max([*(one.last for one in earlier), moving])
     before = Stretch(begun + settling, shaking.first - 1)
     end = min(shaking.last, on.last) if on else shaking.first
@@ -104,22 +104,32 @@ def _segment(
         )
     else:
         refused = _lost(blocks, before, shaken)
+    if refused and _torn(blocks, shaking):
+        refused = f"drive_voltage has samples missing or past its range: {refused}"
     start = shaking.first * blocks.length
     return Segment(before, shaken, tone, frequency, waveform, start, refused, tuple(flags))
 
 
-def _moving(events: Sequence[Event], blocks: Blocks, on: Stretch) -> int:
+def _moving(events: Sequence[Event], blocks: Blocks, on: Stretch, shaking: Stretch) -> int:
     """Return from where on discs slide that are seen to turn.
 
     An encoder's counter shows a start when its time is over, up to a second later than the supply
-    that gave it. What a supply gave when the recording began is no start.
+    that gave it, and at the start of a recording what turned before. What a supply gave when the
+    recording began is no start.
     """
     told = [event for event in events if event.kind == "steel_supply"
-            and 0.0 < event.time <= on.first * blocks.length]  # fmt: skip
+            and 0.0 < event.time <= shaking.first * blocks.length]  # fmt: skip
     if not told or told[-1].text == "off":
         return on.first
     started = blocks.at_least(told[-1].time)
     return started if on.first - started <= blocks.at_least(_COUNTED) else on.first
+
+
+def _torn(blocks: Blocks, shaking: Stretch) -> bool:
+    """Whether vibration begins or ends where its signal is lost."""
+    lost = blocks.lost["drive_voltage"]
+    return bool(lost[max(shaking.first - 1, 0) : shaking.first + 1].any()
+                or lost[shaking.last - 1 : shaking.last + 1].any())  # fmt: skip
 
 
 def _short(what: str, given: Reduction) -> str:

@@ -1,6 +1,7 @@
 """The answer of ``asperity rig report``: a page that stands by itself."""
 
 import dataclasses
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -8,13 +9,17 @@ from asperity.results import Result, quantity
 from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
 from asperity.results.report import Picture, Section
 from asperity.results.table import Table
+from asperity.tribometer.reduction import budgets
 from asperity.tribometer.reduction.plots import changes, mark_simulated
 from asperity.tribometer.reduction.result import REFUSED, Reduced
+from asperity.tribometer.report.standards import MISSING, Asked
+from asperity.tribometer.sheets import Sheet
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+_BUDGETED = ("torque_before", "torque_with", "torque_change")
 _CHANGES = {
     "torque_change": ("Change of the torque over the frequency", "change of the torque (%)",
                       "As figures 6.32 to 6.34, 6.42 and 6.43. Bars: 95 %."),
@@ -43,6 +48,14 @@ class Report(Result):
         Cells of the plan, and how many of them were measured.
     refused : tuple of (str, str)
         Files and segments that were left out, and why.
+    sheets : tuple of Sheet
+        Of the sensors.
+    standard : str
+        Whose headings it has; empty: none.
+    asked : tuple of Asked
+        What that asks for.
+    friction : Table or None
+        Coefficients of friction, where a standard asks for them.
     """
 
     title = "Tests on a disc-on-disc rig"
@@ -52,6 +65,10 @@ class Report(Result):
     reduced: Reduced
     conditions: tuple[tuple[str, str], ...]
     refused: tuple[tuple[str, str], ...]
+    sheets: tuple[Sheet, ...] = ()
+    standard: str = ""
+    asked: tuple[Asked, ...] = ()
+    friction: Table | None = None
     recordings: int = quantity("", "", "recordings")
     measured: int = quantity("", "", "segments that were reduced")
     left_out: int = quantity("", "", "files and segments that were left out")
@@ -61,16 +78,62 @@ class Report(Result):
     def to_json(self) -> dict[str, Any]:
         """Return what there is, the cells as they were reduced, and why something is not."""
         refused = [{"what": what, "why": why} for what, why in self.refused]
-        return self.reduced.to_json() | super().to_json() | {"refused": refused}
+        told: dict[str, Any] = {"refused": refused}
+        if self.standard:
+            told["standard"] = self.standard
+            told["asked"] = {one.heading: dict(one.items) for one in self.asked}
+        return self.reduced.to_json() | super().to_json() | told
 
     def tables(self) -> tuple[Table, ...]:
-        """Return conditions, cells, and what was left out."""
+        """Return what a standard asks for, conditions, cells, and what was left out."""
+        return *self._headings(), *self._numbers()
+
+    def _numbers(self) -> tuple[Table, ...]:
         cells, *intervals, files = self.reduced.tables()
         conditions = Table.of(("", ""), self.conditions, title="Conditions", left=2)
         refused = Table.of(("what", "why"), self.refused, title="Left out", left=2)
         named = Table(cells.columns, cells.rows, "Cells", cells.remarks)
         recorded = Table(files.columns, files.rows, "Recordings", files.remarks)
-        return conditions, named, *intervals, recorded, *((refused,) if self.refused else ())
+        return (
+            conditions, named, *intervals, budgets.summary(self.reduced.uncertainties,
+            self.reduced.not_counted, _BUDGETED), *self._calibrations(), recorded,
+            *((refused,) if self.refused else ()),
+        )  # fmt: skip
+
+    def _calibrations(self) -> Iterator[Table]:
+        """Yield what is told of the sensors, and the points of each."""
+        heads = (
+            "signal", "sensor", "points", "deviation %", "hysteresis %", "creep %", "class",
+            "kept", "calibrated", "good until",
+        )  # fmt: skip
+        rows = [
+            (one.signal, one.named or MISSING, len(one.points),
+             *(_percent(value) for value in (one.deviation, one.hysteresis, one.creep)),
+             "" if one.channel.accuracy_class is None else f"{one.channel.accuracy_class:g}",
+             {None: "", True: "yes", False: "no"}[one.keeps_class],
+             str(one.channel.date or MISSING), str(one.last_day or MISSING))
+            for one in self.sheets
+        ]  # fmt: skip
+        yield Table.of(
+            heads, rows, title="Calibrations", left=2,
+            remarks=("percent of the capacity, or of the largest that was applied; a class is kept "
+                     "where no deviation is larger, as makers mean it",),
+        )  # fmt: skip
+        named = ("signal", "applied", "unit", "from", "by the line", "error %", "back - forth %")
+        points = [
+            (one.signal, f"{point.applied:.5g}", one.unit,
+             "above" if point.from_above else "below", f"{point.shown:.5g}",
+             _percent(point.interpolation), _percent(point.reversibility))
+            for one in self.sheets for point in one.points
+        ]  # fmt: skip
+        if points:
+            yield Table.of(named, points, title="Points of the calibrations")
+
+    def _headings(self) -> Iterator[Table]:
+        for one in self.asked:
+            yield Table.of(("", ""), one.items, title=one.heading, left=2)
+        if self.friction is not None:
+            yield self.friction
 
     def pictures(self, folder: Path | None = None) -> tuple[Picture, ...]:
         """Return the pictures, simulated ones marked."""
@@ -93,13 +156,27 @@ class Report(Result):
             dataclasses.replace(
                 one, remarks=tuple(said for said in one.remarks if said not in self.notes)
             )
-            for one in self.tables()
+            for one in self._numbers()
         )
-        return Section("", tables=(notes, *tables)), Section("", pictures=self.pictures())
+        followed: tuple[Section, ...] = ()
+        if self.standard:
+            followed = (Section(f"By the headings of ASTM {self.standard}", tables=(
+                *self._headings(),)),)  # fmt: skip
+        numbers = Section("", tables=tuple(tables))
+        return (
+            Section("", tables=(notes,)),
+            *followed,
+            numbers,
+            Section("", pictures=self.pictures()),
+        )
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write the reduced recordings, which the page is made of."""
         return self.reduced.write(folder, pictures="")
+
+
+def _percent(value: float | None) -> str:
+    return "" if value is None else f"{value + 0.0:.2g}"
 
 
 def over_velocity(dataset: "xr.Dataset") -> "Figure":

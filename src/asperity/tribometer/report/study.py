@@ -5,19 +5,23 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity.casefile import Case
-from asperity.errors import AsperityError, InputError, plain
+from asperity.casefile import Case, read_case
+from asperity.errors import AsperityError, InputError, choices, plain, shown
 from asperity.runs import Run
 from asperity.tribometer.channels import Channels
+from asperity.tribometer.deposit import Package
 from asperity.tribometer.options import Plan
 from asperity.tribometer.pair import BOUNDARY, Pair
-from asperity.tribometer.parameters import Lubricant
+from asperity.tribometer.parameters import Conditions, Lubricant
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import study as reduction
 from asperity.tribometer.reduction.result import REFUSED, Reduced, SegmentResult
 from asperity.tribometer.reduction.study import Reducible, Series
 from asperity.tribometer.report.result import Report
+from asperity.tribometer.report.standards import STANDARDS, asked, friction
+from asperity.tribometer.sheets import sheets
 
+_BESIDE = Conditions.table, Package.table  # of a case, what no recording needs
 _ANSWERS = Reduced.stem, "run", "plan"  # that commands leave beside recordings
 
 
@@ -27,19 +31,38 @@ class Gathered(Case):
 
     reducible: tuple[Reducible, ...] = ()
     refused: tuple[tuple[str, str], ...] = ()
+    standard: str = ""
 
 
-def read(case: str, known: Mapping[str, Any], settings: Sequence[str], *, folder: str) -> Case:
+def read(
+    case: str,
+    known: Mapping[str, Any],
+    settings: Sequence[str],
+    *,
+    folder: str,
+    config: str = "",
+    standard: str = "",
+    **_: Any,
+) -> Case:
     """Open every recording in a folder; what is none is left out and named."""
+    if standard and standard not in STANDARDS:
+        raise InputError(f"standard is {shown(standard)}; it must be {choices(STANDARDS)}")
     place = Path(folder)
     if not place.is_dir():
         raise InputError(f"{plain(folder)} is not a folder; give the one that holds recordings")
+    told = read_case(config, known, settings).raw if config else {}
+    beside = {name: told[name] for name in _BESIDE if name in told}
+    if config and not beside:
+        tables = " or ".join(f"[{name}]" for name in _BESIDE)
+        raise InputError(f"--config {config} has no {tables}, which is all that is taken from it")
     found: list[Reducible] = []
     refused: list[tuple[str, str]] = []
     for path in sorted(place.glob("*.nc")):
         try:
             recording = Recording.open(path)
-            found.append(Reducible(recording, recording.case(known).replace(settings)))
+            own = recording.case(known)
+            own = dataclasses.replace(own, raw=own.raw | beside).replace(settings)
+            found.append(Reducible(recording, own))
             Pair.from_case(found[-1].case)
             found[-1].case.require(Channels)
         except AsperityError as error:
@@ -56,8 +79,9 @@ def read(case: str, known: Mapping[str, Any], settings: Sequence[str], *, folder
     first = found[0].case
     values = {field.name: getattr(first, field.name) for field in dataclasses.fields(Case)}
     return Gathered(
-        **(values | {"source": plain(folder)}), reducible=tuple(found), refused=tuple(refused)
-    )
+        **(values | {"source": plain(folder)}), reducible=tuple(found), refused=tuple(refused),
+        standard=standard,
+    )  # fmt: skip
 
 
 def prepare(case: Case, **_: Any) -> Gathered:
@@ -75,7 +99,14 @@ def answer(problem: Gathered, run: Run) -> Report:
         for one in reduced.segments
         if one.quality == REFUSED
     ]
+    recordings = [one.recording for one in problem.reducible]
+    channels = problem.require(Channels)
     return Report(
+        sheets=sheets(channels), standard=problem.standard,
+        asked=(
+            asked(problem.standard, problem, reduced, recordings) if problem.standard else ()
+        ),
+        friction=friction(problem, reduced.segments) if problem.standard else None,
         reduced=reduced, conditions=tuple(_conditions(problem, reduced.segments)),
         refused=(*problem.refused, *left), recordings=len(problem.reducible),
         measured=sum(one.quality != REFUSED for one in reduced.segments),

@@ -3,6 +3,7 @@ import { html, useRef, useState } from "../../vendor/preact.js";
 import { about, get, job as submit, loadAbout, upload, useLive } from "../api.js";
 import { Figure } from "../figure.js";
 import { Field, useValue, words } from "../form.js";
+import { Live } from "../live.js";
 import { path, Plot, ticks } from "../plot.js";
 import { Screen, tell } from "../shell.js";
 import { go, route, setParam, useCase } from "../state.js";
@@ -39,6 +40,7 @@ export function view() {
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
       answer=${seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }}
       error=${rec ? (seen.error ?? reduced.error) : null}>
+    <${Live} />
     <${Bring} name=${name} rec=${rec} />
     ${rec && seen.data ? html`<section class="panel" aria-label="signals">
       <h2>${seen.data.answer.recording}${seen.data.answer.simulated ? ", simulated" : ""}</h2>

@@ -1,0 +1,196 @@
+"""Torques, speeds and currents against each other and against the supplies."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.tribometer.options import Twin
+from asperity.tribometer.reduction.heard.finding import Course, Finding
+from asperity.tribometer.reduction.heard.material import Material
+from asperity.tribometer.reduction.heard.rest import least_of
+from asperity.tribometer.signals import SIGNALS
+
+_SURE = 5.0  # standard errors
+_SLOPES = 0.7, 1.43  # of the torques' changes over that of the radii; exchanged, it is the square
+_LEVELS = 0.5, 2.0  # of the torques themselves, in which bearings are
+_NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vibration
+_ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
+_MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
+_FASTER, _SLOWER = 1.4, 0.5  # back voltage over what the supply leaves for it
+_MAP = "look at the cables and at the map of [channels]"
+
+
+def findings(of: Material) -> Iterator[Finding]:
+    """Yield what does not fit together."""
+    if of.windows:
+        yield from _signs(of)
+        yield from _torques(of)
+        yield from _exchanged(of, "speed")
+        yield from _exchanged(of, "current")
+        yield from _supplied(of)
+
+
+def _levels(of: Material, signal: str) -> FloatArray:
+    """Return levels and standard errors, a row a segment: before, its error, with, its error."""
+    rows = []
+    for _, *both in of.windows:
+        one, other = (of.level(signal, window) for window in both)
+        rows.append((one.value, one.error, other.value, other.error))
+    return np.array(rows)
+
+
+def _middle(of: Material, signal: str) -> tuple[float, float]:
+    levels = _levels(of, signal)
+    return float(np.median(levels[:, 0])), float(np.median(levels[:, 1]))
+
+
+def _below(of: Material, signal: str) -> bool:
+    value, error = _middle(of, signal)
+    return value < -max(_SURE * error, least_of(signal))
+
+
+def _signs(of: Material) -> Iterator[Finding]:
+    def told(signal: str, against: str, *, spoils: bool = True) -> Finding:
+        value, _ = _middle(of, signal)
+        return Finding(
+            f"{signal} has the wrong sign", f"{value:.3g} {SIGNALS[signal].unit} {against}",
+            "turn the sensor's leads, or the sign of its calibration points", (signal,),
+            of.course(signal), spoils=spoils,
+        )  # fmt: skip
+
+    backwards = _below(of, "speed_steel")
+    if _below(of, "torque_steel") != backwards:
+        one = "speed_steel" if backwards else "torque_steel"
+        yield told(one, "before vibration, while the motor drives its disc")
+    bronze, error = _middle(of, "speed_bronze")
+    if abs(bronze) > max(_SURE * error, least_of("speed_bronze")) and (bronze < 0.0) != backwards:
+        yield told("speed_bronze", "before vibration, against that of the steel disc")
+    for disc in ("steel", "bronze"):
+        if of.has(f"current_{disc}") and _below(of, f"current_{disc}"):
+            yield told(f"current_{disc}", "before vibration, from a supply that takes nothing back",
+                       spoils=disc == "steel")  # fmt: skip
+    if of.has("torque_bronze") and not backwards and not _below(of, "torque_steel"):
+        value, error = _middle(of, "torque_bronze")
+        if value > max(_SURE * error, least_of("torque_bronze")):
+            yield told("torque_bronze", "before vibration, where the steel disc drives it on "
+                       "and it is below zero; no number rests on it".replace("; ", ", "),
+                       spoils=False)  # fmt: skip
+
+
+def _torques(of: Material) -> Iterator[Finding]:
+    """Yield torques that are not as the radii: the discs push each other with equal forces."""
+    if not of.has("torque_bronze"):
+        return
+    steel, bronze = _levels(of, "torque_steel"), _levels(of, "torque_bronze")
+    wanted = of.pair.bronze.radius / of.pair.steel.radius
+    x, y = (one[:, [0, 2]].ravel() for one in (steel, bronze))
+    error = float(np.median(np.concatenate((steel[:, [1, 3]], bronze[:, [1, 3]]))))
+    largest = float(np.abs(x).max())
+    course = Course(x, y, "torque_steel (N m)", "torque_bronze (N m)")
+    names = "torque_steel", "torque_bronze"
+    if np.ptp(x) > max(_ENOUGH * largest, 2.0 * _SURE * error):
+        middle = x - x.mean()
+        slope = float(middle @ (y - y.mean()) / (middle @ middle))
+        unsure = _SURE * error / math.sqrt(float(middle @ middle))
+        ratio = abs(slope) / wanted
+        if ratio + unsure / wanted < _NO_ANSWER:
+            yield Finding(
+                "torque_bronze does not answer the vibration",
+                f"torque_steel changes by {np.ptp(x):.2g} N m, torque_bronze by {np.ptp(y):.2g} "
+                "N m, no number rests on it",
+                "look at its sensor and at the map of [channels]", names, course, spoils=False,
+            )  # fmt: skip
+        elif not _SLOPES[0] <= ratio <= _SLOPES[1]:
+            yield Finding(
+                "torques are not as the radii",
+                f"torque_bronze changes by {abs(slope):.2f} of torque_steel, the radii give "
+                f"{wanted:.2f}",
+                "look at both calibrations and at the map of [channels]", names, course,
+            )  # fmt: skip
+        return
+    (one, _), (other, _) = (_middle(of, name) for name in names)
+    if abs(one) < least_of("torque_steel"):
+        return
+    ratio = abs(other / one) / wanted
+    if not _LEVELS[0] <= ratio <= _LEVELS[1]:
+        yield Finding(
+            "torques are not as the radii",
+            f"torque_bronze is {abs(other / one):.2f} of torque_steel, the radii give {wanted:.2f}",
+            "look at both calibrations and at the map of [channels]", names, course,
+        )  # fmt: skip
+
+
+def _exchanged(of: Material, what: str) -> Iterator[Finding]:
+    """Yield a bronze disc's signal that answers the vibration as the steel disc's should."""
+    names = f"{what}_steel", f"{what}_bronze"
+    if not of.has(*names):
+        return
+    torque = _levels(of, "torque_steel")
+    weight = torque[:, 2] - torque[:, 0]
+    if not np.all(np.isfinite(weight)) or not weight.any():
+        return
+    weight = weight / np.abs(weight).sum()
+    answers, sure = [], []
+    for name in names:
+        levels = _levels(of, name) / abs(of.blocks.lines[name].gain)
+        if not np.all(np.isfinite(levels)):
+            return
+        answers.append(float(weight @ (levels[:, 2] - levels[:, 0])))
+        errors = np.hypot(levels[:, 1], levels[:, 3])
+        sure.append(_SURE * math.sqrt(float(weight**2 @ errors**2)))
+    step = _encoder_step(of, names[1]) if what == "speed" else 0.0
+    if abs(answers[1]) > max(sure[1], step) and abs(answers[1]) > _MORE * abs(answers[0]):
+        yield Finding(
+            f"{what}s are exchanged",
+            f"{names[1]} answers the vibration by {1e3 * answers[1]:.2g} mV, {names[0]} by "
+            f"{1e3 * answers[0]:.2g} mV",
+            _MAP, names, of.course(names[1]),
+        )  # fmt: skip
+
+
+def _encoder_step(of: Material, name: str) -> float:
+    """Return what a pulse in a whole window is worth, in volts of its channel."""
+    seconds = min(one.count for _, *both in of.windows for one in both) * of.blocks.length
+    step = 2.0 * math.pi / (of.pair.drives.encoder_pulses * max(seconds, 1.0))
+    return step / abs(of.blocks.lines[name].gain)
+
+
+def _supplied(of: Material) -> Iterator[Finding]:
+    """Yield motors that give more than they take, or turn as their supply does not let them."""
+    time = of.segments[of.windows[0][0]].start
+    volts = of.supply("steel", time)
+    torque, speed = (_middle(of, one)[0] for one in ("torque_steel", "speed_steel"))
+    current = _middle(of, "current_steel")[0] if of.has("current_steel") else None
+    names = ("speed_steel",) if current is None else ("speed_steel", "current_steel")
+    if current is not None and current > least_of("current_steel") and volts > 0.0:
+        given = torque * speed / of.pair.drives.gear_ratio
+        if given > volts * current:
+            yield Finding(
+                "more power than the supply gives",
+                f"torque and speed are {given:.3g} W, {volts:g} V and {current:.3g} A are "
+                f"{volts * current:.3g} W",
+                "look at the calibrations of torque, speed and current, and at the supply's volts",
+                ("torque_steel", *names), of.course("speed_steel"),
+            )  # fmt: skip
+    twin = of.case.get(Twin)
+    if twin is None or volts <= 0.0:
+        return
+    for disc in ("steel", "bronze"):
+        volts, name = of.supply(disc, time), f"speed_{disc}"
+        turning = abs(_middle(of, name)[0])
+        back = twin.motor_constant * turning
+        drop = 0.0
+        if of.has(f"current_{disc}"):
+            drop = twin.motor_resistance * max(_middle(of, f"current_{disc}")[0], 0.0)
+        if volts <= 0.0 or turning < least_of(name):
+            continue
+        if back > _FASTER * volts or back + drop < _SLOWER * volts:
+            yield Finding(
+                f"{name} does not fit its supply",
+                f"{turning:.3g} rad/s are {back:.2g} V with twin.motor_constant, and "
+                f"{drop:.2g} V fall in the motor, of {volts:g} V",
+                "look at its scale and channel, at the supply's volts, and at twin.motor_constant",
+                (name,), of.course(name), spoils=disc == "steel" or back > _FASTER * volts,
+            )  # fmt: skip
