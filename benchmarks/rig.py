@@ -9,7 +9,8 @@ beside it by the clock.
 Beside the guardian the same stream is watched and recorded as in a run: interlocks with vibration
 and motors on, preview, a heartbeat with every poll to a guardian in its own process, which reads
 the supplies. Samples are handed over as fast as they are taken, so that what is told is how many
-times the stream's own rate one core keeps.
+times the stream's own rate one core keeps while it streams: blocks are joined to a file once it
+has ended, which `recording` counts and this does not.
 
 A file of six cells is run at each of three speeds, at 20 kS/s on eight channels, by the whole
 procedure: interlocks, journal, recording, compression. The rest of the thesis's thirty files differ
