@@ -13,6 +13,7 @@ import urllib.parse
 import zipfile
 from pathlib import Path
 
+import h5py
 import pytest
 
 from asperity.errors import InputError
@@ -48,7 +49,10 @@ def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("package")
     (folder / "run").mkdir()
     shutil.copy(RECORDING, folder / "run" / "run 1.nc")
-    journal = {"line": 1, "kind": "begun", "instruments": {"supply": "TTi PL303QMD-P, 123456"}}
+    with h5py.File(folder / "run" / "run 1.nc", "r+") as file:
+        told = {"motor supply": "THURLBY THANDAR,PL303QMD-P,123456,1.04"}
+        file.attrs["instruments"] = json.dumps(told)
+    journal = {"line": 1, "kind": "begun"}
     (folder / "run" / "journal.jsonl").write_text(json.dumps(journal) + "\n")
     (folder / "case.toml").write_text(CASE)
     return folder
@@ -182,7 +186,7 @@ def test_a_package_is_an_ro_crate_with_its_instruments(package):
     devices = [one for one in entities.values() if one["@type"] == "IndividualProduct"]
     assert {(one["name"], one.get("serialNumber")) for one in devices} >= {
         ("PicoScope 4824A", "GQ123/045"), ("Kistler 4502A002H", "8421"),
-        ("TTi PL303QMD-P, 123456", None),
+        ("THURLBY THANDAR PL303QMD-P", "123456"),
     }  # fmt: skip
     told = {one["name"]: one for one in _json(package / "instruments.json")}
     sheet = told["Kistler 4502A002H"]["calibration"]
@@ -190,7 +194,7 @@ def test_a_package_is_an_ro_crate_with_its_instruments(package):
     assert sheet["hysteresis_percent"] == pytest.approx(0.2, rel=0.01)
 
 
-def test_check_sums_are_those_of_every_file(package):
+def test_check_sums_are_those_of_every_file(run, package):
     rows = (package / "manifest-sha256.txt").read_text("utf-8").splitlines()
     told = dict(reversed(row.split("  ", 1)) for row in rows)
     there = {str(path.relative_to(package)) for path in package.rglob("*") if path.is_file()}
@@ -198,7 +202,8 @@ def test_check_sums_are_those_of_every_file(package):
     for name, digest in told.items():
         assert hashlib.sha256((package / name).read_bytes()).hexdigest() == digest
     assert {"recordings/run 1.nc", "journal.jsonl", "case.toml", "results/budget.csv"} <= there
-    assert (package / "recordings" / "run 1.nc").read_bytes() == RECORDING.read_bytes()
+    kept = package / "recordings" / "run 1.nc"
+    assert kept.read_bytes() == (run / "run" / "run 1.nc").read_bytes()
 
 
 def test_what_is_packed_can_be_reduced_again(asperity, package):
