@@ -14,10 +14,15 @@ import zipfile
 from pathlib import Path
 
 import h5py
+import numpy as np
 import pytest
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.tribometer.deposit import Package, Person
+from asperity.tribometer.recording import Recorder, Recording, Source, layout
+from asperity.tribometer.report.standards import measured
 
 RECORDING = Path(__file__).parents[1] / "answers" / "rig.nc"
 CASE = """
@@ -291,7 +296,7 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert flat["laboratory"] == "Laboratory 1"
     # Nobody told these, and so they stand as such.
     for name in ("operator", "cleaning", "atmosphere", "steel disc: treatment",
-                 "bronze disc: mass loss", "steel disc: volume loss"):  # fmt: skip
+                 "bronze disc: mass loss", "steel disc: volume loss", "temperature, measured"):  # fmt: skip
         assert flat[name] == "not recorded"
     assert ("frequency" in flat) == (standard == "G133")
     if standard == "G133":
@@ -303,6 +308,16 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert all(heading in page for heading in asked)
     assert "not recorded" in page
     assert "Coefficient of friction" in page
+
+
+def test_what_a_channel_measured_is_told_in_its_unit(tmp_path):
+    line = 'channels.temperature={channel="T", points=[["0 V","0 degC"],["1 V","100 degC"]]}'
+    case = read_case("rig-final", case_tables(), [line])
+    with Recorder(tmp_path / "run.nc", [Source("temperature", "V", 1e-3)], 1e-2) as recorder:
+        recorder.append(np.array([[240], [250], [layout.MISSING]], np.int16), 0.03)
+    recordings = [Recording.open(tmp_path / "run.nc")]
+    assert measured("temperature", case, recordings) == "24.5 degC"
+    assert measured("normal_force", case, recordings) == "not recorded"
 
 
 def test_a_report_follows_no_other_standard(asperity, run):
