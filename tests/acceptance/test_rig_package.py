@@ -295,8 +295,11 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert flat["relative humidity"] == "45 %"
     assert flat["laboratory"] == "Laboratory 1"
     # Nobody told these, and so they stand as such.
-    for name in ("operator", "cleaning", "atmosphere", "steel disc: treatment",
-                 "bronze disc: mass loss", "steel disc: volume loss", "temperature, measured"):  # fmt: skip
+    untold = (
+        "operator", "cleaning", "atmosphere", "steel disc: treatment", "bronze disc: mass loss",
+        "steel disc: volume loss", "temperature, measured",
+    )  # fmt: skip
+    for name in untold:
         assert flat[name] == "not recorded"
     assert ("frequency" in flat) == (standard == "G133")
     if standard == "G133":
