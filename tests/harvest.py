@@ -2,13 +2,15 @@
 
 ``python tests/harvest.py`` runs every command line whose answer is recorded and each of ``ROOMS``,
 those that are in the list already left out; ``--again`` and words run those that hold all the words
-once more, ``--all`` every one. ``--seconds`` compiles all entries and notes how long each takes.
-Run it where a test says that a command calls what the list does not have.
+once more, ``--all`` every one. What is found is written after each line. ``--seconds`` compiles
+each entry of the list by itself and notes how long it takes, ``--missing`` those only of which that
+is not known. Run it where a test says that a command calls what the list does not have.
 """
 
 import argparse
 import concurrent.futures
 import json
+import multiprocessing
 import os
 import subprocess
 import sys
@@ -39,6 +41,9 @@ ROOMS = (
     "rig run rig-final RIG --out OUT",
     "rig reduce RECORDING",
 )
+
+# What stands where nobody has measured how long an entry is compiled, s.
+UNKNOWN = 1.0
 
 _OBSERVE = (
     "import sys, tempfile; from pathlib import Path; from observe import observe\n"
@@ -76,45 +81,96 @@ def main():
     parser.add_argument("--again", nargs="+", metavar="WORD", help="of lines to run once more")
     parser.add_argument("--all", action="store_true", help="run every line once more")
     parser.add_argument("--seconds", action="store_true", help="note how long compiling takes")
+    parser.add_argument("--missing", action="store_true", help="where it is not known only")
     parser.add_argument("--processes", type=int, default=os.cpu_count())
     given = parser.parse_args()
-    old = entries.listed() if entries.LIST.exists() and not given.all else entries.Listed((), {})
     wanted = lines()
-    of_line = {
-        line: [(old.entries[n].name, old.entries[n].arguments) for n in numbers]
-        for line, numbers in old.lines.items()
-        if line in wanted and not (given.again and all(word in line for word in given.again))
-    }
-    to_do = [line for line in wanted if line not in of_line]
+    held = List()
+    to_do = [
+        line
+        for line in wanted
+        if given.all
+        or line not in held.lines
+        or (given.again and all(word in line for word in given.again))
+    ]
     with concurrent.futures.ThreadPoolExecutor(given.processes) as pool:
-        for line, found in zip(to_do, pool.map(called, to_do), strict=True):
-            print(f"{len(found):4d} {line}", flush=True)
-            of_line[line] = found
-    seconds = {(entry.name, json.dumps(entry.arguments)): entry.seconds for entry in old.entries}
-    numbers = {}
-    told = {}
-    for line in wanted:
-        keys = [(name, json.dumps(types)) for name, types in of_line[line]]
-        told[line] = [numbers.setdefault(key, len(numbers)) for key in keys]
-    rows = [(name, json.loads(types), seconds.get((name, types), 1.0)) for name, types in numbers]
+        runs = {pool.submit(called, line): line for line in to_do}
+        for done in concurrent.futures.as_completed(runs):
+            print(f"{len(done.result()):4d} {runs[done]}", flush=True)
+            held.add(runs[done], done.result())
+            held.write()
+    held.keep(wanted)
+    held.write()
     if given.seconds:
-        rows = list(timed(rows))
-    entries.write(rows, told)
+        held.time(given.processes, only_missing=given.missing)
 
 
-def timed(rows):
-    """Yield rows with the time that compiling takes, in the order that shares least."""
+class List:
+    """The list as it grows: entries keep their numbers, by which other processes ask for them."""
+
+    def __init__(self):
+        old = entries.listed() if entries.LIST.exists() else entries.Listed((), {})
+        self.lines = {line: list(numbers) for line, numbers in old.lines.items()}
+        self._seconds = {_text(each.name, each.arguments): each.seconds for each in old.entries}
+
+    def add(self, line, found):
+        texts = [_text(name, types) for name, types in found]
+        for text in texts:
+            self._seconds.setdefault(text, UNKNOWN)
+        places = {text: number for number, text in enumerate(self._seconds)}
+        self.lines[line] = [places[text] for text in texts]
+
+    def keep(self, wanted):
+        """Leave out other lines than those, and what none of them calls."""
+        texts = list(self._seconds)
+        called = {line: [texts[n] for n in self.lines[line]] for line in wanted}
+        still = {text for found in called.values() for text in found}
+        self._seconds = {text: self._seconds[text] for text in texts if text in still}
+        places = {text: number for number, text in enumerate(self._seconds)}
+        self.lines = {line: [places[text] for text in found] for line, found in called.items()}
+
+    def write(self):
+        rows = [(*json.loads(text), seconds) for text, seconds in self._seconds.items()]
+        entries.write(rows, self.lines)
+
+    def time(self, processes, *, only_missing):
+        """Note how long each entry is compiled by a process that has compiled nothing before."""
+        texts = [
+            text
+            for text, seconds in self._seconds.items()
+            if not only_missing or seconds == UNKNOWN
+        ]
+        spawn = multiprocessing.get_context("spawn")
+        with concurrent.futures.ProcessPoolExecutor(
+            processes, mp_context=spawn, max_tasks_per_child=1
+        ) as pool:
+            runs = {pool.submit(seconds_of, *json.loads(text)): text for text in texts}
+            for done in concurrent.futures.as_completed(runs):
+                text = runs[done]
+                self._seconds[text] = done.result()
+                print(f"{done.result():6.1f} s {json.loads(text)[0]}", flush=True)
+                self.write()
+
+
+def _text(name, types):
+    return json.dumps([name, types])
+
+
+def seconds_of(name, types):
+    """Return how long an entry is compiled, s of the processor, Numba's own start left out."""
+    os.environ["ASPERITY_NATIVE"] = "0"
+
     from asperity.building import lean, making
 
     making.began()
-    for number, (name, types, _) in enumerate(rows):
-        entry = entries.Entry(number, name, types, 0.0)
-        start = time.process_time()
-        try:
-            lean.make(making.kernel(entry), types, "entry")
-        except lean.UnfitError as reason:
-            print(f"{name}: {reason}", flush=True)
-        yield name, types, round(time.process_time() - start, 1)
+    entry = entries.Entry(0, name, types, 0.0)
+    kernel = making.kernel(entry)
+    start = time.process_time()
+    try:
+        lean.make(kernel, types, "entry")
+    except lean.UnfitError as reason:
+        print(f"{name}: {reason}", flush=True)
+    return round(max(time.process_time() - start, 0.1), 1)
 
 
 if __name__ == "__main__":

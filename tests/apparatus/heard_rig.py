@@ -1,9 +1,9 @@
 """A laboratory's rig that the reduction never saw, and the faults its sensors and cables have.
 
-Simpler than life and of its own making: motors :math:`V = k \\omega + R i`, discs that push each other
-with equal forces, encoders of 32 pulses a turn counted for a second behind a lag, run-out, drift,
-white and lasting noise, hum, twelve bits. All of it follows from a seed. A fault is a function of a
-`Run`, which it changes.
+Simpler than life and of its own making: motors V = k w + R i, discs that push each other with equal
+forces, encoders of 32 pulses a turn counted for a second behind a lag, run-out, drift, white and
+lasting noise, hum, twelve bits. All of it follows from a seed. A fault is a function of a `Run`,
+which it changes.
 """
 
 import dataclasses
@@ -85,7 +85,7 @@ class Settings:
 
 @dataclasses.dataclass
 class Run:
-    """Volts of every channel over time, what was told, and what is true of each cell."""
+    """Volts of every channel over time, what was told, and when cells begin, shake and end."""
 
     given: Settings
     time: np.ndarray
@@ -93,7 +93,6 @@ class Run:
     events: list[tuple[float, str, str]]
     lines: dict[str, Any]
     spans: list[tuple[float, float, float]]
-    truth: list[dict[str, float]]
     missing: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
     configured: list[str] = dataclasses.field(default_factory=list)
     rng: np.random.Generator = dataclasses.field(default_factory=np.random.default_rng)
@@ -211,7 +210,7 @@ def made(given: Settings, fault: Callable[[Run], None] | None = None) -> Run:
     lines = {name: channel.line() for name, channel in channels.items()}
     run = Run(
         given, time, {}, events, lines, spans,
-        [_truth(given, ratio) for ratio in given.ratios], configured=settings,
+        configured=settings,
         rng=np.random.default_rng((given.seed, 3)),
     )  # fmt: skip
     for name, values in signals.items():
@@ -219,6 +218,11 @@ def made(given: Settings, fault: Callable[[Run], None] | None = None) -> Run:
     if fault is not None:
         fault(run)
     return run
+
+
+def truths(given: Settings) -> list[dict[str, float]]:
+    """What is true of each cell: changes of torque and power, %, and the torque before, N m."""
+    return [_truth(given, ratio) for ratio in given.ratios]
 
 
 def _truth(given: Settings, ratio: float) -> dict[str, float]:
@@ -443,7 +447,7 @@ def _gain(name, factor):
 
 
 def _nan(run):
-    for start, begin, _ in run.spans:
+    for start, _, _ in run.spans:
         run.missing["torque_steel"] = np.append(
             run.missing.get("torque_steel", np.zeros(0, dtype=int)),
             np.flatnonzero(run.within(start + 4.0, start + 4.01)),
@@ -510,10 +514,16 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
 }  # fmt: skip
 
 
-def faulty(name, seed, path):
+SMALL = {"rate": 4e3, "part": 6.0, "rest": 4.0, "frequencies": (250.0, 500.0, 750.0)}
+"""Settings of recordings that are soon made."""
+SPARED = {"drive half as strong in one cell": {0, 2}, "encoder that dies": {0}}
+"""Segments that a fault leaves as they are; others spoil all."""
+
+
+def faulty(name, seed, path, **settings):
     """Write a recording with a fault, of a rig drawn by a seed."""
-    fault, settings = FAULTS[name]
-    given = dataclasses.replace(sound_settings(seed), **settings)
+    fault, needed = FAULTS[name]
+    given = dataclasses.replace(sound_settings(seed), **settings, **needed)
     return recorded(made(given, fault), path)
 
 

@@ -267,10 +267,13 @@ def run_of(
     bronze = 60.0 * _HELD / _RADII[1]
     phases = []
     for place, (frequency, ratio) in enumerate(zip(frequencies, ratios, strict=False)):
-        quiet = Phase(duration, TORQUE, -0.2, speeds[0], bronze, 2.0, 0.8)
+        # The discs push each other with one force.
+        pushed = -TORQUE * _RADII[1] / _RADII[0]
+        quiet = Phase(duration, TORQUE, pushed, speeds[0], bronze, 2.0, 0.8)
         shaken = dataclasses.replace(
             quiet,
             torque_steel=TORQUE * ratio,
+            torque_bronze=pushed * ratio,
             speed_steel=speeds[1],
             frequency=frequency,
             waveform=waveform,

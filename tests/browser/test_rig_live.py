@@ -91,6 +91,7 @@ def test_the_stop_works_where_the_procedure_hangs_and_what_stays_on_is_named(see
         "Not read back to be off: supply of the steel disc's motor: its output's state is on"
     )
     assert OUTPUTS & set(rig.on()) == {"steel"}
+    expect(panel.get_by_role("status")).to_have_text("not all of it was read back to be off")
     rig.sound()
     expect(panel).to_contain_text("Read back to be off within")
     vibrates.kill(signal.SIGCONT)

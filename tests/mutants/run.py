@@ -300,7 +300,7 @@ class Trial:
             import warm
 
             # Once, not by each.
-            warm.compile_kernels(jobs)
+            warm.compile_kernels()
         left = iter(mutants)
         caches = RESULTS.parent / "cache"
         with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:

@@ -90,6 +90,23 @@ def test_a_block_pulled_at_half_its_height_leans_on_its_leading_edge():
     assert centre_of_pressure(block, state.contact.pressure)[0] == pytest.approx(lean, rel=1e-3)
 
 
+@pytest.mark.parametrize("static", [0.1, 0.15])
+@pytest.mark.parametrize("shaken", [0.0, 0.2])
+def test_a_block_under_lugre_breaks_away_when_the_sliding_body_does(static, shaken):
+    block = problem(
+        "friction.model=lugre", f"friction.static_mu={static}",
+        "friction.stribeck_velocity=1 mm/s", "friction.contact_damping=300 N s/m",
+        "friction.viscous_damping=0.4 N s/m", f"vibration.velocity_ratio={shaken}",
+        "vibration.start=2 ms", "vibration.direction=45 deg", "solve.step=10 us",
+        "slider.drive_stiffness=1e6 N/m", "solve.duration=25 ms",
+    )  # fmt: skip
+    result, body = solve_block(block, history=False), slide(block.model, history=False)
+    # Long after the drive pulls with mu F_N where static friction holds more.
+    pulls = block.model.full_friction / (1e6 * 0.5e-3)
+    assert body.breakaway_time > (1.3 if static > 0.1 else 1.0) * pulls
+    assert result.breakaway_time == pytest.approx(body.breakaway_time, rel=5e-3)
+
+
 CLOSING = {
     "longitudinal": (),
     "coupled": ("vibration.direction=45 deg",),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from apparatus.drives import problem
 
+from asperity.drive.motion.kernels import move
 from asperity.drive.protocols.march import March
 from asperity.drive.protocols.setup import begin, corners_of, shakes, system
 from asperity.drive.reduced.model import ReducedModel
@@ -84,3 +85,24 @@ def test_a_seat_begins_with_the_energy_of_a_spring_under_the_worm_s_thrust():
         stored.append(float(states[0]["stored"]))
     thrust = given.load / model.point.arm
     assert stored[1] - stored[0] == pytest.approx(0.5 * thrust**2 / 50e6, rel=1e-6)
+
+
+def test_of_every_freedom_the_rate_is_that_of_its_place():
+    given, model = modelled(
+        "vibration.mode=axial", "vibration.applied_to=seat", "vibration.frequency=2 kHz",
+        "vibration.displacement_amplitude=3 um", "drive.worm_mass=0.3 kg",
+        "shaft.torsional_stiffness=4394 N m/rad", "shaft.bearing_axial=50 kN/mm",
+        "shaft.diameter=17 mm", "shaft.span=150 mm",
+    )  # fmt: skip
+    moving = system(given, model)
+    states, _ = begin(given, model, moving)
+    state = states[0]
+    state["turn_rate"], state["shift_rate"], state["roll_rate"] = 151.0, 7e-3, 9.9
+    state["bent_rate"] = [2e-3, -3e-3, 5e-3]
+    short = 1e-8
+    places, rates = np.empty((2, 5)), np.empty((2, 5))
+    for n in range(2):
+        move(moving, state, (n + 1) * short, places[n], rates[n])
+    assert rates[1] == pytest.approx([151.0, 9e-3, 9.9, 3e-3, 5e-3], rel=1e-2)
+    freely = [0, 1, 2, 3]
+    assert np.diff(places, axis=0)[0, freely] / short == pytest.approx(rates[1, freely], rel=1e-3)

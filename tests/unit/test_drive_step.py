@@ -1,13 +1,19 @@
 """The step of a drive's march: what it makes wrong, how it is chosen, where it ends."""
 
+import math
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from apparatus.drives import problem, solved
 from apparatus.grid import slow
 from apparatus.random_drives import drawn, settings
 
+from asperity.drive.motion.system import SUMS
+from asperity.drive.protocols.accuracy import StepError, beside
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March
+from asperity.drive.protocols.notes import _of_step
 from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
@@ -91,6 +97,52 @@ def test_steps_end_on_the_corners_of_a_waveform(wave, corners):
     expected = [n + phase for n in range(3) for phase in corners]
     assert cycles == pytest.approx(expected[: len(met)], abs=1e-9)
     assert len(met) > 2 * len(corners)
+
+
+def ended(ratio, *, off, told):
+    """A march whose last cycles have a torque so many times that of the wheel."""
+    rows = np.zeros(24, SUMS)
+    rows["time"], rows["wheel_torque"], rows["torque"] = 1e-4, 2e-4, 2e-4 * ratio
+    return SimpleNamespace(rows=rows, marked=SimpleNamespace(row=12), off=off, told=told)
+
+
+@pytest.mark.parametrize(
+    ("told", "spread", "apart"),
+    [
+        (0.97, 6e-5, 0.97 / 1.43 - 1.0),
+        (1.45, 6e-5, 0.02 / 1.43),
+        (1.4345, 6e-5, None),  # a third of a hundredth, as the longer step was told to make
+        (1.45, 8e-3, None),  # no more than the blocks spread by themselves
+        (math.nan, 6e-5, None),  # never begun anew, or before it had settled
+    ],
+)
+def test_a_march_begun_anew_that_comes_to_another_state_is_not_told_a_small_error(
+    told, spread, apart
+):
+    own = StepError(2e-4, 3e-4)
+    found = beside(own, ended(1.43, off=1.2, told=told), "torque", spread)
+    if apart is None:
+        assert found == own
+    else:
+        assert found.ratio == pytest.approx(abs(apart))
+        assert found.elsewhere == pytest.approx(1.0 + apart)
+        given = problem("vibration.velocity_ratio=1.5")
+        note = _of_step(given, found)
+        assert f"{100.0 * abs(apart):.2g} % {'greater' if apart > 0.0 else 'less'}" in note
+    assert beside(own, ended(1.43, off=1.2, told=math.nan), "rolled", spread) == own
+
+
+@pytest.mark.slow
+def test_of_two_states_of_a_hammering_drive_the_one_that_is_not_shown_is_told():
+    way = (
+        "vibration.mode=torsional", "vibration.frequency=11 kHz",
+        "vibration.displacement_amplitude=160 um",
+    )  # fmt: skip
+    chosen, fine = solved(*way), solved(*way, "solve.step=0.05 us")
+    assert chosen.settled
+    assert fine.settled
+    off = abs(fine.torque_ratio / chosen.torque_ratio - 1.0)
+    assert off <= 3.0 * max(1e-3, chosen.step_error)
 
 
 def test_a_smooth_wave_has_no_corners():

@@ -76,7 +76,116 @@ def test_where_no_process_begins_nobody_waits(entry, trouble, tmp_path, monkeypa
         raise trouble
 
     monkeypatch.setattr(kept, "_begun", begun)
-    kept._Makers(tmp_path).make(entry, tmp_path / "never")
+    kept._Makers(tmp_path).make([entry])
+
+
+DIES = """
+import os
+key = input().split()[0]
+print(key, flush=True)
+os.kill(os.getpid(), 9)
+"""
+MAKES = """
+import pathlib, sys
+for line in sys.stdin:
+    for key in line.split():
+        print(key, flush=True)
+        (pathlib.Path(sys.argv[1]) / key).mkdir(exist_ok=True)
+        print(flush=True)
+"""
+LEAVES = "import sys; input(); sys.exit(1)"
+
+
+@pytest.fixture
+def begun(tmp_path, monkeypatch):
+    """Programs of the processes that begin, in turn; which have begun."""
+    programs, begun = [], []
+
+    def begin(kernels):
+        program = programs[min(len(begun), len(programs) - 1)]
+        begun.append(program)
+        return subprocess.Popen(
+            [sys.executable, "-S", "-c", program, str(tmp_path)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+
+    monkeypatch.setattr(kept, "_begun", begin)
+    monkeypatch.setattr(kept, "likely", lambda asked: [])
+    return programs, begun
+
+
+@pytest.mark.parametrize("cores", [1, 2])
+def test_an_entry_that_a_process_dies_of_is_left_and_the_others_are_made(
+    cores, begun, tmp_path, monkeypatch
+):
+    programs, started = begun
+    programs += [DIES, MAKES]
+    monkeypatch.setattr(kept, "most_makers", lambda: cores)
+    first, second = listed().entries[:2]
+    makers = kept._Makers(tmp_path)
+    makers.make([first])
+    makers.make([second])
+    # Nobody waits for it again.
+    makers.make([first])
+    makers.leave()
+    assert not (tmp_path / keys.key(first)).exists()
+    assert (tmp_path / keys.key(second)).exists()
+    assert started == [DIES, MAKES]
+
+
+def test_processes_that_die_of_everything_are_not_begun_for_ever(begun, tmp_path, monkeypatch):
+    programs, started = begun
+    programs += [DIES]
+    monkeypatch.setattr(kept, "most_makers", lambda: 2)
+    makers = kept._Makers(tmp_path)
+    makers.make(listed().entries[:20])
+    makers.leave()
+    assert len(started) < 6
+
+
+def test_a_process_that_knows_no_such_entry_is_not_begun_again(begun, tmp_path, monkeypatch):
+    programs, started = begun
+    programs += [LEAVES]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    makers = kept._Makers(tmp_path)
+    makers.make(listed().entries[:2])
+    makers.make(listed().entries[2:4])
+    makers.leave()
+    assert started == [LEAVES]
+
+
+def test_what_is_waited_for_is_asked_for_first(entry, tmp_path, monkeypatch):
+    told = []
+
+    class Told:
+        def ask(self, line):
+            told.append(line.split())
+            (tmp_path / keys.key(entry)).mkdir()
+
+        def ended(self):
+            return None
+
+    others = [each for each in listed().entries[:3] if each is not entry]
+    monkeypatch.setattr(kept, "likely", lambda asked: others)
+    monkeypatch.setattr(kept, "most_makers", lambda: 0)
+    makers = kept._Makers(tmp_path)
+    makers._running, makers._deaths = [Told()], 1
+    makers.make([entry])
+    assert told == [[keys.key(each) for each in (entry, *others)]]
+
+
+def test_as_many_processes_make_as_there_is_room_for(monkeypatch):
+    def of(cores, pages):
+        monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(cores)))
+        sizes = {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": pages}
+        monkeypatch.setattr(os, "sysconf", sizes.__getitem__)
+        return kept.most_makers()
+
+    gigabyte = 1 << 18
+    assert [of(2, 64 * gigabyte), of(64, 64 * gigabyte), of(8, 3 * gigabyte)] == [2, 8, 3]
+    assert of(4, gigabyte // 2) == 1
 
 
 def test_processes_that_make_are_no_freer_than_this_one(tmp_path, monkeypatch):
@@ -150,7 +259,7 @@ def test_trouble_that_may_pass_leaves_nothing(entry, tmp_path, monkeypatch):
 def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkeypatch):
     monkeypatch.setenv("CC", "false")
     made = lean.Made(b"code", ["d"], (1, 2))
-    link.write(tmp_path, [(entry, made)], b"common")
+    link.keep(tmp_path, entry, made, b"common")
     assert [(tmp_path / name).read_bytes() for name in table.OBJECTS] == [b"code", b"common"]
     assert not (tmp_path / table.LIBRARY).exists()
     with pytest.raises(subprocess.CalledProcessError):
@@ -161,7 +270,7 @@ def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monk
     monkeypatch.setattr(link, "_linked", lambda *_given: b"no library")
     folder = tmp_path / keys.key(entry)
     folder.mkdir(mode=0o700)
-    link.write(folder, [(entry, lean.Made(b"code", ["d"], (1, 2)))], b"common")
+    link.keep(folder, entry, lean.Made(b"code", ["d"], (1, 2)), b"common")
     monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: tmp_path)
     # Otherwise each run would make it anew, and in vain.
     assert kept._obtained(entry) is None

@@ -1,5 +1,8 @@
 """What samples besides a PicoScope: an NI-DAQmx device, and a folder that files come into."""
 
+import dataclasses
+import itertools
+
 import numpy as np
 import pytest
 from apparatus import fake_nidaqmx, rigs
@@ -12,8 +15,9 @@ from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
 from asperity.tribometer.instruments.listening import ScopeListener
 from asperity.tribometer.instruments.nidaq import NiDaq
-from asperity.tribometer.instruments.protocols import Input, InstrumentError, Scope
+from asperity.tribometer.instruments.protocols import Input, InstrumentError, Poll, Scope
 from asperity.tribometer.instruments.stream import Stream
+from asperity.tribometer.recording import Recording
 
 INPUTS = Input("ai0", "torque_steel", 5.0), Input("ai3", "drive_voltage", 10.0)
 LATE = 2.0
@@ -260,6 +264,53 @@ def test_a_file_that_is_not_the_rigs_is_named(watched, text, said):
     with pytest.raises(InstrumentError, match=said) as told:
         polled(scope, clock, 2.0 * LATE)
     assert "\n" not in str(told.value)
+
+
+class Delayed:
+    """A scope whose samples come a while after they were taken."""
+
+    late = LATE
+
+    def __init__(self, scope, clock, seconds):
+        self._scope, self._clock, self._seconds = scope, clock, seconds
+        self.name, self.inputs, self.by_hand = scope.name, scope.inputs, False
+        self.identify, self.safe, self.stop, self.close = (
+            scope.identify, scope.safe, scope.stop, scope.close
+        )  # fmt: skip
+
+    def start(self, interval):
+        self._begun, self._given, self._interval = self._clock.now(), 0, interval
+        self._held = np.empty((len(self.inputs), 0), np.int16)
+        return self._scope.start(interval)
+
+    def poll(self):
+        poll = self._scope.poll()
+        self._held = np.concatenate([self._held, np.array(poll.counts)], axis=1)
+        due = round((poll.clock - self._begun - self._seconds) / self._interval) - self._given
+        due = min(max(0, due), self._held.shape[1])
+        out, self._held = self._held[:, :due], self._held[:, due:]
+        self._given += due
+        return Poll(tuple(out), poll.clock, poll.overrange)
+
+
+def test_a_run_whose_samples_come_late_records_what_happened_where_it_did(tmp_path):
+    case = rigs.small_case()
+    bench, _ = rigs.made_bench(case)
+    late = dataclasses.replace(bench, scope=Delayed(bench.scope, bench.clock, 0.7))
+    answer = rigs.run(case, tmp_path / "late", bench=late)
+    assert answer.failure is None
+    sound = rigs.run(case, tmp_path / "sound")
+    assert answer.torque_before == pytest.approx(sound.torque_before, rel=0.02)
+    # A second sees another part of the run-out.
+    assert answer.torque_with == pytest.approx(sound.torque_with, rel=0.25)
+    recording = Recording.open(tmp_path / "late" / "file-01.nc")
+    drive = recording.values("drive_voltage", 0, recording.samples)
+    for event, following in itertools.pairwise(
+        [one for one in recording.events if one.kind == "vibration"]
+    ):
+        first, last = (round(one.time / recording.sample_interval) for one in (event, following))
+        moves = bool(np.ptp(drive[first + 10 : last - 10]) > 1.0)
+        assert moves is (event.text != "off")
 
 
 def test_a_folder_that_is_none_is_one_line(tmp_path):

@@ -1,5 +1,9 @@
 """Supplies and generators that are described by what is said to them, on fakes by their manuals."""
 
+import re
+import textwrap
+from pathlib import Path
+
 import pytest
 
 pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
@@ -7,6 +11,8 @@ pytest.importorskip("pty")
 
 from apparatus import by_the_manual, rigs
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.tribometer.guardian.devices import deadline_of
 from asperity.tribometer.guardian.guard import Guard
@@ -19,6 +25,7 @@ from asperity.tribometer.instruments.protocols import InstrumentError, Supply, V
 from asperity.tribometer.instruments.serial_vibration import Levels, SerialVibration
 from asperity.tribometer.instruments.words import number_of
 
+ROOT = Path(__file__).parents[2]
 SUPPLIES = {
     "tti-pl": by_the_manual.TTi,
     "rigol-dp800": by_the_manual.RigolDP800,
@@ -372,3 +379,22 @@ def test_what_a_slow_supply_takes_is_the_guardians_deadline():
     ):  # fmt: skip
         assert deadline_of(rigs.small_case(*given), simulated=False) == due
     assert deadline_of(rigs.small_case(*fast, slow), simulated=True) == 60.0
+
+
+def written():
+    """Yield tables of the instruments that the docs show."""
+    text = (ROOT / "docs" / "tribometer.rst").read_text(encoding="utf-8")
+    for block in re.findall(r"::\n\n((?:(?:   .*)?\n)+)", text):
+        for part in re.split(r"\n(?=   \[scope\])", block):
+            toml = textwrap.dedent(part)
+            if re.match(r"\[(supplies|controller|guardian|scope)", toml):
+                yield toml
+
+
+def test_what_the_docs_show_of_instruments_is_taken(tmp_path):
+    shown = list(written())
+    assert len(shown) >= 5
+    for toml in shown:
+        case = tmp_path / "case.toml"
+        case.write_text(toml)
+        read_case(case, case_tables())

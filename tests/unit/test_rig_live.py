@@ -26,11 +26,12 @@ def shown(tmp_path):
 
 def test_points_are_means_of_half_a_second_by_the_rigs_clock(shown):
     preview, clock, folder = shown
-    preview.step("Cell 1", "Cell 2", 0, 2)
+    preview.step("Cell 1", "Cell 2", 0, 2, asks=False)
     for poll in range(40):
         clock.now += 1.0
         levels = {"torque_steel": float(poll), "speed_steel": -1.0, "load_cell": 7.0}
         preview.levels(100.0 + 0.05 * (poll + 1), 0.05, levels)
+        preview.beat()
     found = look(folder)
     assert found["time"] == pytest.approx([0.5, 1.0, 1.5, 2.0])
     assert [one["name"] for one in found["signals"]] == ["torque_steel", "speed_steel"]
@@ -47,6 +48,7 @@ def test_it_stays_small_however_long_a_run_is_and_is_written_four_times_a_second
     for poll in range(20_000):
         clock.now += 0.05
         preview.levels(0.05 * poll, 0.05, {"torque_steel": 1.0 / 3.0, "speed_steel": 1e5 / 3.0})
+        preview.beat()
     assert len(writes) == pytest.approx(20_000 * 0.05 / 0.25, rel=0.3)
     assert (folder / PREVIEW).stat().st_size < 8000
     assert [path.name for path in folder.iterdir()] == [PREVIEW]
@@ -54,8 +56,9 @@ def test_it_stays_small_however_long_a_run_is_and_is_written_four_times_a_second
 
 def test_a_folder_that_takes_no_file_ends_no_run(tmp_path):
     preview = Preview(tmp_path / "none", {}, simulated=False)
-    preview.step("Cell 1", "", 0, 1)
+    preview.step("Cell 1", "", 0, 1, asks=True)
     preview.levels(1.0, 0.05, {})
+    preview.beat()
     preview.end("finished")
     assert look(tmp_path / "none") is None
 

@@ -59,7 +59,7 @@ def build(
     """
     from asperity.building import lean, link, making
 
-    if (why := hindrance()) is not None:
+    if (why := hindrance() or (None if entries else "no kernel is listed")) is not None:
         raise NoLibraryError(why)
     wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
@@ -136,10 +136,7 @@ class _Makers:
 
     def _go_through(self, waiting: Sequence[int]) -> int:
         """Begin a process for entries; return how many it came to an end with."""
-        command = [
-            *(sys.executable, "-P", "-m", "asperity.building.library", str(self.kernels)),
-            *("--processes", str(self.processes), "--only", *map(str, waiting)),
-        ]
+        command = _command(self.kernels, self.processes, waiting)
         environment = {
             name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")
         }
@@ -180,6 +177,13 @@ class _Makers:
         self._done.add(number)
         name = next(entry.name for entry in self.entries if entry.number == number)
         self.tell(f"{len(self._done)} of {len(self.entries)}: {name}")
+
+
+def _command(kernels: Path, processes: int, numbers: Sequence[int]) -> list[str]:
+    return [
+        *(sys.executable, "-P", "-m", "asperity.building.library", str(kernels)),
+        *("--processes", str(processes), "--only", *map(str, numbers)),
+    ]
 
 
 def _parts(entries: Sequence[Entry], processes: int) -> list[list[int]]:
@@ -237,6 +241,8 @@ def main() -> None:
         return
     try:
         build(given.folder, entries, given.processes, lambda line: print(line, flush=True))
+    except KeyboardInterrupt:
+        sys.exit(130)
     except NoLibraryError as error:
         print(f"no library of kernels: {error}", file=sys.stderr)
         sys.exit(NO_LIBRARY)

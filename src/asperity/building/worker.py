@@ -1,10 +1,12 @@
 """A process that makes entries for another one: ``python -m asperity.building.worker FOLDER N``.
 
-Each line of its input tells entries of the list by number and key, the next wanted first; the last
-line counts. It ends with its input, when what it is at is done and kept, or when nothing was asked
-for long; and where a key is not the one of the sources that stand here.
+Each line of its input tells entries of the list by their keys, the next wanted first; the last line
+counts. It answers with the key that it begins with, and with an empty line when that is done. It
+ends with its input, when what it is at is done and kept, or when nothing was asked for long; and
+where a key is none of those that follow from the sources as they stand here.
 """
 
+import contextlib
 import os
 import signal
 import sys
@@ -15,7 +17,7 @@ _IDLE = 30.0  # s
 
 
 class _Wanted:
-    """Numbers and keys of entries still to be made, told by who waits for them."""
+    """Keys of entries still to be made, told by who waits for them."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
@@ -31,13 +33,10 @@ class _Wanted:
             self._words, self._is_over = [], True
             self._changed.notify()
 
-    def next(self) -> tuple[int, str] | None:
+    def next(self) -> str | None:
         with self._changed:
             self._changed.wait_for(lambda: self._words or self._is_over, _IDLE)
-            if not self._words:
-                return None
-            number, _, key = self._words.pop(0).partition(":")
-            return int(number), key
+            return self._words.pop(0) if self._words else None
 
 
 def main() -> None:
@@ -46,20 +45,27 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ["ASPERITY_NATIVE"] = "0"
     folder, processes = Path(sys.argv[1]), int(sys.argv[2])
+    wanted = _Wanted()
+    threading.Thread(target=wanted.listen, daemon=True).start()
 
     from asperity.building import making
     from asperity.native import keys
     from asperity.native.entries import listed
 
     # Of all, before a kernel is imported: sources may change while this process lives.
-    entries = listed().entries
-    for entry in entries:
-        keys.key(entry)
-    wanted = _Wanted()
-    threading.Thread(target=wanted.listen, daemon=True).start()
-    while (asked := wanted.next()) is not None:
-        number, key = asked
-        making.keep(folder, entries[number], key, processes)
+    entries = {keys.key(entry): entry for entry in listed().entries}
+    while (key := wanted.next()) is not None:
+        if key not in entries:
+            raise making.ChangedError(key)
+        _say(key)
+        making.keep(folder, entries[key], key, processes)
+        _say("")
+
+
+def _say(word: str) -> None:
+    # Who asked may have ended; what is made is kept all the same.
+    with contextlib.suppress(OSError):
+        os.write(1, f"{word}\n".encode())
 
 
 if __name__ == "__main__":

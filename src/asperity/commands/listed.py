@@ -282,6 +282,21 @@ COMMANDS = (
         out="REC.nc",
     ),
     Command(
+        "rig check",
+        "Check what recordings say of their own sensors: zeros, signs, ratios, drive, tones.",
+        "With --out also check.json, check.nc and check.png, a small picture of each finding.",
+        module="asperity.tribometer.checking.study",
+        read="asperity.tribometer.checking.study:read",
+        counts="recordings",
+        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        case="",
+        options=(
+            Option(
+                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
+            ),
+        ),
+    ),
+    Command(
         "rig reduce",
         "Reduce recordings: what vibration does to torque, power and efficiency.",
         "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "

@@ -90,7 +90,10 @@ def write(
         '"entries": [\n' + ",\n".join(rows) + "\n]",
         '"lines": {\n' + ",\n".join(told) + "\n}",
     )
-    LIST.write_text("{\n" + ",\n".join(parts) + "\n}\n", "utf-8")
+    new = LIST.with_suffix(".new")
+    new.write_text("{\n" + ",\n".join(parts) + "\n}\n", "utf-8")
+    # Whoever reads it meanwhile reads all of it.
+    new.replace(LIST)
 
 
 def likely(asked: Iterable[int]) -> list[Entry]:

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,9 @@ UNFIT = "unfit"
 _MADE_HERE = "x86_64-linux"
 _PATIENCE = 0.01
 _REMIND = 1.0
+_MOST = 8
+_MEMORY = 1 << 30
+"""Bytes of the machine for each process: several times what one needs."""
 
 Native = Callable[[tuple[Any, ...]], Any]
 
@@ -99,6 +102,23 @@ def library(name: str) -> Kept | None:
     return Kept(entries) if entries else None
 
 
+def make(entries: Iterable[Entry]) -> None:
+    """Have entries made that are not kept yet, the dearest first, on all cores.
+
+    Parameters
+    ----------
+    entries : iterable of Entry
+        Of the list.
+    """
+    kernels = kernel_folder.kernels()
+    if kernels is not None and load.is_for_here(_MADE_HERE, FEATURES):
+        makers = _Makers(kernels)
+        try:
+            makers.make(sorted(entries, key=lambda each: -each.seconds))
+        finally:
+            makers.leave()
+
+
 def _obtained(entry: Entry) -> load.Library | None:
     kernels = kernel_folder.kernels()
     if kernels is None:
@@ -109,7 +129,7 @@ def _obtained(entry: Entry) -> load.Library | None:
         return None  # there are no sources, or nothing that tells of Numba
     _ASKED.add(entry.number)
     if not folder.exists():
-        _makers(kernels).make(entry, folder)
+        _makers(kernels).make([entry])
     if not folder.exists() or not kernel_folder.is_kept(folder) or (folder / UNFIT).exists():
         return None
     remedy = "it is made anew the next time"
@@ -130,57 +150,116 @@ def _obtained(entry: Entry) -> load.Library | None:
 _ASKED: set[int] = set()
 
 
+class _Maker:
+    """A process that makes entries, and says which one it is at."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+
+    def ask(self, line: str) -> None:
+        """Tell what is wanted; what it was told before no longer counts."""
+        assert self._process.stdin is not None
+        with contextlib.suppress(OSError, ValueError):
+            self._process.stdin.write(line)
+            self._process.stdin.flush()
+
+    def ended(self) -> tuple[int, str] | None:
+        """Return how it ended and the key of what it was at; None where it has not."""
+        code = self._process.poll()
+        if code is None:
+            return None
+        said = self._process.stdout.read() if self._process.stdout is not None else ""
+        self._close()
+        return code, said.rpartition("\n")[0].rpartition("\n")[2]
+
+    def leave(self) -> None:
+        """Let it end by itself, after what it is at."""
+        self._close()
+        # Or Python warns that it runs on.
+        self._process.returncode = self._process.poll() or 0
+
+    def _close(self) -> None:
+        for each in (self._process.stdin, self._process.stdout):
+            if each is not None:
+                with contextlib.suppress(OSError):
+                    each.close()
+
+
 class _Makers:
-    """Processes that make entries, and end when this one has."""
+    """Processes that make entries, and end when this one has.
+
+    One that is killed at an entry has perhaps asked for more memory than there is: that entry is
+    not waited for any more, and there is one process less, but for the last.
+    """
 
     def __init__(self, kernels: Path) -> None:
         self._kernels = kernels
-        self._processes: list[subprocess.Popen[str]] = []
+        self._running: list[_Maker] = []
+        self._waited_for: list[Entry] = []
+        self._lost: set[str] = set()
+        self._deaths = 0
         self._begins = True
+        self._reminded = -_REMIND
         self._lock = threading.Lock()
 
-    def make(self, entry: Entry, folder: Path) -> None:
-        """Wait until an entry is made, or cannot be."""
-        reminded = -_REMIND
-        while not folder.exists():
-            with self._lock:
-                if not self._begins or any(process.poll() for process in self._processes):
-                    return  # one died of it, or cannot even begin
-                if time.monotonic() - reminded > _REMIND:
-                    reminded = time.monotonic()
-                    self._tell(entry)
-            time.sleep(_PATIENCE)
-
-    def _tell(self, entry: Entry) -> None:
-        wanted = [entry, *likely(_ASKED)]
-        missing = [each for each in wanted if not (self._kernels / keys.key(each)).exists()]
-        for each in self._processes:
-            if each.poll() is not None and each.stdin is not None:
-                with contextlib.suppress(OSError):
-                    each.stdin.close()
-        self._processes = [each for each in self._processes if each.returncode is None]
-        count = min(_cores(), len(missing))
+    def make(self, entries: Sequence[Entry]) -> None:
+        """Wait until entries are made, or cannot be; the first first."""
+        missing = {keys.key(entry): entry for entry in entries}
+        with self._lock:
+            self._waited_for += missing.values()
+            self._reminded = -_REMIND
         try:
-            while len(self._processes) < count:
-                self._processes.append(_begun(self._kernels))
-        except (OSError, ValueError):
-            self._begins = False
-            return
-        line = " ".join(f"{each.number}:{keys.key(each)}" for each in missing) + "\n"
-        for process in self._processes:
-            assert process.stdin is not None
-            with contextlib.suppress(OSError, ValueError):
-                process.stdin.write(line)
-                process.stdin.flush()
+            while missing:
+                with self._lock:
+                    self._look()
+                    if time.monotonic() - self._reminded > _REMIND:
+                        self._reminded = time.monotonic()
+                        self._tell()
+                    for key in list(missing):
+                        if key in self._lost or (self._kernels / key).exists():
+                            self._waited_for.remove(missing.pop(key))
+                    if not self._running:
+                        return
+                if missing:
+                    time.sleep(_PATIENCE)
+        finally:
+            with self._lock:
+                for entry in missing.values():
+                    self._waited_for.remove(entry)
+
+    def _look(self) -> None:
+        for each in list(self._running):
+            if (ended := each.ended()) is None:
+                continue
+            self._running.remove(each)
+            code, key = ended
+            if key:
+                self._lost.add(key)
+                self._deaths += 1
+                self._reminded = -_REMIND
+            elif code:
+                # It cannot be begun, or the sources are others by now.
+                self._begins = False
+
+    def _tell(self) -> None:
+        wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED)])
+        missing = [key for key in map(keys.key, wanted) if key not in self._lost]
+        missing = [key for key in missing if not (self._kernels / key).exists()]
+        most = most_makers()
+        count = min(max(most - self._deaths, 1), len(missing))
+        if self._begins and self._deaths <= most:
+            try:
+                while len(self._running) < count:
+                    self._running.append(_Maker(_begun(self._kernels)))
+            except (OSError, ValueError):
+                self._begins = False
+        for each in self._running:
+            each.ask(" ".join(missing) + "\n")
 
     def leave(self) -> None:
         """Let the processes end by themselves, after what they are at."""
-        for process in self._processes:
-            assert process.stdin is not None
-            with contextlib.suppress(OSError):
-                process.stdin.close()
-            # Or Python warns that it runs on.
-            process.returncode = process.poll() or 0
+        while self._running:
+            self._running.pop().leave()
 
 
 @functools.cache
@@ -195,16 +274,17 @@ def _begun(kernels: Path) -> subprocess.Popen[str]:
     # What is kept is for everybody: how Numba compiles for this one run is not.
     environment = {name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")}
     return subprocess.Popen(
-        [sys.executable, alone, "-m", "asperity.building.worker", str(kernels), str(_cores())],
+        [sys.executable, alone, "-m", "asperity.building.worker", str(kernels), str(most_makers())],
         env=environment,
         stdin=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
     )
 
 
-def _cores() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+def most_makers() -> int:
+    """Return how many processes make entries at a time: as many as have cores and memory."""
+    cores = len(os.sched_getaffinity(0))
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return max(1, min(cores, _MOST, memory // _MEMORY))

@@ -19,11 +19,15 @@ import numpy as np
 from asperity.leftovers import temporary_beside
 from asperity.store import read_bytes
 from asperity.tribometer.journal_lines import ENDED, NAME, Line, last_lines
+from asperity.tribometer.signals import SIGNALS
 
 PREVIEW = ".preview.json"
 _EVERY = 0.25  # s between two of them
 _STRETCH = 0.5  # s whose mean is a point
 _POINTS = 120
+_SHOWN = tuple(
+    f"{what}_{disc}" for what in ("torque", "speed", "current") for disc in ("steel", "bronze")
+)
 _MOST_BYTES = 1_000_000
 
 Levels = Mapping[str, float]
@@ -63,9 +67,11 @@ class Preview:
         self._sums, self._weight = dict.fromkeys(units, 0.0), 0.0
         self._begun: float | None = None
 
-    def step(self, text: str, following: str, done: int, cells: int) -> None:
-        """Say what is done now, what next, and how many cells are done."""
-        self._told |= {"step": text, "next": following, "done": done, "cells": cells}
+    def step(self, text: str, following: str, done: int, cells: int, *, asks: bool) -> None:
+        """Say what is done now, by a person or not, what next, and how many cells are done."""
+        self._told |= {
+            "step": text, "next": following, "done": done, "cells": cells, "asks": asks,
+        }  # fmt: skip
         self.write()
 
     def told(self, outputs: Mapping[str, str]) -> None:
@@ -88,6 +94,9 @@ class Preview:
                 mean = float(f"{self._sums[name] / self._weight:.5g}")
                 self._points[name] = [*points, mean][-_POINTS:]
             self._sums, self._weight = dict.fromkeys(self._units, 0.0), 0.0
+
+    def beat(self) -> None:
+        """Show that the run goes on, whether samples have come or not."""
         if self._now() >= self._due:
             self.write()
 
@@ -117,6 +126,11 @@ class Preview:
         except (OSError, ValueError):
             with contextlib.suppress(OSError):
                 temporary.unlink()
+
+
+def units_of(signals: Sequence[str]) -> dict[str, str]:
+    """Return which of some signals are shown, with their units."""
+    return {name: SIGNALS[name].unit for name in _SHOWN if name in signals}
 
 
 def look(folder: Path) -> dict[str, Any] | None:

@@ -8,6 +8,7 @@ points in contact: that is for `asperity.contact.increment.solver`.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -32,6 +33,8 @@ from asperity.contact.motion.mechanism import (
 )
 from asperity.contact.motion.sums import gather, over_step
 from asperity.contact.motion.works import Asperities, Resultants, resultants
+from asperity.friction.lugre import stribeck_share
+from asperity.slider.kernels import breaks_away_at
 from asperity.waveform import Wave, displacement_at
 
 if TYPE_CHECKING:
@@ -48,6 +51,13 @@ class BaseMotion(NamedTuple):
     whole_y: float = 0.0
     z: float = 0.0  #: Upwards
     height: float = 0.0  #: At the end, over where it stands at the start of the wave
+
+
+class Leaving(NamedTuple):
+    """What the kernels know of a body that may break away, as `breaks_away_at` takes it."""
+
+    static_ratio: float  #: Static friction over the kinetic one
+    drive: float  #: m/s
 
 
 class ShakingNumbers(NamedTuple):
@@ -72,7 +82,7 @@ class SystemNumbers(NamedTuple):
     shaking: ShakingNumbers  #: How it is shaken
     drive_velocity: float  #: m/s
     driven: bool  #: Whether the first coordinate is held and moved, and no drive pulls
-    full_friction: float  #: Drive force that counts as breakaway, N
+    full_friction: float  #: Drive force that counts as breakaway, N: mu times the normal force
     unseen: float  #: Share of the body's own lateral motion that the contact does not see
     reach: float  #: Greatest coordinate of a point of the surface, m
     by_digits: float  #: Forces that the last digits of the positions make, N/m
@@ -158,7 +168,7 @@ class Way(NamedTuple):
     iterations: int  #: Of the last
     residual: float  #: Of the last
     residual_max: float
-    breakaway: float  #: Time of the first full drive force, s; infinite while it has not come
+    breakaway: float  #: Time at which the body breaks away, s; infinite while it has not
     other: bool  #: Whether other points are in contact after the last
 
 
@@ -219,6 +229,23 @@ def overshot(before, after):
         if size > _OVERSHOOT * max(abs(before[q]), 1.0):
             most = max(most, size)
     return most
+
+
+@kernel
+def most_held(system, before, after, base):
+    """Drive force in N that is more than friction holds at the body's slip over a step.
+
+    Infinite while a body under static friction above the kinetic one only creeps.
+    """
+    friction = system.interface.friction
+    here, there = before.coordinates.place, after.coordinates.place
+    slip_x = there[0] - here[0] - base.x
+    slip_y = (1.0 - system.unseen) * (there[1] - here[1]) - base.y
+    speed = math.sqrt(slip_x * slip_x + slip_y * slip_y) / (after.time - before.time)
+    share = stribeck_share(speed, friction.static_ratio, friction.stribeck_velocity)
+    leaving = Leaving(friction.static_ratio, system.drive_velocity)
+    level = system.full_friction * share
+    return breaks_away_at(level, after.coordinates.velocity[0], leaving)
 
 
 @kernel
@@ -326,7 +353,7 @@ def march(
         order = best_order(force, lasts[0], lasts[1], lasts[2], 3)
         past = Past((force, lasts[0], lasts[1]), (displacement, ways[0], ways[1]), order)
         residual_max = max(residual_max, residual)
-        if breakaway == np.inf and after.drive.force >= system.full_friction:
+        if breakaway == np.inf and after.drive.force >= most_held(system, before, after, base):
             breakaway = end
         for n, value in enumerate(row(after)):
             rows[done, n] = value

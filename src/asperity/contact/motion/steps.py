@@ -25,6 +25,7 @@ from asperity.contact.motion.march import (
     SystemNumbers,
     at_end,
     march,
+    most_held,
     overshot,
     row,
 )
@@ -75,7 +76,7 @@ class Stepper:
     sums : Sums
         Since they were cleared.
     breakaway : float or None
-        Time of the first full drive force, s; None while it has not come.
+        Time at which the body breaks away, s; None while it has not.
     mean_pressure : ndarray, shape (q,)
         Pressure times time at each point since the sums were cleared, Pa s.
     cuts : int
@@ -240,7 +241,7 @@ class Stepper:
             ),
         )
         pressure = self.mean_pressure + 0.5 * step * (state.contact.pressure + result.pressure)
-        broke = end if after.drive.force >= system.full_friction else np.inf
+        broke = end if after.drive.force >= most_held(numbers, before, after, base) else np.inf
         self.unconverged += result.residual > solver.problem.tolerance
         self._went(after, result, sums, pressure, broke, float(result.residual))
 

@@ -24,6 +24,8 @@ _COARSER = 2.0
 _AIM, _FINEST, _GAINS = 0.7, 1.0 / 32.0, 0.75
 # Of the wheel's speed, and what a motion parts by after it, of what a step may make wrong.
 _NUDGE, _PARTED = 1e-8, 0.1
+# Of what a step was told to make wrong, what a shorter one may change at most.
+_EXPECTED = 3.0
 _POWERS = ("drive", "actuator", "friction", "contact_damping", "shaft_damping")
 
 
@@ -37,10 +39,13 @@ class StepError:
         Of what is told, over it.
     powers : float
         Of the powers, over the largest of them.
+    elsewhere : float or None
+        What is told of another state, to which it came in longer steps, over what is told of this.
     """
 
     ratio: float
     powers: float
+    elsewhere: float | None = None
 
     @property
     def off(self) -> float:
@@ -80,6 +85,36 @@ def step_error(march: March, measure: str, scale: float, power: float) -> StepEr
     if not count:
         return None
     return _apart(last[:count], march.again(_COARSER, count), measure, scale, power)
+
+
+def beside(off: StepError, march: March, measure: str, spread: float) -> StepError:
+    """Return what the step makes wrong, or by how much a march in longer steps came elsewhere.
+
+    Two marches from the same start may come to two states that last, whose steps are both short
+    enough; no error of either tells of that.
+
+    Parameters
+    ----------
+    off : StepError
+        At the end of a march that was begun anew in shorter steps.
+    march : March
+        That march.
+    measure : str
+        As of `step_error`.
+    spread : float
+        Of the blocks that it is judged by.
+    """
+    if not math.isfinite(march.told):
+        return off
+    other = march.told / told_of(march, measure)
+    if abs(other - 1.0) <= _EXPECTED * WANTED * march.off + 2.0 * spread:
+        return off
+    return StepError(max(off.ratio, abs(other - 1.0)), off.powers, other)
+
+
+def told_of(march: March, measure: str) -> float:
+    """Return what is told of a march by its last blocks; NaN of a wheel that should stand."""
+    return math.nan if measure == "rolled" else _told(march.rows[march.marked.row :], measure)
 
 
 def sensitive(march: March, measure: str, scale: float, power: float) -> bool:

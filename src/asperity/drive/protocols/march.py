@@ -96,6 +96,7 @@ class March:
         self.stored = float(states[0]["stored"])
         self.finer = 1.0
         self.off = math.inf
+        self.told = math.nan
         self.marked = Marked(0, states.copy(), committed.copy())
         self._run = run
         self.stop = np.zeros(1, np.int64) if stop is None else stop
@@ -162,10 +163,13 @@ class March:
             return None
         return other.rows
 
-    def restart(self, finer: float, off: float, states: Records, committed: FloatArray) -> None:
-        """Begin anew in steps that are shorter, for what was off."""
+    def restart(
+        self, finer: float, off: float, told: float, states: Records, committed: FloatArray
+    ) -> None:
+        """Begin anew in steps that are shorter, for what was off; what was told is remembered."""
         self.finer *= finer
         self.off = off
+        self.told = told
         self.system = refined(self.system, finer)
         self.states, self.committed = states, committed
         self.stored = float(states[0]["stored"])
@@ -320,6 +324,7 @@ class March:
             "longest": self.system.longest,
             "landing": self.system.landing,
             "off": self.off,
+            "told": self.told,
             "marked": self.marked.row,
             "marked_states": self.marked.states,
             "marked_committed": self.marked.committed,
@@ -333,6 +338,7 @@ class March:
             longest=float(tree["longest"]), landing=float(tree["landing"])
         )
         self.finer, self.off = float(tree["finer"]), float(tree["off"])
+        self.told = float(tree["told"])
         self.marked = Marked(int(tree["marked"]), tree["marked_states"], tree["marked_committed"])
 
 

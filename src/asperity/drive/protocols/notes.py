@@ -87,6 +87,13 @@ def notes_of(
 
 def _of_step(problem: DriveProblem, off: StepError) -> str:
     """Return the line about a step that is too long, or a motion that is like no other."""
+    if off.elsewhere is not None:
+        most = "greater" if off.elsewhere > 1.0 else "less"
+        return (
+            "in longer steps it came to another state that lasts, whose ratio is "
+            f"{100.0 * abs(off.elsewhere - 1.0):.2g} % {most}: which one it is in follows from how "
+            "it came there, and step_error is what they are apart"
+        )
     found = f"the step makes an error of about {100.0 * off.ratio:.2g} % of the ratio"
     if not math.isfinite(off.ratio):
         found = "steps twice as long leave the finite numbers"

@@ -12,7 +12,7 @@ from asperity.drive.closed_form import screw_ratio
 from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
-from asperity.drive.protocols.accuracy import StepError, sensitive, step_error
+from asperity.drive.protocols.accuracy import StepError, beside, sensitive, step_error, told_of
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
@@ -121,9 +121,14 @@ def _settled(
             # What has a period may lose it to a step that is too long.
             finer = _TRIED
         if finer is None:
+            if off is not None:
+                off = beside(off, march, measure, judged.spread)
             return judged, off, rest
+        told = math.nan if off is None else told_of(march, measure)
         rest = at_rest(problem, model, refined(march.system, finer), stop)
-        march.restart(finer, math.inf if off is None else off.off, rest.states, rest.committed)
+        march.restart(
+            finer, math.inf if off is None else off.off, told, rest.states, rest.committed
+        )
 
 
 def asked(problem: DriveProblem) -> str:

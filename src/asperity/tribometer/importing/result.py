@@ -23,6 +23,8 @@ class Imported(Result):
         Of the rig, as JSON.
     events : tuple of Event
         What is set.
+    findings : tuple of dict
+        What is wrong with what was heard.
     """
 
     title = "Recording imported"
@@ -32,6 +34,7 @@ class Imported(Result):
     configuration: str
     events: tuple[Event, ...]
     simulated: bool = False
+    findings: tuple[dict[str, Any], ...] = ()
     source: str = quantity("", "", "file")
     form: str = quantity("", "", "format", key="format")
     samples: int = quantity("", "", "samples of each channel")
@@ -46,13 +49,18 @@ class Imported(Result):
             {"signal": one.signal, "units": one.units, "scale": one.scale}
             for one in self.sampled.sources
         ]
-        return super().to_json() | {"channels": channels}
+        told = {"channels": channels, "findings": list(self.findings)}
+        return super().to_json() | told
 
     def tables(self) -> tuple[Table, ...]:
         """Return what was found, and a row a channel."""
         rows = [(one.signal, one.units, one.scale) for one in self.sampled.sources]
         listed = Table.of(("signal", "unit", "a count is worth"), rows, left=2)
-        return table_of(self), Table(listed.columns, listed.rows, remarks=self.notes)
+        told = [
+            one["flag"] if one["start_s"] is None else f"at {one['start_s']:.0f} s: {one['flag']}"
+            for one in self.findings
+        ]
+        return table_of(self), Table(listed.columns, listed.rows, remarks=(*self.notes, *told))
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the recording, whole or not at all."""

@@ -14,6 +14,7 @@ from asperity.tribometer.channels import Channels
 from asperity.tribometer.importing.columns import Sampled, sampled
 from asperity.tribometer.importing.files import OWN, form_of, read_joined, told_of
 from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.listened import findings
 from asperity.tribometer.importing.result import Imported
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.recording import Event, Recording
@@ -71,9 +72,10 @@ def answer(problem: Importable, run: Run) -> Imported:
     )
     raw = {name: entries for name, entries in case.raw.items() if name in (*TABLES, "friction")}
     rows, _ = found.counts.shape
+    events = tuple(told) or set_values
     return Imported(
-        sampled=found, configuration=json.dumps(raw, default=str),
-        events=tuple(told) or set_values, simulated=simulated,
+        sampled=found, configuration=json.dumps(raw, default=str), events=events,
+        simulated=simulated, findings=findings(found, events, case, problem.name),
         source=" and ".join(plain(Path(one).name) for one in problem.files), form=form,
         samples=rows, sample_interval=found.interval,
         duration=rows * found.interval, missing=int(np.count_nonzero(found.counts == MISSING)),

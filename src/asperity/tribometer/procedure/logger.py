@@ -176,6 +176,7 @@ class Logger:
             left = (wanted - window.samples) * self.interval
             bench.clock.sleep(min(poll, left))
             self._beat()
+            self._preview.beat()
             bench.vibration.keep_alive()
             now = bench.clock.now()
             counts = stream.take()

@@ -25,7 +25,7 @@ from asperity.tribometer.instruments.protocols import (
     StillOnError,
     WallClock,
 )
-from asperity.tribometer.live import Preview
+from asperity.tribometer.live import Preview, units_of
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Sonotrode
@@ -35,7 +35,6 @@ from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.procedure.logger import Logger, configuration_of
 from asperity.tribometer.procedure.packer import Packer
 from asperity.tribometer.procedure.steps import Action, file_of
-from asperity.tribometer.signals import SIGNALS
 
 _TRIES = 3
 _REST = 1.0
@@ -94,8 +93,7 @@ class Machine:
         self._cells = sum(action.act == "cell" for action in actions)
         self._done_cells = 0
         self._packer = Packer(run.notify)
-        there = {one.signal for one in bench.scope.inputs}
-        units = {name: SIGNALS[name].unit for name in _SHOWN if name in there}
+        units = units_of([one.signal for one in bench.scope.inputs])
         self._preview = Preview(folder, units, simulated=bench.simulated)
 
     def go(self) -> AsperityError | None:
@@ -122,7 +120,8 @@ class Machine:
                         self._done_cells += action.act == "cell"
                         continue
                     following = next(map(str, self._actions[place + 1 :]), "")
-                    self._preview.step(str(action), following, self._done_cells, self._cells)
+                    far = self._done_cells, self._cells
+                    self._preview.step(str(action), following, *far, asks=action.asks)
                     self._journal.write("begun", action=action.key, steps=list(action.steps))
                     told = self._act(action)
                     self._journal.write(
@@ -390,7 +389,6 @@ class Machine:
 
 
 _DISCS = "steel", "bronze"
-_SHOWN = tuple(f"{what}_{disc}" for what in ("torque", "speed", "current") for disc in _DISCS)
 _PUT_RIGHT = frozenset(("preload", "zero", "no change", "wrong channel map"))
 
 

@@ -93,6 +93,11 @@ class Action:
     file: PlannedFile | None = None
     cell: Cell | None = None
 
+    @property
+    def asks(self) -> bool:
+        """Whether a person does it, who takes time."""
+        return self.act in ("ask", "weigh", "arrange")
+
     def __str__(self) -> str:
         if self.cell is None or self.file is None:
             return self.text.rstrip(".")

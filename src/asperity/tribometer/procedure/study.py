@@ -191,6 +191,8 @@ def _listening(
         case = problem.case
         for warning in warnings(case):
             run.notify(warning)
+        if late := getattr(bench.scope, "late", 0.0):
+            run.notify(f"samples come by files, up to {late:g} s late: interlocks trip as late")
         machine = Machine(case, problem.actions, bench, journal, folder, run, signals)
         latch = machine.go()
         if latch is None and not journal.of("finished"):

@@ -63,9 +63,9 @@ def reduce_file(
     asked: list[Any] = []
     for number, segment in enumerate(segments):
         common = _common(recording, case, segment)
-        told = heard.of_segment(number)
+        concerns = heard.of_segment(number)
         if segment.refused or windows is None or joint is None:
-            flags = (segment.refused, *segment.flags, *(one.flag for one in told))
+            flags = (segment.refused, *segment.flags, *(one.flag for one in concerns))
             found.append(SegmentResult(**common, quality=REFUSED, flags=flags))
             asked.append(None)
             continue
@@ -82,8 +82,8 @@ def reduce_file(
         values, question = _numbers(
             recording, case, heard, segment, following, sonotrode, heard.tones.get(number)
         )
-        values["flags"] += tuple(one.flag for one in told)
-        if any(one.spoils for one in told):
+        values["flags"] += tuple(one.flag for one in concerns)
+        if any(one.spoils for one in concerns):
             values["quality"] = DOUBTFUL
         found.append(SegmentResult(**common, **values))
         asked.append(question)

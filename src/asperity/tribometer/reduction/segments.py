@@ -104,6 +104,8 @@ def _segment(
         )
     else:
         refused = _lost(blocks, before, shaken)
+    if refused and _torn(blocks, shaking):
+        refused = f"drive_voltage has samples missing or past its range: {refused}"
     start = shaking.first * blocks.length
     return Segment(before, shaken, tone, frequency, waveform, start, refused, tuple(flags))
 
@@ -121,6 +123,13 @@ def _moving(events: Sequence[Event], blocks: Blocks, on: Stretch, shaking: Stret
         return on.first
     started = blocks.at_least(told[-1].time)
     return started if on.first - started <= blocks.at_least(_COUNTED) else on.first
+
+
+def _torn(blocks: Blocks, shaking: Stretch) -> bool:
+    """Whether vibration begins or ends where its signal is lost."""
+    lost = blocks.lost["drive_voltage"]
+    return bool(lost[max(shaking.first - 1, 0) : shaking.first + 1].any()
+                or lost[shaking.last - 1 : shaking.last + 1].any())  # fmt: skip
 
 
 def _short(what: str, given: Reduction) -> str:

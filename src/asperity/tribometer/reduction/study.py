@@ -21,9 +21,9 @@ from asperity.tribometer.reduction import wear
 from asperity.tribometer.reduction.blocks import blocks_of
 from asperity.tribometer.reduction.budgets import not_counted
 from asperity.tribometer.reduction.file import reduce_file
-from asperity.tribometer.reduction.heard.listen import listen
+from asperity.tribometer.reduction.heard.listen import Listened, listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
-from asperity.tribometer.reduction.segments import segments_of
+from asperity.tribometer.reduction.segments import Segment, segments_of
 from asperity.tribometer.sheets import broken_classes
 
 _OFTEN = 0.01  # share of samples
@@ -159,11 +159,16 @@ def _not_counted(problem: Sequence[Reducible]) -> Iterator[str]:
     yield from told
 
 
-def reduce_recording(one: Reducible) -> tuple[FileResult, list[SegmentResult]]:
-    """Reduce one recording."""
+def heard_in(one: Reducible) -> tuple[list[Segment], Listened]:
+    """Return the segments of a recording, and what its sensors say of themselves."""
     blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
     segments = segments_of(one.recording, blocks, one.plan, one.reduction)
-    heard = listen(one.recording, one.case, blocks, segments, one.reduction)
+    return segments, listen(one.recording, one.case, blocks, segments, one.reduction)
+
+
+def reduce_recording(one: Reducible) -> tuple[FileResult, list[SegmentResult]]:
+    """Reduce one recording."""
+    segments, heard = heard_in(one)
     return reduce_file(one.recording, one.case, heard, segments, one.reduction, one.sonotrode)
 
 

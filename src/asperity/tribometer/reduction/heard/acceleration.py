@@ -16,6 +16,7 @@ from asperity.tribometer.reduction.heard.spectrum import spectrum_of
 
 _ORDERS = 2, 3, 4, 5
 _BESIDE = 0.3  # of the tone, above which what is beside it is told
+_WORTH = 0.05  # of the tone, above which an overtone is listed
 _ABOVE_NOISE = 10.0  # of the usual line of the spectrum, for a tone to be heard
 _STEADY = 0.3  # of a level, between its least and its largest
 _REMEDY = "look at how it is fixed, at its cable and at the mains"
@@ -96,7 +97,7 @@ def _findings(of: Material, place: int, told: Heard) -> Iterator[Finding]:
     ):
         name = "accelerometer hears overtones"
         evidence = f"{at_drive} is taken alone, beside it {overtones}"
-        evidence += f", up to {100.0 * most / told.amplitude:.0f} % of it"
+        evidence += f", {100.0 * most / told.amplitude:.0f} % of it"
     elif told.beside > _BESIDE * told.amplitude:
         name = "accelerometer hears something else"
         evidence = f"{at_drive} is taken alone, beside it {told.beside:.3g} at {told.at:.0f} Hz"

@@ -49,7 +49,8 @@ def groups(of: Material, signal: str, window: Stretch) -> FloatArray:
     every = max(1, round(_GROUP / of.blocks.length))
     squares = of.blocks.deviations[signal][window.first : window.last] ** 2
     count = max(squares.size // every, 1)
-    return np.sqrt(np.array([part.mean() for part in np.array_split(squares, count)]))
+    means = [float(part.mean()) for part in np.array_split(squares, count)]
+    return np.asarray(np.sqrt(means), dtype=np.float64)
 
 
 def swing(tone: Tone, waveform: str) -> float:
@@ -73,12 +74,13 @@ def _level(of: Material, place: int, usual: float) -> Iterator[Finding]:
             f"and {level.max():.3g} V, within the window",
             _LOOK, ("drive_voltage",), _of_deviation(of, place), place,
         )  # fmt: skip
+        return
     if one.tone is None:
         return
     peak = swing(one.tone, one.tone.waveform)
     if usual > 0.0 and abs(peak - usual) > _ALIKE * usual:
         yield Finding(
-            "drive signal is another than in the file's other segments",
+            "drive signal differs from the file's others",
             f"its peak is {peak:.3g} V, theirs {usual:.3g} V", _LOOK, ("drive_voltage",),
             _of_deviation(of, place), place,
         )  # fmt: skip
@@ -88,7 +90,7 @@ def _level(of: Material, place: int, usual: float) -> Iterator[Finding]:
     full = 0.5 * (sonotrode.highest_voltage - sonotrode.lowest_voltage) / sonotrode.amplifier_gain
     if abs(peak - full) > _FULL * full:
         yield Finding(
-            "drive signal is not that of the table's velocities",
+            "drive signal is not the table's",
             f"its peak is {peak:.3g} V, [sonotrode] tells velocities at {full:.3g} V", _LOOK +
             ", or give the channel's calibration points", ("drive_voltage",),
             _of_deviation(of, place), place,
@@ -146,15 +148,17 @@ def _delay(
 
 def _breaks(of: Material, place: int) -> Iterator[Finding]:
     """Yield a break in a vibration that goes on as it was."""
-    one = of.segments[place]
     for other in (place - 1, place + 1):
         if not 0 <= other < len(of.segments):
             continue
         first, second = (of.segments[n] for n in sorted((place, other)))
-        gap = second.start - (first.shaken.last + 1) * of.blocks.length
+        ended = first.shaken.last + 1
+        gap = second.start - ended * of.blocks.length
         if gap < of.given.least_window and _alike(of, first.tone, second.tone):
+            gone = of.blocks.lost["drive_voltage"][ended : ended + of.blocks.at_least(gap)]
+            why = "it is missing or past its range" if gone.any() else "it is not heard"
             yield Finding(
-                "vibration breaks", f"it is not heard for {gap:.2g} s, and goes on", _LOOK,
+                "vibration breaks", f"{why} for {gap:.2g} s, and goes on", _LOOK,
                 ("drive_voltage",), _of_deviation(of, place), place,
             )  # fmt: skip
             return

@@ -2,11 +2,7 @@
 
 import dataclasses
 
-import numpy as np
-
 from asperity.arrays import FloatArray
-
-_POINTS = 300  # of a picture
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,15 +24,6 @@ class Course:
     across: str
     up: str
     marked: tuple[tuple[float, float], ...] = ()
-
-    def thinned(self) -> "Course":
-        """Return as many points as a small picture shows, means of what falls on one."""
-        every = -(-self.x.size // _POINTS)
-        if every <= 1:
-            return self
-        whole = self.x.size // every * every
-        x, y = (one[:whole].reshape(-1, every).mean(axis=1) for one in (self.x, self.y))
-        return dataclasses.replace(self, x=np.asarray(x), y=np.asarray(y))
 
 
 @dataclasses.dataclass(frozen=True)

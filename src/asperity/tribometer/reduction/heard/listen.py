@@ -4,6 +4,8 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from asperity.casefile import Case
 from asperity.tribometer.options import Reduction
 from asperity.tribometer.pair import Pair
@@ -32,12 +34,15 @@ class Listened:
         In the order of signals and time.
     tones : mapping of int to Tones
         What the accelerometer hears of each segment.
+    at_rest : bool
+        Whether the rig is seen at rest, so that zeros are known.
     """
 
     blocks: Blocks
     tare: Tare
     findings: tuple[Finding, ...]
     tones: Mapping[int, Tones]
+    at_rest: bool
 
     def of_segment(self, place: int) -> list[Finding]:
         """Return what concerns a segment."""
@@ -55,10 +60,16 @@ class Listened:
         )  # fmt: skip
 
 
+# A scale that is no sensor's may be in a file.
+@np.errstate(all="ignore")
 def listen(
     recording: Recording, case: Case, blocks: Blocks, segments: Sequence[Segment], given: Reduction
 ) -> Listened:
     """Find what is wrong with what was heard."""
+    if not all(
+        np.isfinite(one).all() for one in (*blocks.means.values(), *blocks.deviations.values())
+    ):
+        return Listened(blocks, Tare({}), (), {}, at_rest=False)
     of = Material(recording, case, Pair.from_case(case), blocks, segments, given)
     rest = resting(of)
     taken, found = tare(of, zeros_of(of, rest))
@@ -71,4 +82,4 @@ def listen(
     found += motors.findings(of)
     found += drive.findings(of)
     found += acceleration.findings(of, tones)
-    return Listened(of.blocks, taken, tuple(found), tones)
+    return Listened(of.blocks, taken, tuple(found), tones, at_rest=bool(rest.stretches))

@@ -159,8 +159,7 @@ def _encoder_step(of: Material, name: str) -> float:
 
 def _supplied(of: Material) -> Iterator[Finding]:
     """Yield motors that give more than they take, or turn as their supply does not let them."""
-    place, before, _ = of.windows[0]
-    time = of.segments[place].start
+    time = of.segments[of.windows[0][0]].start
     volts = of.supply("steel", time)
     torque, speed = (_middle(of, one)[0] for one in ("torque_steel", "speed_steel"))
     current = _middle(of, "current_steel")[0] if of.has("current_steel") else None

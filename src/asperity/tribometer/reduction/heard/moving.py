@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from asperity.arrays import BoolArray, FloatArray
+from asperity.arrays import BoolArray
+from asperity.tribometer.recording.recorder import Counts
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.heard.finding import Finding
 from asperity.tribometer.reduction.heard.material import Material
@@ -101,7 +102,7 @@ def _dead(of: Material, rest: Rest, constant: list[str]) -> Iterator[Finding]:
 
 def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
     """Yield windows in which a signal stands still or ends at a value, as elsewhere it does not."""
-    low, high = (one[signal].astype(np.int32) for one in (of.blocks.lowest, of.blocks.highest))
+    low, high = of.blocks.lowest[signal], of.blocks.highest[signal]
     flat = low == high
     places = [(place, one) for place, *both in of.windows for one in both]
     shares = [float(flat[one.first : one.last].mean()) for _, one in places]
@@ -130,13 +131,11 @@ def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-def _ended(
-    of: Material, signal: str, low: FloatArray, high: FloatArray, window: Stretch
-) -> str | None:
-    steps = np.diff(np.unique(high))
+def _ended(of: Material, signal: str, low: Counts, high: Counts, window: Stretch) -> str | None:
+    steps = np.diff(np.unique(high.astype(float)))
     if not steps.size or signal == "acceleration":
         return None
-    if float(np.median(high - low)) < _LEAST_NOISE * float(steps.min()):
+    if float(np.median(high.astype(float) - low)) < _LEAST_NOISE * float(steps.min()):
         return None
     tops, bottoms = float(np.mean(high == high.max())), float(np.mean(low == low.min()))
     if max(tops, bottoms) < _AT_END or min(tops, bottoms) > _OTHER_END:

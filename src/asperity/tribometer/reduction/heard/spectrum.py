@@ -10,6 +10,7 @@ from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.signals import SIGNALS
 
 _HARMONICS = 8
+_POINTS = 240
 
 
 def spectrum_of(of: Material, place: int, signal: str) -> Course:
@@ -24,7 +25,7 @@ def spectrum_of(of: Material, place: int, signal: str) -> Course:
         return Course(np.zeros(1), np.zeros(1), across, up)
     most = min(int(_HARMONICS * one.tone.frequency / found.step), found.lines.size)
     # The largest of what falls on a point, so that no tone is lost.
-    every = max(1, most // 300)
+    every = max(1, -(-most // _POINTS))
     whole = most // every * every
     y = found.lines[:whole].reshape(-1, every).max(axis=1)
     x = found.step * (np.arange(y.size) * every + 0.5 * (every - 1))

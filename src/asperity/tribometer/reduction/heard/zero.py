@@ -4,11 +4,12 @@ A zero is seen in each stretch at rest and follows between them
 
 .. math:: z(t) = a + b\,t + q\,W(t)
 
-with a Wiener process W: a straight line where stretches lie on one, a course from stretch to stretch
-where they do not. How large q is follows from the stretches themselves, and what is not known of
-it, averaged over, is in the covariance of zeros between them.
+with a Wiener process W: a straight line where stretches lie on one, a course from stretch to
+stretch where they do not. How large q is follows from the stretches themselves, and what is not
+known of it, averaged over, is in the covariance of zeros between them.
 """
 
+import contextlib
 import dataclasses
 import functools
 import math
@@ -20,7 +21,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.tribometer.reduction.blocks import Blocks
 from asperity.tribometer.reduction.drive_signal import Stretch
-from asperity.tribometer.reduction.heard.finding import Finding
+from asperity.tribometer.reduction.heard.finding import Course, Finding
 from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.reduction.heard.rest import Rest
 from asperity.tribometer.reduction.levels import estimate_levels
@@ -63,8 +64,9 @@ class Zero:
         """Return zeros at some times."""
         if self.times.size == 1:
             return np.full(times.size, self.values[0])
-        asked = self._asked(times)
-        found: FloatArray = sum(way.weight * way.mean(asked) for way in self._ways)
+        asked, found = self._asked(times), np.zeros(times.size)
+        for way in self._ways:
+            found += way.weight * way.mean(asked)
         return found
 
     def covariance_at(self, times: FloatArray) -> FloatArray:
@@ -92,7 +94,9 @@ class Zero:
             size = (wander * unit) ** 2
             of_seen = self.covariance + size * _wiener(seen, seen) + 1e-9 * unit**2 * np.eye(count)
             inverse = np.linalg.inv(of_seen)
-            information = np.linalg.inv(straight.T @ inverse @ straight)
+            information = np.asarray(
+                np.linalg.inv(straight.T @ inverse @ straight), dtype=np.float64
+            )
             line = information @ straight.T @ inverse @ self.values
             rest = self.values - straight @ line
             likely = -0.5 * (
@@ -153,9 +157,11 @@ def zeros_of(of: Material, rest: Rest) -> dict[str, Zero]:
     found = {}
     for signal in (*TARED, *_ALSO):
         if of.has(signal):
-            zero = _zero(of, signal, rest.stretches)
-            if zero is not None:
-                found[signal] = zero
+            # Numbers that no sensor gives leave no zero.
+            with contextlib.suppress(np.linalg.LinAlgError):
+                zero = _zero(of, signal, rest.stretches)
+                if zero is not None and np.isfinite(zero.covariance_at(zero.times)).all():
+                    found[signal] = zero
     return found
 
 
@@ -229,7 +235,8 @@ class Tare:
 
 def tare(of: Material, zeros: Mapping[str, Zero]) -> tuple[Tare, list[Finding]]:
     """Return zeros that are taken off, and what is to be told of zeros."""
-    taken, told = {}, []
+    taken: dict[str, Zero] = {}
+    told: list[Finding] = []
     for signal, zero in zeros.items():
         level = _running(of, signal)
         size = float(np.abs(zero.values).max())
@@ -253,9 +260,7 @@ def _findings(
     value, deviation = float(zero.values[place]), float(deviations[place])
     line = of.blocks.lines[signal]
     allowed = max(_ALLOWED * level, _STATED * line.offset_deviation)
-    length = of.blocks.length
-    marked = [Stretch(round(time / length) - 25, round(time / length) + 25) for time in zero.times]
-    course = of.course(signal, marked)
+    course = Course(zero.times, zero.values, "time (s)", f"{signal} at rest ({unit})")
     spoils = signal in TARED
     if abs(value) > max(allowed, _SURE * deviation):
         done = "it is taken off" if mended else "it is left, since no zero is off so far"

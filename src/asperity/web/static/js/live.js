@@ -40,7 +40,7 @@ export function Live() {
 }
 
 function Run({ run, look, lost }) {
-  const { name, state, age, step, next, done, cells, off, ended, simulated } = run;
+  const { name, state, age, step, next, done, cells, asks, off, ended, simulated } = run;
   const [asked, setAsked] = useState("");
   const runs = goesOn(run);
   useEffect(() => setAsked(""), [runs]);
@@ -49,7 +49,9 @@ function Run({ run, look, lost }) {
     post("/api/runs/stop", { run: name }).then(look, (error) => setAsked(`✗ ${error.message}`));
   };
   const told = !runs ? `${ended?.kind ?? state}${ended?.reason ? `: ${ended.reason}` : ""}`
-    : off ? "switched off; the procedure has yet to end"
+    : off?.still_on ? "not all of it was read back to be off"
+    : off ? "read back to be off; the procedure has yet to end"
+    : age > HANGS && asks ? "it waits for a person at the rig"
     : age > HANGS ? `nothing new for ${age.toFixed(0)} s: it may hang; stop works all the same` : "it goes on";
   return html`<section class="panel live" aria-label="live">
     <h2>The rig, live: ${name}${simulated ? ", simulated" : ""}</h2>

@@ -1,0 +1,1 @@
+"""The command ``asperity rig check``: what a recording says of its own sensors, with pictures."""

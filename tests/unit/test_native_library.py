@@ -1,0 +1,201 @@
+"""A library of all entries: what one entry does to the rest, and what is kept of a build."""
+
+import os
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+from asperity.building import lean, library, link, making
+from asperity.building.compiler import hindrance
+from asperity.native import keys, load, table
+from asperity.native.entries import Entry, listed
+from asperity.native.kept import UNFIT
+
+needs_compiler = pytest.mark.skipif(hindrance() is not None, reason="no library is made here")
+
+
+def numbered(count):
+    return [Entry(n, f"asperity.errors.kernel_{n}", [["d"]], 1.0 + n) for n in range(count)]
+
+
+@pytest.fixture
+def in_place_of_makers(tmp_path, monkeypatch):
+    """Let a text of Python be the processes that make entries."""
+
+    def place(text):
+        program = tmp_path / "maker.py"
+        program.write_text("import os, sys\n" + textwrap.dedent(text), "utf-8")
+
+        def command(kernels, processes, numbers):
+            return [sys.executable, str(program), str(tmp_path), *map(str, numbers)]
+
+        monkeypatch.setattr(library, "_command", command)
+        monkeypatch.setattr(library, "_PATIENCE", 0.01)
+
+    return place
+
+
+def makers(tmp_path, entries, told, processes=2):
+    return library._Makers(tmp_path, entries, processes, told.append)
+
+
+def test_an_entry_that_ends_its_process_is_left_out_alone(tmp_path, in_place_of_makers):
+    in_place_of_makers("""
+        for number in sys.argv[2:]:
+            print("at", number, "", flush=True)
+            if number == "2":
+                os.kill(os.getpid(), 9)
+            print("done", number, "no such type" if number == "3" else "", flush=True)
+    """)
+    told = []
+    left = makers(tmp_path, numbered(6), told).make()
+    assert left == {2: "a process that compiled it ended (-9)", 3: "no such type"}
+    assert sorted(line.partition(": ")[2][-1] for line in told) == ["0", "1", "4", "5"]
+    assert [line.partition(":")[0] for line in told] == [f"{n} of 6" for n in (1, 2, 3, 4)]
+
+
+def test_what_another_build_is_at_is_waited_for(tmp_path, in_place_of_makers):
+    in_place_of_makers("""
+        from pathlib import Path
+        asked = Path(sys.argv[1], "asked")
+        for number in sys.argv[2:]:
+            print("at", number, "", flush=True)
+            if number == "1" and not asked.exists():
+                asked.touch()
+                continue
+            print("done", number, "", flush=True)
+    """)
+    told = []
+    assert makers(tmp_path, numbered(2), told, processes=1).make() == {}
+    assert len(told) == 2
+
+
+def test_where_no_process_begins_there_is_no_library(tmp_path, in_place_of_makers):
+    in_place_of_makers("sys.exit(7)")
+    with pytest.raises(library.NoLibraryError, match=r"ended \(7\)"):
+        makers(tmp_path, numbered(3), []).make()
+
+
+def test_a_build_that_is_stopped_leaves_no_process(tmp_path, in_place_of_makers):
+    in_place_of_makers("""
+        from pathlib import Path
+        print("at", sys.argv[2], "", flush=True)
+        print("done", sys.argv[2], "", flush=True)
+        sys.stdin.read()
+        Path(sys.argv[1], "ended").touch()
+    """)
+
+    def tell(line):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        library._Makers(tmp_path, numbered(2), 1, tell).make()
+    assert (tmp_path / "ended").exists()
+
+
+def test_what_calls_much_the_same_stays_together():
+    entries = listed().entries
+    parts = library._parts(entries, 3)
+    assert sorted(number for part in parts for number in part) == [*range(len(entries))]
+    rooms = [{".".join(entries[n].module.split(".")[:3]) for n in part} for part in parts]
+    assert not rooms[0] & rooms[1]
+    assert not rooms[1] & rooms[2]
+
+
+@pytest.fixture
+def entry():
+    (found,) = listed().named("asperity.slider.pressed.friction_limit")
+    return found
+
+
+MADE = lean.Made(b"code", ["d"], (1, 2))
+
+
+def test_an_object_is_read_as_it_was_kept(entry, tmp_path, monkeypatch):
+    monkeypatch.setattr(link, "_linked", lambda objects: b"linked")
+    link.keep(tmp_path, entry, MADE, b"common")
+    assert link.kept(tmp_path, entry) == MADE
+    assert link.kept(tmp_path, Entry(0, entry.name, [["d"], ["q"]], 1.0)) is None
+    (tmp_path / table.OBJECTS[0]).write_bytes(b"cod")
+    assert link.kept(tmp_path, entry) is None
+
+
+def test_an_entry_without_its_object_is_made_once_more(entry, tmp_path, monkeypatch):
+    made = []
+
+    def make(*given):
+        made.append(given)
+        return MADE
+
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(making, "_support", lambda: b"common")
+    monkeypatch.setattr(lean, "make", make)
+    monkeypatch.setattr(link, "_linked", lambda objects: b"linked")
+    folder = tmp_path / keys.key(entry)
+    assert making.keep(tmp_path, entry, folder.name, 1)
+    (folder / table.OBJECTS[0]).unlink()
+    for _ in range(2):
+        assert making.keep(tmp_path, entry, folder.name, 1)
+    assert len(made) == 2
+    assert link.kept(folder, entry) == MADE
+    assert sorted(path.name for path in tmp_path.iterdir() if path.is_dir()) == [folder.name]
+
+
+def test_a_symbol_follows_from_the_entry_and_not_from_its_place(entry):
+    moved = Entry(entry.number + 1, entry.name, entry.arguments, 2.0)
+    other = Entry(entry.number, entry.name, [["d"], ["q"]], 1.0)
+    assert link.symbol(entry) == link.symbol(moved) != link.symbol(other)
+
+
+@needs_compiler
+def test_what_cannot_be_made_is_named_and_the_rest_linked(entry, tmp_path, monkeypatch):
+    other = next(one for one in listed().entries if one.name != entry.name)
+    unfit = tmp_path / "kernels" / keys.key(other)
+    unfit.mkdir(parents=True)
+    (unfit / UNFIT).write_text(f"{other.name}: it returns a record\n", "utf-8")
+    program = (
+        "import sys; from pathlib import Path; from asperity.building import library\n"
+        "from asperity.native.entries import listed\n"
+        "library.kernel_folder.kernels = lambda: Path(sys.argv[1])\n"
+        "entries = [listed().entries[int(n)] for n in sys.argv[3:]]\n"
+        "library.build(Path(sys.argv[2]), entries, 2, print)\n"
+    )
+    numbers = [str(one.number) for one in (entry, other)]
+    out = tmp_path / "out"
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "kernels"), str(out), *numbers],
+        env=os.environ | {"ASPERITY_NATIVE": "0"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.splitlines() == [
+        f"1 of 2: {entry.name}",
+        f"left to Numba: {other.name}: it returns a record",
+    ]
+    assert {path.name for path in out.iterdir()} == {table.LIBRARY, table.TABLE}
+    found = load.from_folder(out)
+    assert found.entry(entry.name)((0.5, 2.0)) == 0.25
+    assert found.entry(other.name) is None
+
+
+@pytest.mark.parametrize(
+    ("entries", "why"),
+    [([], "no kernel is listed"), (numbered(1), "no C compiler is found")],
+)
+def test_where_there_is_nothing_to_link_or_to_link_with_it_is_told(
+    entries, why, tmp_path, monkeypatch
+):
+    if entries:
+        monkeypatch.setenv("CC", "no-such-compiler")
+    monkeypatch.setattr("asperity.building.compiler.platform_name", lambda: "x86_64-linux")
+    with pytest.raises(library.NoLibraryError, match=why):
+        library.build(tmp_path, entries, 1)
+    assert not list(tmp_path.iterdir())
+
+
+def test_another_platform_is_told(monkeypatch):
+    monkeypatch.setattr("asperity.building.compiler.platform_name", lambda: "arm64-darwin")
+    assert hindrance() == "it is made for x86_64-linux only, not for arm64-darwin"

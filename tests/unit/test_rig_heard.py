@@ -1,0 +1,213 @@
+"""What sensors say wrong is heard: faults of a rig spoil its segments, sound ones are good."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from apparatus.heard_rig import (
+    FAULTS,
+    SMALL,
+    SPARED,
+    faulty,
+    made,
+    recorded,
+    sound,
+    sound_settings,
+    truths,
+)
+
+from asperity.errors import InputError
+from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction.heard.zero import Zero
+from asperity.tribometer.reduction.study import Reducible, heard_in, reduce_recording
+from asperity.tribometer.tables import TABLES
+
+# Each is told by what is said of it; those that are not named here are tried in the campaign.
+TOLD = {
+    "zero off by 30 mN m": "zero of torque_steel: 0.0",
+    "drifting zero": "zero of torque_steel",
+    "torque and load cell exchanged": "torque_steel does not answer its motor",
+    "torques exchanged": "torque_steel has the wrong sign",
+    "speeds exchanged": "speeds are exchanged",
+    "currents exchanged": "currents are exchanged",
+    "torque inverted": "torque_steel has the wrong sign",
+    "encoder stuck at a value": "speed_steel does not answer its motor",
+    "encoder of the bronze disc dead": "speed_bronze does not move",
+    "torque saturates below its range": "torque_steel saturates",
+    "drive decays to 13 %": "drive signal is not steady",
+    "vibration 3 s after its command": "vibration comes late",
+    "vibration acts 3 s after its drive": "torque steps within its window",
+    "square wave": "drive signal is not a sine",
+    "accelerometer hears hum": "at 50 Hz",
+    "accelerometer hears an overtone": "accelerometer hears overtones",
+    "samples missing in the torque": "torque_steel has samples missing",
+    "samples missing in the drive": "drive_voltage has samples missing",
+}
+
+
+def reducible(path, *settings):
+    recording = Recording.open(path)
+    return Reducible(recording, recording.case(TABLES).replace(settings))
+
+
+def spoiled(name, seed, path, **settings):
+    """Reduce a recording with a fault: see that nothing it spoils is good; returns its flags."""
+    one = reducible(faulty(name, seed, path, **settings))
+    try:
+        _, segments = reduce_recording(one)
+    except InputError as refused:
+        return [str(refused)]
+    good = {place for place, one in enumerate(segments) if one.quality == "good"}
+    assert good <= SPARED.get(name, set()), (name, seed)
+    return [flag for one in segments for flag in one.flags]
+
+
+@pytest.mark.parametrize("name", TOLD)
+def test_a_fault_is_told_and_spoils(tmp_path, name):
+    flags = spoiled(name, list(FAULTS).index(name), tmp_path / "run.nc", **SMALL)
+    assert any(TOLD[name] in flag for flag in flags), flags
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(over="seed", tried_by="test_a_fault_is_told_and_spoils")
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", FAULTS)
+def test_no_fault_passes_as_good(tmp_path, name, seed):
+    assert spoiled(name, 100 + seed, tmp_path / "run.nc")
+
+
+def flagged(path):
+    return [
+        flag
+        for one in reduce_recording(reducible(path))[1]
+        for flag in one.flags
+        if one.quality != "good"
+    ]
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_a_sound_recording_is_good(tmp_path, seed):
+    assert flagged(sound(seed, tmp_path / "run.nc", **SMALL)) == []
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_sound_recording_is_good")
+@pytest.mark.parametrize("part", range(20))
+def test_fewer_than_one_of_200_sound_recordings_is_flagged(tmp_path, part):
+    for seed in range(10 * part, 10 * part + 10):
+        assert flagged(sound(seed, tmp_path / "run.nc")) == [], seed
+
+
+def with_zeros(seed, size):
+    """Settings of a rig whose zeros are off and drift by about so much, N m."""
+    rng = np.random.default_rng((seed, 9))
+    given = dataclasses.replace(
+        sound_settings(seed), rate=1e3, frequencies=(200.0, 210.0, 220.0), part=8.0,
+        acceleration=0.0, waveform="sine", zero_drift=float(rng.normal(0.0, size)),
+    )  # fmt: skip
+    given.zeros["torque_steel"] = float(rng.normal(0.0, size))
+    given.zeros["speed_steel"] = float(rng.normal(0.0, 30.0 * size))
+    return given
+
+
+def covered(seeds, size, path):
+    """Shares of intervals that hold the truth, and errors over their half widths."""
+    held, over = [], []
+    for seed in seeds:
+        given = with_zeros(seed, size)
+        one = reducible(
+            recorded(made(given), path), 'plan.frequencies=["200 Hz","210 Hz","220 Hz"]'
+        )
+        for segment, truth in zip(reduce_recording(one)[1], truths(given), strict=True):
+            for name, value, (low, high) in (
+                ("torque", segment.torque_change, segment.torque_change_ci95),
+                ("power", segment.power_change, segment.power_change_ci95),
+                ("level", segment.torque_before, segment.torque_before_ci95),
+            ):
+                held.append(low <= truth[name] <= high)
+                over.append((value - truth[name]) / (high - low))
+    return held, over
+
+
+def test_a_zero_that_is_off_and_drifts_is_taken_off(tmp_path):
+    held, over = covered(range(3), 0.02, tmp_path / "run.nc")
+    # 27 intervals of three files: 0.95 with a deviation of about 0.06.
+    assert np.mean(held) >= 0.8
+    assert np.abs(over).max() < 1.5
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_zero_that_is_off_and_drifts_is_taken_off")
+@pytest.mark.parametrize("size", [0.01, 0.02])
+def test_intervals_hold_the_truth_whatever_the_zero(tmp_path, size):
+    held, _ = covered(range(200), size, tmp_path / "run.nc")
+    # Of 1,800 intervals, nine of one file: 0.95 with a deviation of 0.01.
+    assert 0.93 <= np.mean(held) <= 0.985
+
+
+def zero(times, values, deviation=1e-3):
+    return Zero(
+        "torque_steel", np.array(times), np.array(values), deviation**2 * np.eye(len(times))
+    )
+
+
+def test_a_zero_follows_a_line_and_is_less_sure_beyond():
+    drifting = zero([0.0, 20.0, 40.0, 60.0], [0.0, 0.01, 0.02, 0.03])
+    asked = np.array([10.0, 30.0, 90.0])
+    assert drifting.at(asked) == pytest.approx([0.005, 0.015, 0.045], abs=1e-6)
+    between, _, beyond = np.sqrt(np.diag(drifting.covariance_at(asked)))
+    assert 0.4e-3 < between < 1.2e-3
+    assert beyond > 2.0 * between
+
+
+def test_a_zero_that_jumps_is_unsure_where_it_does():
+    jumping = zero([0.0, 20.0, 40.0, 60.0, 80.0], [0.0, 0.0, 0.03, 0.03, 0.03])
+    there, elsewhere = np.sqrt(np.diag(jumping.covariance_at(np.array([30.0, 70.0]))))
+    assert jumping.at(np.array([30.0]))[0] == pytest.approx(0.015, abs=2e-3)
+    assert there > 5e-3
+    assert jumping.at(np.array([61.0]))[0] == pytest.approx(0.03, abs=1.5e-3)
+    assert elsewhere > 1e-3
+
+
+def test_one_stretch_at_rest_gives_a_zero_that_stays():
+    once = zero([5.0], [0.02])
+    assert once.at(np.array([0.0, 100.0])) == pytest.approx([0.02, 0.02])
+    assert once.covariance_at(np.array([0.0, 100.0])) == pytest.approx(np.full((2, 2), 1e-6))
+
+
+def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
+    given = with_zeros(1, 0.0)
+    path = recorded(made(given), tmp_path / "run.nc")
+    unsure = (
+        'channels.torque_steel={ channel = "A", points = [["-5 V", "-2 N m"], ["5 V", "2 N m"]], '
+        'uncertainty = "40 mN m" }'
+    )
+    widths = []
+    for settings in ((), (unsure,)):
+        one = reducible(path, 'plan.frequencies=["200 Hz","210 Hz","220 Hz"]', *settings)
+        low, high = reduce_recording(one)[1][0].torque_change_ci95
+        widths.append(high - low)
+    # The gain is not in a change in percent, and the offset went with the zero.
+    assert widths[1] == pytest.approx(widths[0], rel=0.02)
+
+
+def test_an_accelerometer_is_heard_at_the_drive_s_frequency_alone(tmp_path):
+    one = reducible(faulty("accelerometer hears an overtone", 1, tmp_path / "run.nc", **SMALL))
+    _, segments = reduce_recording(one)
+    for segment in segments:
+        peak = 1e3 * 40.0 / (2.0 * math.pi * segment.frequency)
+        assert segment.velocity_amplitude == pytest.approx(peak, rel=0.01)
+
+
+def test_no_fault_is_made_up_where_a_recording_holds_no_rest(tmp_path):
+    run = made(dataclasses.replace(sound_settings(3), **SMALL))
+    start, _, end = run.spans[0]
+    here = run.within(start + 0.5, end - 0.2)
+    run.time = run.time[here]
+    run.volts = {name: values[here] for name, values in run.volts.items()}
+    run.events = []
+    segments, heard = heard_in(reducible(recorded(run, tmp_path / "run.nc")))
+    assert len(segments) == 1
+    assert not heard.at_rest
+    assert heard.findings == ()
