@@ -298,11 +298,15 @@ def test_a_calibration_of_three_points_widens_a_torque_by_students_factor(asperi
         found.append(json.loads(asperity("rig", "reduce", recording, *given)[1])["budgets"][0])
     # The same standard deviation, but of one degree of freedom.
     lone, known = ({one["number"]: one for one in of["numbers"]} for of in found)
-    for name, factor in (("torque_before", 3.0), ("torque_change", 1.0)):
-        assert lone[name]["standard_uncertainty"] == pytest.approx(
-            known[name]["standard_uncertainty"], rel=0.05
-        )
-        assert lone[name]["coverage_factor"] > factor * known[name]["coverage_factor"]
+    few_points, stated = lone["torque_before"], known["torque_before"]
+    assert few_points["standard_uncertainty"] == pytest.approx(
+        stated["standard_uncertainty"], rel=0.05
+    )
+    assert few_points["coverage_factor"] > 1.3 * stated["coverage_factor"]
+    # A zero that was seen at rest leaves the gain alone, on which no change in percent hangs.
+    assert lone["torque_change"]["coverage_factor"] == pytest.approx(
+        known["torque_change"]["coverage_factor"], rel=0.02
+    )
     part = next(one for one in lone["torque_before"]["contributions"]
                 if one["contribution"] == "torque_steel: calibration")  # fmt: skip
     assert (part["type"], part["freedom"]) == ("A", 1.0)

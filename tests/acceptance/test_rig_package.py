@@ -13,10 +13,16 @@ import urllib.parse
 import zipfile
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pytest
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.tribometer.deposit import Package, Person
+from asperity.tribometer.recording import Recorder, Recording, Source, layout
+from asperity.tribometer.report.standards import measured
 
 RECORDING = Path(__file__).parents[1] / "answers" / "rig.nc"
 CASE = """
@@ -48,7 +54,10 @@ def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("package")
     (folder / "run").mkdir()
     shutil.copy(RECORDING, folder / "run" / "run 1.nc")
-    journal = {"line": 1, "kind": "begun", "instruments": {"supply": "TTi PL303QMD-P, 123456"}}
+    with h5py.File(folder / "run" / "run 1.nc", "r+") as file:
+        told = {"motor supply": "THURLBY THANDAR,PL303QMD-P,123456,1.04"}
+        file.attrs["instruments"] = json.dumps(told)
+    journal = {"line": 1, "kind": "begun"}
     (folder / "run" / "journal.jsonl").write_text(json.dumps(journal) + "\n")
     (folder / "case.toml").write_text(CASE)
     return folder
@@ -182,7 +191,7 @@ def test_a_package_is_an_ro_crate_with_its_instruments(package):
     devices = [one for one in entities.values() if one["@type"] == "IndividualProduct"]
     assert {(one["name"], one.get("serialNumber")) for one in devices} >= {
         ("PicoScope 4824A", "GQ123/045"), ("Kistler 4502A002H", "8421"),
-        ("TTi PL303QMD-P, 123456", None),
+        ("THURLBY THANDAR PL303QMD-P", "123456"),
     }  # fmt: skip
     told = {one["name"]: one for one in _json(package / "instruments.json")}
     sheet = told["Kistler 4502A002H"]["calibration"]
@@ -190,7 +199,7 @@ def test_a_package_is_an_ro_crate_with_its_instruments(package):
     assert sheet["hysteresis_percent"] == pytest.approx(0.2, rel=0.01)
 
 
-def test_check_sums_are_those_of_every_file(package):
+def test_check_sums_are_those_of_every_file(run, package):
     rows = (package / "manifest-sha256.txt").read_text("utf-8").splitlines()
     told = dict(reversed(row.split("  ", 1)) for row in rows)
     there = {str(path.relative_to(package)) for path in package.rglob("*") if path.is_file()}
@@ -198,7 +207,8 @@ def test_check_sums_are_those_of_every_file(package):
     for name, digest in told.items():
         assert hashlib.sha256((package / name).read_bytes()).hexdigest() == digest
     assert {"recordings/run 1.nc", "journal.jsonl", "case.toml", "results/budget.csv"} <= there
-    assert (package / "recordings" / "run 1.nc").read_bytes() == RECORDING.read_bytes()
+    kept = package / "recordings" / "run 1.nc"
+    assert kept.read_bytes() == (run / "run" / "run 1.nc").read_bytes()
 
 
 def test_what_is_packed_can_be_reduced_again(asperity, package):
@@ -285,8 +295,11 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert flat["relative humidity"] == "45 %"
     assert flat["laboratory"] == "Laboratory 1"
     # Nobody told these, and so they stand as such.
-    for name in ("operator", "cleaning", "atmosphere", "steel disc: treatment",
-                 "bronze disc: mass loss", "steel disc: volume loss"):  # fmt: skip
+    untold = (
+        "operator", "cleaning", "atmosphere", "steel disc: treatment", "bronze disc: mass loss",
+        "steel disc: volume loss", "temperature, measured",
+    )  # fmt: skip
+    for name in untold:
         assert flat[name] == "not recorded"
     assert ("frequency" in flat) == (standard == "G133")
     if standard == "G133":
@@ -298,6 +311,16 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert all(heading in page for heading in asked)
     assert "not recorded" in page
     assert "Coefficient of friction" in page
+
+
+def test_what_a_channel_measured_is_told_in_its_unit(tmp_path):
+    line = 'channels.temperature={channel="T", points=[["0 V","0 degC"],["1 V","100 degC"]]}'
+    case = read_case("rig-final", case_tables(), [line])
+    with Recorder(tmp_path / "run.nc", [Source("temperature", "V", 1e-3)], 1e-2) as recorder:
+        recorder.append(np.array([[240], [250], [layout.MISSING]], np.int16), 0.03)
+    recordings = [Recording.open(tmp_path / "run.nc")]
+    assert measured("temperature", case, recordings) == "24.5 degC"
+    assert measured("normal_force", case, recordings) == "not recorded"
 
 
 def test_a_report_follows_no_other_standard(asperity, run):

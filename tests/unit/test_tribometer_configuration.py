@@ -95,3 +95,67 @@ def test_a_report_counts_the_cells_of_a_plan_within_the_cases_own_limits():
     settings = 'plan.frequencies=["500 Hz"]', 'plan.steel_supplies=["28 V"]'
     limits = 'limits.steel_supply="30 V"'
     assert _cells(read_case("rig-final", TABLES, (*settings, limits))) > 0
+
+
+SHEET = 'channels.torque_steel={channel="A", points=[["0 V","0 N m"],["5 V","2 N m"]], '
+
+
+@pytest.mark.parametrize(
+    ("rest", "parts"),
+    [
+        ('creep="0.1 %"}', ("torque_steel.creep", "capacity")),
+        ("accuracy_class=0.2}", ("torque_steel.accuracy_class", "capacity")),
+        ('hysteresis="-1 mN m"}', ("torque_steel.hysteresis", "above zero")),
+        ('capacity="0 N m"}', ("torque_steel.capacity", "above zero")),
+        ("hysteresis=0.001}", ("torque_steel.hysteresis", "no unit")),
+        ("date=2026-02-01, due=2026-01-01}", ("torque_steel.due", "before")),
+        ('points_down=["1 V"]}', ("torque_steel.points_down", "pairs")),
+    ],
+)
+def test_a_sheet_that_cannot_be_is_refused_in_a_line(rest, parts):
+    with pytest.raises(InputError) as refused:
+        read_case("rig-final", TABLES, [SHEET + rest])
+    text = str(refused.value)
+    assert "\n" not in text
+    assert all(part in text for part in parts), text
+
+
+def test_a_difference_of_temperatures_is_in_kelvin():
+    given = 'channels.temperature={channel="T", points=[["0 V","0 degC"],["1 V","100 degC"]], '
+    with pytest.raises(InputError, match="it is a difference: give it in K"):
+        read_case("rig-final", TABLES, [given + 'uncertainty="0.5 degC"}'])
+    channel = read_case("rig-final", TABLES, [given + 'uncertainty="0.5 K"}'])["channels"]
+    assert channel.temperature.uncertainty == 0.5
+
+
+def test_a_class_stands_where_nothing_else_is_told_of_a_sensor():
+    def limits(rest):
+        case = read_case("rig-final", TABLES, [SHEET + 'capacity="2 N m", ' + rest])
+        return dict(case["channels"].torque_steel.line().limits)
+
+    assert limits("accuracy_class=0.2}") == {"class of the sensor": pytest.approx(4e-3)}
+    assert limits('accuracy_class=0.2, uncertainty="1 mN m"}') == {}
+    assert limits('accuracy_class=0.2, hysteresis="0.1 %", creep="1 mN m"}') == {
+        "hysteresis": pytest.approx(1e-3), "creep": pytest.approx(1e-3)
+    }  # fmt: skip
+
+
+def test_points_from_above_tell_the_hysteresis_of_a_sensor():
+    # 0.4 N m a volt, and 10 mV more on the way back at 1 N m: 4 mN m.
+    points = '[["0 V","0 N m"],["2.5 V","1 N m"],["5 V","2 N m"]]'
+    setting = (
+        f'channels.torque_steel={{channel="A", points={points}, points_down=[["2.51 V","1 N m"]]}}'
+    )
+    channel = read_case("rig-final", TABLES, [setting])["channels"].torque_steel
+    assert channel.loop() == pytest.approx(4e-3, rel=0.01)
+    assert channel.line().degrees_of_freedom == 2.0
+
+
+def test_a_calibration_is_good_until_its_last_day():
+    def last(rest):
+        return read_case("rig-final", TABLES, [SHEET + rest])["channels"].torque_steel.last_day
+
+    assert last("date=2026-01-01, valid_days=10}") == datetime.date(2026, 1, 11)
+    assert last("date=2026-01-01, due=2026-03-01}") == datetime.date(2026, 3, 1)
+    assert last("due=2026-03-01}") == datetime.date(2026, 3, 1)
+    assert last('sensor="one"}') is None

@@ -139,6 +139,11 @@ def _channel(name: str, given: Any, info: pydantic.ValidationInfo) -> Any:
                 f'["1 V", "{SIGNALS[name].example}"]'
             )
         read[key] = [(number(put, "V", key), number(applied, unit, key)) for put, applied in points]
+    for key in ("uncertainty", "capacity", "hysteresis", "creep"):
+        if unit == "K" and "deg" in str(read.get(key)):
+            raise InputError(
+                f"channels.{name}.{key} is {shown(read[key])}; it is a difference: give it in K"
+            )
     for key in ("uncertainty", "capacity"):
         if read.get(key) is not None:
             read[key] = number(read[key], unit, key)

@@ -1,4 +1,4 @@
-"""The instruments of a series of tests, as far as case, recordings and journal name them."""
+"""The instruments of a series of tests, as far as case and recordings name them."""
 
 import dataclasses
 from collections.abc import Iterator, Sequence
@@ -7,12 +7,10 @@ from typing import Any
 from asperity.casefile import Case
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.deposit import Package
-from asperity.tribometer.journal_lines import Line
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.sheets import sheets
 
-_EVENT = "instrument"
-_IN_JOURNAL = "instruments"
+_IDENTITY = 4  # parts of what ``*IDN?`` is answered by
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,11 +36,9 @@ class Instrument:
         return told | ({"calibration": self.sheet} if self.sheet else {})
 
 
-def instruments(
-    case: Case, recordings: Sequence[Recording], journal: Sequence[Line]
-) -> tuple[Instrument, ...]:
+def instruments(case: Case, recordings: Sequence[Recording]) -> tuple[Instrument, ...]:
     """Return the sensors of the channels, what ``[package]`` names, and what answered a run."""
-    found = [*_sensors(case), *_named(case), *_answered(recordings, journal)]
+    found = [*_sensors(case), *_named(case), *_answered(recordings)]
     return tuple({(one.name, one.serial, one.use): one for one in found}.values())
 
 
@@ -68,13 +64,13 @@ def _named(case: Case) -> Iterator[Instrument]:
         yield Instrument(name, serial, "; ".join(filter(None, use)))
 
 
-def _answered(recordings: Sequence[Recording], journal: Sequence[Line]) -> Iterator[Instrument]:
+def _answered(recordings: Sequence[Recording]) -> Iterator[Instrument]:
     for recording in recordings:
-        for event in recording.events:
-            if event.kind == _EVENT:
-                use, _, name = event.text.partition(": ")
-                yield Instrument(name or use, "", use if name else "")
-    for line in journal:
-        told = line.get(_IN_JOURNAL)
-        for use, name in told.items() if isinstance(told, dict) else ():
-            yield Instrument(str(name), "", str(use))
+        for use, told in recording.instruments.items():
+            # Maker, model, serial number and version, as IEEE 488.2 has an identity.
+            parts = [part.strip() for part in told.split(",")]
+            if len(parts) == _IDENTITY:
+                maker, model, serial, _ = parts
+                yield Instrument(f"{maker} {model}", "" if serial == "0" else serial, use)
+            else:
+                yield Instrument(told, "", use)

@@ -2,19 +2,18 @@
 
 import dataclasses
 import datetime
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from asperity import store
 from asperity.casefile import Case
 from asperity.casefile.written import written
 from asperity.errors import InputError, plain
 from asperity.results.report import Heading
 from asperity.runs import Run
 from asperity.tribometer.deposit import Package
-from asperity.tribometer.journal_lines import NAME, Line, lines_of
+from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.package.instruments import instruments
 from asperity.tribometer.package.metadata import About
 from asperity.tribometer.package.result import Content, Packaged
@@ -69,8 +68,7 @@ def answer(problem: Packing, run: Run) -> Packaged:
     package = gathered.get(Package, Package())
     recordings = [one.recording for one in gathered.reducible]
     folder = recordings[0].path.parent
-    journal = _journal(folder)
-    used = instruments(gathered, recordings, journal)
+    used = instruments(gathered, recordings)
     days = sorted(one.start.date() for one in recordings)
     today = datetime.datetime.now(datetime.UTC).date()
     about = About(
@@ -80,7 +78,7 @@ def answer(problem: Packing, run: Run) -> Packaged:
     contents = [
         *(Content(f"{_RECORDINGS}/{one.path.name}", f"Recording begun {one.start.isoformat()}.",
                   one.path) for one in recordings),
-        *_beside(folder, journal),
+        *_beside(folder),
         Content("case.toml", "Configuration of the first recording; each holds its own.",
                 _case(gathered).encode()),
     ]  # fmt: skip
@@ -94,16 +92,8 @@ def answer(problem: Packing, run: Run) -> Packaged:
     )  # fmt: skip
 
 
-def _journal(folder: Path) -> list[Line]:
-    path = folder / NAME
-    if not path.is_file():
-        return []
-    text = store.read_bytes(path)
-    return lines_of(text[: text.rfind(b"\n") + 1], path)
-
-
-def _beside(folder: Path, journal: Sequence[Line]) -> Iterator[Content]:
-    if journal:
+def _beside(folder: Path) -> Iterator[Content]:
+    if (folder / NAME).is_file():
         yield Content(NAME, "Journal of the run: every step, a line each.", folder / NAME)
 
 

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from asperity.results import Quantities, Result, quantity
-from asperity.results.quantity import Entry, plain
+from asperity.results.quantity import plain
 from asperity.results.table import Table
-from asperity.store import harmless_cell, write_text
+from asperity.store import write_text
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budgets
+from asperity.tribometer.reduction.cells import CI95, cell, declared, rounded, variable
 from asperity.tribometer.uncertainty import Budget
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ _MEASURED = (
     "sd vibration.velocity_amplitude [mm/s]", "vibration.frequency [Hz]",
     "vibration.direction [deg]",
 )  # fmt: skip
-_CI95, _ENDS = "_ci95", ("low", "high")
+_ENDS = "low", "high"
 GOOD, DOUBTFUL, REFUSED = "good", "doubtful", "refused"
 
 
@@ -132,7 +133,7 @@ class SegmentResult(Quantities):
 
     def ends(self, name: str) -> tuple[float | None, float | None, float | None]:
         """Return a number that has an interval, with its ends."""
-        low, high = getattr(self, name + _CI95) or (None, None)
+        low, high = getattr(self, name + CI95) or (None, None)
         return getattr(self, name), low, high
 
     @property
@@ -243,12 +244,12 @@ class Reduced(Result):
         """Return the segments along a dimension, and the recordings along another."""
         dataset = super().to_dataset()
         for dim, rows in (("segment", self.segments), ("recording", self.files)):
-            for place, entry in enumerate(_declared(rows)):
+            for place, entry in enumerate(declared(rows)):
                 values = [list(row.entries())[place].value for row in rows]
                 name = "recording" if entry.name == "file" and dim == "recording" else entry.name
                 if entry.label.only == "json" or entry.name in ("gaps", "findings"):
                     continue
-                dataset[name] = _variable(entry, values, dim)
+                dataset[name] = variable(entry, values, dim)
         each = [(one.file, one.start, one.budgets or {}) for one in self.segments]
         return dataset.merge(budgets.variables(each))
 
@@ -257,9 +258,9 @@ class Reduced(Result):
         rows = [
             (
                 one.file, one.mode, one.lubricant, one.waveform, one.motor_voltage, one.commanded,
-                *(_rounded(number, 4) for number in (
+                *(rounded(number, 4) for number in (
                     one.torque_before, one.torque_with, one.torque_change, one.low, one.high)),
-                _rounded(one.k_v, 3), _rounded(one.model_ratio, 3), one.quality,
+                rounded(one.k_v, 3), rounded(one.model_ratio, 3), one.quality,
             )
             for one in self.segments
         ]  # fmt: skip
@@ -287,7 +288,7 @@ class Reduced(Result):
         ]
         # As many digits as a part of a turn can tell.
         files = [
-            (one.file, *(_rounded(number, 2) for number in (
+            (one.file, *(rounded(number, 2) for number in (
                 one.runout_steel, one.runout_bronze, one.noise, one.drift)),
              one.distance, len(one.gaps))
             for one in self.files
@@ -321,7 +322,7 @@ class Reduced(Result):
         return tuple(
             Table.of(
                 ("file", "f Hz", *(word for head in names.values() for word in (head, *_ENDS))),
-                [(one.file, one.commanded, *(_rounded(value, 4) for name in names
+                [(one.file, one.commanded, *(rounded(value, 4) for name in names
                                              for value in one.ends(name))) for one in used],
                 left=1, title=title,
             )
@@ -359,47 +360,17 @@ class Reduced(Result):
         """Return a row a segment; columns are named as in JSON, intervals by their ends."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        entries = [entry for entry in _declared(self.segments) if entry.label.only != "json"]
-        names = ([entry.key.replace(_CI95, f"_{end}") for end in _ENDS] if _CI95 in entry.key
+        entries = [entry for entry in declared(self.segments) if entry.label.only != "json"]
+        names = ([entry.key.replace(CI95, f"_{end}") for end in _ENDS] if CI95 in entry.key
                  else [entry.key] for entry in entries)  # fmt: skip
         writer.writerow([name for one in names for name in one])
         for one in self.segments:
             found = {entry.name: entry.value for entry in one.entries()}
-            cells = (found[entry.name] or (None, None) if _CI95 in entry.key
+            cells = (found[entry.name] or (None, None) if CI95 in entry.key
                      else [found[entry.name]] for entry in entries)  # fmt: skip
-            writer.writerow([_cell(cell) for several in cells for cell in several])
+            writer.writerow([cell(one) for several in cells for one in several])
         return text.getvalue()
 
 
 def _between(worn: Mapping[str, Any]) -> str:
     return f" of {worn['setting']} ({', '.join(worn['files'])})" if "setting" in worn else ""
-
-
-def _declared(rows: tuple[Quantities, ...]) -> list[Entry]:
-    return list(type(rows[0]).declared()) if rows else []
-
-
-def _rounded(value: float | None, digits: int) -> float | None:
-    return None if value is None else float(f"{value:.{digits}g}")
-
-
-def _cell(value: Any) -> Any:
-    if value is None:
-        return ""
-    if isinstance(value, tuple):
-        value = "; ".join(map(str, value))
-    return harmless_cell(value)
-
-
-def _variable(entry: Entry, values: list[Any], dim: str) -> Any:
-    import numpy as np
-
-    described = {"units": entry.label.unit or "1", "long_name": entry.label.meaning}
-    if _CI95 in entry.name:
-        ends = [(np.nan, np.nan) if value is None else value for value in values]
-        return (dim, "end"), np.array(ends, dtype=float), described
-    if any(isinstance(value, str | tuple) for value in values):
-        texts = ["; ".join(value) if isinstance(value, tuple) else value or "" for value in values]
-        return dim, np.array(texts, dtype=object), described
-    numbers = [np.nan if value is None else float(value) for value in values]
-    return dim, np.array(numbers), described

@@ -12,10 +12,13 @@ from collections.abc import Iterator, Sequence
 from asperity.casefile import Case
 from asperity.results.table import Table
 from asperity.tribometer import discs
+from asperity.tribometer.channels import Channels
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Conditions, Disc, Lubricant
 from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction.blocks import lines_of
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
+from asperity.tribometer.signals import SIGNALS
 
 STANDARDS = {
     "G99": "ASTM G99, wear and friction with a pin-on-disc apparatus",
@@ -49,13 +52,39 @@ def asked(
         Asked("Conformance", tuple(_conformance(standard, case))),
         Asked("Apparatus and contact", tuple(_contact(case))),
         Asked("Specimens", tuple(_specimens(case))),
-        Asked("Test parameters", tuple(_parameters(standard, case, used, reduced.files))),
-        Asked("Environment and lubricant", tuple(_environment(case))),
+        Asked(
+            "Test parameters",
+            (
+                *_parameters(standard, case, used, reduced.files),
+                ("normal force, measured", measured("normal_force", case, recordings)),
+            ),
+        ),
+        Asked(
+            "Environment and lubricant",
+            (
+                *_environment(case),
+                ("temperature, measured", measured("temperature", case, recordings)),
+            ),
+        ),
         Asked("Friction", tuple(_friction(used, reduced))),
         Asked("Wear", tuple(_wear(case, reduced))),
         Asked("Laboratory and instruments", tuple(_laboratory(case, recordings))),
     )
     return found
+
+
+def measured(signal: str, case: Case, recordings: Sequence[Recording]) -> str:
+    """Return what a signal was on average, over the recordings that have it."""
+    import numpy as np
+
+    unit, means = SIGNALS[signal].unit, []
+    for one in (one for one in recordings if one.place(signal) is not None):
+        scale, line = lines_of(one, case.require(Channels))[signal]
+        if not np.isnan(values := one.values(signal)).all():
+            means.append(float(line.of(np.array([scale * np.nanmean(values)]))[0]))
+    if unit == "K":
+        return _range([mean - _KELVIN for mean in means], "degC")
+    return _range(means, unit)
 
 
 def friction(case: Case, segments: Sequence[SegmentResult]) -> Table:
