@@ -169,12 +169,13 @@ def _jumping(of: Material, signal: str) -> Iterator[Finding]:
             values = of.blocks.means[signal][here]
             if place in told or values.size < wide or of.blocks.lost[signal][here].any():
                 continue
+            level, spread = abs(float(np.median(values))), ranges[here]
+            spiked: BoolArray = spread > max(_SPIKE * float(np.median(spread)), _LEAST_NOISE)
+            if not spiked.any() and float(np.ptp(values)) <= _JUMP_SHARE * level:
+                continue
             left = values - median_filter(values, wide, mode="nearest")
             deviation = 1.4826 * float(np.median(np.abs(left)))
-            level = abs(float(np.median(values)))
             off = np.abs(left) > max(_JUMP * deviation, _JUMP_SHARE * level, 1e-12)
-            spread = ranges[here]
-            spiked: BoolArray = spread > max(_SPIKE * float(np.median(spread)), _LEAST_NOISE)
             if not (off | spiked).any():
                 continue
             told.add(place)
